@@ -1,0 +1,36 @@
+// Limits: how far one scene may go before a located message stops it. All are passed in, so that each stage can be
+// called with its own; the defaults are chosen to be far beyond real scenes and well inside the machine.
+//
+// SPDX-License-Identifier: MIT
+#ifndef BASE_LIMITS_H
+#define BASE_LIMITS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct Limits {
+    unsigned ast_depth;        // nesting of expressions and blocks
+    unsigned include_depth;    // nesting of #include
+    unsigned call_depth;       // nesting of macro calls
+    uint64_t steps;            // loop turns and macro calls, all together
+    uint64_t objects;          // shapes in the scene
+    uint64_t text_bytes;       // bytes of scene text, all files together
+    size_t arena_bytes;        // memory of each arena
+    uint64_t pixels;           // width times height
+    unsigned trace_level;      // the greatest max_trace_level
+} Limits;
+
+#define LIMITS_DEFAULT                                                                                                 \
+    ((Limits){                                                                                                         \
+        .ast_depth = 1000,                                                                                             \
+        .include_depth = 32,                                                                                           \
+        .call_depth = 256,                                                                                             \
+        .steps = 200u * 1000 * 1000,                                                                                   \
+        .objects = 1000u * 1000 * 1000,                                                                                \
+        .text_bytes = (uint64_t)64 << 30,                                                                              \
+        .arena_bytes = (size_t)8 << 30,                                                                                \
+        .pixels = (uint64_t)1 << 30,                                                                                   \
+        .trace_level = 256,                                                                                            \
+    })
+
+#endif
