@@ -1,0 +1,100 @@
+// Diagnostics: what is to be told about a scene or a run, recorded as plain data where the fact is known.
+//
+// Nothing here prints. A sink counts and keeps the records; diag_print turns one into the text form.
+// The codes stand in base/diag_codes.def; each is described in docs/diagnostics.md.
+//
+// SPDX-License-Identifier: MIT
+#ifndef BASE_DIAG_H
+#define BASE_DIAG_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/attributes.h"
+#include "base/source.h"
+#include "base/text.h"
+
+typedef enum DiagSeverity { DIAG_WARNING, DIAG_ERROR } DiagSeverity;
+
+// What kind of fault it is; also the program's exit code.
+typedef enum DiagClass { CLASS_NONE = 0, CLASS_SCENE = 1, CLASS_USAGE = 2, CLASS_IO = 3, CLASS_LIMIT = 4 } DiagClass;
+
+typedef enum DiagCode {
+#define DIAG(code, severity, class, summary) DIAG_##code,
+#include "base/diag_codes.def"
+#undef DIAG
+    DIAG_CODE_COUNT
+} DiagCode;
+
+// Why we are here: an #include, a macro call, a loop. Frames live on the caller's C stack; a record copies them as notes,
+// innermost first: "in macro `Atom`, called here" for what = "in macro", else "<what> `<name>` here", for example
+// "included `colors.inc` here". At most 8, then one note "and N more".
+typedef struct DiagFrame {
+    const struct DiagFrame *outer; // NULL at the outermost text
+    const char *what;              // for example "in macro", "included"
+    const char *name;              // for example the macro's name; may be NULL
+    Span span;                     // the call or the #include
+} DiagFrame;
+
+typedef struct DiagNote {
+    Span span;     // may be SPAN_NONE
+    char *message; // owned by the record
+} DiagNote;
+
+typedef struct Diag {
+    DiagCode code;
+    DiagSeverity severity;
+    DiagClass class;
+    Span span;        // may be SPAN_NONE
+    char *message;    // owned, one line, no full stop
+    char *suggestion; // owned; NULL, or what to write instead, for example "did you mean `radius`?"
+    DiagNote *notes;  // owned; the call stack stands at the end, innermost first
+    size_t note_count;
+} Diag;
+
+typedef struct DiagSink {
+    SourceMap *sources;     // not owned; for printing
+    const DiagFrame *frame; // the present call stack; the evaluator keeps it
+    Diag *items;
+    size_t count, capacity;
+    size_t error_count, warning_count; // all that were reported, kept or not
+    size_t keep_errors, keep_warnings; // records beyond these are only counted
+    DiagClass class;                   // of the first error; CLASS_NONE while there is none
+    bool out_of_memory;                // a record, or a part of one, could not be kept
+    size_t frame_note_count;           // of the record kept last: the notes at its end that are its call stack
+} DiagSink;
+
+// Keeps at most 20 errors and 100 warnings, unless the caller sets keep_errors and keep_warnings.
+void diag_init(DiagSink *sink, SourceMap *sources);
+void diag_fini(DiagSink *sink);
+
+// Records a fault or a warning. Returns true when the record was kept, so that notes and a suggestion may be added to it.
+bool diag_report(DiagSink *sink, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+
+// Add to the record that was kept last. Call only after diag_report returned true.
+void diag_note(DiagSink *sink, Span span, const char *format, ...) RT_PRINTF(3, 4);
+void diag_suggest(DiagSink *sink, const char *format, ...) RT_PRINTF(2, 3);
+
+// True when enough errors were reported to stop work (more than keep_errors).
+bool diag_is_full(const DiagSink *sink);
+
+const char *diag_code_name(DiagCode code);    // "E0203"
+const char *diag_code_summary(DiagCode code); // "unknown word"
+
+// The text form, each line ended by LF:
+//
+//     scene.scn:3:8: error[E0201]: unknown property `raduis` in sphere
+//        3 |     raduis 2
+//          |     ^~~~~~
+//          = help: did you mean `radius`?
+//     scene.scn:1:1: note: in macro `Atom`, called here
+//        1 | Atom(<0,0,0>)
+//          | ^~~~
+//
+// The line number takes 4 columns or more. Tabs of the source line stand in the caret line too; an empty span has a
+// caret; a span over several lines ends with its first. Control characters and bytes that are not UTF-8 are shown as
+// `?`. Where the line cannot be read, the head is `name: error[...]: ...`; without a span, `rtlang: error[...]: ...`;
+// a note without a span is `     = note: ...`.
+void diag_print(DiagSink *sink, const Diag *diag, TextBuffer *out);
+
+#endif

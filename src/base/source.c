@@ -1,0 +1,514 @@
+// SourceMap: opens texts, numbers their bytes, and finds file, line and column of a byte again.
+//
+// Owns an entry of some 70 bytes a text, the names (each once), the texts that cannot be read twice, and one file that
+// is open for reading lines again. Lines are indexed by one checkpoint a block, made up to where a message asks, so
+// that a message costs one block whatever the length of the file or of the line. Knows nothing of messages.
+//
+// SPDX-License-Identifier: MIT
+#include "base/source.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/arena.h"
+#include "base/array.h"
+#include "base/intern.h"
+
+enum {
+    BLOCK = 16 << 10,      // bytes between two checkpoints
+    WINDOW = 200,          // bytes of a long line that are shown
+    REACH = WINDOW + 4,    // bytes read on either side, so that a cut sees the whole character it falls in
+    ELLIPSIS = 3,          // "..." where a line was cut
+    PIPE_STEP = 64 << 10,  // least room for a read from a pipe
+    NO_FILE = -1
+};
+
+// Where counting stands: all about the bytes before one offset.
+typedef struct LineCursor {
+    uint64_t newlines;
+    uint64_t line_start; // offset in the text
+    uint64_t characters; // since line_start
+    unsigned char missing, length; // continuation bytes that an open UTF-8 sequence still wants, and its length
+    unsigned char low, high;       // bounds of the next one
+} LineCursor;
+
+typedef ARRAY(LineCursor) LineIndex;
+
+struct Source {
+    SourceMap *map;
+    uint64_t base, size;
+    const char *name;
+    char *kept;         // the text, if it cannot be read twice
+    uint64_t position;  // of source_read
+    LineIndex *lines;   // checkpoint k stands at k * BLOCK; NULL until a message asks
+    int file;           // NO_FILE when closed or kept
+};
+
+struct SourceMap {
+    Arena arena;                // entries
+    InternTable *names;
+    ARRAY(Source *) sources;    // in order of base
+    uint64_t next_base;
+    uint64_t bytes_read;
+    const Source *again;        // whose file is open in again_file
+    int again_file;
+    char block[BLOCK];
+    char window[ELLIPSIS + 2 * REACH + ELLIPSIS];
+};
+
+SourceMap *source_map_new(void)
+{
+    SourceMap *map = calloc(1, sizeof(*map));
+    if (!map) {
+        return NULL;
+    }
+    arena_init(&map->arena, SIZE_MAX);
+    map->next_base = 1;
+    map->again_file = NO_FILE;
+    map->names = intern_new(SIZE_MAX);
+    if (!map->names) {
+        free(map);
+        return NULL;
+    }
+    return map;
+}
+
+static void file_close(int *file)
+{
+    if (*file != NO_FILE) {
+        close(*file);
+        *file = NO_FILE;
+    }
+}
+
+void source_map_free(SourceMap *map)
+{
+    if (!map) {
+        return;
+    }
+    for (size_t i = 0; i < map->sources.count; i++) {
+        Source *source = map->sources.items[i];
+        source_close(source);
+        free(source->kept);
+        if (source->lines) {
+            ARRAY_FREE(source->lines);
+            free(source->lines);
+        }
+    }
+    file_close(&map->again_file);
+    ARRAY_FREE(&map->sources);
+    intern_free(map->names);
+    arena_fini(&map->arena);
+    free(map);
+}
+
+// Enters a text. On failure the file and the kept text are still the caller's.
+static Source *source_add(SourceMap *map, const char *name, int file, char *kept, uint64_t size)
+{
+    Symbol symbol = intern_text(map->names, name, strlen(name));
+    if (symbol == SYMBOL_NONE || !ARRAY_RESERVE(&map->sources, map->sources.count + 1)) {
+        return NULL;
+    }
+    Source *source = arena_alloc(&map->arena, sizeof(*source));
+    if (!source) {
+        return NULL;
+    }
+    *source = (Source){.map = map,
+                       .base = map->next_base,
+                       .size = size,
+                       .name = intern_get(map->names, symbol),
+                       .kept = kept,
+                       .file = file};
+    map->next_base += size + 1;
+    map->sources.items[map->sources.count++] = source;
+    return source;
+}
+
+static ptrdiff_t read_retrying(int file, char *buffer, size_t size)
+{
+    ptrdiff_t got;
+    do {
+        got = read(file, buffer, size);
+    } while (got < 0 && errno == EINTR);
+    return got;
+}
+
+// Reads a pipe or a device to its end. The text is the caller's to free.
+static SourceResult pipe_read(int file, uint64_t limit_bytes, char **text, uint64_t *size)
+{
+    ARRAY(char) bytes = {0};
+    SourceResult result = SOURCE_OK;
+    for (;;) {
+        if (!ARRAY_RESERVE(&bytes, bytes.count + PIPE_STEP)) {
+            result = SOURCE_NO_MEMORY;
+            break;
+        }
+        ptrdiff_t got = read_retrying(file, bytes.items + bytes.count, bytes.capacity - bytes.count);
+        if (got <= 0) {
+            result = got < 0 ? SOURCE_NOT_READABLE : SOURCE_OK;
+            break;
+        }
+        bytes.count += (size_t)got;
+        if (bytes.count > limit_bytes) {
+            result = SOURCE_TOO_LARGE;
+            break;
+        }
+    }
+    if (result != SOURCE_OK) {
+        int error_number = errno;
+        ARRAY_FREE(&bytes);
+        errno = error_number;
+        return result;
+    }
+    char *fitted = realloc(bytes.items, bytes.count + 1);
+    *text = fitted ? fitted : bytes.items;
+    *size = bytes.count;
+    return SOURCE_OK;
+}
+
+// Decides by the kind of file whether it can be read again later, and enters it.
+static SourceResult source_enter(SourceMap *map, const char *path, int file, uint64_t limit_bytes, Source **source)
+{
+    struct stat status;
+    char *kept = NULL;
+    uint64_t size = 0;
+    errno = 0;
+    if (fstat(file, &status) != 0) {
+        return SOURCE_NOT_READABLE;
+    }
+    if (S_ISDIR(status.st_mode)) {
+        errno = EISDIR;
+        return SOURCE_IS_DIRECTORY;
+    }
+    // A file of size 0 may be one that the kernel makes while it is read (/proc).
+    bool is_seekable = S_ISREG(status.st_mode) && status.st_size > 0;
+    if (is_seekable) {
+        size = (uint64_t)status.st_size;
+        if (size > limit_bytes) {
+            return SOURCE_TOO_LARGE;
+        }
+    } else {
+        SourceResult result = pipe_read(file, limit_bytes, &kept, &size);
+        if (result != SOURCE_OK) {
+            return result;
+        }
+    }
+    *source = source_add(map, path, is_seekable ? file : NO_FILE, kept, size);
+    if (!*source) {
+        free(kept);
+        errno = 0;
+        return SOURCE_NO_MEMORY;
+    }
+    return SOURCE_OK;
+}
+
+SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_bytes, Source **source,
+                              int *error_number)
+{
+    *source = NULL;
+    *error_number = 0;
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    if (file < 0) {
+        *error_number = errno;
+        return errno == ENOENT || errno == ENOTDIR ? SOURCE_NOT_FOUND : SOURCE_NOT_READABLE;
+    }
+    SourceResult result = source_enter(map, path, file, limit_bytes, source);
+    *error_number = result == SOURCE_OK ? 0 : errno;
+    if (!*source || (*source)->file == NO_FILE) {
+        close(file);
+    }
+    return result;
+}
+
+Source *source_open_text(SourceMap *map, const char *name, const char *text, size_t length)
+{
+    char *kept = length < SIZE_MAX ? malloc(length + 1) : NULL;
+    if (!kept) {
+        return NULL;
+    }
+    if (length) {
+        memcpy(kept, text, length);
+    }
+    Source *source = source_add(map, name, NO_FILE, kept, length);
+    if (!source) {
+        free(kept);
+    }
+    return source;
+}
+
+// A file is never read beyond the size it had when it was opened, since the numbers after that belong to other texts.
+ptrdiff_t source_read(Source *source, char *buffer, size_t size)
+{
+    uint64_t left = source->size - source->position;
+    size_t wanted = size < left ? size : (size_t)left;
+    ptrdiff_t got = (ptrdiff_t)wanted;
+    if (wanted == 0) {
+        return 0;
+    }
+    if (source->kept) {
+        memcpy(buffer, source->kept + source->position, wanted);
+    } else if (source->file == NO_FILE) {
+        errno = EBADF;
+        return -1;
+    } else {
+        got = read_retrying(source->file, buffer, wanted);
+    }
+    if (got > 0) {
+        source->position += (uint64_t)got;
+        source->map->bytes_read += (uint64_t)got;
+    }
+    return got;
+}
+
+void source_close(Source *source)
+{
+    file_close(&source->file);
+}
+
+uint64_t source_base(const Source *source)
+{
+    return source->base;
+}
+
+const char *source_name(const Source *source)
+{
+    return source->name;
+}
+
+uint64_t source_bytes_read(const SourceMap *map)
+{
+    return map->bytes_read;
+}
+
+// The text that a global offset belongs to; the offset one past the last byte is its end.
+static Source *source_find(const SourceMap *map, uint64_t offset)
+{
+    if (offset == 0 || offset >= map->next_base) {
+        return NULL;
+    }
+    size_t low = 0, high = map->sources.count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (map->sources.items[middle]->base <= offset) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return map->sources.items[low];
+}
+
+// Opens the file of a source once more, without waiting should it have become a pipe in the meantime.
+static bool source_reopen(SourceMap *map, const Source *source)
+{
+    struct stat status;
+    if (map->again == source && map->again_file != NO_FILE) {
+        return true;
+    }
+    file_close(&map->again_file);
+    map->again = source;
+    map->again_file = open(source->name, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (map->again_file == NO_FILE) {
+        return false;
+    }
+    if (fstat(map->again_file, &status) != 0 || !S_ISREG(status.st_mode)) {
+        file_close(&map->again_file);
+        return false;
+    }
+    return true;
+}
+
+// Reads exactly `size` bytes of a text from an offset, whether it is open or not.
+static bool source_read_again(SourceMap *map, const Source *source, uint64_t offset, char *buffer, size_t size)
+{
+    if (source->kept) {
+        memcpy(buffer, source->kept + offset, size);
+        return true;
+    }
+    if (!source_reopen(map, source)) {
+        return false;
+    }
+    for (size_t have = 0; have < size;) {
+        ptrdiff_t got = pread(map->again_file, buffer + have, size - have, (off_t)(offset + have));
+        if (got == 0 || (got < 0 && errno != EINTR)) {
+            return false;
+        }
+        have += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+// One byte of UTF-8. Each byte counts as a character until a well-formed sequence ends, which then counts as one
+// (Unicode 15, table 3-7).
+static void cursor_step(LineCursor *cursor, unsigned char byte)
+{
+    cursor->characters++;
+    if (cursor->missing > 0 && byte >= cursor->low && byte <= cursor->high) {
+        cursor->low = 0x80;
+        cursor->high = 0xBF;
+        if (--cursor->missing == 0) {
+            cursor->characters -= cursor->length - 1u;
+        }
+        return;
+    }
+    cursor->missing = byte < 0xC2 || byte > 0xF4 ? 0 : byte < 0xE0 ? 1 : byte < 0xF0 ? 2 : 3;
+    cursor->length = (unsigned char)(cursor->missing + 1);
+    cursor->low = byte == 0xE0 ? 0xA0 : byte == 0xF0 ? 0x90 : 0x80;
+    cursor->high = byte == 0xED ? 0x9F : byte == 0xF4 ? 0x8F : 0xBF;
+}
+
+// Moves the cursor over `size` bytes that begin at `offset`. Characters matter in the last line only.
+static void cursor_advance(LineCursor *cursor, const char *bytes, size_t size, uint64_t offset)
+{
+    size_t line = 0;
+    for (const char *at = bytes; (at = memchr(at, '\n', size - (size_t)(at - bytes))); at++) {
+        cursor->newlines++;
+        line = (size_t)(at - bytes) + 1;
+    }
+    if (line > 0) {
+        cursor->line_start = offset + line;
+        cursor->characters = 0;
+        cursor->missing = 0;
+    }
+    for (size_t i = line; i < size; i++) {
+        cursor_step(cursor, (unsigned char)bytes[i]);
+    }
+}
+
+// Makes the checkpoints up to that of the block in which the offset stands.
+static bool source_index(SourceMap *map, Source *source, uint64_t offset)
+{
+    uint64_t block = offset / BLOCK;
+    if (!source->lines) {
+        source->lines = calloc(1, sizeof(*source->lines));
+        if (!source->lines) {
+            return false;
+        }
+    }
+    LineIndex *lines = source->lines;
+    if (lines->count == 0 && !ARRAY_PUSH(lines, (LineCursor){0})) {
+        return false;
+    }
+    while (lines->count <= block) {
+        uint64_t at = (lines->count - 1) * BLOCK;
+        LineCursor cursor = lines->items[lines->count - 1];
+        if (!source_read_again(map, source, at, map->block, BLOCK)) {
+            return false;
+        }
+        cursor_advance(&cursor, map->block, BLOCK, at);
+        if (!ARRAY_PUSH(lines, cursor)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_continuation(char byte)
+{
+    return ((unsigned char)byte & 0xC0) == 0x80;
+}
+
+// A piece of a line within map->window.
+typedef struct Piece {
+    size_t begin, end, caret; // offsets in the bytes that were read
+    bool is_cut_before, is_cut_after;
+} Piece;
+
+// Keeps WINDOW bytes around the caret and cuts no character in two.
+static void piece_shorten(Piece *piece, const char *bytes)
+{
+    size_t before = piece->caret - piece->begin, after = piece->end - piece->caret;
+    if (before + after <= WINDOW) {
+        return;
+    }
+    size_t keep_before = after >= WINDOW / 2 ? WINDOW / 2 : WINDOW - after;
+    if (before > keep_before) {
+        piece->begin = piece->caret - keep_before;
+        piece->is_cut_before = true;
+        for (int i = 0; i < 3 && piece->begin < piece->caret && is_continuation(bytes[piece->begin]); i++) {
+            piece->begin++;
+        }
+        before = piece->caret - piece->begin;
+    }
+    if (before + after > WINDOW) {
+        size_t end = piece->caret + WINDOW - before;
+        piece->is_cut_after = true;
+        for (int i = 0; i < 3 && end > piece->caret && is_continuation(bytes[end]); i++) {
+            end--;
+        }
+        piece->end = end;
+    }
+}
+
+// Reads what is shown of the line: all of it, or a window around the offset.
+static bool source_read_line(SourceMap *map, const Source *source, uint64_t line_start, uint64_t offset, Span span,
+                             SourceLocation *location)
+{
+    uint64_t begin = offset - line_start > REACH ? offset - REACH : line_start;
+    uint64_t end = source->size - offset > REACH ? offset + REACH : source->size;
+    char *bytes = map->window + ELLIPSIS;
+    if (!source_read_again(map, source, begin, bytes, (size_t)(end - begin))) {
+        return false;
+    }
+    Piece piece = {0, (size_t)(end - begin), (size_t)(offset - begin), begin > line_start, end < source->size};
+    char *newline = memchr(bytes + piece.caret, '\n', piece.end - piece.caret);
+    if (newline) {
+        piece.end = (size_t)(newline - bytes);
+        piece.is_cut_after = false;
+        if (piece.end > 0 && bytes[piece.end - 1] == '\r') {
+            piece.end--;
+        }
+        piece.caret = piece.caret > piece.end ? piece.end : piece.caret;
+    }
+    piece_shorten(&piece, bytes);
+    uint64_t span_length = span.end > span.begin ? span.end - span.begin : 0;
+    size_t room = piece.end - piece.caret;
+    size_t caret_length = span_length < room ? (size_t)span_length : room;
+    char *text = bytes + piece.begin;
+    size_t length = piece.end - piece.begin;
+    if (piece.is_cut_after) {
+        memcpy(text + length, "...", ELLIPSIS);
+        length += ELLIPSIS;
+    }
+    if (piece.is_cut_before) {
+        text -= ELLIPSIS;
+        length += ELLIPSIS;
+        memcpy(text, "...", ELLIPSIS);
+    }
+    location->text = text;
+    location->text_length = length;
+    location->caret_begin = (size_t)(bytes + piece.caret - text);
+    location->caret_end = location->caret_begin + caret_length;
+    return true;
+}
+
+bool source_locate(SourceMap *map, Span span, SourceLocation *location)
+{
+    *location = (SourceLocation){.text = ""};
+    Source *source = source_find(map, span.begin);
+    if (!source) {
+        return false;
+    }
+    location->name = source->name;
+    uint64_t offset = span.begin - source->base;
+    if (!source_index(map, source, offset)) {
+        return false;
+    }
+    uint64_t block = offset / BLOCK;
+    LineCursor cursor = source->lines->items[block];
+    size_t size = (size_t)(offset - block * BLOCK);
+    if (!source_read_again(map, source, block * BLOCK, map->block, size)) {
+        return false;
+    }
+    cursor_advance(&cursor, map->block, size, block * BLOCK);
+    if (!source_read_line(map, source, cursor.line_start, offset, span, location)) {
+        return false;
+    }
+    location->line = cursor.newlines + 1;
+    location->column = cursor.characters + 1;
+    return true;
+}

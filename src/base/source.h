@@ -1,0 +1,84 @@
+// SourceMap: the texts of a run, under one numbering of bytes, and where a byte stands as file, line and column.
+//
+// Every text that is opened gets a range of global offsets of its own, so a Span is just two numbers, in any file.
+// Texts in files are read in blocks and not kept; a line is read again, and lines are counted, only when a message is
+// printed. Texts that cannot be read twice (pipes, strings) are kept.
+//
+// SPDX-License-Identifier: MIT
+#ifndef BASE_SOURCE_H
+#define BASE_SOURCE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/attributes.h"
+
+// Global byte offsets, begin included and end not. Offset 0 belongs to no text.
+typedef struct Span {
+    uint64_t begin, end;
+} Span;
+
+#define SPAN_NONE ((Span){0, 0})
+
+static inline bool span_exists(Span span)
+{
+    return span.begin != 0;
+}
+
+// From the beginning of the first to the end of the last.
+static inline Span span_join(Span first, Span last)
+{
+    return (Span){first.begin ? first.begin : last.begin, last.end ? last.end : first.end};
+}
+
+typedef struct SourceMap SourceMap;
+typedef struct Source Source; // one opened text; owned by the map
+
+typedef enum SourceResult {
+    SOURCE_OK,
+    SOURCE_NOT_FOUND,
+    SOURCE_NOT_READABLE, // exists, may not be opened or read
+    SOURCE_IS_DIRECTORY,
+    SOURCE_TOO_LARGE, // over the limit of bytes that was given
+    SOURCE_NO_MEMORY,
+} SourceResult;
+
+// Where a span begins. Of a line longer than 200 bytes, about 200 around the span are kept, with "..." where it was cut.
+typedef struct SourceLocation {
+    const char *name;     // as it was opened
+    uint64_t line;        // from 1
+    uint64_t column;      // from 1, in characters (UTF-8 code points; a stray byte counts as one)
+    const char *text;     // the whole line without its end, valid until the next call on the map; may be shortened
+    size_t text_length;   // in bytes
+    size_t caret_begin;   // byte offsets of the span in `text`, clipped to this line
+    size_t caret_end;
+} SourceLocation;
+
+SourceMap *source_map_new(void) RT_MUST_CHECK; // NULL when out of memory
+void source_map_free(SourceMap *map);          // closes everything
+
+// Opens a file for reading from its start. On success *source is set; on failure *error_number is an errno value or 0.
+SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_bytes, Source **source,
+                              int *error_number) RT_MUST_CHECK;
+
+// Makes a source of a text in memory, which is copied. NULL when out of memory.
+Source *source_open_text(SourceMap *map, const char *name, const char *text, size_t length) RT_MUST_CHECK;
+
+// Reads the next bytes: their number, 0 at the end, -1 on an error (errno is set).
+ptrdiff_t source_read(Source *source, char *buffer, size_t size) RT_MUST_CHECK;
+
+// Closes the stream; the name and the means to find a line again stay with the map.
+void source_close(Source *source);
+
+uint64_t source_base(const Source *source); // the global offset of its first byte
+const char *source_name(const Source *source);
+
+// Finds file, line, column and the text of the line in which the span begins. False when the span is in no text or its
+// file cannot be read any more (name is then still set if it is known, and line is 0).
+bool source_locate(SourceMap *map, Span span, SourceLocation *location) RT_MUST_CHECK;
+
+// Bytes read from all sources so far.
+uint64_t source_bytes_read(const SourceMap *map);
+
+#endif

@@ -1,0 +1,23 @@
+// Did-you-mean: the nearest of many names to a mistyped one.
+//
+// SPDX-License-Identifier: MIT
+#ifndef BASE_SUGGEST_H
+#define BASE_SUGGEST_H
+
+#include <stddef.h>
+
+// Keeps the best candidate seen so far. Start with suggest_begin, offer every name in scope, read `best`.
+typedef struct Suggest {
+    const char *wanted;
+    size_t wanted_length;
+    const char *best;   // NULL while nothing is near enough; not owned
+    unsigned best_cost; // in quarters of an edit: a swap of neighbours counts 3, a difference in case 2 for the whole name
+} Suggest;
+
+void suggest_begin(Suggest *suggest, const char *wanted);
+
+// Offers a candidate, which must outlive the Suggest. Equal costs keep the first one offered. Near enough is one edit for
+// a wanted name of 2 to 4 bytes, two up to 8, three beyond; the name itself is not a suggestion.
+void suggest_offer(Suggest *suggest, const char *candidate);
+
+#endif
