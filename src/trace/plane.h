@@ -1,0 +1,36 @@
+// A ray against a plane. A plane is flat, so a ray that starts on it never meets it again.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_PLANE_H
+#define TRACE_PLANE_H
+
+#include <stdbool.h>
+
+#include "base/attributes.h"
+#include "math/ray.h"
+
+// All points p with p·normal = distance.
+typedef struct PlaneShape {
+    Vec3 normal; // unit length
+    double distance;
+} PlaneShape;
+
+// The parameter at which the ray crosses the plane; not positive, infinite or NaN when it does not.
+RT_ALWAYS_INLINE double plane_root(const PlaneShape *plane, Vec3 origin, Vec3 direction)
+{
+    return (plane->distance - vec3_dot(plane->normal, origin)) / vec3_dot(plane->normal, direction);
+}
+
+RT_ALWAYS_INLINE bool plane_equal(const PlaneShape *a, const PlaneShape *b)
+{
+    return a->distance == b->distance && vec3_equal(a->normal, b->normal);
+}
+
+// p(t) put back onto the plane: exactly, when the normal is along an axis.
+RT_ALWAYS_INLINE Vec3 plane_point(const PlaneShape *plane, Ray ray, double t)
+{
+    Vec3 point = ray_at(ray, t);
+    return vec3_add_scaled(point, plane->distance - vec3_dot(plane->normal, point), plane->normal);
+}
+
+#endif

@@ -1,0 +1,87 @@
+// The tracer's geometry: scene shapes prepared for rays, and what a ray meets.
+//
+// Turns Scene records into an immutable Geometry (built once, then const and shared by threads). The queries themselves
+// are inline, in trace/query.h, so that a kernel contains only the shapes its scene has. Knows nothing of light, colour
+// or pixels.
+//
+// Self-hits: a secondary ray says which shape it starts on and to which side it leaves. Outward, that shape is skipped,
+// which is exact because each shape is convex or flat; inward, a sphere is met again at t = -2 (P·d)/(d·d). There is no
+// tolerance anywhere.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_TRACE_H
+#define TRACE_TRACE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/attributes.h"
+#include "math/ray.h"
+#include "math/vec3.h"
+#include "scene/scene.h"
+
+// What a scene's geometry has; a query is given these as a constant and leaves out the rest.
+typedef enum TraceFeature {
+    TRACE_SPHERES = 1 << 0,    // a few spheres, tested one after the other
+    TRACE_SPHERE_BVH = 1 << 1, // many spheres, in a tree (then TRACE_SPHERES is not set)
+    TRACE_ELLIPSOIDS = 1 << 2,
+    TRACE_PLANES = 1 << 3,
+    TRACE_ALL_FEATURES = (1 << 4) - 1,
+} TraceFeature;
+
+// A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below.
+typedef uint32_t ShapeId;
+enum { SHAPE_INDEX_BITS = 30 };
+typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_ELLIPSOID, SHAPE_PLANE } ShapeKind;
+#define SHAPE_NONE UINT32_MAX
+
+static inline ShapeId shape_id(ShapeKind kind, uint32_t index)
+{
+    return (uint32_t)kind << SHAPE_INDEX_BITS | index;
+}
+
+static inline ShapeKind shape_kind(ShapeId id)
+{
+    return (ShapeKind)(id >> SHAPE_INDEX_BITS);
+}
+
+static inline uint32_t shape_index(ShapeId id)
+{
+    return id & ((1u << SHAPE_INDEX_BITS) - 1);
+}
+
+// Where a ray starts: free in space (SHAPE_NONE), or on a shape, leaving to its outer side or into it.
+typedef struct RayStart {
+    ShapeId shape;
+    bool inward;
+} RayStart;
+
+#define RAY_START_FREE ((RayStart){SHAPE_NONE, false})
+
+typedef struct Hit {
+    double t;      // in units of the ray's direction; > 0
+    ShapeId shape;
+    bool inside;   // the shape was met from its inside (a plane: from the side its normal points away from)
+} Hit;
+
+// The surface at a hit.
+typedef struct Surface {
+    Vec3 point;
+    Vec3 normal; // unit, outward, whatever side was hit
+    MaterialIndex material;
+} Surface;
+
+typedef struct Geometry Geometry;
+
+// Builds the geometry of a valid scene with every length multiplied by 2^-exponent, which is exact. Spheres are kept in
+// an order of the tree's own. NULL when out of memory.
+Geometry *geometry_new(const Scene *scene, int exponent) RT_MUST_CHECK;
+void geometry_free(Geometry *geometry);
+
+// The TraceFeature bits that this geometry needs.
+unsigned geometry_features(const Geometry *geometry);
+
+// Bytes held.
+size_t geometry_bytes(const Geometry *geometry);
+
+#endif
