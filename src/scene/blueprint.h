@@ -1,0 +1,129 @@
+// Blueprints: what the braces of each kind of block say, as plain structs that the schema's offsets lead into.
+//
+// The evaluator copies a kind's defaults, writes what stands in the block over them and turns the result into scene
+// records. A declared block is kept as its blueprint and never changed again. Whatever may be transformed begins with
+// its Transform.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_BLUEPRINT_H
+#define SCENE_BLUEPRINT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/source.h"
+#include "math/colour.h"
+#include "math/transform.h"
+#include "math/vec3.h"
+#include "scene/scene.h"
+#include "scene/schema.h"
+
+typedef struct CameraBlueprint {
+    Transform transform; // of all transforms so far; identity again once the camera is complete
+    Vec3 location, direction, right, up, sky, look_at;
+    double angle_deg;
+    bool orthographic, perspective; // as written; perspective unless orthographic
+    bool has_right, has_up, has_look_at, has_angle;
+} CameraBlueprint;
+
+// Common to everything that may be an object.
+typedef struct ObjectPart {
+    Transform transform;
+    bool has_material; // a texture, pigment or finish of its own
+    bool hollow, split_union;
+    Material material;
+    Span span;
+} ObjectPart;
+
+typedef struct LightBlueprint {
+    ObjectPart part; // of a declared light that is used; a light has no material
+    Vec3 position, point_at;
+    Rgbft colour;
+    bool parallel, shadowless;
+} LightBlueprint;
+
+typedef struct SphereBlueprint {
+    ObjectPart part;
+    Vec3 centre;
+    double radius;
+} SphereBlueprint;
+
+typedef struct PlaneBlueprint {
+    ObjectPart part;
+    Vec3 normal;
+    double distance;
+} PlaneBlueprint;
+
+typedef struct UnionMember UnionMember;
+struct UnionMember {
+    const UnionMember *next;
+    const void *object; // the blueprint of its kind
+    SchemaKind kind;
+};
+
+typedef struct UnionBlueprint {
+    ObjectPart part;
+    const UnionMember *members;
+    uint32_t count;
+    uint32_t depth; // of the unions inside, this one included
+} UnionBlueprint;
+
+typedef struct BackgroundBlueprint {
+    Rgbft colour;
+} BackgroundBlueprint;
+
+typedef struct SettingsBlueprint {
+    Rgb ambient_light;
+    double adc_bailout;
+    int max_trace_level;
+    double ignored; // settings that change no picture here
+} SettingsBlueprint;
+
+typedef struct PigmentBlueprint {
+    Transform transform; // moves nothing: the colour is the same everywhere
+    Rgbft colour, quick_colour;
+} PigmentBlueprint;
+
+typedef struct FinishBlueprint {
+    Finish finish;
+    // The share was given as an albedo; resolved and false again once the finish is complete.
+    bool diffuse_is_albedo, phong_is_albedo, specular_is_albedo;
+    bool conserve_energy;
+} FinishBlueprint;
+
+typedef struct TextureBlueprint {
+    Transform transform; // moves nothing, as for pigments
+    Material material;
+} TextureBlueprint;
+
+typedef struct TransformBlueprint {
+    Transform transform;
+    bool is_inverse;
+} TransformBlueprint;
+
+// A block that POV-Ray has and rtlang has not, declared but not used yet.
+typedef struct UnsupportedBlueprint {
+    Span span; // of the word
+    const char *word;
+    SchemaKind owner; // the kind it stands in; KIND_NONE when it is a kind itself
+} UnsupportedBlueprint;
+
+// Room for any of them.
+typedef union Blueprint {
+    Transform transform; // of any that has one
+    ObjectPart part;     // of any that is an object
+    CameraBlueprint camera;
+    LightBlueprint light;
+    SphereBlueprint sphere;
+    PlaneBlueprint plane;
+    UnionBlueprint group;
+    BackgroundBlueprint background;
+    SettingsBlueprint settings;
+    PigmentBlueprint pigment;
+    FinishBlueprint finish;
+    TextureBlueprint texture;
+    TransformBlueprint transformation;
+    UnsupportedBlueprint unsupported;
+} Blueprint;
+
+#endif

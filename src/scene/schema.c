@@ -1,0 +1,512 @@
+// The schema's tables, and their Markdown form.
+//
+// Turns nothing into anything by itself: constant data that the evaluator walks. Knows nothing of tokens or values.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/schema.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/attributes.h"
+#include "scene/blueprint.h"
+
+#define AT(type, field) .at = (uint16_t)offsetof(type, field)
+#define GIVEN(type, field) .given = (uint16_t)offsetof(type, field)
+#define LIST(array) {array, RT_COUNT_OF(array)}
+#define POSITIVE {RANGE_FAULT, true, 0.0, INFINITY}
+
+#define IDENTITY {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}}
+#define OBJECT_PART {.transform = IDENTITY}
+// Colours are kept in single precision.
+#define GREY(level) {(double)(level), (double)(level), (double)(level)}
+
+// ---- shared groups
+
+static const SchemaProperty transforms[] = {
+    {"translate", TYPE_ACTION, ACTION_TRANSLATE, .doc = "moves by a vector"},
+    {"rotate", TYPE_ACTION, ACTION_ROTATE, .doc = "turns about x, then y, then z, by a vector of degrees, left-handed"},
+    {"scale", TYPE_ACTION, ACTION_SCALE, .doc = "stretches by a vector; a component of 0 is told and taken as 1"},
+    {"matrix", TYPE_ACTION, ACTION_MATRIX, .doc = "`<…>` of twelve numbers: the images of x, y, z and of the origin"},
+    {"transform", TYPE_ACTION, ACTION_TRANSFORM, .doc = "`{ transforms }`, or the name of a declared transform"},
+};
+
+static const SchemaProperty object_modifiers[] = {
+    {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; over an earlier one only if it is opaque"},
+    {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "the texture's pigment"},
+    {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
+    {"hollow", TYPE_SWITCH, AT(ObjectPart, hollow), .doc = "accepted; changes no picture without media"},
+};
+
+// ---- kinds
+
+static const SchemaProperty camera_properties[] = {
+    {"perspective", TYPE_FLAG, AT(CameraBlueprint, perspective), .is_first = true, .doc = "the default type"},
+    {"orthographic", TYPE_FLAG, AT(CameraBlueprint, orthographic), .is_first = true, .doc = "all rays are parallel"},
+    {"location", TYPE_VECTOR, AT(CameraBlueprint, location), .doc = "where the eye is"},
+    {"direction", TYPE_VECTOR, AT(CameraBlueprint, direction), .doc = "from the eye to the middle of the picture"},
+    {"right", TYPE_VECTOR, AT(CameraBlueprint, right), GIVEN(CameraBlueprint, has_right),
+     .doc = "the width of the picture at the distance of `direction`"},
+    {"up", TYPE_VECTOR, AT(CameraBlueprint, up), GIVEN(CameraBlueprint, has_up), .doc = "the height likewise"},
+    {"sky", TYPE_VECTOR, AT(CameraBlueprint, sky), .doc = "what `look_at` turns upward"},
+    {"look_at", TYPE_VECTOR, AT(CameraBlueprint, look_at), GIVEN(CameraBlueprint, has_look_at),
+     .doc = "a point in the middle of the picture; `direction`, `right` and `up` keep only their lengths"},
+    {"angle", TYPE_ACTION, ACTION_ANGLE, AT(CameraBlueprint, angle_deg), GIVEN(CameraBlueprint, has_angle),
+     .doc = "the field of view from left to right in degrees, 0 to 180; sets the length of `direction`"},
+};
+
+static const CameraBlueprint camera_defaults = {
+    .transform = IDENTITY,
+    .direction = {0, 0, 1},
+    .right = {1.33, 0, 0},
+    .up = {0, 1, 0},
+    .sky = {0, 1, 0},
+    .look_at = {0, 0, 1},
+};
+
+static const SchemaProperty light_arguments[] = {
+    {"position", TYPE_VECTOR, AT(LightBlueprint, position), .doc = "where the light is"},
+    {"colour", TYPE_RGB, AT(LightBlueprint, colour), .is_optional = true, .doc = "its light, black if left out"},
+};
+
+static const SchemaProperty light_properties[] = {
+    {"parallel", TYPE_FLAG, AT(LightBlueprint, parallel), .doc = "all its rays have the direction to `point_at`"},
+    {"point_at", TYPE_ACTION, ACTION_POINT_AT, AT(LightBlueprint, point_at), .doc = "where a `parallel` light shines"},
+    {"shadowless", TYPE_FLAG, AT(LightBlueprint, shadowless), .doc = "casts no shadows and makes no highlights"},
+};
+
+static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {0, 0, 1}};
+
+static const SchemaProperty sphere_arguments[] = {
+    {"centre", TYPE_VECTOR, AT(SphereBlueprint, centre), .doc = "its middle"},
+    {"radius", TYPE_NUMBER, AT(SphereBlueprint, radius), .range = {RANGE_WARN, true, 0.0, INFINITY},
+     .doc = "0: not drawn; less: as if positive"},
+};
+
+static const SphereBlueprint sphere_defaults = {.part = OBJECT_PART, .radius = 1.0};
+
+static const SchemaProperty plane_arguments[] = {
+    {"normal", TYPE_VECTOR, AT(PlaneBlueprint, normal), .doc = "at right angles to it; any length but 0"},
+    {"distance", TYPE_NUMBER, AT(PlaneBlueprint, distance), .doc = "from the origin along the normal"},
+};
+
+static const PlaneBlueprint plane_defaults = {.part = OBJECT_PART, .normal = {0, 1, 0}};
+
+static const SchemaProperty union_properties[] = {
+    {"split_union", TYPE_SWITCH, AT(ObjectPart, split_union), .doc = "accepted; changes no picture"},
+};
+
+static const UnionBlueprint union_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty background_arguments[] = {
+    {"colour", TYPE_COLOUR, AT(BackgroundBlueprint, colour), .is_optional = true, .doc = "seen where nothing is hit"},
+};
+
+static const BackgroundBlueprint background_defaults = {.colour = {0, 0, 0, 0, 0}};
+
+static const SchemaProperty settings_properties[] = {
+    {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
+     .doc = "what the scene's colour values mean: a number above 0, or `srgb`; the first one counts"},
+    {"ambient_light", TYPE_RGB, AT(SettingsBlueprint, ambient_light), .doc = "multiplies every `ambient`"},
+    {"max_trace_level", TYPE_INTEGER, AT(SettingsBlueprint, max_trace_level), .range = {RANGE_CLAMP, false, 1.0, 256.0},
+     .doc = "generations of mirrored rays, the camera's included"},
+    {"adc_bailout", TYPE_NUMBER, AT(SettingsBlueprint, adc_bailout), .doc = "rays that weigh less are not followed"},
+    {"noise_generator", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"number_of_waves", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"max_intersections", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"mm_per_unit", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
+};
+
+static const SettingsBlueprint settings_defaults = {
+    .ambient_light = GREY(1.0),
+    .adc_bailout = 1.0 / 255.0,
+    .max_trace_level = 5,
+};
+
+static const SchemaProperty texture_properties[] = {
+    {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "its colour"},
+    {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
+};
+
+static const SchemaProperty pigment_arguments[] = {
+    {"colour", TYPE_COLOUR, AT(PigmentBlueprint, colour), .is_optional = true,
+     .doc = "begins with a colour word or the name of a colour"},
+};
+
+static const SchemaProperty pigment_properties[] = {
+    {"quick_color", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
+    {"quick_colour", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
+};
+
+#define FINISH_AT(field) .at = (uint16_t)offsetof(FinishBlueprint, finish.field)
+
+static const SchemaProperty finish_properties[] = {
+    {"ambient", TYPE_RGB, FINISH_AT(ambient), .doc = "share of the ambient light given back"},
+    {"emission", TYPE_RGB, FINISH_AT(emission), .doc = "light given off"},
+    {"diffuse", TYPE_SHARE_PAIR, FINISH_AT(diffuse), GIVEN(FinishBlueprint, diffuse_is_albedo),
+     .doc = "light scattered; a second number: scattered to the other side; `albedo` before it: the share in all"},
+    {"brilliance", TYPE_NUMBER, FINISH_AT(brilliance), .doc = "exponent of the cosine in `diffuse`"},
+    {"phong", TYPE_SHARE, FINISH_AT(phong), GIVEN(FinishBlueprint, phong_is_albedo), .doc = "a highlight after Phong"},
+    {"phong_size", TYPE_NUMBER, FINISH_AT(phong_size), .doc = "its exponent: greater is smaller"},
+    {"specular", TYPE_SHARE, FINISH_AT(specular), GIVEN(FinishBlueprint, specular_is_albedo),
+     .doc = "a highlight after Blinn"},
+    {"roughness", TYPE_NUMBER, FINISH_AT(roughness), .range = {RANGE_WARN, true, 0.0, INFINITY},
+     .doc = "1 / its exponent; 0: a constant highlight"},
+    {"metallic", TYPE_OPTIONAL_NUMBER, FINISH_AT(metallic), .bare = 1.0, .doc = "highlights take the pigment's colour"},
+    {"reflection", TYPE_ACTION, ACTION_REFLECTION, .doc = "a colour, or `{ [min,] max … }`, see below"},
+    {"reflection_exponent", TYPE_NUMBER, FINISH_AT(reflection_exponent), .range = POSITIVE,
+     .doc = "the same as `exponent` in `reflection { }`"},
+    {"conserve_energy", TYPE_FLAG, AT(FinishBlueprint, conserve_energy),
+     .doc = "what is let through loses what is reflected"},
+};
+
+static const SchemaProperty reflection_arguments[] = {
+    {"min", TYPE_RGB, FINISH_AT(reflection_min), .is_optional = true, .doc = "seen head on"},
+    {"max", TYPE_RGB, FINISH_AT(reflection_max), .is_optional = true, .doc = "seen edge on; alone it is `min` too"},
+};
+
+static const SchemaProperty reflection_properties[] = {
+    {"falloff", TYPE_NUMBER, FINISH_AT(reflection_falloff), .doc = "exponent of the way from `min` to `max`"},
+    {"exponent", TYPE_NUMBER, FINISH_AT(reflection_exponent), .range = POSITIVE,
+     .doc = "the reflected light is raised to 1 / exponent"},
+    {"metallic", TYPE_OPTIONAL_NUMBER, FINISH_AT(reflection_metallic), .bare = 1.0,
+     .doc = "the mirror image takes the pigment's colour"},
+};
+
+#define FINISH_DEFAULTS                                                                                                \
+    {                                                                                                                  \
+        .ambient = GREY(0.1f), .diffuse = 0.6, .brilliance = 1.0, .phong_size = 40.0, .roughness = 0.05,               \
+        .reflection_falloff = 1.0, .reflection_exponent = 1.0                                                          \
+    }
+
+static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
+static const PigmentBlueprint pigment_defaults = {.transform = IDENTITY};
+static const TextureBlueprint texture_defaults = {.transform = IDENTITY, .material.finish = FINISH_DEFAULTS};
+
+static const SchemaProperty transform_properties[] = {
+    {"inverse", TYPE_FLAG, AT(TransformBlueprint, is_inverse), .doc = "the way back, wherever it stands"},
+};
+
+static const TransformBlueprint transform_defaults = {.transform = IDENTITY};
+static const UnsupportedBlueprint unsupported_defaults;
+
+#define TRANSFORMS LIST(transforms)
+#define OBJECT_GROUPS LIST(object_modifiers), TRANSFORMS
+
+static const SchemaBlock kinds[KIND_COUNT] = {
+    [KIND_NONE] = {.word = "", .doc = ""},
+    [KIND_CAMERA] = {.word = "camera",
+                     .size = sizeof(CameraBlueprint),
+                     .defaults = &camera_defaults,
+                     .is_declarable = true,
+                     .is_fixed = true,
+                     .groups = {LIST(camera_properties), TRANSFORMS},
+                     .doc = "The order of its words does not matter; transforms come last. The last camera counts."},
+    [KIND_LIGHT_SOURCE] = {.word = "light_source",
+                           .size = sizeof(LightBlueprint),
+                           .defaults = &light_defaults,
+                           .is_object = true,
+                           .is_declarable = true,
+                           .is_fixed = true,
+                           .arguments = LIST(light_arguments),
+                           .groups = {LIST(light_properties), TRANSFORMS},
+                           .doc = "A point light without falloff. Transforms move what stands before them."},
+    [KIND_SPHERE] = {.word = "sphere",
+                     .size = sizeof(SphereBlueprint),
+                     .defaults = &sphere_defaults,
+                     .is_object = true,
+                     .is_declarable = true,
+                     .arguments = LIST(sphere_arguments),
+                     .groups = {OBJECT_GROUPS},
+                     .doc = "All points at one distance from a centre; stretched by transforms."},
+    [KIND_PLANE] = {.word = "plane",
+                    .size = sizeof(PlaneBlueprint),
+                    .defaults = &plane_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .arguments = LIST(plane_arguments),
+                    .groups = {OBJECT_GROUPS},
+                    .doc = "An endless plane."},
+    [KIND_UNION] = {.word = "union",
+                    .size = sizeof(UnionBlueprint),
+                    .defaults = &union_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .groups = {LIST(union_properties), OBJECT_GROUPS},
+                    .doc = "Objects first, then what holds for all of them. Its texture is for those that have none."},
+    [KIND_OBJECT] = {.word = "object",
+                     .size = sizeof(UnionBlueprint),
+                     .defaults = &union_defaults,
+                     .is_object = true,
+                     .is_declarable = true,
+                     .groups = {OBJECT_GROUPS},
+                     .doc = "One object, or the name of one, and how this copy differs."},
+    [KIND_BACKGROUND] = {.word = "background",
+                         .size = sizeof(BackgroundBlueprint),
+                         .defaults = &background_defaults,
+                         .arguments = LIST(background_arguments),
+                         .doc = "The last one counts."},
+    [KIND_GLOBAL_SETTINGS] = {.word = "global_settings",
+                              .size = sizeof(SettingsBlueprint),
+                              .defaults = &settings_defaults,
+                              .groups = {LIST(settings_properties)},
+                              .doc = "Holds for the whole scene, wherever it stands."},
+    [KIND_TEXTURE] = {.word = "texture",
+                      .size = sizeof(TextureBlueprint),
+                      .defaults = &texture_defaults,
+                      .is_declarable = true,
+                      .groups = {LIST(texture_properties), TRANSFORMS},
+                      .doc = "A pigment and a finish."},
+    [KIND_PIGMENT] = {.word = "pigment",
+                      .size = sizeof(PigmentBlueprint),
+                      .defaults = &pigment_defaults,
+                      .is_declarable = true,
+                      .arguments = LIST(pigment_arguments),
+                      .groups = {LIST(pigment_properties), TRANSFORMS},
+                      .doc = "The colour of a surface and how much light it lets through."},
+    [KIND_FINISH] = {.word = "finish",
+                     .size = sizeof(FinishBlueprint),
+                     .defaults = &finish_defaults,
+                     .is_declarable = true,
+                     .groups = {LIST(finish_properties)},
+                     .doc = "What a surface does with light."},
+    [KIND_REFLECTION] = {.word = "reflection",
+                         .size = sizeof(FinishBlueprint),
+                         .defaults = &finish_defaults,
+                         .arguments = LIST(reflection_arguments),
+                         .groups = {LIST(reflection_properties)},
+                         .doc = "In a finish: the mirror."},
+    [KIND_TRANSFORM] = {.word = "transform",
+                        .size = sizeof(TransformBlueprint),
+                        .defaults = &transform_defaults,
+                        .is_declarable = true,
+                        .groups = {LIST(transform_properties), TRANSFORMS},
+                        .doc = "Transforms in the order in which they are written."},
+    [KIND_UNSUPPORTED] = {.word = "",
+                          .size = sizeof(UnsupportedBlueprint),
+                          .defaults = &unsupported_defaults,
+                          .doc = ""},
+};
+
+static const SchemaUnsupported unsupported[] = {
+    {"bicubic_patch", true, NULL},
+    {"blob", true, "use a `union` of spheres"},
+    {"box", true, "use planes, or a `union` of spheres"},
+    {"cone", true, "use a `union` of spheres"},
+    {"cubic", true, NULL},
+    {"cylinder", true, "use a `union` of spheres, or a sphere with `scale`"},
+    {"difference", true, NULL},
+    {"disc", true, "use a sphere with `scale`"},
+    {"fog", true, NULL},
+    {"height_field", true, NULL},
+    {"intersection", true, NULL},
+    {"isosurface", true, NULL},
+    {"julia_fractal", true, NULL},
+    {"lathe", true, NULL},
+    {"light_group", true, "use a `union`"},
+    {"media", true, NULL},
+    {"merge", true, "use a `union`"},
+    {"mesh", true, NULL},
+    {"mesh2", true, NULL},
+    {"ovus", true, "use a sphere with `scale`"},
+    {"parametric", true, NULL},
+    {"poly", true, NULL},
+    {"polygon", true, NULL},
+    {"polynomial", true, NULL},
+    {"prism", true, NULL},
+    {"quadric", true, "use a sphere with `scale`"},
+    {"quartic", true, NULL},
+    {"rainbow", true, NULL},
+    {"sky_sphere", true, "use `background`"},
+    {"smooth_triangle", true, NULL},
+    {"sor", true, NULL},
+    {"sphere_sweep", true, "use a `union` of spheres"},
+    {"superellipsoid", true, "use a sphere with `scale`"},
+    {"text", true, NULL},
+    {"torus", true, "use a `union` of spheres"},
+    {"triangle", true, NULL},
+    {"area_light", false, "a point light is as near as it comes"},
+    {"bounded_by", false, "leave it out: it is not needed"},
+    {"fresnel", false, "give `reflection { min, max }`"},
+    {"inverse", false, "leave it out: both sides of a surface look alike"},
+    {"ior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
+    {"interior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
+    {"no_shadow", false, "a light may be `shadowless`"},
+    {"spotlight", false, "a point light is as near as it comes"},
+};
+
+const SchemaBlock *schema_kind(SchemaKind kind)
+{
+    return &kinds[kind];
+}
+
+const SchemaProperty *schema_property(SchemaKind kind, size_t index)
+{
+    for (size_t group = 0; group < SCHEMA_GROUPS; group++) {
+        const SchemaList *list = &kinds[kind].groups[group];
+        if (index < list->count) {
+            return &list->items[index];
+        }
+        index -= list->count;
+    }
+    return NULL;
+}
+
+bool schema_is_transform(const SchemaProperty *property)
+{
+    return property >= transforms && property < transforms + RT_COUNT_OF(transforms);
+}
+
+const SchemaUnsupported *schema_unsupported(size_t index)
+{
+    return index < RT_COUNT_OF(unsupported) ? &unsupported[index] : NULL;
+}
+
+// ---- the reference
+
+static const char *const type_names[] = {
+    [TYPE_FLAG] = "alone",
+    [TYPE_SWITCH] = "alone, or a truth value",
+    [TYPE_NUMBER] = "number",
+    [TYPE_OPTIONAL_NUMBER] = "alone, or a number",
+    [TYPE_SHARE] = "[`albedo`] number",
+    [TYPE_SHARE_PAIR] = "[`albedo`] number [, number]",
+    [TYPE_INTEGER] = "whole number",
+    [TYPE_VECTOR] = "vector",
+    [TYPE_COLOUR] = "colour",
+    [TYPE_RGB] = "colour, rgb",
+    [TYPE_BLOCK] = "`{ … }`",
+    [TYPE_ACTION] = "see right",
+};
+
+// A default as it is written: the shortest number that is the same in the precision the blueprint has.
+static void write_numbers(TextBuffer *out, const double *numbers, size_t count, bool is_single)
+{
+    text_append(out, count > 1 ? "<" : "");
+    for (size_t i = 0; i < count; i++) {
+        text_append(out, i ? ", " : "");
+        if (is_single) {
+            text_printf(out, "%.7g", numbers[i]);
+        } else {
+            text_append_double(out, numbers[i]);
+        }
+    }
+    text_append(out, count > 1 ? ">" : "");
+}
+
+static void write_default(TextBuffer *out, const SchemaBlock *kind, const SchemaProperty *property)
+{
+    const char *at = (const char *)kind->defaults + property->at;
+    double numbers[5];
+    bool flag;
+    int integer;
+    switch (property->type) {
+    case TYPE_FLAG:
+    case TYPE_SWITCH:
+        memcpy(&flag, at, sizeof flag);
+        text_append(out, flag ? "on" : "off");
+        break;
+    case TYPE_NUMBER:
+    case TYPE_OPTIONAL_NUMBER:
+    case TYPE_SHARE:
+    case TYPE_SHARE_PAIR:
+        memcpy(numbers, at, sizeof *numbers);
+        write_numbers(out, numbers, 1, false);
+        break;
+    case TYPE_INTEGER:
+        memcpy(&integer, at, sizeof integer);
+        text_printf(out, "%d", integer);
+        break;
+    case TYPE_VECTOR:
+        memcpy(numbers, at, 3 * sizeof *numbers);
+        write_numbers(out, numbers, 3, false);
+        break;
+    case TYPE_RGB:
+        memcpy(numbers, at, 3 * sizeof *numbers);
+        write_numbers(out, numbers, 3, true);
+        break;
+    case TYPE_COLOUR:
+        memcpy(numbers, at, 5 * sizeof *numbers);
+        write_numbers(out, numbers, 5, true);
+        break;
+    case TYPE_BLOCK:
+    case TYPE_ACTION: break;
+    }
+}
+
+static void write_range(TextBuffer *out, const SchemaRange *range)
+{
+    static const char *const policies[] = {
+        [RANGE_ANY] = "", [RANGE_FAULT] = "error", [RANGE_WARN] = "warning", [RANGE_CLAMP] = "warning, nearest"};
+    if (range->policy == RANGE_ANY) {
+        return;
+    }
+    text_append(out, range->low_is_open ? "> " : ">= ");
+    text_append_double(out, range->low);
+    if (isfinite(range->high)) {
+        text_append(out, ", <= ");
+        text_append_double(out, range->high);
+    }
+    text_printf(out, " (else %s)", policies[range->policy]);
+}
+
+static void write_row(TextBuffer *out, const SchemaBlock *kind, const SchemaProperty *property, bool is_argument)
+{
+    text_printf(out, is_argument ? "| *%s* | %s | " : "| `%s` | %s | ", property->word, type_names[property->type]);
+    if (!is_argument) {
+        write_default(out, kind, property);
+    } else {
+        text_append(out, property->is_optional ? "may be left out" : "needed");
+    }
+    text_append(out, " | ");
+    write_range(out, &property->range);
+    text_printf(out, " | %s%s |\n", property->is_first ? "stands first; " : "", property->doc);
+}
+
+static bool is_shared(const SchemaList *list)
+{
+    return list->items == transforms || list->items == object_modifiers;
+}
+
+static void write_kind(TextBuffer *out, const SchemaBlock *kind)
+{
+    text_printf(out, "### %s\n\n%s", kind->word, kind->doc);
+    for (size_t i = 0; i < SCHEMA_GROUPS; i++) {
+        if (kind->groups[i].items == object_modifiers) {
+            text_append(out, " Takes object modifiers.");
+        } else if (kind->groups[i].items == transforms) {
+            text_append(out, " Takes transforms.");
+        }
+    }
+    text_append(out, "\n\n");
+    size_t own = is_shared(&kind->groups[0]) ? 0 : kind->groups[0].count;
+    if (kind->arguments.count + own == 0) {
+        return;
+    }
+    text_append(out, "| word | takes | default | range | |\n|---|---|---|---|---|\n");
+    for (size_t i = 0; i < kind->arguments.count; i++) {
+        write_row(out, kind, &kind->arguments.items[i], true);
+    }
+    for (size_t i = 0; i < own; i++) {
+        write_row(out, kind, &kind->groups[0].items[i], false);
+    }
+    text_append(out, "\n");
+}
+
+static void write_group(TextBuffer *out, const char *title, const SchemaProperty *items, size_t count)
+{
+    text_printf(out, "### %s\n\n| word | |\n|---|---|\n", title);
+    for (size_t i = 0; i < count; i++) {
+        text_printf(out, "| `%s` | %s |\n", items[i].word, items[i].doc);
+    }
+    text_append(out, "\n");
+}
+
+void schema_write_reference(TextBuffer *out)
+{
+    for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
+        write_kind(out, &kinds[kind]);
+    }
+    write_group(out, "Object modifiers", object_modifiers, RT_COUNT_OF(object_modifiers));
+    write_group(out, "Transforms", transforms, RT_COUNT_OF(transforms));
+}

@@ -1,0 +1,135 @@
+// The schema: every kind of block and every property, in one table.
+//
+// The table drives the evaluation of blocks, "unknown property", range checks and the reference in docs/language.md.
+// A property is one line of schema.c; a new shape is a few lines there, a blueprint and a function that places it.
+// Words are text here; the evaluator looks them up once. Constant data, shared by all threads.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_SCHEMA_H
+#define SCENE_SCHEMA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/text.h"
+
+typedef enum SchemaKind {
+    KIND_NONE,
+    KIND_CAMERA,
+    KIND_LIGHT_SOURCE,
+    KIND_SPHERE,
+    KIND_PLANE,
+    KIND_UNION,
+    KIND_OBJECT,
+    KIND_BACKGROUND,
+    KIND_GLOBAL_SETTINGS,
+    KIND_TEXTURE,
+    KIND_PIGMENT,
+    KIND_FINISH,
+    KIND_REFLECTION, // the braces of `reflection`; written into a finish
+    KIND_TRANSFORM,
+    KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
+    KIND_COUNT
+} SchemaKind;
+
+typedef enum SchemaType {
+    TYPE_FLAG,            // bool: the word alone makes it true
+    TYPE_SWITCH,          // bool: the word, or the word and a truth value
+    TYPE_NUMBER,          // double
+    TYPE_OPTIONAL_NUMBER, // double: `bare` when the word stands alone
+    TYPE_SHARE,           // double, and a bool at `given`: `albedo` stood before it
+    TYPE_SHARE_PAIR,      // two doubles in a row, the second optional; else like TYPE_SHARE
+    TYPE_INTEGER,         // int: a number, cut towards zero
+    TYPE_VECTOR,          // Vec3
+    TYPE_COLOUR,          // Rgbft
+    TYPE_RGB,             // Rgb: a colour whose filter and transmit do not count
+    TYPE_BLOCK,           // braces; `action` says what they are for
+    TYPE_ACTION,          // read by the code that `action` names
+} SchemaType;
+
+typedef enum SchemaAction {
+    ACTION_NONE,
+    ACTION_TRANSLATE,
+    ACTION_ROTATE,
+    ACTION_SCALE,
+    ACTION_MATRIX,
+    ACTION_TRANSFORM,
+    ACTION_TEXTURE,
+    ACTION_PIGMENT,
+    ACTION_FINISH,
+    ACTION_REFLECTION,
+    ACTION_ANGLE,
+    ACTION_POINT_AT,
+    ACTION_ASSUMED_GAMMA,
+    ACTION_COUNT
+} SchemaAction;
+
+typedef enum SchemaPolicy {
+    RANGE_ANY,   // every finite number
+    RANGE_FAULT, // outside is an error
+    RANGE_WARN,  // outside is told and used
+    RANGE_CLAMP, // outside is told and the nearest end is used
+} SchemaPolicy;
+
+typedef struct SchemaRange {
+    SchemaPolicy policy;
+    bool low_is_open; // low itself is outside
+    double low, high;
+} SchemaRange;
+
+typedef struct SchemaProperty {
+    const char *word; // of an argument: its name in messages and in the reference
+    SchemaType type;
+    SchemaAction action;
+    uint16_t at;       // offset of the value in the blueprint
+    uint16_t given;    // offset of a bool that turns true; 0: none
+    bool is_optional;  // an argument that may be left out
+    bool is_first;     // stands before every other item of the block
+    double bare;       // TYPE_OPTIONAL_NUMBER without a number
+    SchemaRange range; // of numbers
+    const char *doc;   // one line
+} SchemaProperty;
+
+typedef struct SchemaList {
+    const SchemaProperty *items;
+    size_t count;
+} SchemaList;
+
+enum { SCHEMA_GROUPS = 3 };
+
+typedef struct SchemaBlock {
+    const char *word;
+    size_t size;          // of the blueprint
+    const void *defaults; // a blueprint as it is before anything is said
+    bool is_object;       // may stand in a union and as an object
+    bool is_declarable;   // may stand on the right of a #declare
+    bool is_fixed;        // after an identifier only transforms may follow
+    SchemaList arguments; // in order, before the properties
+    SchemaList groups[SCHEMA_GROUPS]; // properties of its own, then shared ones; transforms are the last
+    const char *doc;
+} SchemaBlock;
+
+// A word that POV-Ray has and rtlang has not, and what to do instead (NULL: nothing near).
+typedef struct SchemaUnsupported {
+    const char *word;
+    bool is_kind; // a block of its own
+    const char *instead;
+} SchemaUnsupported;
+
+// The entry of a kind, never NULL.
+const SchemaBlock *schema_kind(SchemaKind kind);
+
+// The property at `index`, counted over all groups of the kind; NULL at the end.
+const SchemaProperty *schema_property(SchemaKind kind, size_t index);
+
+// True when the property belongs to the kind's transforms.
+bool schema_is_transform(const SchemaProperty *property);
+
+// The entry at `index`; NULL at the end. Words of no entry and no kind are unsupported as well, without advice.
+const SchemaUnsupported *schema_unsupported(size_t index);
+
+// The whole schema as Markdown tables, for docs/language.md.
+void schema_write_reference(TextBuffer *out);
+
+#endif
