@@ -14,6 +14,13 @@ _Static_assert(sizeof(Finish) == 23 * sizeof(double) + sizeof(uint64_t), "no pad
 void scene_init(Scene *scene)
 {
     *scene = (Scene){
+        .camera =
+            {
+                .type = CAMERA_PERSPECTIVE,
+                .direction = {0.0, 0.0, 1.0},
+                .right = {1.33, 0.0, 0.0},
+                .up = {0.0, 1.0, 0.0},
+            },
         .settings =
             {
                 .gamma_model = GAMMA_NONE,

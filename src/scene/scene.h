@@ -115,7 +115,7 @@ typedef struct Settings {
 typedef struct Scene {
     Settings settings;
     Rgbft background;
-    bool has_camera;
+    bool has_camera; // the scene said so; else camera is the language's default
     Camera camera;
     ARRAY(Light) lights;
     ARRAY(Material) materials; // each different one once

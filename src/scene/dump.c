@@ -1,0 +1,176 @@
+// The printable form of scene records: `.scn` text that evaluates to the same records again.
+//
+// Turns numbers into their shortest decimal forms, which read back as the same bits, and colours into phrases that keep
+// all components. Knows only what it writes of the language.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "scene/scene.h"
+
+static void dump_numbers(TextBuffer *out, const double *numbers, size_t count)
+{
+    text_append_char(out, '<');
+    for (size_t i = 0; i < count; i++) {
+        text_append(out, i ? ", " : "");
+        text_append_double(out, numbers[i]);
+    }
+    text_append_char(out, '>');
+}
+
+static void dump_vector(TextBuffer *out, const char *before, Vec3 vector)
+{
+    text_append(out, before);
+    dump_numbers(out, (double[]){vector.x, vector.y, vector.z}, 3);
+}
+
+static void dump_rgb(TextBuffer *out, const char *before, Rgb colour)
+{
+    text_printf(out, "%srgb ", before);
+    dump_numbers(out, (double[]){colour.red, colour.green, colour.blue}, 3);
+}
+
+static void dump_rgbft(TextBuffer *out, const char *before, Rgbft c)
+{
+    text_printf(out, "%srgbft ", before);
+    dump_numbers(out, (double[]){c.red, c.green, c.blue, c.filter, c.transmit}, 5);
+}
+
+static void dump_number(TextBuffer *out, const char *before, double number)
+{
+    text_append(out, before);
+    text_append_double(out, number);
+}
+
+// A scene without #version and assumed_gamma has no gamma model; one that names its version below 3.7 likewise.
+static void dump_settings(const Settings *settings, TextBuffer *out)
+{
+    if (settings->gamma_model != GAMMA_NONE || settings->version != 3.7) {
+        dump_number(out, "#version ", settings->version);
+        text_append(out, ";\n");
+    }
+    text_append(out, "global_settings {\n");
+    switch (settings->gamma_model) {
+    case GAMMA_NONE: break;
+    case GAMMA_LINEAR: text_append(out, "  assumed_gamma 1\n"); break;
+    case GAMMA_SRGB: text_append(out, "  assumed_gamma srgb\n"); break;
+    case GAMMA_POWER:
+        dump_number(out, "  assumed_gamma ", settings->assumed_gamma);
+        text_append(out, "\n");
+        break;
+    }
+    dump_rgb(out, "  ambient_light ", settings->ambient_light);
+    text_printf(out, "\n  max_trace_level %d", settings->max_trace_level);
+    dump_number(out, "\n  adc_bailout ", settings->adc_bailout);
+    text_append(out, "\n}\n");
+}
+
+static void dump_camera(const Camera *camera, TextBuffer *out)
+{
+    text_append(out, camera->type == CAMERA_ORTHOGRAPHIC ? "camera {\n  orthographic\n" : "camera {\n");
+    dump_vector(out, "  location ", camera->location);
+    dump_vector(out, "\n  right ", camera->right);
+    dump_vector(out, "\n  up ", camera->up);
+    dump_vector(out, "\n  direction ", camera->direction);
+    text_append(out, "\n}\n");
+}
+
+static void dump_light(const Light *light, TextBuffer *out)
+{
+    dump_vector(out, "light_source { ", light->position);
+    dump_rgb(out, ", ", light->colour);
+    if (light->type == LIGHT_PARALLEL) {
+        dump_vector(out, " parallel point_at ", light->point_at);
+    }
+    text_append(out, light->shadowless ? " shadowless }\n" : " }\n");
+}
+
+static void dump_finish(const Finish *finish, TextBuffer *out)
+{
+    dump_rgb(out, "    ambient ", finish->ambient);
+    dump_rgb(out, "\n    emission ", finish->emission);
+    dump_number(out, "\n    diffuse ", finish->diffuse);
+    // Only where it is used: POV-Ray has a note about the second number.
+    if (finish->diffuse_back != 0.0 || signbit(finish->diffuse_back)) {
+        dump_number(out, ", ", finish->diffuse_back);
+    }
+    dump_number(out, "\n    brilliance ", finish->brilliance);
+    dump_number(out, "\n    phong ", finish->phong);
+    dump_number(out, " phong_size ", finish->phong_size);
+    dump_number(out, "\n    specular ", finish->specular);
+    dump_number(out, " roughness ", finish->roughness);
+    dump_number(out, "\n    metallic ", finish->metallic);
+    dump_rgb(out, "\n    reflection { ", finish->reflection_min);
+    dump_rgb(out, ", ", finish->reflection_max);
+    dump_number(out, " falloff ", finish->reflection_falloff);
+    dump_number(out, " exponent ", finish->reflection_exponent);
+    dump_number(out, " metallic ", finish->reflection_metallic);
+    text_append(out, finish->flags & FINISH_CONSERVE_ENERGY ? " }\n    conserve_energy\n" : " }\n");
+}
+
+static void dump_material(const Material *material, size_t number, TextBuffer *out)
+{
+    text_printf(out, "#declare M%zu = texture {\n", number);
+    dump_rgbft(out, "  pigment { ", material->pigment);
+    text_append(out, " }\n  finish {\n");
+    dump_finish(&material->finish, out);
+    text_append(out, "  }\n}\n");
+}
+
+static void dump_texture(MaterialIndex material, TextBuffer *out)
+{
+    text_printf(out, " texture { M%lu } }\n", (unsigned long)material + 1);
+}
+
+static void dump_sphere(const Sphere *sphere, TextBuffer *out)
+{
+    dump_vector(out, "sphere { ", sphere->centre);
+    dump_number(out, ", ", sphere->radius);
+    dump_texture(sphere->material, out);
+}
+
+static void dump_ellipsoid(const Ellipsoid *ellipsoid, TextBuffer *out)
+{
+    text_append(out, "sphere { 0, 1 matrix ");
+    dump_numbers(out, &ellipsoid->to_world.m[0][0], 12);
+    dump_texture(ellipsoid->material, out);
+}
+
+static void dump_plane(const Plane *plane, TextBuffer *out)
+{
+    dump_vector(out, "plane { ", plane->normal);
+    dump_number(out, ", ", plane->distance);
+    dump_texture(plane->material, out);
+}
+
+// Each array is in the order of declaration, so the three are merged.
+static void dump_shapes(const Scene *scene, TextBuffer *out)
+{
+    size_t sphere = 0, ellipsoid = 0, plane = 0;
+    for (uint32_t order = 0; order < scene->shape_count; order++) {
+        if (sphere < scene->spheres.count && scene->spheres.items[sphere].order == order) {
+            dump_sphere(&scene->spheres.items[sphere++], out);
+        } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
+            dump_plane(&scene->planes.items[plane++], out);
+        } else {
+            dump_ellipsoid(&scene->ellipsoids.items[ellipsoid++], out);
+        }
+    }
+}
+
+void scene_dump(const Scene *scene, TextBuffer *out)
+{
+    dump_settings(&scene->settings, out);
+    if (scene->has_camera) {
+        dump_camera(&scene->camera, out);
+    }
+    dump_rgbft(out, "background { ", scene->background);
+    text_append(out, " }\n");
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        dump_light(&scene->lights.items[i], out);
+    }
+    for (size_t i = 0; i < scene->materials.count; i++) {
+        dump_material(&scene->materials.items[i], i + 1, out);
+    }
+    dump_shapes(scene, out);
+}

@@ -1,0 +1,123 @@
+// What only the whole scene can tell, and what the renderer relies on.
+//
+// Reports warnings about what is missing and located faults about records that no ray could be traced against. Changes
+// nothing.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "scene/scene.h"
+
+static Span source_span(uint64_t source)
+{
+    return source ? (Span){source, source + 1} : SPAN_NONE;
+}
+
+static bool rgb_is_finite(Rgb a)
+{
+    return isfinite(a.red) && isfinite(a.green) && isfinite(a.blue);
+}
+
+static bool fault(DiagSink *diags, DiagCode code, uint64_t source, const char *what)
+{
+    diag_report(diags, code, source_span(source), "%s", what);
+    return false;
+}
+
+static bool camera_is_valid(const Camera *camera, DiagSink *diags)
+{
+    if (vec3_is_finite(camera->location) && vec3_is_finite(camera->direction) && vec3_is_finite(camera->right) &&
+        vec3_is_finite(camera->up)) {
+        return true;
+    }
+    diag_report(diags, DIAG_E0410, camera->span, "the camera has a coordinate that is not finite");
+    return false;
+}
+
+static bool lights_are_valid(const Scene *scene, DiagSink *diags)
+{
+    bool valid = true;
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        const Light *light = &scene->lights.items[i];
+        if (!vec3_is_finite(light->position) || !vec3_is_finite(light->point_at) || !rgb_is_finite(light->colour)) {
+            diag_report(diags, DIAG_E0411, light->span, "the light has a number that is not finite");
+            valid = false;
+        }
+    }
+    return valid;
+}
+
+static bool finish_is_finite(const Finish *finish)
+{
+    return rgb_is_finite(finish->ambient) && rgb_is_finite(finish->emission) && isfinite(finish->diffuse) &&
+           isfinite(finish->diffuse_back) && isfinite(finish->brilliance) && isfinite(finish->phong) &&
+           isfinite(finish->phong_size) && isfinite(finish->specular) && isfinite(finish->roughness) &&
+           isfinite(finish->metallic) && rgb_is_finite(finish->reflection_min) &&
+           rgb_is_finite(finish->reflection_max) && isfinite(finish->reflection_falloff) &&
+           isfinite(finish->reflection_exponent) && isfinite(finish->reflection_metallic);
+}
+
+static bool material_is_finite(const Material *material)
+{
+    return rgb_is_finite(rgbft_rgb(material->pigment)) && isfinite(material->pigment.filter) &&
+           isfinite(material->pigment.transmit) && finish_is_finite(&material->finish);
+}
+
+static bool materials_are_valid(const Scene *scene, DiagSink *diags)
+{
+    for (size_t i = 0; i < scene->materials.count; i++) {
+        if (!material_is_finite(&scene->materials.items[i])) {
+            return fault(diags, DIAG_E0412, 0, "a texture has a number that is not finite");
+        }
+    }
+    return true;
+}
+
+static bool shapes_are_valid(const Scene *scene, DiagSink *diags)
+{
+    bool valid = true;
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        const Sphere *sphere = &scene->spheres.items[i];
+        if (!vec3_is_finite(sphere->centre) || !isfinite(sphere->radius) || !(sphere->radius > 0.0) ||
+            sphere->material >= scene->materials.count) {
+            valid = fault(diags, DIAG_E0413, sphere->source, "the sphere cannot be represented");
+        }
+    }
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
+        if (!transform_is_finite(&ellipsoid->to_world) || !transform_is_finite(&ellipsoid->to_object) ||
+            ellipsoid->material >= scene->materials.count) {
+            valid = fault(diags, DIAG_E0413, ellipsoid->source, "the stretched sphere cannot be represented");
+        }
+    }
+    for (size_t i = 0; i < scene->planes.count; i++) {
+        const Plane *plane = &scene->planes.items[i];
+        if (!vec3_is_finite(plane->normal) || !isfinite(plane->distance) ||
+            vec3_equal(plane->normal, vec3(0.0, 0.0, 0.0)) || plane->material >= scene->materials.count) {
+            valid = fault(diags, DIAG_E0413, plane->source, "the plane cannot be represented");
+        }
+    }
+    return valid;
+}
+
+static void warn_of_what_is_missing(const Scene *scene, DiagSink *diags)
+{
+    if (!scene->has_camera) {
+        diag_report(diags, DIAG_W0401, SPAN_NONE,
+                    "no camera: the default one at <0, 0, 0> looks along z with right <1.33, 0, 0>");
+    }
+    if (scene->shape_count == 0) {
+        diag_report(diags, DIAG_W0403, SPAN_NONE, "no objects: only the background is drawn");
+    } else if (scene->lights.count == 0) {
+        diag_report(diags, DIAG_W0402, SPAN_NONE, "no lights: only ambient and emission are seen");
+    }
+}
+
+bool scene_validate(const Scene *scene, DiagSink *diags)
+{
+    warn_of_what_is_missing(scene, diags);
+    bool valid = camera_is_valid(&scene->camera, diags);
+    valid = lights_are_valid(scene, diags) && valid;
+    valid = materials_are_valid(scene, diags) && valid;
+    return shapes_are_valid(scene, diags) && valid;
+}
