@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum { ALIGNMENT = 16 };
-#define CHUNK_LEAST ((size_t)64 << 10)
+#define CHUNK_LEAST    ((size_t)64 << 10)
 #define CHUNK_GREATEST ((size_t)64 << 20)
 
 struct ArenaChunk {

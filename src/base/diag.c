@@ -17,7 +17,7 @@
 enum { KEEP_ERRORS = 20, KEEP_WARNINGS = 100, FRAMES_SHOWN = 8 };
 
 #define PROGRAM "rtlang"
-#define GUTTER "     " // as wide as the line number and the blank behind it
+#define GUTTER  "     " // as wide as the line number and the blank behind it
 
 typedef struct CodeInfo {
     const char *name, *summary;

@@ -26,9 +26,9 @@ typedef enum DiagCode {
     DIAG_CODE_COUNT
 } DiagCode;
 
-// Why we are here: an #include, a macro call, a loop. Frames live on the caller's C stack; a record copies them as notes,
-// innermost first: "in macro `Atom`, called here" for what = "in macro", else "<what> `<name>` here", for example
-// "included `colors.inc` here". At most 8, then one note "and N more".
+// Why we are here: an #include, a macro call, a loop. Frames live on the caller's C stack; a record copies them as
+// notes, innermost first: "in macro `Atom`, called here" for what = "in macro", else "<what> `<name>` here", for
+// example "included `colors.inc` here". At most 8, then one note "and N more".
 typedef struct DiagFrame {
     const struct DiagFrame *outer; // NULL at the outermost text
     const char *what;              // for example "in macro", "included"
@@ -68,7 +68,7 @@ typedef struct DiagSink {
 void diag_init(DiagSink *sink, SourceMap *sources);
 void diag_fini(DiagSink *sink);
 
-// Records a fault or a warning. Returns true when the record was kept, so that notes and a suggestion may be added to it.
+// Records a fault or a warning. True when the record was kept, so that notes and a suggestion may be added.
 bool diag_report(DiagSink *sink, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 
 // Add to the record that was kept last. Call only after diag_report returned true.

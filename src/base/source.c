@@ -19,19 +19,19 @@
 #include "base/intern.h"
 
 enum {
-    BLOCK = 16 << 10,      // bytes between two checkpoints
-    WINDOW = 200,          // bytes of a long line that are shown
-    REACH = WINDOW + 4,    // bytes read on either side, so that a cut sees the whole character it falls in
-    ELLIPSIS = 3,          // "..." where a line was cut
-    PIPE_STEP = 64 << 10,  // least room for a read from a pipe
+    BLOCK = 16 << 10,     // bytes between two checkpoints
+    WINDOW = 200,         // bytes of a long line that are shown
+    REACH = WINDOW + 4,   // bytes read on either side, so that a cut sees the whole character it falls in
+    ELLIPSIS = 3,         // "..." where a line was cut
+    PIPE_STEP = 64 << 10, // least room for a read from a pipe
     NO_FILE = -1
 };
 
 // Where counting stands: all about the bytes before one offset.
 typedef struct LineCursor {
     uint64_t newlines;
-    uint64_t line_start; // offset in the text
-    uint64_t characters; // since line_start
+    uint64_t line_start;           // offset in the text
+    uint64_t characters;           // since line_start
     unsigned char missing, length; // continuation bytes that an open UTF-8 sequence still wants, and its length
     unsigned char low, high;       // bounds of the next one
 } LineCursor;
@@ -42,19 +42,19 @@ struct Source {
     SourceMap *map;
     uint64_t base, size;
     const char *name;
-    char *kept;         // the text, if it cannot be read twice
-    uint64_t position;  // of source_read
-    LineIndex *lines;   // checkpoint k stands at k * BLOCK; NULL until a message asks
-    int file;           // NO_FILE when closed or kept
+    char *kept;        // the text, if it cannot be read twice
+    uint64_t position; // of source_read
+    LineIndex *lines;  // checkpoint k stands at k * BLOCK; NULL until a message asks
+    int file;          // NO_FILE when closed or kept
 };
 
 struct SourceMap {
-    Arena arena;                // entries
+    Arena arena; // entries
     InternTable *names;
-    ARRAY(Source *) sources;    // in order of base
+    ARRAY(Source *) sources; // in order of base
     uint64_t next_base;
     uint64_t bytes_read;
-    const Source *again;        // whose file is open in again_file
+    const Source *again; // whose file is open in again_file
     int again_file;
     char block[BLOCK];
     char window[ELLIPSIS + 2 * REACH + ELLIPSIS];

@@ -44,14 +44,14 @@ typedef enum SourceResult {
     SOURCE_NO_MEMORY,
 } SourceResult;
 
-// Where a span begins. Of a line longer than 200 bytes, about 200 around the span are kept, with "..." where it was cut.
+// Where a span begins. Of a line longer than 200 bytes, some 200 around the span are kept, "..." where it was cut.
 typedef struct SourceLocation {
-    const char *name;     // as it was opened
-    uint64_t line;        // from 1
-    uint64_t column;      // from 1, in characters (UTF-8 code points; a stray byte counts as one)
-    const char *text;     // the whole line without its end, valid until the next call on the map; may be shortened
-    size_t text_length;   // in bytes
-    size_t caret_begin;   // byte offsets of the span in `text`, clipped to this line
+    const char *name;   // as it was opened
+    uint64_t line;      // from 1
+    uint64_t column;    // from 1, in characters (UTF-8 code points; a stray byte counts as one)
+    const char *text;   // the line without its end (LF or CRLF), valid until the next call on the map
+    size_t text_length; // in bytes
+    size_t caret_begin; // byte offsets of the span in `text`, clipped to this line
     size_t caret_end;
 } SourceLocation;
 

@@ -5,7 +5,6 @@
 // SPDX-License-Identifier: MIT
 #include "base/text.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -22,7 +21,7 @@ enum {
     PLAIN_POINT_LEAST = -5 // 0.000001 is written plainly, 0.0000001 as 1e-7
 };
 #define PLAIN_POINT_GREATEST 21 // 1e20 is written plainly, 1e21 is not
-#define INTEGER_EXACT 9007199254740992.0
+#define INTEGER_EXACT        9007199254740992.0
 
 void text_init(TextBuffer *buffer)
 {
@@ -164,8 +163,8 @@ static Decimal decimal_read(double value)
     return decimal;
 }
 
-// Shortens to `drop` digits less. Of the two neighbours, takes the nearer one that reads back as the value: at a power of
-// two the gap below is half the gap above, and the nearer one may miss while the other does not.
+// Shortens to `drop` digits less. Of the two neighbours, takes the nearer one that reads back as the value: at a power
+// of two the gap below is half the gap above, and the nearer one may miss while the other does not.
 static bool decimal_shorten(Decimal full, int drop, double value, Decimal *shorter)
 {
     uint64_t scale = 1;
@@ -203,6 +202,23 @@ static Decimal decimal_find(double value)
     return shortest;
 }
 
+// Writes the digits so that they end at `end`; their beginning. A format string would cost more than all the rest.
+static const char *digits_write(uint64_t value, char *end)
+{
+    do {
+        *--end = (char)('0' + value % 10);
+        value /= 10;
+    } while (value != 0);
+    return end;
+}
+
+static void append_integer(TextBuffer *buffer, uint64_t value)
+{
+    char bytes[24], *end = bytes + sizeof(bytes);
+    const char *digits = digits_write(value, end);
+    text_append_n(buffer, digits, (size_t)(end - digits));
+}
+
 static void append_zeros(TextBuffer *buffer, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -212,12 +228,13 @@ static void append_zeros(TextBuffer *buffer, int count)
 
 static void append_decimal(TextBuffer *buffer, Decimal decimal)
 {
-    char digits[24];
+    char bytes[24], *end = bytes + sizeof(bytes);
     while (decimal.digits != 0 && decimal.digits % 10 == 0) {
         decimal.digits /= 10;
         decimal.power++;
     }
-    int count = snprintf(digits, sizeof(digits), "%" PRIu64, decimal.digits);
+    const char *digits = digits_write(decimal.digits, end);
+    int count = (int)(end - digits);
     int point = count + decimal.power; // digits before the decimal point
     if (point < PLAIN_POINT_LEAST || point > PLAIN_POINT_GREATEST) {
         text_append_char(buffer, digits[0]);
@@ -238,18 +255,6 @@ static void append_decimal(TextBuffer *buffer, Decimal decimal)
         text_append_char(buffer, '.');
         text_append_n(buffer, digits + point, (size_t)(count - point));
     }
-}
-
-// Whole numbers: digits from the right into a small buffer, without the cost of a format string.
-static void append_integer(TextBuffer *buffer, uint64_t value)
-{
-    char digits[24];
-    char *at = digits + sizeof(digits);
-    do {
-        *--at = (char)('0' + value % 10);
-        value /= 10;
-    } while (value != 0);
-    text_append_n(buffer, at, (size_t)(digits + sizeof(digits) - at));
 }
 
 void text_append_double(TextBuffer *buffer, double value)

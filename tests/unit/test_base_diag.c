@@ -7,13 +7,13 @@
 #include "base/diag.h"
 #include "unit/tap.h"
 
-static const char scene[] = "Atom(<0,0,0>)\n"               // 1
-                            "sphere {\n"                    // 2
-                            "    raduis 2\n"                // 3
-                            "\t\tpigment\t{ }\r\n"          // 4
+static const char scene[] = "Atom(<0,0,0>)\n"                      // 1
+                            "sphere {\n"                           // 2
+                            "    raduis 2\n"                       // 3
+                            "\t\tpigment\t{ }\r\n"                 // 4
                             "// \xC3\xA4\xC3\xB6 \xE2\x82\xAC x\n" // 5: two of 2 bytes, one of 3
-                            "a\x1B[31m\x80 b\n"             // 6
-                            "last";                         // 7
+                            "a\x1B[31m\x80 b\n"                    // 6
+                            "last";                                // 7
 
 typedef struct Fixture {
     SourceMap *map;
@@ -105,7 +105,8 @@ static void test_lines(void)
         {"pigment", "scene.scn:4:3: error[E0101]: m\n   4 | \t\tpigment\t{ }\n     | \t\t^~~~~~~\n", "tabs are kept"},
         {"{ }\r\n//", "scene.scn:4:11: error[E0101]: m\n   4 | \t\tpigment\t{ }\n     | \t\t       \t^~~\n",
          "a span over a line's end stops there, CRLF is dropped"},
-        {"\xE2\x82\xAC x", "scene.scn:5:7: error[E0101]: m\n   5 | // \xC3\xA4\xC3\xB6 \xE2\x82\xAC x\n     |       ^~~\n",
+        {"\xE2\x82\xAC x",
+         "scene.scn:5:7: error[E0101]: m\n   5 | // \xC3\xA4\xC3\xB6 \xE2\x82\xAC x\n     |       ^~~\n",
          "columns and carets count characters"},
         {"b\nlast", "scene.scn:6:9: error[E0101]: m\n   6 | a?[31m? b\n     |         ^\n",
          "control characters and stray bytes are not printed"},
@@ -132,7 +133,8 @@ static void test_without_place(void)
     fixture_init(&fixture);
     DiagSink *sink = &fixture.sink;
     tap_ok(diag_report(sink, DIAG_E0501, SPAN_NONE, "cannot find `a\nb\x1B.scn`"), "kept");
-    expect_printed(&fixture, "rtlang: error[E0501]: cannot find `a?b?.scn`\n", "no place, and one line whatever is in it");
+    expect_printed(&fixture, "rtlang: error[E0501]: cannot find `a?b?.scn`\n",
+                   "no place, and one line whatever is in it");
     tap_ok(diag_report(sink, DIAG_E0501, (Span){1u << 20, 1u << 20}, "far"), "kept");
     expect_printed(&fixture, "rtlang: error[E0501]: far\n", "a place in no text");
     fixture_fini(&fixture);
@@ -166,7 +168,8 @@ static void test_frames(void)
     tap_ok(diag_report(&fixture.sink, DIAG_E0106, SPAN_NONE, "flat") && fixture.sink.items[1].note_count == 0,
            "no frames, no notes");
     diag_note(&fixture.sink, SPAN_NONE, "one");
-    tap_ok(fixture.sink.items[1].note_count == 1 && fixture.sink.items[0].note_count == 9, "notes go to the last record");
+    tap_ok(fixture.sink.items[1].note_count == 1 && fixture.sink.items[0].note_count == 9,
+           "notes go to the last record");
     fixture_fini(&fixture);
 }
 
@@ -188,7 +191,8 @@ static void test_counting(void)
     diag_fini(&sink);
     tap_ok(sink.count == 0 && sink.error_count == 0 && sink.class == CLASS_NONE, "fini empties");
     sink.keep_errors = 0;
-    tap_ok(!diag_report(&sink, DIAG_E0601, SPAN_NONE, "x") && sink.class == CLASS_LIMIT, "the first error need not be kept");
+    tap_ok(!diag_report(&sink, DIAG_E0601, SPAN_NONE, "x") && sink.class == CLASS_LIMIT,
+           "the first error need not be kept");
     diag_fini(&sink);
 }
 

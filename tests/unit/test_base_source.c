@@ -61,7 +61,8 @@ static void test_open_failures(void)
            "a file below a file");
     tap_ok(source_open_file(map, folder, NO_LIMIT, &source, &error_number) == SOURCE_IS_DIRECTORY && !source,
            "a directory");
-    tap_ok(source_open_file(map, file.text, 9, &source, &error_number) == SOURCE_TOO_LARGE && !source, "over the limit");
+    tap_ok(source_open_file(map, file.text, 9, &source, &error_number) == SOURCE_TOO_LARGE && !source,
+           "over the limit");
     tap_ok(source_open_file(map, "/dev/zero", 100000, &source, &error_number) == SOURCE_TOO_LARGE && !source,
            "an endless device is over any limit");
     Path loop = path_of("loop");
@@ -89,7 +90,8 @@ static void test_reading(void)
                    source_open_file(map, path.text, NO_LIMIT, &again, &error_number) == SOURCE_OK;
     text = source_open_text(map, "<text>", "abc", 3);
     if (tap_ok(is_open && text, "four texts")) {
-        tap_ok(source_base(first) == 1 && source_base(empty) == 14 && source_base(again) == 15 && source_base(text) == 28,
+        tap_ok(source_base(first) == 1 && source_base(empty) == 14 && source_base(again) == 15 &&
+                   source_base(text) == 28,
                "each text takes its size and one");
         tap_ok(source_name(first) == source_name(again), "a name is stored once");
         tap_ok(read_all(first, buffer, 64, 5) == 12 && memcmp(buffer, "hello\nworld\n", 12) == 0, "a file is read");
@@ -163,7 +165,8 @@ static void test_locate_table(void)
 // A file with short, long and very long lines, some of them UTF-8, some broken.
 static char *text_random(size_t size, uint32_t seed)
 {
-    static const char *const pieces[] = {"a", " ", "\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\x80", "\xE2\x82", "\r\n", "\n"};
+    static const char *const pieces[] = {"a",        " ",    "\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\x80",
+                                         "\xE2\x82", "\r\n", "\n"};
     char *text = malloc(size + 8);
     size_t length = 0, rare = 8;
     while (text && length < size) {
@@ -272,6 +275,53 @@ static void test_long_line(void)
     unlink(path.text);
 }
 
+// Sequences that only look like UTF-8 count byte by byte (Unicode 15, table 3-7).
+static void test_columns(void)
+{
+    static const struct {
+        const char *line;
+        uint64_t column;
+    } cases[] = {
+        {"\xC3\xA4|", 2},         {"\xC0\x80|", 3},         {"\xC1\xBF|", 3},         {"\xE0\x9F\xBF|", 4},
+        {"\xE0\xA0\x80|", 2},     {"\xED\x9F\xBF|", 2},     {"\xED\xA0\x80|", 4},     {"\xF0\x8F\xBF\xBF|", 5},
+        {"\xF0\x90\x80\x80|", 2}, {"\xF4\x8F\xBF\xBF|", 2}, {"\xF4\x90\x80\x80|", 5}, {"\xF5\x80\x80\x80|", 5},
+        {"\xE2\x82|", 3},         {"\xE2\xC3\xA4|", 3},     {"\x80\x80|", 3},
+    };
+    SourceMap *map = source_map_new();
+    for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
+        size_t length = strlen(cases[i].line);
+        Source *source = source_open_text(map, "<text>", cases[i].line, length);
+        uint64_t offset = source_base(source) + length - 1;
+        SourceLocation at;
+        tap_ok(source_locate(map, (Span){offset, offset + 1}, &at) && at.column == cases[i].column,
+               "sequence %zu puts the bar into column %ju", i, (uintmax_t)cases[i].column);
+    }
+    source_map_free(map);
+}
+
+// Wherever a long line of characters of 3 bytes is cut, whole characters are left.
+static void test_cuts(void)
+{
+    enum { LENGTH = 3000 };
+    static char line[LENGTH];
+    int broken = 0;
+    for (size_t i = 0; i < LENGTH; i++) {
+        line[i] = "\xE2\x82\xAC"[i % 3];
+    }
+    SourceMap *map = source_map_new();
+    Source *source = source_open_text(map, "<text>", line, LENGTH);
+    for (uint64_t offset = 0; offset <= LENGTH; offset += 3) {
+        SourceLocation at;
+        bool is_found = source_locate(map, (Span){source_base(source) + offset, 0}, &at);
+        const char *first = at.text, *end = at.text + at.text_length;
+        first += is_found && *first == '.' ? 3 : 0;
+        end -= is_found && end[-1] == '.' ? 3 : 0;
+        broken += !is_found || (end - first) % 3 != 0 || (end - first) < 190 || *first != '\xE2' || end[-1] != '\xAC';
+    }
+    tap_ok(broken == 0, "no cut goes through a character");
+    source_map_free(map);
+}
+
 static void test_pipe(void)
 {
     enum { SIZE = 200000 };
@@ -293,7 +343,8 @@ static void test_pipe(void)
     Source *source;
     int error_number;
     SourceLocation at;
-    tap_ok(child > 0 && source_open_file(map, path.text, NO_LIMIT, &source, &error_number) == SOURCE_OK, "a pipe opens");
+    tap_ok(child > 0 && source_open_file(map, path.text, NO_LIMIT, &source, &error_number) == SOURCE_OK,
+           "a pipe opens");
     unlink(path.text);
     tap_ok(read_all(source, back, SIZE + 8, 5000) == SIZE && memcmp(text, back, SIZE) == 0, "and is read whole");
     source_close(source);
@@ -319,8 +370,10 @@ static void test_changed_files(void)
     map = source_map_new();
     is_open = source_open_file(map, path.text, NO_LIMIT, &source, &error_number) == SOURCE_OK;
     unlink(path.text);
-    tap_ok(is_open && !source_locate(map, (Span){1, 2}, &at) && at.line == 0 && at.name, "neither has one that is gone");
-    tap_ok(mkfifo(path.text, 0600) == 0 && !source_locate(map, (Span){1, 2}, &at), "a pipe in its place is not waited for");
+    tap_ok(is_open && !source_locate(map, (Span){1, 2}, &at) && at.line == 0 && at.name,
+           "neither has one that is gone");
+    tap_ok(mkfifo(path.text, 0600) == 0 && !source_locate(map, (Span){1, 2}, &at),
+           "a pipe in its place is not waited for");
     unlink(path.text);
     source_map_free(map);
 }
@@ -363,6 +416,8 @@ int main(void)
     test_locate_random(false);
     test_locate_random(true);
     test_long_line();
+    test_columns();
+    test_cuts();
     test_pipe();
     test_changed_files();
     test_many_includes();

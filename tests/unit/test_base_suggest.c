@@ -59,11 +59,9 @@ static unsigned plain_distance(const char *a, const char *b)
         for (size_t j = 0; j <= columns; j++) {
             unsigned best = i == 0 ? (unsigned)j * 4 : j == 0 ? (unsigned)i * 4 : 1000;
             if (i > 0 && j > 0) {
-                unsigned choices[] = {cells[i - 1][j] + 4, cells[i][j - 1] + 4,
-                                      cells[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 4),
-                                      i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]
-                                          ? cells[i - 2][j - 2] + 3
-                                          : 1000};
+                unsigned choices[] = {
+                    cells[i - 1][j] + 4, cells[i][j - 1] + 4, cells[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 4),
+                    i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] ? cells[i - 2][j - 2] + 3 : 1000};
                 for (size_t k = 0; k < RT_COUNT_OF(choices); k++) {
                     best = choices[k] < best ? choices[k] : best;
                 }
