@@ -1,0 +1,10 @@
+# Grammar: flex and bison sources, seen by others through grammar.h only.
+# SPDX-License-Identifier: MIT
+
+AM_YFLAGS = -d -Wall -Wno-yacc
+noinst_LTLIBRARIES += libgrammar.la
+libgrammar_la_SOURCES = \
+  %D%/grammar.c %D%/grammar.h %D%/lexer.h %D%/lexer.l %D%/parser.y
+# The generated header is included by the two generated files only, so the rule stands here by hand.
+%D%/lexer.lo: %D%/parser.h
+MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

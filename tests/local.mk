@@ -1,0 +1,73 @@
+# Tests: unit programs that link only what their module may use, then scripts that use the programs.
+# SPDX-License-Identifier: MIT
+
+TEST_EXTENSIONS = .sh .py
+TAP_DRIVER = env AM_TAP_AWK='$(AWK)' $(SHELL) $(top_srcdir)/build-aux/tap-driver.sh
+LOG_DRIVER = $(TAP_DRIVER)
+SH_LOG_DRIVER = $(TAP_DRIVER)
+PY_LOG_DRIVER = $(TAP_DRIVER)
+SH_LOG_COMPILER = $(SHELL)
+PY_LOG_COMPILER = $(PYTHON3)
+AM_TESTS_ENVIRONMENT = \
+  RTLANG='$(abs_top_builddir)/rtlang$(EXEEXT)'; export RTLANG; \
+  RTCHECK='$(abs_top_builddir)/rtcheck$(EXEEXT)'; export RTCHECK; \
+  POVRAY='$(POVRAY)'; export POVRAY; \
+  CC='$(CC)'; export CC; \
+  RTLANG_MODULE_DIR='$(abs_top_builddir)/.libs'; export RTLANG_MODULE_DIR; \
+  top_srcdir='$(abs_top_srcdir)'; export top_srcdir; \
+  srcdir='$(abs_srcdir)'; export srcdir;
+
+UNIT_BASE = libbase.la
+UNIT_SCENE = libscene.la libmath.la libbase.la
+UNIT_TRACE = libtrace.la $(UNIT_SCENE)
+UNIT_GRAMMAR = libgrammar.la libast.la libbase.la
+
+unit_programs = \
+  tests/unit/test_base_arena tests/unit/test_base_diag tests/unit/test_base_intern tests/unit/test_base_source \
+  tests/unit/test_base_suggest tests/unit/test_base_text tests/unit/test_math tests/unit/test_trace_sphere \
+  tests/unit/test_trace_geometry tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
+  tests/unit/test_grammar tests/unit/test_image tests/unit/test_render tests/lang/run_lang
+check_PROGRAMS += $(unit_programs)
+
+unit_headers = %D%/unit/tap.h %D%/unit/random.h
+tests_unit_test_base_arena_SOURCES = %D%/unit/test_base_arena.c $(unit_headers)
+tests_unit_test_base_arena_LDADD = $(UNIT_BASE)
+tests_unit_test_base_diag_SOURCES = %D%/unit/test_base_diag.c
+tests_unit_test_base_diag_LDADD = $(UNIT_BASE)
+tests_unit_test_base_intern_SOURCES = %D%/unit/test_base_intern.c
+tests_unit_test_base_intern_LDADD = $(UNIT_BASE)
+tests_unit_test_base_source_SOURCES = %D%/unit/test_base_source.c
+tests_unit_test_base_source_LDADD = $(UNIT_BASE)
+tests_unit_test_base_suggest_SOURCES = %D%/unit/test_base_suggest.c
+tests_unit_test_base_suggest_LDADD = $(UNIT_BASE)
+tests_unit_test_base_text_SOURCES = %D%/unit/test_base_text.c
+tests_unit_test_base_text_LDADD = $(UNIT_BASE)
+tests_unit_test_math_SOURCES = %D%/unit/test_math.c
+tests_unit_test_math_LDADD = libmath.la libbase.la
+tests_unit_test_trace_sphere_SOURCES = %D%/unit/test_trace_sphere.c
+tests_unit_test_trace_sphere_LDADD = $(UNIT_TRACE)
+tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c
+tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
+tests_unit_test_scene_SOURCES = %D%/unit/test_scene.c
+tests_unit_test_scene_LDADD = $(UNIT_SCENE)
+tests_unit_test_schema_SOURCES = %D%/unit/test_schema.c
+tests_unit_test_schema_LDADD = libscene.la libast.la libmath.la libbase.la
+tests_unit_test_ast_SOURCES = %D%/unit/test_ast.c
+tests_unit_test_ast_LDADD = libast.la libbase.la
+tests_unit_test_grammar_SOURCES = %D%/unit/test_grammar.c
+tests_unit_test_grammar_LDADD = $(UNIT_GRAMMAR)
+tests_unit_test_image_SOURCES = %D%/unit/test_image.c
+tests_unit_test_image_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
+tests_unit_test_image_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
+tests_unit_test_render_SOURCES = %D%/unit/test_render.c
+tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
+tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
+tests_lang_run_lang_LDADD = libeval.la libscene.la libgrammar.la libast.la libmath.la libbase.la
+
+test_scripts = \
+  %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.sh %D%/check-docs.py \
+  %D%/golden/check_golden.py %D%/system/run_system.sh %D%/povray/check_pictures.py %D%/povray/check_lang.py \
+  %D%/povray/check_colors.py %D%/povray/check_exporters.py
+
+TESTS += $(unit_programs) $(test_scripts)
+EXTRA_DIST += $(test_scripts) %D%/lang %D%/golden %D%/system %D%/povray %D%/unit
