@@ -8,16 +8,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum { TRACE_LEVEL_MAX = 256 }; // the language's own limit of max_trace_level
+
 typedef struct Limits {
-    unsigned ast_depth;        // nesting of expressions and blocks
-    unsigned include_depth;    // nesting of #include
-    unsigned call_depth;       // nesting of macro calls
-    uint64_t steps;            // loop turns and macro calls, all together
-    uint64_t objects;          // shapes in the scene
-    uint64_t text_bytes;       // bytes of scene text, all files together
-    size_t arena_bytes;        // memory of each arena
-    uint64_t pixels;           // width times height
-    unsigned trace_level;      // the greatest max_trace_level
+    unsigned ast_depth;     // nesting of expressions and blocks
+    unsigned include_depth; // nesting of #include
+    unsigned call_depth;    // nesting of macro calls
+    uint64_t steps;         // loop turns and macro calls, all together
+    uint64_t objects;       // shapes in the scene
+    uint64_t text_bytes;    // bytes of scene text, all files together
+    size_t arena_bytes;     // memory of each arena
+    uint64_t pixels;        // width times height
 } Limits;
 
 #define LIMITS_DEFAULT                                                                                                 \
@@ -30,7 +31,6 @@ typedef struct Limits {
         .text_bytes = (uint64_t)64 << 30,                                                                              \
         .arena_bytes = (size_t)8 << 30,                                                                                \
         .pixels = (uint64_t)1 << 30,                                                                                   \
-        .trace_level = 256,                                                                                            \
     })
 
 #endif

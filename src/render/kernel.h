@@ -1,0 +1,38 @@
+// Kernels: the inner loop, instantiated for sets of features; the smallest that covers a scene traces it.
+//
+// A feature that a scene lacks is not tested for at run time, it is not there: the loop is one always-inline function
+// that takes its features as a constant (render/shade.h).
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_KERNEL_H
+#define RENDER_KERNEL_H
+
+#include "render/render.h"
+#include "trace/trace.h"
+
+// Beside the TraceFeature bits, which stand below.
+typedef enum RenderFeature {
+    RENDER_SHADOWS = 1 << 8,       // some light casts shadows
+    RENDER_HIGHLIGHTS = 1 << 9,    // phong or specular
+    RENDER_BRILLIANCE = 1 << 10,   // brilliance other than 1, or light from behind
+    RENDER_REFLECTION = 1 << 11,
+    RENDER_TRANSPARENCY = 1 << 12, // filter or transmit, in shadows too
+    RENDER_EXPONENT = 1 << 13,     // reflected light raised to a power
+    RENDER_ALL_FEATURES = 0x3f << 8,
+} RenderFeature;
+
+// Pixels left <= x < right, top <= y < bottom.
+typedef struct Tile {
+    int left, top, right, bottom;
+} Tile;
+
+typedef struct Kernel {
+    const char *name;
+    unsigned features;
+    void (*trace)(const Prepared *prepared, Tile tile, Film *film, RenderStatistics *statistics);
+} Kernel;
+
+// The kernel with the fewest features that has all of these; the last one has all there are.
+const Kernel *kernel_choose(unsigned features);
+
+#endif

@@ -1,0 +1,326 @@
+// Light along one ray: what is hit, how it shines, and the rays that go on from there.
+//
+// Everything here is always-inline and takes the kernel's features as a constant. The lighting model is the scene
+// language's, as its manual describes it and as measured against it; docs/language.md, "Lighting model", has the formulas.
+// Reflected and transmitted rays wait in a small stack with the weight of what they will add, so that no recursion is
+// needed and the order of additions is fixed.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SHADE_H
+#define RENDER_SHADE_H
+
+#include "base/attributes.h"
+#include "base/limits.h"
+#include "render/kernel.h"
+#include "render/prepared.h"
+#include "trace/query.h"
+
+// A ray that is still to be traced, or (closes) the end of one whose light is raised to a power before it is added.
+typedef struct PendingRay {
+    Ray ray;
+    RayStart start;
+    Rgb share;       // what its light is multiplied with
+    double weight;   // what decides whether it is worth tracing: greatest components of all shares multiplied
+    int level;       // 1 for camera rays; one more after each reflection
+    uint64_t passed; // surfaces gone through since the last reflection
+    double exponent; // closes: of the light; else unused
+    bool closes;
+} PendingRay;
+
+// Depth first, each level leaves at most one transmitted ray and one closing entry behind.
+enum { PENDING_MAX = 2 * TRACE_LEVEL_MAX + 4 };
+
+// The rays that wait, and the sums of light that are open: one, and one more for each ray with an exponent.
+typedef struct Pending {
+    int count, open;
+    PendingRay rays[PENDING_MAX];
+    Rgb sums[TRACE_LEVEL_MAX + 1];
+} Pending;
+
+// A point being shaded. `normal` is turned towards the viewer, `outward` is the shape's own.
+typedef struct ShadePoint {
+    Vec3 point, normal, outward;
+    Vec3 direction; // of the ray that found it
+    ShapeId shape;
+    bool inside;
+} ShadePoint;
+
+// base^exponent, by multiplications for whole exponents, so that the bits do not depend on a machine's pow.
+RT_ALWAYS_INLINE double shade_power(double base, double exponent)
+{
+    if (exponent == 1.0) {
+        return base;
+    }
+    if (!(exponent >= 0.0 && exponent <= 4096.0 && exponent == (double)(int)exponent)) {
+        return pow(base, exponent);
+    }
+    double result = 1.0;
+    for (unsigned n = (unsigned)exponent; n; n >>= 1, base *= base) {
+        if (n & 1) {
+            result *= base;
+        }
+    }
+    return result;
+}
+
+// The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
+// multiplies it, the first that does not ends it.
+RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, Ray ray, RayStart start, double t_max)
+{
+    Rgb share = rgb_grey(1.0);
+    Hit hit;
+    for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
+        Surface surface = geometry_surface(p->geometry, features, ray, hit);
+        const PreparedMaterial *material = &p->materials[surface.material];
+        if (!material->lets_through || passed > p->crossings_max) {
+            return rgb_grey(0.0);
+        }
+        share = rgb_mul(share, material->through);
+        ray.origin = surface.point;
+        t_max -= hit.t;
+        start = (RayStart){hit.shape, !hit.inside};
+    }
+    return share;
+}
+
+// The share of the light that reaches the point, by colour.
+RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadePoint *at, Vec3 towards,
+                                      double distance, RenderStatistics *statistics)
+{
+    Ray ray = {at->point, towards};
+    RayStart start = {at->shape, vec3_dot(at->outward, towards) < 0.0};
+    statistics->shadow_rays++;
+    if (features & RENDER_TRANSPARENCY) {
+        return shade_light_through(p, features, ray, start, distance);
+    }
+    return rgb_grey(geometry_occluded(p->geometry, features, ray, start, distance) ? 0.0 : 1.0);
+}
+
+// Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
+RT_ALWAYS_INLINE double shade_highlights(const PreparedMaterial *material, const ShadePoint *at, Vec3 towards)
+{
+    double sum = 0.0;
+    if (material->phong > 0.0) {
+        double cosine = vec3_dot(vec3_reflect(at->direction, at->normal), towards);
+        if (cosine > 0.0) {
+            sum += material->phong * shade_power(cosine, material->phong_size);
+        }
+    }
+    if (material->specular > 0.0) {
+        Vec3 halfway = vec3_sub(towards, at->direction);
+        double cosine = vec3_dot(halfway, at->normal) / vec3_length(halfway);
+        if (cosine > 0.0) {
+            sum += material->specular * shade_power(cosine, material->shininess);
+        }
+    }
+    return sum;
+}
+
+// The share of the pigment in a metallic highlight falls with the light's angle x (in right angles) to the normal as 1 - F,
+// F being the Fresnel curve of P. Strauss, "A Realistic Lighting Model for Computer Animators", IEEE CG&A 10(6), 1990:
+// F(x) = (1 / (x - k)² - 1 / k²) / (1 / (1 - k)² - 1 / k²) with k = 1.12. Renderings agree with it to 1/65535.
+RT_ALWAYS_INLINE Rgb shade_metallic(double metallic, Rgb pigment, double cosine)
+{
+    const double k = 1.12;
+    const double at_normal = 1.0 / (k * k), at_grazing = 1.0 / ((1.0 - k) * (1.0 - k));
+    double x = acos(fmin(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
+    double fresnel = (1.0 / ((x - k) * (x - k)) - at_normal) / (at_grazing - at_normal);
+    double share = metallic * (1.0 - fresnel);
+    return rgb(1.0 + share * (pigment.red - 1.0), 1.0 + share * (pigment.green - 1.0),
+               1.0 + share * (pigment.blue - 1.0));
+}
+
+// What one light adds at a point: diffuse on the side it stands on, highlights on the viewer's side only.
+RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const PreparedMaterial *material,
+                                 const PreparedLight *light, const ShadePoint *at, RenderStatistics *statistics)
+{
+    Vec3 offset = vec3_sub(light->position, at->point);
+    double distance = light->parallel ? vec3_dot(offset, light->towards) : vec3_length(offset);
+    Vec3 towards = light->parallel ? light->towards : vec3_scale(1.0 / distance, offset);
+    double cosine = vec3_dot(at->normal, towards);
+    bool front = cosine > 0.0;
+    bool back = (features & RENDER_BRILLIANCE) && cosine < 0.0 && material->scatters_back;
+    if (!(front || back)) {
+        return rgb_grey(0.0);
+    }
+    Rgb arriving = light->colour;
+    // Beyond the plane of a parallel light nothing throws a shadow.
+    if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
+        Rgb share = shade_visibility(p, features, at, towards, distance, statistics);
+        if (rgb_is_black(share)) {
+            return share;
+        }
+        arriving = rgb_mul(arriving, share);
+    }
+    double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), material->brilliance) : cosine;
+    Rgb sum = rgb_scale(falloff, back ? material->diffuse_back : material->diffuse);
+    if ((features & RENDER_HIGHLIGHTS) && material->shines && front && !light->shadowless) {
+        double shine = shade_highlights(material, at, towards);
+        Rgb tint = material->metallic > 0.0 ? shade_metallic(material->metallic, material->pigment, cosine)
+                                            : rgb_grey(1.0);
+        sum = rgb_add_scaled(sum, shine, tint);
+    }
+    return rgb_mul(sum, arriving);
+}
+
+// The reflected share at an angle with cosine N·V.
+RT_ALWAYS_INLINE Rgb shade_reflectance(const PreparedMaterial *material, double cosine)
+{
+    double grazing = shade_power(fmax(1.0 - cosine, 0.0), material->reflection_falloff);
+    Rgb span = rgb_add_scaled(material->reflection_max, -1.0, material->reflection_min);
+    Rgb share = rgb_add_scaled(material->reflection_min, grazing, span);
+    if (material->reflection_metallic > 0.0) {
+        share = rgb_mul(share, shade_metallic(material->reflection_metallic, material->pigment, cosine));
+    }
+    return share;
+}
+
+RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
+{
+    return rgb(shade_power(light.red, exponent), shade_power(light.green, exponent),
+               shade_power(light.blue, exponent));
+}
+
+// The mirrored ray, unless it is too deep or worth too little. The angle does not enter its weight.
+RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const PreparedMaterial *material,
+                                    const ShadePoint *at, const PendingRay *from, Rgb reflectance, Pending *pending)
+{
+    double weight = from->weight * material->reflection_weight;
+    if (from->level >= p->max_trace_level || weight < p->adc_bailout) {
+        return;
+    }
+    PendingRay ray = {
+        .ray = {at->point, vec3_normalize(vec3_reflect(at->direction, at->normal))},
+        .start = {at->shape, at->inside},
+        .share = rgb_mul(from->share, reflectance),
+        .weight = weight,
+        .level = from->level + 1,
+    };
+    if ((features & RENDER_EXPONENT) && material->reflection_exponent != 1.0) {
+        PendingRay end = {.share = ray.share, .exponent = 1.0 / material->reflection_exponent, .closes = true};
+        pending->rays[pending->count++] = end;
+        pending->sums[++pending->open] = rgb_grey(0.0);
+        ray.share = rgb_grey(1.0);
+    }
+    pending->rays[pending->count++] = ray;
+}
+
+// The ray that goes straight on. It stays on its level; what bounds it is that a line meets only so many surfaces.
+RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const PreparedMaterial *material, const ShadePoint *at,
+                                     const PendingRay *from, Rgb reflectance, Pending *pending)
+{
+    Rgb through = material->through;
+    if (material->conserves_energy) {
+        through = rgb_mul(through, rgb_add_scaled(rgb_grey(1.0), -1.0, reflectance));
+    }
+    double grey = 0.297 * through.red + 0.589 * through.green + 0.114 * through.blue;
+    double weight = from->weight * rgb_max(through);
+    if (from->level >= p->max_trace_level || grey < p->adc_bailout || weight < p->adc_bailout ||
+        from->passed >= p->crossings_max) {
+        return;
+    }
+    pending->rays[pending->count++] = (PendingRay){
+        .ray = {at->point, at->direction},
+        .start = {at->shape, !at->inside},
+        .share = rgb_mul(from->share, through),
+        .weight = weight,
+        .level = from->level,
+        .passed = from->passed + 1,
+    };
+}
+
+// What a hit adds by itself: its glow and what the lights make of it.
+RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const PreparedMaterial *material,
+                                 const ShadePoint *at, RenderStatistics *statistics)
+{
+    Rgb light = material->glow;
+    for (size_t i = 0; i < p->light_count; i++) {
+        light = rgb_add(light, shade_light(p, features, material, &p->lights[i], at, statistics));
+    }
+    return light;
+}
+
+// The rays that go on from a hit; the reflected one will be traced first.
+RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const PreparedMaterial *material,
+                                  const ShadePoint *at, const PendingRay *from, Pending *pending,
+                                  RenderStatistics *statistics)
+{
+    Rgb reflectance = rgb_grey(0.0);
+    if ((features & RENDER_REFLECTION) && material->reflects) {
+        reflectance = shade_reflectance(material, -vec3_dot(at->normal, at->direction));
+    }
+    int before = pending->count;
+    if ((features & RENDER_TRANSPARENCY) && material->lets_through) {
+        shade_transmit(p, material, at, from, reflectance, pending);
+        statistics->transmitted_rays += (uint64_t)(pending->count - before);
+    }
+    before = pending->count;
+    if ((features & RENDER_REFLECTION) && material->reflects) {
+        shade_reflect(p, features, material, at, from, reflectance, pending);
+        statistics->reflected_rays += pending->count > before;
+    }
+}
+
+// Finds what a ray hits; false when it meets nothing.
+RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, ShadePoint *at,
+                                 const PreparedMaterial **material)
+{
+    Hit hit;
+    if (!geometry_closest(p->geometry, features, now->ray, now->start, (double)INFINITY, &hit)) {
+        return false;
+    }
+    Surface surface = geometry_surface(p->geometry, features, now->ray, hit);
+    Vec3 normal = hit.inside ? vec3_neg(surface.normal) : surface.normal;
+    *material = &p->materials[surface.material];
+    *at = (ShadePoint){surface.point, normal, surface.normal, now->ray.direction, hit.shape, hit.inside};
+    return true;
+}
+
+// Adds a ray's light to the sum that is open.
+RT_ALWAYS_INLINE void pending_add(Pending *pending, const PendingRay *ray, Rgb light)
+{
+    Rgb *sum = &pending->sums[pending->open];
+    *sum = rgb_add(*sum, rgb_mul(ray->share, light));
+}
+
+// The light that one camera ray brings back, where rays may go on.
+RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const PendingRay *first,
+                                RenderStatistics *statistics)
+{
+    Pending pending;
+    pending.count = 1;
+    pending.open = 0;
+    pending.rays[0] = *first;
+    pending.sums[0] = rgb_grey(0.0);
+    while (pending.count > 0) {
+        PendingRay now = pending.rays[--pending.count];
+        ShadePoint at;
+        const PreparedMaterial *material;
+        if ((features & RENDER_EXPONENT) && now.closes) {
+            Rgb light = shade_rgb_power(pending.sums[pending.open--], now.exponent);
+            pending_add(&pending, &now, light);
+        } else if (shade_find(p, features, &now, &at, &material)) {
+            // Its own light first: a reflected ray may open a sum of its own.
+            pending_add(&pending, &now, shade_local(p, features, material, &at, statistics));
+            shade_go_on(p, features, material, &at, &now, &pending, statistics);
+        } else {
+            pending_add(&pending, &now, p->background);
+        }
+    }
+    return pending.sums[0];
+}
+
+// The light that one camera ray brings back.
+RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, RenderStatistics *statistics)
+{
+    PendingRay first = {.ray = ray, .start = RAY_START_FREE, .share = rgb_grey(1.0), .weight = 1.0, .level = 1};
+    if (features & (RENDER_REFLECTION | RENDER_TRANSPARENCY)) {
+        return shade_path(p, features, &first, statistics);
+    }
+    ShadePoint at;
+    const PreparedMaterial *material;
+    return shade_find(p, features, &first, &at, &material) ? shade_local(p, features, material, &at, statistics)
+                                                           : p->background;
+}
+
+#endif
