@@ -70,4 +70,5 @@ test_scripts = \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py
 
 TESTS += $(unit_programs) $(test_scripts)
+AM_CPPFLAGS += -I$(srcdir)/tests
 EXTRA_DIST += $(test_scripts) %D%/lang %D%/golden %D%/system %D%/povray %D%/unit

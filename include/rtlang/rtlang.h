@@ -1,0 +1,129 @@
+/* rtlang: read a scene in the rtlang language, trace it, write the picture.
+ *
+ * The pipeline is rt_session_new, rt_load_file, rt_render, rt_write. All functions may be called from any thread, one
+ * thread at a time per session. The library never prints and never exits: messages go to the callbacks of the session.
+ * Nothing here depends on the locale.
+ *
+ * SPDX-License-Identifier: MIT
+ */
+#ifndef RTLANG_H
+#define RTLANG_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define RT_API __attribute__((visibility("default")))
+#else
+#define RT_API
+#endif
+
+/* The result of a call; also the exit code of the program rtlang. */
+typedef enum rt_status {
+    RT_OK = 0,
+    RT_FAULT_SCENE = 1, /* the scene is wrong; diagnostics say where */
+    RT_FAULT_USAGE = 2, /* an argument is out of range or a call out of order */
+    RT_FAULT_IO = 3,    /* a file could not be read or written */
+    RT_FAULT_LIMIT = 4, /* memory or another limit is exhausted */
+    RT_CANCELLED = 5    /* rt_cancel was called */
+} rt_status;
+
+typedef enum rt_severity { RT_WARNING, RT_ERROR } rt_severity;
+
+/* One message about the scene or the run. All pointers are valid during the callback only. */
+typedef struct rt_diagnostic {
+    rt_severity severity;
+    const char *code;    /* "E0201" */
+    const char *message; /* one line */
+    const char *file;    /* NULL when the message belongs to no place */
+    uint64_t line;       /* from 1; 0 when unknown */
+    uint64_t column;     /* from 1, in characters */
+    const char *text;    /* the whole printable form: location, source line, caret, notes, help; ends with a newline */
+} rt_diagnostic;
+
+/* What the scene itself says with #debug, #warning, #error, #render and #statistics. */
+typedef enum rt_stream {
+    RT_STREAM_DEBUG,
+    RT_STREAM_WARNING,
+    RT_STREAM_ERROR,
+    RT_STREAM_RENDER,
+    RT_STREAM_STATISTICS
+} rt_stream;
+
+/* Callbacks; each may be NULL. `client` is handed back. */
+typedef struct rt_callbacks {
+    void *client;
+    void (*diagnostic)(void *client, const rt_diagnostic *diagnostic);
+    void (*message)(void *client, rt_stream stream, const char *text, size_t length);
+    void (*progress)(void *client, double done); /* 0 to 1, while rendering, from one thread at a time */
+} rt_callbacks;
+
+typedef struct rt_session rt_session;
+
+/* Version of the library, "1.0.0". */
+RT_API const char *rt_version(void);
+
+/* A new session, or NULL when out of memory. The callbacks are copied. */
+RT_API rt_session *rt_session_new(const rt_callbacks *callbacks);
+RT_API void rt_session_free(rt_session *session);
+
+/* Settings; call before rt_load_*. */
+RT_API rt_status rt_add_include_path(rt_session *session, const char *folder);
+/* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
+RT_API rt_status rt_declare(rt_session *session, const char *name_value);
+/* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height.
+ * Default 320 x 240. */
+RT_API rt_status rt_set_size(rt_session *session, int width, int height);
+
+/* Read and evaluate a scene: the first step. A session loads one scene. */
+RT_API rt_status rt_load_file(rt_session *session, const char *path);
+RT_API rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length);
+
+/* Printable forms of each stage. Tokens and AST are made from a file that need not be a whole scene; the dump of the
+ * scene needs rt_load_*. AST and scene are valid scene text again. *text is valid until the next call on the session, and
+ * is set also when there were faults: it then holds what could be read. */
+typedef enum rt_syntax { RT_SYNTAX_TOKENS, RT_SYNTAX_AST } rt_syntax;
+RT_API rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path, const char **text);
+RT_API rt_status rt_dump_scene(rt_session *session, const char **text);
+
+/* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
+RT_API rt_status rt_render(rt_session *session, int threads);
+/* Makes a running rt_render stop soon. The only call that may be made from another thread or a signal handler. */
+RT_API void rt_cancel(rt_session *session);
+
+/* How the picture is written. */
+typedef enum rt_depth { RT_DEPTH_8 = 8, RT_DEPTH_16 = 16, RT_DEPTH_FLOAT = 32 } rt_depth;
+typedef struct rt_output {
+    rt_depth depth;
+    double file_gamma; /* 0: sRGB; otherwise the power, 1 writes linear values */
+} rt_output;
+
+/* Whether a picture could be written to this path, asked before a long run. */
+RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output);
+/* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. */
+RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
+
+/* The rendered picture: width * height * 3 floats (red, green, blue) from the top row, in linear light, not clamped; of a
+ * scene that says nothing of gamma (docs/language.md, "Gamma"), the values as they are stored in the file. Valid until
+ * the session is freed; NULL before rt_render. */
+RT_API const float *rt_pixels(const rt_session *session, int *width, int *height);
+
+/* What was done and how long it took. */
+typedef struct rt_summary {
+    int width, height;
+    uint64_t objects, lights;
+    uint64_t camera_rays, shadow_rays, reflected_rays, transmitted_rays;
+    double parse_seconds, prepare_seconds, trace_seconds, write_seconds; /* wall time */
+    uint64_t errors, warnings;
+    const char *kernel; /* name of the kernel that traced the picture, "" before rt_render */
+} rt_summary;
+RT_API void rt_get_summary(const rt_session *session, rt_summary *summary);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

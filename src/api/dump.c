@@ -1,0 +1,48 @@
+// Printable forms of the stages: tokens and AST of a text, records of a scene.
+//
+// SPDX-License-Identifier: MIT
+#include "api/session.h"
+#include "ast/ast.h"
+#include "grammar/grammar.h"
+
+typedef struct AstDump {
+    const InternTable *names;
+    TextBuffer *out;
+} AstDump;
+
+static bool print_item(void *client, const AstNode *item)
+{
+    AstDump *dump = client;
+    ast_print(item, dump->names, 0, dump->out);
+    return !dump->out->failed;
+}
+
+rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path, const char **text)
+{
+    Source *source;
+    text_clear(&session->dump);
+    *text = text_get(&session->dump);
+    if (!session_open(session, path, &source))
+        return session_status(session, false);
+    Arena arena;
+    arena_init(&arena, session->limits.arena_bytes);
+    GrammarContext context = {session->names, &arena, &session->diags, &session->limits};
+    AstDump dump = {session->names, &session->dump};
+    bool fine = stage == RT_SYNTAX_TOKENS ? grammar_dump_tokens(&context, source, session->sources, &session->dump)
+                                          : grammar_parse(&context, source, print_item, &dump);
+    source_close(source);
+    arena_fini(&arena);
+    *text = text_get(&session->dump);
+    return session_status(session, fine && !session->dump.failed);
+}
+
+rt_status rt_dump_scene(rt_session *session, const char **text)
+{
+    text_clear(&session->dump);
+    *text = text_get(&session->dump);
+    if (!session->loaded)
+        return RT_FAULT_USAGE;
+    scene_dump(&session->scene, &session->dump);
+    *text = text_get(&session->dump);
+    return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;
+}

@@ -1,0 +1,372 @@
+// The public interface: the pipeline from a scene's text to a picture file, one step a function.
+//
+// Owns everything of a session. Each step leaves its result in the session; messages go to the client's callbacks.
+// Knows nothing of command lines, and never prints or exits.
+//
+// SPDX-License-Identifier: MIT
+#include "api/session.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "ast/words.h"
+#include "base/number.h"
+#include "image/image.h"
+
+#ifndef PACKAGE_VERSION
+#error "PACKAGE_VERSION comes from configure"
+#endif
+
+enum { WIDTH_DEFAULT = 320, HEIGHT_DEFAULT = 240, SIZE_MAX_PIXELS = 65535 };
+
+double session_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+const char *rt_version(void)
+{
+    return PACKAGE_VERSION;
+}
+
+rt_session *rt_session_new(const rt_callbacks *callbacks)
+{
+    rt_session *session = calloc(1, sizeof *session);
+    if (!session)
+        return NULL;
+    if (callbacks)
+        session->callbacks = *callbacks;
+    session->limits = LIMITS_DEFAULT;
+    session->width = WIDTH_DEFAULT;
+    session->height = HEIGHT_DEFAULT;
+    session->kernel = "";
+    scene_init(&session->scene);
+    text_init(&session->dump);
+    session->sources = source_map_new();
+    session->names = intern_new(session->limits.arena_bytes);
+    diag_init(&session->diags, session->sources);
+    if (!session->sources || !session->names || !words_intern(session->names)) {
+        rt_session_free(session);
+        return NULL;
+    }
+    return session;
+}
+
+void rt_session_free(rt_session *session)
+{
+    if (!session)
+        return;
+    for (size_t i = 0; i < session->include_paths.count; i++)
+        free(session->include_paths.items[i]);
+    for (size_t i = 0; i < session->declarations.count; i++)
+        free((char *)session->declarations.items[i].name);
+    ARRAY_FREE(&session->include_paths);
+    ARRAY_FREE(&session->declarations);
+    film_fini(&session->film);
+    scene_fini(&session->scene);
+    diag_fini(&session->diags);
+    text_fini(&session->dump);
+    intern_free(session->names);
+    source_map_free(session->sources);
+    free(session);
+}
+
+// ---- settings
+
+rt_status rt_add_include_path(rt_session *session, const char *folder)
+{
+    char *copy = strdup(folder);
+    if (!copy || !ARRAY_PUSH(&session->include_paths, copy)) {
+        free(copy);
+        return RT_FAULT_LIMIT;
+    }
+    return RT_OK;
+}
+
+static bool is_declared(const rt_session *session, const char *name)
+{
+    for (size_t i = 0; i < session->declarations.count; i++)
+        if (strcmp(session->declarations.items[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+// An identifier of the language that is not reserved.
+static bool is_identifier(const rt_session *session, const char *name, size_t length)
+{
+    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    return length > 0 && strspn(name, allowed) >= length && !(name[0] >= '0' && name[0] <= '9') &&
+           word_class(intern_find(session->names, name, length)) == WORD_IDENTIFIER;
+}
+
+rt_status rt_declare(rt_session *session, const char *name_value)
+{
+    const char *equals = strchr(name_value, '=');
+    if (!equals || !is_identifier(session, name_value, (size_t)(equals - name_value)))
+        return RT_FAULT_USAGE;
+    const char *digits = equals + 1;
+    bool negative = *digits == '-';
+    digits += negative || *digits == '+';
+    double value;
+    if (number_parse(digits, strlen(digits), &value) != NUMBER_OK)
+        return RT_FAULT_USAGE;
+    char *name = strndup(name_value, (size_t)(equals - name_value));
+    if (!name)
+        return RT_FAULT_LIMIT;
+    EvalDeclaration declaration = {.name = name, .number = negative ? -value : value};
+    if (is_declared(session, name)) {
+        free(name);
+        return RT_OK;
+    }
+    if (!ARRAY_PUSH(&session->declarations, declaration)) {
+        free(name);
+        return RT_FAULT_LIMIT;
+    }
+    return RT_OK;
+}
+
+rt_status rt_set_size(rt_session *session, int width, int height)
+{
+    if (width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS)
+        return RT_FAULT_USAGE;
+    session->width = width;
+    session->height = height;
+    return RT_OK;
+}
+
+// ---- the scene
+
+bool session_open(rt_session *session, const char *path, Source **source)
+{
+    int error_number = 0;
+    SourceResult result =
+        source_open_file(session->sources, path, session->limits.text_bytes, source, &error_number);
+    switch (result) {
+    case SOURCE_OK:
+        return true;
+    case SOURCE_NOT_FOUND:
+        diag_report(&session->diags, DIAG_E0501, SPAN_NONE, "scene file `%s` not found", path);
+        break;
+    case SOURCE_NOT_READABLE:
+        diag_report(&session->diags, DIAG_E0502, SPAN_NONE, "cannot read `%s`: %s", path, strerror(error_number));
+        break;
+    case SOURCE_IS_DIRECTORY:
+        diag_report(&session->diags, DIAG_E0503, SPAN_NONE, "`%s` is a directory, not a scene", path);
+        break;
+    case SOURCE_TOO_LARGE:
+        diag_report(&session->diags, DIAG_E0504, SPAN_NONE, "`%s` is larger than %llu bytes", path,
+                    (unsigned long long)session->limits.text_bytes);
+        break;
+    case SOURCE_NO_MEMORY:
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", path);
+        break;
+    }
+    return false;
+}
+
+static void forward_message(void *client, EvalStream stream, const char *text, size_t length)
+{
+    static const rt_stream streams[] = {
+        [EVAL_STREAM_DEBUG] = RT_STREAM_DEBUG,           [EVAL_STREAM_WARNING] = RT_STREAM_WARNING,
+        [EVAL_STREAM_ERROR] = RT_STREAM_ERROR,           [EVAL_STREAM_RENDER] = RT_STREAM_RENDER,
+        [EVAL_STREAM_STATISTICS] = RT_STREAM_STATISTICS,
+    };
+    rt_session *session = client;
+    if (session->callbacks.message)
+        session->callbacks.message(session->callbacks.client, streams[stream], text, length);
+}
+
+static rt_status load(rt_session *session, Source *source, double start)
+{
+    EvalOptions options = {
+        .sources = session->sources,
+        .names = session->names,
+        .diags = &session->diags,
+        .limits = &session->limits,
+        .include_paths = (const char *const *)session->include_paths.items,
+        .include_path_count = session->include_paths.count,
+        .declarations = session->declarations.items,
+        .declaration_count = session->declarations.count,
+        .image_width = session->width,
+        .image_height = session->height,
+        .message = forward_message,
+        .client = session,
+    };
+    bool fine = eval_source(&options, source, &session->scene) && scene_validate(&session->scene, &session->diags);
+    source_close(source);
+    session->loaded = fine;
+    session->parse_seconds = session_clock() - start;
+    return session_status(session, fine);
+}
+
+rt_status rt_load_file(rt_session *session, const char *path)
+{
+    double start = session_clock();
+    Source *source;
+    if (session->loaded)
+        return RT_FAULT_USAGE;
+    if (!session_open(session, path, &source))
+        return session_status(session, false);
+    return load(session, source, start);
+}
+
+rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length)
+{
+    double start = session_clock();
+    if (session->loaded)
+        return RT_FAULT_USAGE;
+    Source *source = source_open_text(session->sources, name, text, length);
+    return source ? load(session, source, start) : RT_FAULT_LIMIT;
+}
+
+// ---- the picture
+
+static void forward_progress(void *client, double done)
+{
+    rt_session *session = client;
+    session->callbacks.progress(session->callbacks.client, done);
+}
+
+// The film from the scene's working space to linear light. Legacy files stay as they are.
+static void film_to_linear(const Settings *settings, Film *film)
+{
+    size_t count = (size_t)film->width * (size_t)film->height * 3;
+    if (settings->gamma_model != GAMMA_POWER && settings->gamma_model != GAMMA_SRGB)
+        return;
+    for (size_t i = 0; i < count; i++) {
+        double value = fmax(film->rgb[i], 0.0);
+        film->rgb[i] = (float)(settings->gamma_model == GAMMA_SRGB ? rgb_srgb_decode(value)
+                                                                   : pow(value, settings->assumed_gamma));
+    }
+}
+
+rt_status rt_render(rt_session *session, int threads)
+{
+    if (!session->loaded || session->rendered || threads < 0)
+        return RT_FAULT_USAGE;
+    double start = session_clock();
+    Prepared *prepared = prepared_new(&session->scene);
+    if (!prepared || !film_init(&session->film, session->width, session->height)) {
+        prepared_free(prepared);
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
+        return session_status(session, false);
+    }
+    session->kernel = prepared_kernel_name(prepared);
+    session->prepare_seconds = session_clock() - start;
+    start = session_clock();
+    RenderOptions options = {
+        .threads = threads ? threads : render_default_threads(),
+        .progress = session->callbacks.progress ? forward_progress : NULL,
+        .client = session,
+        .cancel = &session->cancel,
+    };
+    RenderResult result = render_film(prepared, &options, &session->film, &session->statistics);
+    prepared_free(prepared);
+    if (result == RENDER_OK)
+        film_to_linear(&session->scene.settings, &session->film);
+    session->trace_seconds = session_clock() - start;
+    session->rendered = result == RENDER_OK;
+    if (result == RENDER_CANCELLED)
+        return RT_CANCELLED;
+    if (result == RENDER_NO_MEMORY)
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory rendering");
+    return session_status(session, result == RENDER_OK);
+}
+
+void rt_cancel(rt_session *session)
+{
+    atomic_store(&session->cancel, true);
+}
+
+static rt_status image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
+{
+    static const struct {
+        DiagCode code;
+        const char *message;
+    } faults[] = {
+        [IMAGE_NO_MEMORY] = {DIAG_E0602, "out of memory writing"},
+        [IMAGE_UNKNOWN_FORMAT] = {DIAG_E0701, "the file name's ending says no known picture format:"},
+        [IMAGE_BAD_DEPTH] = {DIAG_E0702, "this format does not have the wanted depth:"},
+        [IMAGE_NO_MODULE] = {DIAG_E0507, "the OpenImageIO module is needed and cannot be loaded for"},
+        [IMAGE_IO] = {DIAG_E0505, "cannot write"},
+        [IMAGE_NOT_A_PICTURE] = {DIAG_E0505, "cannot write"},
+        [IMAGE_TOO_LARGE] = {DIAG_E0505, "cannot write"},
+    };
+    if (status == IMAGE_OK)
+        return session_status(session, true);
+    diag_report(&session->diags, faults[status].code, SPAN_NONE, "%s `%s`%s%s", faults[status].message, path,
+                error->detail[0] ? ": " : "", error->detail);
+    return session_status(session, false);
+}
+
+static bool is_output(const rt_output *output)
+{
+    return (output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 || output->depth == RT_DEPTH_FLOAT) &&
+           output->file_gamma >= 0.0 && isfinite(output->file_gamma);
+}
+
+static ImageDepth output_depth(const rt_output *output)
+{
+    return output->depth == RT_DEPTH_8 ? IMAGE_DEPTH_8 : output->depth == RT_DEPTH_16 ? IMAGE_DEPTH_16 : IMAGE_DEPTH_FLOAT;
+}
+
+rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
+{
+    ImageError error = {""};
+    if (!is_output(output))
+        return RT_FAULT_USAGE;
+    return image_fault(session, image_check_path(path, output_depth(output), &error), path, &error);
+}
+
+rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
+{
+    if (!session->rendered || !is_output(output))
+        return RT_FAULT_USAGE;
+    double start = session_clock();
+    ImageError error = {""};
+    Image image = {session->film.width, session->film.height, 3, session->film.rgb};
+    ImageEncoding encoding = {
+        .depth = output_depth(output),
+        .transfer = output->file_gamma > 0.0 ? IMAGE_TRANSFER_POWER : IMAGE_TRANSFER_SRGB,
+        .gamma = output->file_gamma,
+        .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,
+    };
+    ImageStatus status = image_write(&image, &encoding, path, &error);
+    session->write_seconds = session_clock() - start;
+    return image_fault(session, status, path, &error);
+}
+
+const float *rt_pixels(const rt_session *session, int *width, int *height)
+{
+    if (!session->rendered)
+        return NULL;
+    *width = session->film.width;
+    *height = session->film.height;
+    return session->film.rgb;
+}
+
+void rt_get_summary(const rt_session *session, rt_summary *summary)
+{
+    *summary = (rt_summary){
+        .width = session->width,
+        .height = session->height,
+        .objects = session->scene.shape_count,
+        .lights = session->scene.lights.count,
+        .camera_rays = session->statistics.camera_rays,
+        .shadow_rays = session->statistics.shadow_rays,
+        .reflected_rays = session->statistics.reflected_rays,
+        .transmitted_rays = session->statistics.transmitted_rays,
+        .parse_seconds = session->parse_seconds,
+        .prepare_seconds = session->prepare_seconds,
+        .trace_seconds = session->trace_seconds,
+        .write_seconds = session->write_seconds,
+        .errors = session->diags.error_count,
+        .warnings = session->diags.warning_count,
+        .kernel = session->kernel,
+    };
+}

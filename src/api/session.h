@@ -1,0 +1,54 @@
+// A session: the state behind rt_session, private to src/api.
+//
+// SPDX-License-Identifier: MIT
+#ifndef API_SESSION_H
+#define API_SESSION_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#include "base/array.h"
+#include "base/diag.h"
+#include "base/intern.h"
+#include "base/limits.h"
+#include "base/source.h"
+#include "base/text.h"
+#include "eval/eval.h"
+#include "render/render.h"
+#include "rtlang/rtlang.h"
+#include "scene/scene.h"
+
+struct rt_session {
+    rt_callbacks callbacks;
+    Limits limits;
+    SourceMap *sources;
+    InternTable *names;
+    DiagSink diags;
+    size_t diags_delivered; // records already handed to the client
+    ARRAY(char *) include_paths;
+    ARRAY(EvalDeclaration) declarations; // names are owned
+    int width, height;
+    Scene scene;
+    bool loaded; // the scene is complete and valid
+    Film film;
+    bool rendered; // the film holds a picture in linear light
+    RenderStatistics statistics;
+    const char *kernel;
+    double parse_seconds, prepare_seconds, trace_seconds, write_seconds;
+    atomic_bool cancel;
+    TextBuffer dump;
+};
+
+// Seconds of a clock that only goes forward.
+double session_clock(void);
+
+// Hands new diagnostics to the client.
+void session_deliver(rt_session *session);
+
+// Delivers, and turns what was reported into a status: RT_OK when `fine`, else the class of the first error.
+rt_status session_status(rt_session *session, bool fine);
+
+// Opens a scene file; reports why not.
+bool session_open(rt_session *session, const char *path, Source **source);
+
+#endif

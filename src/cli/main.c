@@ -1,0 +1,190 @@
+// rtlang: reads a scene, traces it and writes a picture. A client of include/rtlang/rtlang.h and nothing else.
+//
+// SPDX-License-Identifier: MIT
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "rtlang/rtlang.h"
+
+// What an interrupt stops; the only file-scope variable, because a signal handler has no other way to it.
+static rt_session *volatile interrupted_session;
+
+static void on_interrupt(int signal_number)
+{
+    (void)signal_number;
+    if (interrupted_session)
+        rt_cancel(interrupted_session);
+}
+
+static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
+{
+    progress_end(client);
+    fputs(diagnostic->text, stderr);
+}
+
+static void on_message(void *client, rt_stream stream, const char *text, size_t length)
+{
+    (void)stream;
+    progress_end(client);
+    fwrite(text, 1, length, stderr);
+}
+
+static void on_progress(void *client, double done)
+{
+    progress_update(client, done);
+}
+
+static rt_status fail_usage(const char *message, const char *what)
+{
+    fprintf(stderr, "rtlang: error[E0703]: %s `%s`\n     = help: rtlang --help lists the options\n", message, what);
+    return RT_FAULT_USAGE;
+}
+
+// Where the shipped include files are: installed, or beside a program that runs in its build folder.
+static bool find_data_folder(char *folder, size_t size)
+{
+    snprintf(folder, size, "%s", PKGDATADIR);
+    if (access(folder, R_OK) == 0)
+        return true;
+    char program[PATH_MAX];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length <= 0)
+        return false;
+    program[length] = '\0';
+    char *slash = strrchr(program, '/');
+    if (slash)
+        *slash = '\0';
+    return snprintf(folder, size, "%s/share/rtlang", program) < (int)size && access(folder, R_OK) == 0;
+}
+
+static rt_status configure(rt_session *session, const Options *options)
+{
+    rt_status status = rt_set_size(session, options->width, options->height);
+    for (int i = 0; !status && i < options->include_path_count; i++)
+        status = rt_add_include_path(session, options->include_paths[i]);
+    char data_folder[PATH_MAX];
+    if (!status && find_data_folder(data_folder, sizeof data_folder))
+        status = rt_add_include_path(session, data_folder);
+    for (int i = 0; !status && i < options->declaration_count; i++) {
+        status = rt_declare(session, options->declarations[i]);
+        if (status == RT_FAULT_USAGE)
+            return fail_usage("option `--declare` wants NAME=NUMBER, with a NAME that is not reserved, found",
+                              options->declarations[i]);
+    }
+    return status;
+}
+
+// Prints a stage. What could be read is printed even when there were faults.
+static rt_status dump(rt_session *session, const Options *options)
+{
+    const char *text = "";
+    rt_status status;
+    if (options->action == ACTION_DUMP_SCENE) {
+        status = rt_load_file(session, options->scene);
+        if (!status)
+            status = rt_dump_scene(session, &text);
+    } else {
+        rt_syntax stage = options->action == ACTION_DUMP_TOKENS ? RT_SYNTAX_TOKENS : RT_SYNTAX_AST;
+        status = rt_dump_syntax(session, stage, options->scene, &text);
+    }
+    if (fputs(text, stdout) == EOF || fflush(stdout) != 0) {
+        perror("rtlang: error[E0505]: cannot write to standard output");
+        return RT_FAULT_IO;
+    }
+    return status;
+}
+
+// The scene's name without folder and ending, with .png.
+static void default_output(const char *scene, char *output, size_t size)
+{
+    const char *base = strrchr(scene, '/');
+    base = base ? base + 1 : scene;
+    const char *dot = strrchr(base, '.');
+    int length = dot && dot != base ? (int)(dot - base) : (int)strlen(base);
+    snprintf(output, size, "%.*s.png", length, base);
+}
+
+static void print_summary(const rt_session *session, const char *output)
+{
+    rt_summary s;
+    rt_get_summary(session, &s);
+    fprintf(stderr,
+            "%s: %dx%d, %llu object%s, %llu light%s; rays: %llu camera, %llu shadow, %llu reflected, %llu transmitted; "
+            "seconds: parse %.3f, prepare %.3f, trace %.3f, write %.3f\n",
+            strcmp(output, "-") == 0 ? "standard output" : output, s.width, s.height, (unsigned long long)s.objects,
+            s.objects == 1 ? "" : "s", (unsigned long long)s.lights, s.lights == 1 ? "" : "s",
+            (unsigned long long)s.camera_rays, (unsigned long long)s.shadow_rays, (unsigned long long)s.reflected_rays,
+            (unsigned long long)s.transmitted_rays, s.parse_seconds, s.prepare_seconds, s.trace_seconds,
+            s.write_seconds);
+}
+
+static rt_status render(rt_session *session, const Options *options, Progress *progress)
+{
+    char default_name[PATH_MAX];
+    const char *output = options->output;
+    if (!output) {
+        default_output(options->scene, default_name, sizeof default_name);
+        output = default_name;
+    }
+    rt_status status = rt_check_output(session, output, &options->encoding);
+    if (!status)
+        status = rt_load_file(session, options->scene);
+    if (!status) {
+        progress_begin(progress, !options->quiet);
+        status = rt_render(session, options->threads);
+        progress_end(progress);
+    }
+    if (!status)
+        status = rt_write(session, output, &options->encoding);
+    if (!status && !options->quiet)
+        print_summary(session, output);
+    return status;
+}
+
+static rt_status run(rt_session *session, const Options *options, Progress *progress)
+{
+    rt_status status = configure(session, options);
+    if (status)
+        return status;
+    if (options->action == ACTION_RENDER)
+        return render(session, options, progress);
+    if (options->action == ACTION_CHECK)
+        return rt_load_file(session, options->scene);
+    return dump(session, options);
+}
+
+int main(int argc, char **argv)
+{
+    Options options;
+    OptionsResult parsed = options_parse(argc, argv, &options);
+    if (parsed != OPTIONS_GO) {
+        options_fini(&options);
+        return parsed == OPTIONS_DONE ? RT_OK : RT_FAULT_USAGE;
+    }
+    Progress progress = {0};
+    rt_callbacks callbacks = {&progress, on_diagnostic, on_message, on_progress};
+    rt_session *session = rt_session_new(&callbacks);
+    rt_status status = RT_FAULT_LIMIT;
+    if (session) {
+        interrupted_session = session;
+        signal(SIGINT, on_interrupt);
+        signal(SIGTERM, on_interrupt);
+        status = run(session, &options, &progress);
+        interrupted_session = NULL;
+        rt_session_free(session);
+    } else {
+        fputs("rtlang: error[E0602]: out of memory\n", stderr);
+    }
+    options_fini(&options);
+    if (status == RT_CANCELLED) {
+        fputs("rtlang: interrupted; nothing was written\n", stderr);
+        return 128 + SIGINT;
+    }
+    return status;
+}

@@ -1,0 +1,262 @@
+// Reads rtlang's command line with getopt_long; names, arguments, help and effect of an option stand in one table line.
+//
+// SPDX-License-Identifier: MIT
+#include "cli/options.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+
+// Takes the argument of an option; false when it is not acceptable, after saying why in *expected.
+typedef bool (*OptionApply)(Options *options, const char *argument, const char **expected);
+
+typedef struct OptionRow {
+    char letter; // 0: no short form
+    const char *name;
+    const char *argument; // NULL: takes none
+    OptionApply apply;    // NULL: handled by options_parse itself
+    const char *help;
+} OptionRow;
+
+static bool parse_integer(const char *text, long low, long high, int *value)
+{
+    char *end;
+    long number = strtol(text, &end, 10);
+    if (end == text || *end || number < low || number > high)
+        return false;
+    *value = (int)number;
+    return true;
+}
+
+static bool apply_output(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a file name";
+    options->output = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_width(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 65535";
+    return parse_integer(argument, 1, 65535, &options->width);
+}
+
+static bool apply_height(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 65535";
+    return parse_integer(argument, 1, 65535, &options->height);
+}
+
+static bool apply_threads(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 1024";
+    return parse_integer(argument, 1, 1024, &options->threads);
+}
+
+static bool apply_include_path(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a folder";
+    options->include_paths[options->include_path_count++] = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_declare(Options *options, const char *argument, const char **expected)
+{
+    *expected = "NAME=NUMBER, with a NAME that is not reserved";
+    options->declarations[options->declaration_count++] = argument;
+    return strchr(argument, '=') != NULL;
+}
+
+static bool apply_depth(Options *options, const char *argument, const char **expected)
+{
+    static const struct {
+        const char *name;
+        rt_depth depth;
+    } depths[] = {{"8", RT_DEPTH_8}, {"16", RT_DEPTH_16}, {"float", RT_DEPTH_FLOAT}};
+    *expected = "8, 16 or float";
+    for (size_t i = 0; i < COUNT_OF(depths); i++) {
+        if (strcmp(argument, depths[i].name) == 0) {
+            options->encoding.depth = depths[i].depth;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool apply_file_gamma(Options *options, const char *argument, const char **expected)
+{
+    *expected = "srgb or a number above 0";
+    char *end;
+    double gamma = strcmp(argument, "srgb") == 0 ? 0.0 : strtod(argument, &end);
+    options->encoding.file_gamma = gamma;
+    return strcmp(argument, "srgb") == 0 || (end != argument && !*end && gamma > 0.0 && isfinite(gamma));
+}
+
+static bool apply_quiet(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->quiet = true;
+    return true;
+}
+
+static bool apply_check(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->action = ACTION_CHECK;
+    return true;
+}
+
+static bool apply_dump(Options *options, const char *argument, const char **expected)
+{
+    static const struct {
+        const char *name;
+        Action action;
+    } stages[] = {{"tokens", ACTION_DUMP_TOKENS}, {"ast", ACTION_DUMP_AST}, {"scene", ACTION_DUMP_SCENE}};
+    *expected = "tokens, ast or scene";
+    for (size_t i = 0; i < COUNT_OF(stages); i++) {
+        if (strcmp(argument, stages[i].name) == 0) {
+            options->action = stages[i].action;
+            return true;
+        }
+    }
+    return false;
+}
+
+static const OptionRow rows[] = {
+    {'o', "output", "FILE", apply_output,
+     "write the picture to FILE, its format by the ending; - is PNG to standard output\n"
+     "(default: the scene's name with .png, in the current folder)"},
+    {'W', "width", "PIXELS", apply_width, "width of the picture (default 320)"},
+    {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
+    {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
+    {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
+    {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
+    {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default 8; float for EXR and HDR)"},
+    {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
+    {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
+    {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
+    {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},
+    {'V', "version", NULL, NULL, "print the version and stop"},
+    {'h', "help", NULL, NULL, "print this and stop"},
+};
+
+void options_print_help(FILE *out)
+{
+    fprintf(out, "Usage: rtlang [OPTION]... SCENE\n"
+                 "Reads SCENE, traces it and writes a picture.\n\n");
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        char left[64];
+        snprintf(left, sizeof left, rows[i].letter ? "-%c, --%s%s%s" : "%c   --%s%s%s",
+                 rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].argument ? "=" : "",
+                 rows[i].argument ? rows[i].argument : "");
+        fprintf(out, "  %-28s ", left);
+        for (const char *c = rows[i].help; *c; c++)
+            *c == '\n' ? fprintf(out, "\n%31s", "") : fputc(*c, out);
+        fputc('\n', out);
+    }
+    fprintf(out, "\nExit status: 0 fine, 1 a fault in the scene, 2 usage, 3 input or output, 4 a limit.\n");
+}
+
+// The table in getopt's two forms. An option's `val` is its row's number above all characters.
+enum { FIRST_VAL = 256, MAX_ROWS = 64 };
+_Static_assert(COUNT_OF(rows) < MAX_ROWS, "enlarge MAX_ROWS");
+
+static void make_getopt_tables(struct option *long_options, char *short_options)
+{
+    *short_options++ = ':';
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        long_options[i] = (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL,
+                                          FIRST_VAL + (int)i};
+        if (rows[i].letter)
+            *short_options++ = rows[i].letter;
+        if (rows[i].letter && rows[i].argument)
+            *short_options++ = ':';
+    }
+    long_options[COUNT_OF(rows)] = (struct option){0};
+    *short_options = '\0';
+}
+
+static const OptionRow *find_row(int val)
+{
+    for (size_t i = 0; i < COUNT_OF(rows); i++)
+        if (val == FIRST_VAL + (int)i || (rows[i].letter && val == rows[i].letter))
+            return &rows[i];
+    return NULL;
+}
+
+static OptionsResult complain(const char *format, const char *what, const char *more)
+{
+    fputs("rtlang: error[E0703]: ", stderr);
+    fprintf(stderr, format, what, more);
+    fputs("\n     = help: rtlang --help lists the options\n", stderr);
+    return OPTIONS_WRONG;
+}
+
+// What getopt could not make sense of.
+static OptionsResult complain_getopt(int val, char **argv)
+{
+    const OptionRow *row = find_row(optopt);
+    const char *word = argv[optind - 1];
+    char letter[3] = {'-', (char)optopt, '\0'};
+    if (val == ':')
+        return complain("option `--%s` wants %s", row ? row->name : word, row ? row->argument : "an argument");
+    if (row)
+        return complain("option `--%s` takes no argument%s", row->name, "");
+    return complain("unknown option `%s`%s", optopt && optopt < FIRST_VAL ? letter : word, "");
+}
+
+static OptionsResult read_options(int argc, char **argv, Options *options)
+{
+    struct option long_options[MAX_ROWS];
+    char short_options[2 * MAX_ROWS + 2];
+    make_getopt_tables(long_options, short_options);
+    opterr = 0;
+    for (int val; (val = getopt_long(argc, argv, short_options, long_options, NULL)) != -1;) {
+        const char *expected = "";
+        const OptionRow *row = val == '?' || val == ':' ? NULL : find_row(val);
+        if (!row)
+            return complain_getopt(val, argv);
+        if (!row->apply) {
+            if (row->letter == 'h')
+                options_print_help(stdout);
+            else
+                printf("rtlang %s\n", rt_version());
+            return OPTIONS_DONE;
+        }
+        if (!row->apply(options, optarg, &expected)) {
+            char found[96];
+            snprintf(found, sizeof found, "%s, found `%.40s`", expected, optarg ? optarg : "");
+            return complain("option `--%s` wants %s", row->name, found);
+        }
+    }
+    return OPTIONS_GO;
+}
+
+OptionsResult options_parse(int argc, char **argv, Options *options)
+{
+    *options = (Options){.width = 320, .height = 240, .encoding = {RT_DEPTH_8, 0.0}};
+    // No more paths and declarations than arguments.
+    options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
+    options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);
+    if (!options->include_paths || !options->declarations)
+        return complain("out of memory%s%s", "", "");
+    OptionsResult result = read_options(argc, argv, options);
+    if (result != OPTIONS_GO)
+        return result;
+    if (optind == argc)
+        return complain("no scene given%s%s", "", "");
+    if (optind + 1 < argc)
+        return complain("more than one scene given: `%s` and `%s`", argv[optind], argv[optind + 1]);
+    options->scene = argv[optind];
+    return OPTIONS_GO;
+}
+
+void options_fini(Options *options)
+{
+    free(options->include_paths);
+    free(options->declarations);
+}

@@ -1,0 +1,44 @@
+// Draws a bar on stderr, at most ten times a second and only after the first second.
+//
+// SPDX-License-Identifier: MIT
+#include "cli/progress.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static double clock_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void progress_begin(Progress *progress, bool enabled)
+{
+    *progress = (Progress){.enabled = enabled && isatty(STDERR_FILENO), .start = clock_seconds()};
+}
+
+void progress_update(Progress *progress, double done)
+{
+    enum { WIDTH = 40 };
+    double now = clock_seconds(), elapsed = now - progress->start;
+    if (!progress->enabled || elapsed < 1.0 || now - progress->last < 0.1 || done <= 0.0)
+        return;
+    progress->last = now;
+    progress->shown = true;
+    char bar[WIDTH + 1];
+    int filled = (int)(done * WIDTH);
+    memset(bar, ' ', WIDTH);
+    memset(bar, '#', (size_t)(filled < WIDTH ? filled : WIDTH));
+    bar[WIDTH] = '\0';
+    fprintf(stderr, "\r[%s] %3.0f %%  %.0f s left   ", bar, 100.0 * done, elapsed * (1.0 - done) / done);
+}
+
+void progress_end(Progress *progress)
+{
+    if (progress->shown)
+        fprintf(stderr, "\r%70s\r", "");
+    progress->shown = false;
+}
