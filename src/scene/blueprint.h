@@ -56,7 +56,7 @@ typedef struct PlaneBlueprint {
 
 typedef struct UnionMember UnionMember;
 struct UnionMember {
-    const UnionMember *next;
+    UnionMember *next;
     const void *object; // the blueprint of its kind
     SchemaKind kind;
 };

@@ -1,0 +1,576 @@
+// The generic evaluator of blocks: `word { … }` becomes a blueprint, as the schema says.
+//
+// Takes a leading identifier or the positional arguments, then the properties, each by its type or by the action that
+// the table names. Whatever does not fit is a located fault and is passed over, so that one run tells all faults. Knows
+// nothing of what a property means.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "eval/blocks.h"
+
+typedef bool (*BlockAction)(Block *block, const SchemaProperty *property, const AstNode *item);
+typedef bool (*BlockHook)(Block *block);
+
+static const BlockAction actions[ACTION_COUNT] = {
+    [ACTION_TRANSLATE] = transform_action,    [ACTION_ROTATE] = transform_action,
+    [ACTION_SCALE] = transform_action,        [ACTION_MATRIX] = transform_action,
+    [ACTION_TRANSFORM] = transform_action,    [ACTION_TEXTURE] = texture_action,
+    [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
+    [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
+    [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
+};
+
+// Between the arguments and the properties.
+static const BlockHook bodies[KIND_COUNT] = {
+    [KIND_UNION] = object_members,
+    [KIND_OBJECT] = object_body,
+};
+
+// At the closing brace.
+static const BlockHook closings[KIND_COUNT] = {
+    [KIND_CAMERA] = camera_close,         [KIND_PLANE] = plane_close,         [KIND_FINISH] = finish_close,
+    [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
+};
+
+static const char *const type_needs[] = {
+    [TYPE_FLAG] = "nothing",
+    [TYPE_SWITCH] = "a truth value",
+    [TYPE_NUMBER] = "a number",
+    [TYPE_OPTIONAL_NUMBER] = "a number",
+    [TYPE_SHARE] = "a number",
+    [TYPE_SHARE_PAIR] = "a number",
+    [TYPE_INTEGER] = "a number",
+    [TYPE_VECTOR] = "a vector",
+    [TYPE_COLOUR] = "a colour",
+    [TYPE_RGB] = "a colour",
+    [TYPE_BLOCK] = "braces",
+    [TYPE_ACTION] = "a value",
+};
+
+bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...)
+{
+    char message[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    block->has_fault = true;
+    return eval_fault(block->ev, code, span, "%s", message);
+}
+
+SchemaKind block_kind(const Eval *ev, const AstNode *node)
+{
+    return node->kind == AST_BLOCK && node->symbol < WORD_COUNT ? (SchemaKind)ev->objects->kinds[node->symbol]
+                                                                : KIND_NONE;
+}
+
+bool block_is_name(const AstNode *item)
+{
+    return item->kind == AST_NAME || item->kind == AST_INDEX;
+}
+
+static const char *block_word(const Block *block)
+{
+    return schema_kind(block->kind)->word;
+}
+
+// The last character of the block, where something is missing.
+static Span block_end(const Block *block)
+{
+    Span span = block->node->span;
+    return span.end > span.begin ? (Span){span.end - 1, span.end} : span;
+}
+
+static Span block_here(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    return item ? item->span : block_end(block);
+}
+
+void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
+{
+    const SchemaBlock *schema = schema_kind(kind);
+    const Settings *settings = &ev->scene->settings;
+    memcpy(record, schema->defaults, schema->size);
+    switch (kind) {
+    case KIND_TEXTURE: record->texture.material = ev->objects->defaults; break;
+    case KIND_PIGMENT: record->pigment.colour = ev->objects->defaults.pigment; break;
+    case KIND_FINISH: record->finish.finish = ev->objects->defaults.finish; break;
+    case KIND_GLOBAL_SETTINGS:
+        record->settings.ambient_light = settings->ambient_light;
+        record->settings.adc_bailout = settings->adc_bailout;
+        record->settings.max_trace_level = settings->max_trace_level;
+        break;
+    default: break;
+    }
+}
+
+// ---- what rtlang has not
+
+static void tell_unsupported(Eval *ev, const UnsupportedBlueprint *what, Span use)
+{
+    ObjectState *objects = ev->objects;
+    Symbol symbol = intern_find(ev->options.names, what->word, strlen(what->word));
+    if (symbol < WORD_COUNT) {
+        if (objects->is_told[symbol]) {
+            return;
+        }
+        objects->is_told[symbol] = true;
+    }
+    bool is_kept;
+    if (what->owner == KIND_NONE) {
+        is_kept = eval_report(ev, DIAG_E0252, use, "`%s` is not supported", what->word);
+    } else if (what->owner == KIND_TEXTURE && symbol == W_texture) {
+        is_kept = eval_report(ev, DIAG_E0251, use,
+                              "a texture over another one is not supported by rtlang if it lets light through");
+    } else {
+        is_kept = eval_report(ev, DIAG_E0251, use, "`%s` is not supported in %s by rtlang", what->word,
+                              schema_kind(what->owner)->word);
+    }
+    if (!is_kept) {
+        return;
+    }
+    if (use.begin != what->span.begin) {
+        diag_note(ev->options.diags, what->span, "it stands here");
+    }
+    const SchemaUnsupported *entry =
+        symbol < WORD_COUNT && objects->advice[symbol] ? schema_unsupported(objects->advice[symbol] - 1u) : NULL;
+    if (entry && entry->instead) {
+        diag_suggest(ev->options.diags, "%s", entry->instead);
+    }
+}
+
+void block_unsupported_name(Eval *ev, const UnsupportedBlueprint *what, Span use)
+{
+    ObjectState *objects = ev->objects;
+    if (!objects->is_deferring) {
+        tell_unsupported(ev, what, use);
+    } else if (!objects->has_deferred) {
+        objects->has_deferred = true;
+        objects->deferred = *what;
+    }
+}
+
+void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner)
+{
+    UnsupportedBlueprint what = {span, word, owner};
+    block_unsupported_name(ev, &what, span);
+}
+
+// ---- values
+
+bool block_finite(Block *block, double number, Span span, const char *word)
+{
+    return isfinite(number) || block_fault(block, DIAG_E0340, span, "`%s` is not a finite number", word);
+}
+
+static bool check_range(Block *block, const SchemaProperty *property, double *number, Span span)
+{
+    const SchemaRange *range = &property->range;
+    bool is_low = range->low_is_open ? *number <= range->low : *number < range->low;
+    if (range->policy == RANGE_ANY || (!is_low && *number <= range->high)) {
+        return true;
+    }
+    double end = is_low ? range->low : range->high;
+    const char *relation = is_low ? range->low_is_open ? "greater than" : "at least" : "at most";
+    if (range->policy == RANGE_FAULT) {
+        return block_fault(block, DIAG_E0341, span, "`%s` must be %s %g, not %g", property->word, relation, end,
+                           *number);
+    }
+    eval_warn(block->ev, DIAG_W0341, span, "`%s` should be %s %g, not %g", property->word, relation, end, *number);
+    *number = range->policy == RANGE_CLAMP ? end : *number;
+    return true;
+}
+
+static bool read_number(Block *block, const SchemaProperty *property, double *number)
+{
+    Span span = block_here(block);
+    if (!cursor_number(&block->cursor, number, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    return block_finite(block, *number, span, property->word) && check_range(block, property, number, span);
+}
+
+static bool read_vector(Block *block, const SchemaProperty *property, Vec3 *vector)
+{
+    Span span = block_here(block);
+    if (!cursor_vector3(&block->cursor, vector, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    return vec3_is_finite(*vector) ||
+           block_fault(block, DIAG_E0340, span, "`%s` has a coordinate that is not finite", property->word);
+}
+
+static bool read_colour(Block *block, const SchemaProperty *property, Rgbft *colour)
+{
+    Span span = block_here(block);
+    if (!cursor_colour(&block->cursor, colour, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    double sum = colour->red + colour->green + colour->blue + colour->filter + colour->transmit;
+    return block_finite(block, sum - sum, span, property->word);
+}
+
+static bool at_expression(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    return item && item->kind != AST_WORD && cursor_at_value(&block->cursor);
+}
+
+static bool needs_value(const SchemaProperty *property)
+{
+    return property->type != TYPE_FLAG && property->type != TYPE_SWITCH && property->type != TYPE_OPTIONAL_NUMBER;
+}
+
+static bool read_share(Block *block, const SchemaProperty *property, double *shares)
+{
+    if (!read_number(block, property, &shares[0])) {
+        return false;
+    }
+    bool has_second = property->type == TYPE_SHARE_PAIR && at_expression(block);
+    if (property->type == TYPE_SHARE_PAIR && !has_second) {
+        shares[1] = 0.0;
+    }
+    return !has_second || read_number(block, property, &shares[1]);
+}
+
+static bool read_switch(Block *block, const SchemaProperty *property, bool *flag)
+{
+    double truth = 1.0;
+    if (property->type == TYPE_SWITCH && at_expression(block) && !read_number(block, property, &truth)) {
+        return false;
+    }
+    *flag = truth != 0.0;
+    return true;
+}
+
+static bool read_integer(Block *block, const SchemaProperty *property, int *integer)
+{
+    double number;
+    if (!read_number(block, property, &number)) {
+        return false;
+    }
+    *integer = (int)fmax(fmin(number, INT32_MAX), INT32_MIN);
+    return true;
+}
+
+static bool read_rgb(Block *block, const SchemaProperty *property, Rgb *rgb_at)
+{
+    Rgbft colour;
+    if (!read_colour(block, property, &colour)) {
+        return false;
+    }
+    *rgb_at = rgbft_rgb(colour);
+    return true;
+}
+
+static bool read_typed(Block *block, const SchemaProperty *property, void *at)
+{
+    switch (property->type) {
+    case TYPE_FLAG:
+    case TYPE_SWITCH: return read_switch(block, property, at);
+    case TYPE_OPTIONAL_NUMBER:
+        if (!at_expression(block)) {
+            memcpy(at, &property->bare, sizeof property->bare);
+            return true;
+        }
+        return read_number(block, property, at);
+    case TYPE_NUMBER: return read_number(block, property, at);
+    case TYPE_SHARE:
+    case TYPE_SHARE_PAIR: return read_share(block, property, at);
+    case TYPE_INTEGER: return read_integer(block, property, at);
+    case TYPE_VECTOR: return read_vector(block, property, at);
+    case TYPE_COLOUR: return read_colour(block, property, at);
+    case TYPE_RGB: return read_rgb(block, property, at);
+    case TYPE_BLOCK:
+    case TYPE_ACTION: break; // never read by type
+    }
+    return false;
+}
+
+bool block_value(Block *block, const SchemaProperty *property, Span word)
+{
+    bool is_share = property->type == TYPE_SHARE || property->type == TYPE_SHARE_PAIR;
+    bool is_given = !is_share;
+    if (is_share && cursor_at_word(&block->cursor, W_albedo)) {
+        cursor_skip(&block->cursor);
+        is_given = true;
+    }
+    bool takes_colour = property->type == TYPE_COLOUR || property->type == TYPE_RGB;
+    if (needs_value(property) && !(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
+        return block_fault(block, DIAG_E0253, word, "`%s` needs %s after it", property->word,
+                           type_needs[property->type]);
+    }
+    if (is_given && property->given) {
+        *((bool *)block->record + property->given) = true;
+    }
+    return read_typed(block, property, (char *)block->record + property->at);
+}
+
+// ---- the beginning of a block
+
+static bool name_fits(const Block *block, const Value *value)
+{
+    if (schema_kind(block->kind)->is_object) {
+        return schema_kind((SchemaKind)value->block)->is_object;
+    }
+    return value->block == block->kind || (block->kind == KIND_TEXTURE && value->block == KIND_PIGMENT);
+}
+
+static void take_name(Block *block, const Value *value, const AstNode *item)
+{
+    if (value->block == KIND_UNSUPPORTED) {
+        block_unsupported_name(block->ev, value->record, item->span);
+        block->has_unsupported = true;
+    } else if (!name_fits(block, value)) {
+        block_fault(block, DIAG_E0258, item->span, "`%s` cannot begin with %s", block_word(block),
+                    value_describe(value));
+    } else if (value->block == KIND_PIGMENT && block->kind == KIND_TEXTURE) {
+        block->record->texture.material.pigment = ((const PigmentBlueprint *)value->record)->colour;
+    } else {
+        block->is = (SchemaKind)value->block;
+        memcpy(block->record, value->record, schema_kind(block->is)->size);
+    }
+}
+
+// A leading identifier of a block. One that stands for a number or a colour is left for the arguments.
+static void read_name(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    Value value;
+    if (!item || !block_is_name(item)) {
+        return;
+    }
+    // A misspelt property rather than an identifier, where nothing but a block's name may stand.
+    bool takes_values = schema_kind(block->kind)->arguments.count > 0 || bodies[block->kind];
+    if (item->kind == AST_NAME && !takes_values && !scope_find(block->ev, item->symbol)) {
+        return;
+    }
+    if (!eval_expression(block->ev, item, &value)) {
+        block->has_name = block->has_fault = true;
+        cursor_skip(&block->cursor);
+    } else if (value.kind == VALUE_BLOCK) {
+        block->has_name = true;
+        cursor_skip(&block->cursor);
+        take_name(block, &value, item);
+    }
+}
+
+// A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
+static bool begins_like_colour(Block *block, const AstNode *item)
+{
+    while (item->kind == AST_BINARY) {
+        item = item->a;
+    }
+    if (item->kind == AST_WORD) {
+        return true;
+    }
+    Value value;
+    if (!block_is_name(item)) {
+        return false;
+    }
+    return !eval_expression(block->ev, item, &value) || value.kind == VALUE_COLOUR;
+}
+
+static bool read_argument(Block *block, const SchemaProperty *argument)
+{
+    bool takes_colour = argument->type == TYPE_COLOUR || argument->type == TYPE_RGB;
+    if (!(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
+        return argument->is_optional ||
+               block_fault(block, DIAG_E0253, block_here(block), "`%s` needs %s here: its %s", block_word(block),
+                           type_needs[argument->type], argument->word);
+    }
+    const AstNode *item = cursor_peek(&block->cursor);
+    if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA)) {
+        block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
+    }
+    if (block->kind == KIND_PIGMENT && !begins_like_colour(block, item)) {
+        block_fault(block, DIAG_E0254, item->span,
+                    "the colour of a pigment begins with a colour word such as `rgb`, or with the name of a colour");
+    }
+    block->arguments++;
+    return read_typed(block, argument, (char *)block->record + argument->at);
+}
+
+static void read_arguments(Block *block)
+{
+    const SchemaList *list = &schema_kind(block->kind)->arguments;
+    // `pigment { P rgb … }` takes P's place in everything else.
+    if (block->has_name && block->kind != KIND_PIGMENT) {
+        return;
+    }
+    for (size_t i = 0; i < list->count; i++) {
+        size_t before = block->arguments;
+        if (!read_argument(block, &list->items[i]) || block->arguments == before) {
+            return;
+        }
+    }
+}
+
+// ---- properties
+
+static const SchemaProperty *find_property(const Block *block, const AstNode *item)
+{
+    if ((item->kind != AST_WORD && item->kind != AST_BLOCK) || item->symbol >= WORD_COUNT) {
+        return NULL;
+    }
+    unsigned place = block->ev->objects->properties[block->kind][item->symbol];
+    return place ? schema_property(block->kind, place - 1) : NULL;
+}
+
+// Passes over what belongs to a word that was not understood.
+static void skip_values(Block *block)
+{
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item)) {
+        cursor_skip(&block->cursor);
+    }
+}
+
+static void unknown_property(Block *block, const AstNode *item)
+{
+    const char *word = eval_text(block->ev, item->symbol);
+    Suggest suggest;
+    suggest_begin(&suggest, word);
+    const SchemaProperty *property;
+    for (size_t i = 0; (property = schema_property(block->kind, i)); i++) {
+        suggest_offer(&suggest, property->word);
+    }
+    block->has_fault = true;
+    if (eval_report(block->ev, DIAG_E0250, item->span, "unknown property `%s` in %s", word,
+                    block_word(block)) &&
+        suggest.best) {
+        diag_suggest(block->ev->options.diags, "did you mean `%s`?", suggest.best);
+    }
+}
+
+static bool is_property_elsewhere(const Block *block, Symbol symbol)
+{
+    for (size_t kind = 0; kind < KIND_COUNT; kind++) {
+        if (block->ev->objects->properties[kind][symbol]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// A word or block that is no property of this kind.
+static void refuse_word(Block *block, const AstNode *item)
+{
+    SchemaKind kind = block_kind(block->ev, item);
+    if (schema_kind(kind)->is_object) {
+        block_fault(block, DIAG_E0256, item->span,
+                    block->kind == KIND_UNION ? "`%s` must stand before the properties of the union"
+                                              : "`%s` cannot stand here",
+                    schema_kind(kind)->word);
+    } else if (word_class(item->symbol) == WORD_COLOUR) {
+        block_fault(block, DIAG_E0254, item->span, "no colour is expected here in %s", block_word(block));
+    } else if (is_property_elsewhere(block, item->symbol)) {
+        unknown_property(block, item);
+    } else if (!block->has_unsupported) {
+        block->has_unsupported = true;
+        block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, block->kind);
+    }
+    cursor_skip(&block->cursor);
+    skip_values(block);
+}
+
+// An expression where a property should stand; a name that was never declared is a misspelt one.
+static void refuse_value(Block *block, const AstNode *item)
+{
+    if (item->kind == AST_NAME && !scope_find(block->ev, item->symbol)) {
+        unknown_property(block, item);
+    } else if (item->kind == AST_NAME) {
+        block_fault(block, DIAG_E0254, item->span, "`%s` cannot stand here in %s", eval_text(block->ev, item->symbol),
+                    block_word(block));
+    } else {
+        block_fault(block, DIAG_E0254, item->span, "one value too many in %s", block_word(block));
+    }
+    cursor_skip(&block->cursor);
+    skip_values(block);
+}
+
+static bool takes_braces(const SchemaProperty *property)
+{
+    return property->type == TYPE_BLOCK || property->action == ACTION_TRANSFORM ||
+           property->action == ACTION_REFLECTION;
+}
+
+static bool may_stand_here(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    if (property->is_first && (block->items > 0 || block->has_name)) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` must stand first in %s", property->word,
+                           block_word(block));
+    }
+    if (block->has_name && schema_kind(block->kind)->is_fixed && !schema_is_transform(property)) {
+        return block_fault(block, DIAG_E0255, item->span, "`%s` cannot follow an identifier in %s: only transforms can",
+                           property->word, block_word(block));
+    }
+    if (item->kind == AST_BLOCK && !takes_braces(property)) {
+        return block_fault(block, DIAG_E0257, item->span, "`%s` takes no braces", property->word);
+    }
+    if (item->kind == AST_WORD && property->type == TYPE_BLOCK) {
+        return block_fault(block, DIAG_E0257, item->span, "`%s` needs braces after it", property->word);
+    }
+    return true;
+}
+
+static void read_property(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    bool is_allowed = may_stand_here(block, property, item);
+    cursor_skip(&block->cursor);
+    block->items++;
+    bool is_action = property->type == TYPE_ACTION || property->type == TYPE_BLOCK;
+    if (!is_allowed || !(is_action ? actions[property->action](block, property, item)
+                                   : block_value(block, property, item->span))) {
+        block->has_fault = true;
+        skip_values(block);
+    }
+}
+
+static void read_properties(Block *block)
+{
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor))) {
+        const SchemaProperty *property = find_property(block, item);
+        if (item->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA)) {
+            block_fault(block, DIAG_E0259, item->span, "no comma is expected here in %s", block_word(block));
+        }
+        if (property) {
+            read_property(block, property, item);
+        } else if (item->kind == AST_WORD || item->kind == AST_BLOCK) {
+            refuse_word(block, item);
+        } else {
+            refuse_value(block, item);
+        }
+    }
+}
+
+bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Blueprint *record, SchemaKind *is)
+{
+    Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind};
+    cursor_open(&block.cursor, ev, node->a, node->span);
+    read_name(&block);
+    read_arguments(&block);
+    if (bodies[kind] && !block.has_name && !bodies[kind](&block)) {
+        block.has_fault = true;
+    }
+    read_properties(&block);
+    cursor_close(&block.cursor);
+    if (ev->stop || block.has_fault || (closings[kind] && !closings[kind](&block))) {
+        return false;
+    }
+    if (schema_kind(block.is)->is_object) {
+        record->part.span = node->span;
+    }
+    *is = block.is;
+    return !block.has_unsupported || ev->objects->is_deferring;
+}

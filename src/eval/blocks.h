@@ -1,0 +1,100 @@
+// The inner interface of the files that evaluate blocks: block.c drives, the files of the kinds do what the schema's
+// tables cannot say.
+//
+// SPDX-License-Identifier: MIT
+#ifndef EVAL_BLOCKS_H
+#define EVAL_BLOCKS_H
+
+#include "eval/internal.h"
+#include "scene/blueprint.h"
+
+struct ObjectState {
+    uint8_t kinds[WORD_COUNT];                  // SchemaKind that a word begins
+    uint8_t properties[KIND_COUNT][WORD_COUNT]; // place in the kind's properties + 1
+    uint8_t advice[WORD_COUNT];                 // place among the unsupported words + 1
+    bool is_told[WORD_COUNT];                   // that rtlang has not this word
+    Material defaults;                          // of #default
+    // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
+    bool is_deferring, has_deferred;
+    UnsupportedBlueprint deferred;
+};
+
+// One block while it is read.
+typedef struct Block {
+    Eval *ev;
+    const AstNode *node;
+    Arena *arena;      // where the objects inside it are kept
+    Cursor cursor;
+    Blueprint *record;
+    SchemaKind kind;   // of its word
+    SchemaKind is;     // of the record: another object kind after an identifier
+    size_t arguments;  // that were given
+    size_t items;      // properties so far
+    bool has_name;     // it began with an identifier
+    bool has_unsupported;
+    bool has_fault;
+} Block;
+
+// block.c
+
+// Fills *record with what a block of the kind is before anything is said in it.
+void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record);
+
+// Reads a block into *record, which holds the defaults, and its kind into *is. False when a fault was reported.
+bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Blueprint *record,
+                SchemaKind *is) RT_MUST_CHECK;
+
+// The kind that a word begins, KIND_NONE when it begins none.
+SchemaKind block_kind(const Eval *ev, const AstNode *node);
+
+// True for a NAME or an element of an array, which may stand for a block.
+bool block_is_name(const AstNode *item);
+
+// Marks the block as faulty and reports; returns false.
+bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+
+// Reads what a property of a simple type takes into its place.
+bool block_value(Block *block, const SchemaProperty *property, Span word) RT_MUST_CHECK;
+
+// Tells, now or when it is used, that rtlang has not a word; `owner` as in UnsupportedBlueprint.
+void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner);
+// The same for an identifier that was declared with such a word.
+void block_unsupported_name(Eval *ev, const UnsupportedBlueprint *what, Span use);
+
+// True when the number is finite, else a fault.
+bool block_finite(Block *block, double number, Span span, const char *word) RT_MUST_CHECK;
+
+// transforms.c: the actions of the schema's transforms
+bool transform_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool transform_close(Block *block) RT_MUST_CHECK;
+// A vector's length and the vector of length 1 along it (zero for zero), without overflow; one whose length is 1
+// to rounding stays as it is.
+double vector_length(Vec3 vector);
+Vec3 vector_unit(Vec3 vector);
+
+// texture.c
+bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool finish_close(Block *block) RT_MUST_CHECK;
+bool reflection_close(Block *block) RT_MUST_CHECK;
+
+// camera.c
+bool camera_angle_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool camera_close(Block *block) RT_MUST_CHECK;
+bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span) RT_MUST_CHECK;
+
+// light.c
+bool light_point_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+void light_transform(LightBlueprint *light, const Transform *transform);
+bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer) RT_MUST_CHECK;
+
+// settings.c
+bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
+
+// object.c
+bool object_members(Block *block) RT_MUST_CHECK; // of a union
+bool object_body(Block *block) RT_MUST_CHECK;    // of an object
+bool plane_close(Block *block) RT_MUST_CHECK;
+
+#endif

@@ -1,0 +1,69 @@
+// The scene's settings: global_settings, background, and the gamma model that follows from both text and version.
+//
+// Several blocks are merged; the last value counts, of assumed_gamma the first. Knows nothing of pictures.
+//
+// SPDX-License-Identifier: MIT
+#include "eval/blocks.h"
+
+static bool read_gamma(Block *block, const AstNode *word, GammaModel *model, double *gamma)
+{
+    if (cursor_at_word(&block->cursor, W_srgb)) {
+        cursor_skip(&block->cursor);
+        *model = GAMMA_SRGB;
+        return true;
+    }
+    const AstNode *item = cursor_peek(&block->cursor);
+    if (!item || item->kind == AST_WORD || !cursor_at_value(&block->cursor)) {
+        return block_fault(block, DIAG_E0253, word->span, "`assumed_gamma` needs a number or `srgb` after it");
+    }
+    Span span = item->span;
+    if (!cursor_number(&block->cursor, gamma, &span) || !block_finite(block, *gamma, span, "assumed_gamma")) {
+        return false;
+    }
+    if (!(*gamma > 0.0)) {
+        return block_fault(block, DIAG_E0341, span, "`assumed_gamma` must be greater than 0, not %g", *gamma);
+    }
+    *model = *gamma == 1.0 ? GAMMA_LINEAR : GAMMA_POWER;
+    return true;
+}
+
+bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    Settings *settings = &block->ev->scene->settings;
+    GammaModel model = GAMMA_NONE;
+    double gamma = 1.0;
+    (void)property;
+    if (!read_gamma(block, item, &model, &gamma)) {
+        return false;
+    }
+    if (settings->gamma_model != GAMMA_NONE) {
+        eval_warn(block->ev, DIAG_W0404, item->span, "`assumed_gamma` was given before; the first one counts");
+        return true;
+    }
+    settings->gamma_model = model;
+    settings->assumed_gamma = gamma;
+    return true;
+}
+
+bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)
+{
+    if (kind == KIND_BACKGROUND) {
+        ev->scene->background = record->background.colour;
+        return true;
+    }
+    Settings *settings = &ev->scene->settings;
+    settings->ambient_light = record->settings.ambient_light;
+    settings->adc_bailout = record->settings.adc_bailout;
+    settings->max_trace_level = record->settings.max_trace_level;
+    return true;
+}
+
+void eval_settle_settings(Eval *ev)
+{
+    Settings *settings = &ev->scene->settings;
+    settings->version = ev->version;
+    if (settings->gamma_model == GAMMA_NONE && ev->version_given && ev->version >= 3.7) {
+        settings->gamma_model = GAMMA_LINEAR;
+        eval_warn(ev, DIAG_W0405, SPAN_NONE, "no assumed_gamma in a scene of version 3.7: 1 is taken");
+    }
+}
