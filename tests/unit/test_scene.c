@@ -1,0 +1,174 @@
+// Scene records: materials are kept once, shapes keep their order, the dump says everything, validation finds what no ray
+// could be traced against.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <string.h>
+
+#include "scene/scene.h"
+#include "tap.h"
+
+static Material material_of(double red)
+{
+    Material material = {.pigment = {red, 0.5, 0.25, 0.0, 0.0}, .finish.diffuse = 0.6};
+    return material;
+}
+
+static void test_materials(void)
+{
+    Scene scene;
+    bool is_fine = true;
+    scene_init(&scene);
+    for (int round = 0; round < 2; round++) {
+        for (int i = 0; i < 1000; i++) {
+            Material material = material_of(i);
+            MaterialIndex index = UINT32_MAX;
+            is_fine = scene_add_material(&scene, &material, &index) && index == (uint32_t)i && is_fine;
+        }
+    }
+    tap_ok(is_fine && scene.materials.count == 1000, "a thousand materials, given twice, are kept once and in order");
+    Material zero = material_of(0.0);
+    Material minus_zero = material_of(-0.0);
+    MaterialIndex first, second;
+    is_fine = scene_add_material(&scene, &zero, &first) && scene_add_material(&scene, &minus_zero, &second);
+    tap_ok(is_fine && first != second, "materials are compared bit by bit");
+    scene_fini(&scene);
+    tap_ok(scene.materials.count == 0 && scene.material_slots.items == NULL, "scene_fini leaves an empty scene");
+}
+
+static bool build_scene(Scene *scene)
+{
+    Material material = material_of((double)0.1f);
+    Transform stretch = transform_scale(vec3(1.0, 2.0, 3.0));
+    Transform back;
+    MaterialIndex index;
+    scene_init(scene);
+    return transform_invert(&stretch, &back) && scene_add_material(scene, &material, &index) &&
+           scene_add_sphere(scene, vec3(0.0, 1.0, -0.1), 0.5, index, 7) &&
+           scene_add_plane(scene, vec3(0.0, 1.0, 0.0), -1.0, index, 8) &&
+           scene_add_ellipsoid(scene, &stretch, &back, index, 9) &&
+           scene_add_sphere(scene, vec3(1e300, 1.0, 1.0 / 3.0), 1e-9, index, 10);
+}
+
+static void test_order_and_dump(void)
+{
+    Scene scene;
+    TextBuffer out;
+    text_init(&out);
+    tap_ok(build_scene(&scene) && scene.shape_count == 4 && scene.spheres.items[1].order == 3 &&
+               scene.planes.items[0].order == 1 && scene.ellipsoids.items[0].order == 2,
+           "shapes are numbered in the order of declaration over all kinds");
+    scene.settings.gamma_model = GAMMA_POWER;
+    scene.settings.assumed_gamma = 2.2;
+    scene_dump(&scene, &out);
+    const char *text = text_get(&out);
+    const char *wanted[] = {
+        "#version 3.7;\nglobal_settings {\n  assumed_gamma 2.2\n",
+        "#declare M1 = texture {\n  pigment { rgbft <0.10000000149011612, 0.5, 0.25, 0, 0> }\n",
+        "sphere { <0, 1, -0.1>, 0.5 texture { M1 } }\nplane { <0, 1, 0>, -1 texture { M1 } }\n"
+        "sphere { 0, 1 matrix <1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0> texture { M1 } }\n"
+        "sphere { <1e300, 1, 0.3333333333333333>, 1e-9 texture { M1 } }\n",
+    };
+    for (size_t i = 0; i < RT_COUNT_OF(wanted); i++) {
+        tap_ok(strstr(text, wanted[i]) != NULL, "the dump has part %zu", i);
+    }
+    text_fini(&out);
+    scene_fini(&scene);
+}
+
+static void test_gamma_dump(void)
+{
+    static const struct {
+        GammaModel model;
+        double gamma, version;
+        const char *begins;
+    } cases[] = {
+        {GAMMA_NONE, 1.0, 3.7, "global_settings {\n  ambient_light"},
+        {GAMMA_NONE, 1.0, 3.5, "#version 3.5;\nglobal_settings {\n  ambient_light"},
+        {GAMMA_LINEAR, 1.0, 3.7, "#version 3.7;\nglobal_settings {\n  assumed_gamma 1\n"},
+        {GAMMA_SRGB, 1.0, 3.1, "#version 3.1;\nglobal_settings {\n  assumed_gamma srgb\n"},
+        {GAMMA_POWER, 1.8, 3.7, "#version 3.7;\nglobal_settings {\n  assumed_gamma 1.8\n"},
+    };
+    for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
+        Scene scene;
+        TextBuffer out;
+        scene_init(&scene);
+        text_init(&out);
+        scene.settings.gamma_model = cases[i].model;
+        scene.settings.assumed_gamma = cases[i].gamma;
+        scene.settings.version = cases[i].version;
+        scene_dump(&scene, &out);
+        tap_ok(strncmp(text_get(&out), cases[i].begins, strlen(cases[i].begins)) == 0, "gamma case %zu", i);
+        text_fini(&out);
+        scene_fini(&scene);
+    }
+}
+
+typedef void (*Spoil)(Scene *scene);
+
+static void spoil_nothing(Scene *scene)
+{
+    (void)scene;
+}
+
+static void spoil_camera(Scene *scene)
+{
+    scene->camera.up.z = NAN;
+}
+
+static void spoil_radius(Scene *scene)
+{
+    scene->spheres.items[1].radius = 0.0;
+}
+
+static void spoil_material(Scene *scene)
+{
+    scene->planes.items[0].material = 1;
+}
+
+static void spoil_inverse(Scene *scene)
+{
+    scene->ellipsoids.items[0].to_object.m[2][2] = INFINITY;
+}
+
+static void spoil_finish(Scene *scene)
+{
+    scene->materials.items[0].finish.roughness = NAN;
+}
+
+static void test_validation(void)
+{
+    static const struct {
+        const char *name;
+        Spoil spoil;
+        size_t errors;
+    } cases[] = {
+        {"a whole scene", spoil_nothing, 0},      {"camera", spoil_camera, 1},
+        {"radius", spoil_radius, 1},              {"material", spoil_material, 1},
+        {"inverse of a matrix", spoil_inverse, 1}, {"finish", spoil_finish, 1},
+    };
+    for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
+        Scene scene;
+        DiagSink diags;
+        SourceMap *sources = source_map_new();
+        bool is_built = build_scene(&scene);
+        diag_init(&diags, sources);
+        cases[i].spoil(&scene);
+        bool is_valid = scene_validate(&scene, &diags);
+        tap_ok(is_built && is_valid == (cases[i].errors == 0) && diags.error_count == cases[i].errors,
+               "validation of %s", cases[i].name);
+        tap_ok(diags.warning_count == 2, "validation warns of no camera and no lights: %s", cases[i].name);
+        diag_fini(&diags);
+        source_map_free(sources);
+        scene_fini(&scene);
+    }
+}
+
+int main(void)
+{
+    test_materials();
+    test_order_and_dump();
+    test_gamma_dump();
+    test_validation();
+    return tap_done();
+}
