@@ -141,8 +141,8 @@ bool transform_invert(const Transform *transform, Transform *inverse)
     Vec3 q = rows[2];
     Vec3 magnitude = vec3(fabs(p.y * q.z) + fabs(p.z * q.y), fabs(p.z * q.x) + fabs(p.x * q.z),
                           fabs(p.x * q.y) + fabs(p.y * q.x));
-    double uncertainty = 6.0 * UNIT_ROUNDOFF *
-                         (fabs(rows[0].x) * magnitude.x + fabs(rows[0].y) * magnitude.y + fabs(rows[0].z) * magnitude.z);
+    Vec3 first = vec3(fabs(rows[0].x), fabs(rows[0].y), fabs(rows[0].z));
+    double uncertainty = 6.0 * UNIT_ROUNDOFF * vec3_dot(first, magnitude);
     if (!(fabs(determinant) > uncertainty)) {
         return false;
     }
@@ -200,8 +200,8 @@ static double middle_of_three(double a, double b, double c)
     return fmax(fmin(a, b), fmin(fmax(a, b), c));
 }
 
-// Each entry of a rotation is off by at most 2 u, and a composition adds 3 u of |row| |column| (Higham, 3.1): 5 u a step
-// for an entry, hence 2 sqrt(3) 5 u < 18 u of s² for the product of two rows. Eight steps are allowed for; a shape
+// Each entry of a rotation is off by at most 2 u, and a composition adds 3 u of |row| |column| (Higham, 3.1): 5 u a
+// step for an entry, hence 2 sqrt(3) 5 u < 18 u of s² for the product of two rows. Eight steps are allowed for; a shape
 // beyond that is still drawn, as an ellipsoid.
 bool transform_is_similarity(const Transform *transform, double *factor)
 {

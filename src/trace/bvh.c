@@ -12,13 +12,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BIN_COUNT = 16, CACHE_LINE_BYTES = 64 };
+enum { BIN_MOST = 16, CACHE_LINE_BYTES = 64 };
 
 // Time to visit a node in units of the time to test a sphere, measured; only the ratio matters.
 static const float NODE_COST = 1.5f;
 
+// Four floats at a time; x, y and z are used.
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int32_t Int4 __attribute__((vector_size(16)));
+
 typedef struct Box {
-    float low[3], high[3];
+    Float4 low, high;
 } Box;
 
 // A sphere while the tree is built: its box and its number.
@@ -52,28 +56,40 @@ typedef struct Split {
     int bin; // the first bin of the right side
 } Split;
 
-static const Box EMPTY_BOX = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+static const Box EMPTY_BOX = {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}};
 
-static void box_join(Box *box, const Box *other)
+// a where the mask is set, else b
+static inline Float4 float4_select(Int4 mask, Float4 a, Float4 b)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        box->low[axis] = other->low[axis] < box->low[axis] ? other->low[axis] : box->low[axis];
-        box->high[axis] = other->high[axis] > box->high[axis] ? other->high[axis] : box->high[axis];
-    }
+    return (Float4)((mask & (Int4)a) | (~mask & (Int4)b));
+}
+
+static inline Float4 float4_min(Float4 a, Float4 b)
+{
+    return float4_select(a < b, a, b);
+}
+
+static inline Float4 float4_max(Float4 a, Float4 b)
+{
+    return float4_select(a > b, a, b);
+}
+
+static inline void box_join(Box *box, const Box *other)
+{
+    box->low = float4_min(other->low, box->low);
+    box->high = float4_max(other->high, box->high);
 }
 
 static float box_half_area(const Box *box)
 {
-    float x = box->high[0] - box->low[0];
-    float y = box->high[1] - box->low[1];
-    float z = box->high[2] - box->low[2];
-    return x * y + y * z + z * x;
+    Float4 size = box->high - box->low;
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
 }
 
 // Twice the middle of a box.
-static float box_centre(const Box *box, int axis)
+static inline Float4 box_centre(const Box *box)
 {
-    return box->low[axis] + box->high[axis];
+    return box->low + box->high;
 }
 
 // Rounded outward: a conversion to float is off by at most 2^-24 of the value.
@@ -89,13 +105,17 @@ static float float_above(double x)
 
 // Maps box centres to bins along each axis.
 typedef struct Binning {
-    float low[3], bins_per_unit[3]; // 0 for an axis along which the centres do not differ
+    Float4 low, bins_per_unit; // 0 for an axis along which the centres do not differ
+    int count;
 } Binning;
 
-static int binning_bin(const Binning *binning, const Box *box, int axis)
+// The bins of a box, one for each axis.
+static inline Int4 binning_bins(const Binning *binning, const Box *box)
 {
-    int bin = (int)((box_centre(box, axis) - binning->low[axis]) * binning->bins_per_unit[axis]);
-    return bin < BIN_COUNT ? bin : BIN_COUNT - 1;
+    const Int4 last = {binning->count - 1, binning->count - 1, binning->count - 1, 0};
+    Int4 bins = __builtin_convertvector((box_centre(box) - binning->low) * binning->bins_per_unit, Int4);
+    Int4 within = bins < last;
+    return (within & bins) | (~within & last);
 }
 
 // False when all centres are the same.
@@ -103,38 +123,38 @@ static bool binning_init(Binning *binning, const BuildRef *refs, uint32_t begin,
 {
     Box centres = EMPTY_BOX;
     for (uint32_t i = begin; i < end; i++) {
-        Box centre;
-        for (int axis = 0; axis < 3; axis++) {
-            centre.low[axis] = centre.high[axis] = box_centre(&refs[i].box, axis);
-        }
-        box_join(&centres, &centre);
+        Float4 centre = box_centre(&refs[i].box);
+        box_join(&centres, &(Box){centre, centre});
     }
+    // Half of all ranges are short; for them the bins themselves would be most of the work.
+    binning->count = end - begin >= 64 ? BIN_MOST : end - begin >= 16 ? BIN_MOST / 2 : BIN_MOST / 4;
+    binning->low = centres.low;
+    binning->bins_per_unit = (Float4){0, 0, 0, 0};
     bool differ = false;
     for (int axis = 0; axis < 3; axis++) {
-        float extent = centres.high[axis] - centres.low[axis];
-        float bins_per_unit = (float)BIN_COUNT / extent;
-        bool usable = extent > 0.0f && bins_per_unit < INFINITY;
-        binning->low[axis] = centres.low[axis];
-        binning->bins_per_unit[axis] = usable ? bins_per_unit : 0.0f;
-        differ = differ || usable;
+        float bins_per_unit = (float)binning->count / (centres.high[axis] - centres.low[axis]);
+        if (bins_per_unit < INFINITY) {
+            binning->bins_per_unit[axis] = bins_per_unit;
+            differ = true;
+        }
     }
     return differ;
 }
 
 // The cheapest place to cut along one axis, if it is cheaper than *best.
-static void split_axis(const Bin *bins, int axis, Split *best)
+static void split_axis(const Bin *bins, int bin_count, int axis, Split *best)
 {
-    float right_cost[BIN_COUNT];
+    float right_cost[BIN_MOST];
     Box box = EMPTY_BOX;
     uint32_t count = 0;
-    for (int i = BIN_COUNT - 1; i > 0; i--) {
+    for (int i = bin_count - 1; i > 0; i--) {
         box_join(&box, &bins[i].box);
         count += bins[i].count;
         right_cost[i] = count ? (float)count * box_half_area(&box) : INFINITY;
     }
     box = EMPTY_BOX;
     count = 0;
-    for (int i = 1; i < BIN_COUNT; i++) {
+    for (int i = 1; i < bin_count; i++) {
         box_join(&box, &bins[i - 1].box);
         count += bins[i - 1].count;
         float cost = count ? (float)count * box_half_area(&box) + right_cost[i] : INFINITY;
@@ -147,20 +167,23 @@ static void split_axis(const Bin *bins, int axis, Split *best)
 // The best split of a range; its cost stays infinite when there is none.
 static Split split_find(const BuildRef *refs, uint32_t begin, uint32_t end, const Binning *binning)
 {
-    Bin bins[3][BIN_COUNT];
-    for (int i = 0; i < 3 * BIN_COUNT; i++) {
-        bins[i / BIN_COUNT][i % BIN_COUNT] = (Bin){EMPTY_BOX, 0};
+    Bin bins[3][BIN_MOST];
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < binning->count; i++) {
+            bins[axis][i] = (Bin){EMPTY_BOX, 0};
+        }
     }
     for (uint32_t i = begin; i < end; i++) {
+        Int4 places = binning_bins(binning, &refs[i].box);
         for (int axis = 0; axis < 3; axis++) {
-            Bin *bin = &bins[axis][binning_bin(binning, &refs[i].box, axis)];
+            Bin *bin = &bins[axis][places[axis]];
             box_join(&bin->box, &refs[i].box);
             bin->count++;
         }
     }
     Split best = {INFINITY, 0, 0};
     for (int axis = 0; axis < 3; axis++) {
-        split_axis(bins[axis], axis, &best);
+        split_axis(bins[axis], binning->count, axis, &best);
     }
     return best;
 }
@@ -171,7 +194,7 @@ static uint32_t split_apply(BuildRef *refs, uint32_t begin, uint32_t end, const 
     uint32_t left = begin;
     uint32_t right = end;
     while (left < right) {
-        if (binning_bin(binning, &refs[left].box, split->axis) < split->bin) {
+        if (binning_bins(binning, &refs[left].box)[split->axis] < split->bin) {
             left++;
         } else {
             BuildRef moved = refs[left];
@@ -243,8 +266,9 @@ static void builder_run(Builder *builder, uint32_t count)
     }
 }
 
-// Chooses the tree's coordinates: the box of the centres in the middle, the root box within -1..1. The half size is that
-// of the centres plus the greatest radius, so that it also holds spheres too small to show beside their coordinates.
+// Chooses the tree's coordinates: the box of the centres in the middle, the root box within -1..1. The half size is
+// that of the centres plus the greatest radius, so that it also holds spheres too small to show beside their
+// coordinates.
 static void bvh_place(Bvh *bvh, const Ball *balls, uint32_t count)
 {
     Vec3 low = balls[0].centre;
@@ -271,8 +295,8 @@ static BuildRef build_ref(const Bvh *bvh, const Ball *ball, uint32_t index)
 {
     Vec3 c = vec3_scale(bvh->scale, vec3_sub(ball->centre, bvh->centre));
     double r = bvh->scale * sqrt(ball->radius_squared);
-    return (BuildRef){{{float_below(c.x - r), float_below(c.y - r), float_below(c.z - r)},
-                       {float_above(c.x + r), float_above(c.y + r), float_above(c.z + r)}},
+    return (BuildRef){{{float_below(c.x - r), float_below(c.y - r), float_below(c.z - r), 0},
+                       {float_above(c.x + r), float_above(c.y + r), float_above(c.z + r), 0}},
                       index};
 }
 
@@ -317,6 +341,24 @@ void bvh_fini(Bvh *bvh)
     *bvh = (Bvh){0};
 }
 
+// Two doubles at a time: the two children of a node.
+typedef float Float2 __attribute__((vector_size(8)));
+typedef double Double2 __attribute__((vector_size(16)));
+typedef int64_t Long2 __attribute__((vector_size(16)));
+
+RT_ALWAYS_INLINE Double2 double2_load(const float *from)
+{
+    Float2 two;
+    memcpy(&two, from, sizeof(two));
+    return __builtin_convertvector(two, Double2);
+}
+
+// a where the mask is set, else b
+RT_ALWAYS_INLINE Double2 double2_select(Long2 mask, Double2 a, Double2 b)
+{
+    return (Double2)((mask & (Long2)a) | (~mask & (Long2)b));
+}
+
 // A ray as the slab test wants it: parameter of a box plane = (plane - origin[axis][side]) * inverse[axis].
 typedef struct SlabRay {
     double origin[3][2]; // axis; for low, for high planes
@@ -352,23 +394,22 @@ static bool slab_ray_init(SlabRay *slab, const Bvh *bvh, const SphereRay *ray)
     return reach < (double)INFINITY && sphere_ray_is_usable(ray);
 }
 
-// Where the ray enters the box of a child, not before 0; more than t_max when it misses it. A zero component of the
-// direction makes infinite parameters, which are right, and NaN where a padded plane goes exactly through the origin;
-// comparisons pass over a NaN, so the box then counts as met.
-RT_ALWAYS_INLINE double slab_enter(const SlabRay *slab, const BvhNode *node, int child, double t_max)
+// Where the ray enters the boxes of both children, not before 0; NaN when it misses one up to t_max. A zero component
+// of the direction makes infinite parameters, which are right, and NaN where a padded plane goes exactly through the
+// origin; comparisons pass over a NaN, so the box then counts as met.
+RT_ALWAYS_INLINE Double2 slab_enter(const SlabRay *slab, const BvhNode *node, double t_max)
 {
-    double enter = 0.0;
-    double leave = t_max;
+    Double2 enter = {0.0, 0.0};
+    Double2 leave = {t_max, t_max};
+#pragma GCC unroll 3
     for (int axis = 0; axis < 3; axis++) {
-        int near_side = slab->near_side[axis];
-        int far_side = 1 - near_side;
-        double t_near =
-            ((double)node->box[axis][near_side][child] - slab->origin[axis][near_side]) * slab->inverse[axis];
-        double t_far = ((double)node->box[axis][far_side][child] - slab->origin[axis][far_side]) * slab->inverse[axis];
-        enter = t_near > enter ? t_near : enter;
-        leave = t_far < leave ? t_far : leave;
+        int side = slab->near_side[axis];
+        Double2 t_near = (double2_load(node->box[axis][side]) - slab->origin[axis][side]) * slab->inverse[axis];
+        Double2 t_far = (double2_load(node->box[axis][!side]) - slab->origin[axis][!side]) * slab->inverse[axis];
+        enter = double2_select(t_near > enter, t_near, enter);
+        leave = double2_select(t_far < leave, t_far, leave);
     }
-    return enter <= leave ? enter : (double)NAN;
+    return double2_select(enter <= leave, enter, (Double2){NAN, NAN});
 }
 
 // One walk for both queries; `any` is constant, so each is compiled with its own half only. A box that begins exactly
@@ -389,7 +430,7 @@ RT_ALWAYS_INLINE bool bvh_walk(const Bvh *bvh, const BallTable *table, const Sph
     uint32_t at = 0;
     for (;;) {
         const BvhNode *node = &bvh->nodes[at];
-        double enter[2] = {slab_enter(&slab, node, 0, nearest->hit.t), slab_enter(&slab, node, 1, nearest->hit.t)};
+        Double2 enter = slab_enter(&slab, node, nearest->hit.t);
         int first = enter[1] < enter[0];
         uint32_t next = UINT32_MAX;
         for (int turn = 0; turn < 2; turn++) {

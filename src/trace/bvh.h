@@ -58,8 +58,8 @@ typedef struct Nearest {
     uint32_t order; // of hit.shape
 } Nearest;
 
-// Builds the tree of `count` > BVH_LEAF_MOST spheres, none with a NaN, and puts their new order into `order`, counted from `first`:
-// sphere order[i] becomes number first + i. False when out of memory; *bvh is then empty.
+// Builds the tree of `count` > BVH_LEAF_MOST usable spheres and puts their new order into `order`: sphere order[i]
+// becomes number first + i of the table. False when out of memory; *bvh is then empty.
 bool bvh_init(Bvh *bvh, const Ball *balls, uint32_t count, uint32_t first, uint32_t *order) RT_MUST_CHECK;
 void bvh_fini(Bvh *bvh);
 

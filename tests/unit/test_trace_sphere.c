@@ -66,6 +66,12 @@ static Exact exact_solve(const Case *input)
     return e;
 }
 
+// True when rounding does not excuse a wrong class.
+static bool is_certain(const Exact *e)
+{
+    return quad_abs(e->discriminant) > e->uncertainty_d && quad_abs(e->c) > e->uncertainty_c;
+}
+
 // | |P|² - r² | / ( 2 ( r² + Σ|P_i|(|f_i| + |t d_i|) ) ) in units of u
 static double backward_error(const Exact *e, double t)
 {
@@ -130,7 +136,7 @@ static void test_family(const Family *family, uint64_t seed)
         Class class = computed_class(&input, &t);
         if (class != exact.class) {
             wrong++;
-            inexcusable += quad_abs(exact.discriminant) > exact.uncertainty_d && quad_abs(exact.c) > exact.uncertainty_c;
+            inexcusable += is_certain(&exact);
         }
         if (class != CLASS_MISS) {
             hits++;
@@ -178,8 +184,7 @@ static void test_direction_length(void)
         Exact exact = exact_solve(&input);
         double t = 0.0;
         Class class = computed_class(&input, &t);
-        inexcusable += class != exact.class && quad_abs(exact.discriminant) > exact.uncertainty_d &&
-                       quad_abs(exact.c) > exact.uncertainty_c;
+        inexcusable += class != exact.class && is_certain(&exact);
         worst = class == CLASS_MISS ? worst : fmax(worst, backward_error(&exact, t));
     }
     tap_ok(inexcusable == 0 && worst <= 4.0, "directions of any length: backward error %.2f u, %d inexcusable", worst,
