@@ -4,7 +4,7 @@
 AM_YFLAGS = -d -Wall -Wno-yacc
 noinst_LTLIBRARIES += libgrammar.la
 libgrammar_la_SOURCES = \
-  %D%/grammar.c %D%/grammar.h %D%/lexer.h %D%/lexer.l %D%/parser.y
-# The generated header is included by the two generated files only, so the rule stands here by hand.
-%D%/lexer.lo: %D%/parser.h
+  %D%/grammar.c %D%/grammar.h %D%/lexer.h %D%/lexer.l %D%/parser.y %D%/tokens.c
+# The generated header is included by files of this folder only, so the rule stands here by hand.
+%D%/grammar.lo %D%/lexer.lo %D%/tokens.lo: %D%/parser.h
 MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

@@ -64,11 +64,16 @@ tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
 tests_lang_run_lang_LDADD = libeval.la libscene.la libgrammar.la libast.la libmath.la libbase.la
 
+check_PROGRAMS += tests/fuzz/fuzz_scene
+tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
+tests_fuzz_fuzz_scene_LDADD = libapi.la
+
 test_scripts = \
+  %D%/fuzz/replay.sh \
   %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.sh %D%/check-docs.py \
   %D%/golden/check_golden.py %D%/system/run_system.sh %D%/povray/check_pictures.py %D%/povray/check_lang.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py
 
 TESTS += $(unit_programs) $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
-EXTRA_DIST += $(test_scripts) %D%/lang %D%/golden %D%/system %D%/povray %D%/unit
+EXTRA_DIST += $(test_scripts) %D%/fuzz %D%/lang %D%/golden %D%/system %D%/povray %D%/unit

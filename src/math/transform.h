@@ -1,0 +1,40 @@
+// Affine transforms in the scene language's convention: p' = p M + t with row vectors, so that `matrix <m00,m01,m02,
+// m10,…,m32>` is stored as it is written and transforms are composed in the order in which they are written.
+// Rotations are left-handed, in degrees, about x, then y, then z, as the language has them.
+//
+// SPDX-License-Identifier: MIT
+#ifndef MATH_TRANSFORM_H
+#define MATH_TRANSFORM_H
+
+#include <stdbool.h>
+
+#include "math/vec3.h"
+
+typedef struct Transform {
+    double m[4][3]; // rows 0 to 2: images of x, y and z; row 3: image of the origin
+} Transform;
+
+Transform transform_identity(void);
+Transform transform_translate(Vec3 by);
+Transform transform_scale(Vec3 by);
+Transform transform_rotate(Vec3 degrees);
+
+// First `first`, then `second`.
+Transform transform_compose(Transform first, Transform second);
+
+// False when the linear part is singular or its inverse is not finite; *inverse is then unchanged.
+bool transform_invert(const Transform *transform, Transform *inverse);
+
+Vec3 transform_point(const Transform *transform, Vec3 point);
+Vec3 transform_direction(const Transform *transform, Vec3 direction);
+
+// The image of a normal of a surface: `inverse` is the inverse of the surface's transform. Not normalised.
+Vec3 transform_normal(const Transform *inverse, Vec3 normal);
+
+bool transform_is_finite(const Transform *transform);
+
+// True when the linear part is a uniform scale times a rotation or reflection whose products with itself are exact to
+// rounding, so that a sphere stays a sphere; *factor is then the scale.
+bool transform_is_similarity(const Transform *transform, double *factor);
+
+#endif
