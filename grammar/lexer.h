@@ -1,0 +1,88 @@
+// What scanner, token stream and parser share; private to the grammar.
+//
+// One GrammarState is one parse. The scanner (lexer.l) turns text into tokens; the token stream (tokens.c) stands between
+// it and the parser: it knows the brackets and directives that are open, words the messages of syntax faults and skips
+// what cannot be understood; the facade (grammar.c) sets all up.
+//
+// SPDX-License-Identifier: MIT
+#ifndef GRAMMAR_LEXER_H
+#define GRAMMAR_LEXER_H
+
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/array.h"
+#include "grammar/grammar.h"
+
+typedef struct Token {
+    int kind; // enum grammar_yytokentype, or a character
+    Span span;
+    union {
+        Symbol symbol; // words, names, strings; the directive's word
+        double number;
+    };
+} Token;
+
+// A bracket or a directive that still wants its other end.
+typedef struct Opener {
+    int kind;
+    Span span;
+    Symbol word;      // the word before a `{`, or the directive's; SYMBOL_NONE if there is none
+    bool header_done; // of a directive: its parentheses are closed
+} Opener;
+
+typedef struct GrammarState {
+    const GrammarContext *context;
+    AstBuilder builder;
+    Source *source;
+    GrammarItemFn item;
+    void *client;
+    ArenaMark mark;    // where the present top-level item begins
+    AstList *kept;     // where items are collected; NULL when each goes to the client
+    bool client_ended; // the client returned false
+    bool faulty;       // a fault was reported
+    bool ended;        // a fault that ends the parse: only the end of the file is delivered from now on
+
+    // Scanner.
+    void *scanner;
+    jmp_buf escape;     // taken when the scanner is out of memory
+    uint64_t offset;    // global offset of the next byte
+    bool block_checked; // the first block was looked at for bytes that no text has
+    bool file_name;     // the next string is the file name of an #include: backslashes stand for themselves
+    uint64_t begin;     // of the string or comment being read
+    unsigned comment_depth;
+    int comment_return; // start condition
+    TextBuffer string;
+
+    // Token stream.
+    Token previous, current; // the last two delivered to the parser
+    Token held;              // read while skipping, to be delivered next
+    bool holds;
+    bool skips; // a fault was reported: skip before the next token
+    bool past_directive; // the fault is a directive inside an expression: skip all of it
+    ARRAY(Opener) openers;
+} GrammarState;
+
+// Scanner: the next token into *token.
+int grammar_scan(Token *token, void *scanner);
+bool grammar_scan_begin(GrammarState *state) RT_MUST_CHECK;
+void grammar_scan_end(GrammarState *state);
+
+// Token stream: the symbol and directive tables.
+int grammar_word_token(Symbol symbol);
+// The token of a `#word`; reports E0105 and gives the one that was probably meant, or the token INVALID.
+int grammar_directive_token(GrammarState *state, const char *word, size_t length, Span span);
+// Reports a fault at the current token; `expected` names the tokens that would do.
+void grammar_report_syntax(GrammarState *state, const char *const *expected, size_t count);
+void grammar_fault(GrammarState *state, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+
+// The next token into state->current, without the stack of openers: for a dump.
+void grammar_next_token(GrammarState *state);
+// `kind text` of a token, for a dump.
+void grammar_describe_token(const GrammarState *state, const Token *token, TextBuffer *out);
+
+// Facade: hands a completed top-level item over. False when the parse is to stop.
+bool grammar_emit(GrammarState *state, AstNode *item);
+
+#endif

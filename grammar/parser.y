@@ -1,0 +1,470 @@
+// The grammar of the scene language: tokens in, AST out.
+//
+// It knows expressions, statements and generic blocks (`word { items }`), never kinds of objects. Every action is one
+// ast_* call or one list append; a completed top-level item goes to the client. After a fault the token stream skips to
+// a place where reading can go on and says so by the token RESYNC (see tokens.c).
+//
+// SPDX-License-Identifier: MIT
+%require "3.8"
+%define api.pure full
+%define api.prefix {grammar_yy}
+%define api.token.prefix {TOKEN_}
+%define api.location.type {Span}
+%define parse.error custom
+%define parse.lac full
+%locations
+%expect 0
+%param {GrammarState *state}
+
+%code requires {
+#include "ast/ast.h"
+#include "grammar/lexer.h"
+}
+
+%code provides {
+int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
+}
+
+%union {
+    Symbol symbol;
+    double number;
+    AstNode *node;
+    AstList list;
+}
+
+%code {
+#define EMPTY ((AstList){0})
+#define NODE(kind, op, symbol, at, a, b, c)                                                                            \
+    ast_node(&state->builder, AST_##kind, AST_OP_##op, (symbol), (at), (a), (b), (c))
+#define LEAF(kind, symbol, at) NODE(kind, NONE, symbol, at, NULL, NULL, NULL)
+#define BINARY(op, at, left, right) NODE(BINARY, op, SYMBOL_NONE, at, left, right, NULL)
+#define LISTS(kind, op, symbol, at, a, b, c)                                                                           \
+    ast_node_list(&state->builder, AST_##kind, AST_OP_##op, (symbol), (at), (a), (b), (c))
+#define LIST(kind, symbol, at, a) LISTS(kind, NONE, symbol, at, a, EMPTY, EMPTY)
+#define ONE(node) ast_append(EMPTY, (node))
+
+#define YYLLOC_DEFAULT(current, rhs, count)                                                                            \
+    ((current) = (count) > 0 ? span_join(YYRHSLOC(rhs, 1), YYRHSLOC(rhs, count))                                       \
+                             : (Span){YYRHSLOC(rhs, 0).end, YYRHSLOC(rhs, 0).end})
+
+// Most texts nest a few levels; the limit is reached only after the AST's own depth limit, or by parentheses.
+#define YYMAXDEPTH 20000
+
+static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
+}
+
+%token END_OF_FILE 0 "the end of the file"
+%token INVALID "an unreadable token"
+%token RESYNC "the next item"
+%token <number> NUMBER "a number"
+%token <symbol> STRING "a string"
+%token <symbol> NAME "a name" CONSTANT "a constant" BUILTIN "a function"
+%token <symbol> WORD "a word" COLOUR "a colour word" TEXTURE "texture" DIRECTIVE_WORD "a directive's word"
+%token <symbol> ARRAY "array" FUNCTION "function"
+%token LESS_EQUAL "<=" GREATER_EQUAL ">=" NOT_EQUAL "!="
+%token HASH_DECLARE "#declare" HASH_LOCAL "#local" HASH_UNDEF "#undef"
+%token HASH_IF "#if" HASH_IFDEF "#ifdef" HASH_IFNDEF "#ifndef" HASH_ELSEIF "#elseif" HASH_ELSE "#else" HASH_END "#end"
+%token HASH_SWITCH "#switch" HASH_CASE "#case" HASH_RANGE "#range" HASH_BREAK "#break"
+%token HASH_WHILE "#while" HASH_FOR "#for" HASH_MACRO "#macro"
+%token HASH_INCLUDE "#include" HASH_DEFAULT "#default" HASH_VERSION "#version"
+%token HASH_DEBUG "#debug" HASH_WARNING "#warning" HASH_ERROR "#error" HASH_RENDER "#render"
+%token HASH_STATISTICS "#statistics"
+%token HASH_FOPEN "#fopen" HASH_FCLOSE "#fclose" HASH_READ "#read" HASH_WRITE "#write"
+
+%type <node> item block layer entry array function directive declare assignment conditional message file case
+%type <node> value initialiser
+%type <node> full logic relation sum product unary postfix primary indexed vector target subject condition
+%type <list> items body block_body components arguments operands colour colour_open layers sizes rows
+%type <list> parameters names bounds targets cases else_part function_body
+%type <symbol> word block_word parameter mode member reserved
+
+%printer { fprintf(yyo, "symbol %u", (unsigned)$$); } <symbol>
+%printer { fprintf(yyo, "%g", $$); } <number>
+%printer { fprintf(yyo, "%s", ast_kind_name((AstKind)$$->kind)); } <node>
+%printer { fprintf(yyo, "%u elements", (unsigned)$$.count); } <list>
+
+// Two expressions side by side: whatever can continue the first one does, as in POV-Ray.
+%precedence JUXTAPOSED
+%precedence '(' '[' '+' '-' '<' ';' COLOUR TEXTURE
+
+%start text
+
+%%
+
+// ---- Items: the top level, blocks and the bodies of directives hold the same.
+
+text:
+  top
+| top ','
+;
+
+top:
+  %empty
+| top item                          { if (!grammar_emit(state, $item)) { YYABORT; } }
+| top ',' item                      { if (!grammar_emit(state, ast_flag($item, AST_AFTER_COMMA))) { YYABORT; } }
+| top error RESYNC                  { yyerrok; }
+;
+
+items:
+  item                              { $$ = ONE($item); }
+| items item                        { $$ = ast_append($1, $item); }
+| items ',' item                    { $$ = ast_append_after_comma($1, $item); }
+| error RESYNC                      { $$ = EMPTY; yyerrok; }
+| items error RESYNC                { $$ = $1; yyerrok; }
+;
+
+block_body:
+  %empty                            { $$ = EMPTY; }
+| items                             { $$ = $items; }
+| items ','                         { $$ = ast_end_with_comma($items); }
+;
+
+body:
+  block_body                        { $$ = $block_body; }
+| items ';'                         { ast_flag($items.last, AST_ENDED); $$ = $items; }
+| ',' items                         { $$ = ast_begin_with_comma($items); }
+| ',' items ','                     { $$ = ast_begin_with_comma(ast_end_with_comma($items)); }
+;
+
+item:
+  sum                               %prec JUXTAPOSED { $$ = $sum; }
+| word                              { $$ = LEAF(WORD, $word, @$); }
+| block                             { $$ = $block; }
+| entry                             { $$ = $entry; }
+| array                             { $$ = $array; }
+| function                          { $$ = $function; }
+| directive                         { $$ = $directive; }
+;
+
+word: WORD | COLOUR | TEXTURE;
+
+block:
+  block_word '{' block_body '}'     { $$ = LIST(BLOCK, $block_word, @$, $block_body); }
+| layer                             { $$ = $layer; }
+;
+
+// A name in the place of a block's word is a slip of the pen that the evaluator explains better.
+block_word: WORD | NAME;
+
+layer: TEXTURE '{' block_body '}'   { $$ = LIST(BLOCK, $TEXTURE, @$, $block_body); };
+
+entry: '[' block_body ']'           { $$ = LIST(ENTRY, SYMBOL_NONE, @$, $block_body); };
+
+// ---- Values: the right side of a declaration, an argument, an element.
+
+value:
+  sum                               %prec JUXTAPOSED { $$ = $sum; }
+| colour                            %prec JUXTAPOSED { $$ = LIST(SEQUENCE, SYMBOL_NONE, @$, $colour); }
+| layers                            %prec JUXTAPOSED { $$ = LIST(SEQUENCE, SYMBOL_NONE, @$, $layers); }
+| layer                             %prec JUXTAPOSED { $$ = $layer; }
+| block_word '{' block_body '}'     { $$ = LIST(BLOCK, $block_word, @$, $block_body); }
+| array                             { $$ = $array; }
+| function                          { $$ = $function; }
+;
+
+arguments:
+  value                             { $$ = ONE($value); }
+| arguments value                   { $$ = ast_append($1, $value); }
+| arguments ',' value               { $$ = ast_append($1, $value); }
+;
+
+colour: colour_open sum             %prec JUXTAPOSED { $$ = ast_append($colour_open, $sum); };
+
+colour_open:
+  COLOUR                            { $$ = ONE(LEAF(WORD, $COLOUR, @$)); }
+| colour_open COLOUR                { $$ = ast_append($1, LEAF(WORD, $COLOUR, @COLOUR)); }
+| colour COLOUR                     { $$ = ast_append($1, LEAF(WORD, $COLOUR, @COLOUR)); }
+;
+
+layers:
+  layer[first] layer[second]        { $$ = ast_append(ONE($first), $second); }
+| layers layer                      { $$ = ast_append($1, $layer); }
+;
+
+array:
+  ARRAY sizes                       %prec JUXTAPOSED { $$ = LIST(ARRAY, SYMBOL_NONE, @$, $sizes); }
+| ARRAY sizes initialiser           { $$ = LISTS(ARRAY, NONE, SYMBOL_NONE, @$, $sizes, ONE($initialiser), EMPTY); }
+;
+
+sizes:
+  '[' sum ']'                       { $$ = ONE($sum); }
+| sizes '[' sum ']'                 { $$ = ast_append($1, $sum); }
+;
+
+initialiser:
+  '{' arguments comma '}'           { $$ = LIST(INITIALISER, SYMBOL_NONE, @$, $arguments); }
+| '{' rows comma '}'                { $$ = LIST(INITIALISER, SYMBOL_NONE, @$, $rows); }
+| '{' '}'                           { $$ = LIST(INITIALISER, SYMBOL_NONE, @$, EMPTY); }
+;
+
+rows:
+  initialiser                       { $$ = ONE($initialiser); }
+| rows initialiser                  { $$ = ast_append($1, $initialiser); }
+| rows ',' initialiser              { $$ = ast_append($1, $initialiser); }
+;
+
+function:
+  FUNCTION '{' function_body '}'
+    { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$, EMPTY, $function_body, EMPTY); }
+| FUNCTION '(' parameters comma ')' '{' function_body '}'
+    { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$, $parameters, $function_body, EMPTY); }
+| FUNCTION NUMBER[w] ',' NUMBER[h] '{' function_body '}'
+    { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$,
+                 ast_append(ONE(ast_number(&state->builder, $w, @w)), ast_number(&state->builder, $h, @h)),
+                 $function_body, EMPTY); }
+;
+
+function_body:
+  logic                             { $$ = ONE($logic); }
+| block                             { $$ = ONE($block); }
+| error RESYNC                      { $$ = EMPTY; yyerrok; }
+;
+
+parameters:
+  parameter                         { $$ = ONE(LEAF(NAME, $parameter, @$)); }
+| parameters parameter              { $$ = ast_append($1, LEAF(NAME, $parameter, @parameter)); }
+| parameters ',' parameter          { $$ = ast_append($1, LEAF(NAME, $parameter, @parameter)); }
+;
+
+parameter: NAME | CONSTANT;
+
+comma:
+  %empty                            %prec JUXTAPOSED
+| ','
+;
+
+// ---- Directives.
+
+directive:
+  declare                           { $$ = $declare; }
+| conditional                       { $$ = $conditional; }
+| message                           { $$ = $message; }
+| file                              { $$ = $file; }
+| HASH_UNDEF target                 { $$ = NODE(UNDEF, NONE, SYMBOL_NONE, @$, $target, NULL, NULL); }
+| HASH_BREAK                        { $$ = LEAF(BREAK, SYMBOL_NONE, @$); }
+| HASH_WHILE condition body HASH_END
+    { $$ = LISTS(WHILE, NONE, SYMBOL_NONE, @$, ONE($condition), $body, EMPTY); }
+| HASH_FOR '(' NAME comma bounds ')' body HASH_END
+    { $$ = LISTS(FOR, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $bounds, $body); }
+| HASH_FOR error RESYNC body HASH_END
+    { $$ = LISTS(FOR, NONE, SYMBOL_NONE, @$, EMPTY, EMPTY, $body); yyerrok; }
+| HASH_MACRO NAME '(' names comma ')' body HASH_END
+    { $$ = LISTS(MACRO, NONE, $NAME, @$, $names, $body, EMPTY); }
+| HASH_MACRO NAME '(' ')' body HASH_END
+    { $$ = LISTS(MACRO, NONE, $NAME, @$, EMPTY, $body, EMPTY); }
+| HASH_MACRO error RESYNC body HASH_END
+    { $$ = LISTS(MACRO, NONE, SYMBOL_NONE, @$, EMPTY, $body, EMPTY); yyerrok; }
+| HASH_INCLUDE sum                  %prec JUXTAPOSED { $$ = NODE(INCLUDE, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| HASH_DEFAULT '{' block_body '}'   { $$ = LIST(DEFAULT, SYMBOL_NONE, @$, $block_body); }
+| HASH_VERSION sum                  %prec JUXTAPOSED { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| HASH_VERSION sum ';'              { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+;
+
+declare:
+  assignment                        %prec JUXTAPOSED { $$ = $assignment; }
+| assignment ';'                    %prec JUXTAPOSED { $$ = ast_flag($assignment, AST_ENDED); }
+| assignment ';' ';'                { $$ = ast_flag($assignment, AST_ENDED); }
+;
+
+assignment:
+  HASH_DECLARE target '=' value     { $$ = NODE(DECLARE, DECLARE, SYMBOL_NONE, @$, $target, $value, NULL); }
+| HASH_LOCAL target '=' value       { $$ = NODE(DECLARE, LOCAL, SYMBOL_NONE, @$, $target, $value, NULL); }
+;
+
+target:
+  NAME                              %prec JUXTAPOSED { $$ = LEAF(NAME, $NAME, @$); }
+| indexed                           %prec JUXTAPOSED { $$ = $indexed; }
+;
+
+conditional:
+  HASH_IF condition body else_part HASH_END
+    { $$ = LISTS(IF, NONE, SYMBOL_NONE, @$, ONE($condition), $body, $else_part); }
+| HASH_IFDEF '(' subject ')' body else_part HASH_END
+    { $$ = LISTS(IFDEF, IFDEF, SYMBOL_NONE, @$, ONE($subject), $body, $else_part); }
+| HASH_IFNDEF '(' subject ')' body else_part HASH_END
+    { $$ = LISTS(IFDEF, IFNDEF, SYMBOL_NONE, @$, ONE($subject), $body, $else_part); }
+| HASH_IFDEF error RESYNC body else_part HASH_END
+    { $$ = LISTS(IFDEF, IFDEF, SYMBOL_NONE, @$, EMPTY, $body, $else_part); yyerrok; }
+| HASH_IFNDEF error RESYNC body else_part HASH_END
+    { $$ = LISTS(IFDEF, IFNDEF, SYMBOL_NONE, @$, EMPTY, $body, $else_part); yyerrok; }
+| HASH_SWITCH condition body cases HASH_END
+    { $$ = LISTS(SWITCH, NONE, SYMBOL_NONE, @$, ONE($condition), $cases, $body); }
+;
+
+// A reserved word may be asked for, too: it is not defined.
+subject:
+  target                            { $$ = $target; }
+| reserved                          { $$ = LEAF(NAME, $reserved, @$); }
+;
+
+condition:
+  '(' full ')'                      { $$ = $full; }
+| error RESYNC                      { $$ = ast_number(&state->builder, 0, @$); yyerrok; }
+;
+
+else_part:
+  %empty                            { $$ = EMPTY; }
+| HASH_ELSE body                    { $$ = $body; }
+| HASH_ELSEIF condition body else_part[rest]
+    { $$ = ONE(LISTS(IF, NONE, SYMBOL_NONE, @$, ONE($condition), $body, $rest)); }
+;
+
+cases:
+  case                              { $$ = ONE($case); }
+| cases case                        { $$ = ast_append($1, $case); }
+;
+
+case:
+  HASH_CASE condition body          { $$ = LISTS(CASE, NONE, SYMBOL_NONE, @$, ONE($condition), $body, EMPTY); }
+| HASH_RANGE '(' sum[low] comma sum[high] ')' body
+    { $$ = LISTS(RANGE, NONE, SYMBOL_NONE, @$, ONE($low), ONE($high), $body); }
+| HASH_RANGE error RESYNC body      { $$ = LISTS(CASE, NONE, SYMBOL_NONE, @$, EMPTY, $body, EMPTY); yyerrok; }
+| HASH_ELSE body                    { $$ = LIST(ELSE, SYMBOL_NONE, @$, $body); }
+;
+
+bounds:
+  sum[from] comma sum[to]           %prec JUXTAPOSED { $$ = ast_append(ONE($from), $to); }
+| sum[from] comma sum[to] ','       { $$ = ast_append(ONE($from), $to); }
+| sum[from] comma sum[to] comma sum[step]
+    %prec JUXTAPOSED { $$ = ast_append(ast_append(ONE($from), $to), $step); }
+| sum[from] comma sum[to] comma sum[step] ','
+    { $$ = ast_append(ast_append(ONE($from), $to), $step); }
+;
+
+names:
+  NAME                              { $$ = ONE(LEAF(NAME, $NAME, @$)); }
+| names NAME                        { $$ = ast_append($1, LEAF(NAME, $NAME, @NAME)); }
+| names ',' NAME                    { $$ = ast_append($1, LEAF(NAME, $NAME, @NAME)); }
+;
+
+message:
+  HASH_DEBUG sum                    %prec JUXTAPOSED { $$ = NODE(MESSAGE, DEBUG, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| HASH_WARNING sum                  %prec JUXTAPOSED { $$ = NODE(MESSAGE, WARNING, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| HASH_ERROR sum                    %prec JUXTAPOSED { $$ = NODE(MESSAGE, ERROR, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| HASH_RENDER sum                   %prec JUXTAPOSED { $$ = NODE(MESSAGE, RENDER, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| HASH_STATISTICS sum               %prec JUXTAPOSED
+    { $$ = NODE(MESSAGE, STATISTICS, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+;
+
+file:
+  HASH_FOPEN NAME sum mode          { $$ = NODE(FOPEN, NONE, $mode, @$, LEAF(NAME, $NAME, @NAME), $sum, NULL); }
+| HASH_FCLOSE NAME                  { $$ = NODE(FCLOSE, NONE, SYMBOL_NONE, @$, LEAF(NAME, $NAME, @NAME), NULL, NULL); }
+| HASH_READ '(' NAME ',' targets comma ')'
+    { $$ = LISTS(READ, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $targets, EMPTY); }
+| HASH_WRITE '(' NAME comma arguments ')'
+    { $$ = LISTS(WRITE, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $arguments, EMPTY); }
+;
+
+mode: WORD | DIRECTIVE_WORD;
+
+targets:
+  target                            { $$ = ONE($target); }
+| targets target                    { $$ = ast_append($1, $target); }
+| targets ',' target                { $$ = ast_append($1, $target); }
+;
+
+// ---- Expressions. Relations and choices stand in parentheses only, so that `<1, 2>` is always a vector.
+
+full:
+  logic                             %prec JUXTAPOSED { $$ = $logic; }
+| logic '?' full[then] ':' full[else]
+    { $$ = NODE(CONDITIONAL, CONDITIONAL, SYMBOL_NONE, @$, $logic, $then, $else); }
+;
+
+logic:
+  relation                          %prec JUXTAPOSED { $$ = $relation; }
+| logic '&' relation                %prec JUXTAPOSED { $$ = BINARY(AND, @$, $1, $relation); }
+| logic '|' relation                %prec JUXTAPOSED { $$ = BINARY(OR, @$, $1, $relation); }
+;
+
+relation:
+  sum                               %prec JUXTAPOSED { $$ = $sum; }
+| relation '=' sum                  %prec JUXTAPOSED { $$ = BINARY(EQ, @$, $1, $sum); }
+| relation NOT_EQUAL sum            %prec JUXTAPOSED { $$ = BINARY(NE, @$, $1, $sum); }
+| relation '<' sum                  %prec JUXTAPOSED { $$ = BINARY(LT, @$, $1, $sum); }
+| relation LESS_EQUAL sum           %prec JUXTAPOSED { $$ = BINARY(LE, @$, $1, $sum); }
+| relation '>' sum                  %prec JUXTAPOSED { $$ = BINARY(GT, @$, $1, $sum); }
+| relation GREATER_EQUAL sum        %prec JUXTAPOSED { $$ = BINARY(GE, @$, $1, $sum); }
+;
+
+sum:
+  product                           { $$ = $product; }
+| sum '+' product                   { $$ = BINARY(ADD, @$, $1, $product); }
+| sum '-' product                   { $$ = BINARY(SUB, @$, $1, $product); }
+;
+
+product:
+  unary                             { $$ = $unary; }
+| product '*' unary                 { $$ = BINARY(MUL, @$, $1, $unary); }
+| product '/' unary                 { $$ = BINARY(DIV, @$, $1, $unary); }
+;
+
+unary:
+  postfix                           { $$ = $postfix; }
+| '-' unary[operand]                { $$ = NODE(UNARY, NEG, SYMBOL_NONE, @$, $operand, NULL, NULL); }
+| '+' unary[operand]                { $$ = NODE(UNARY, PLUS, SYMBOL_NONE, @$, $operand, NULL, NULL); }
+| '!' unary[operand]                { $$ = NODE(UNARY, NOT, SYMBOL_NONE, @$, $operand, NULL, NULL); }
+;
+
+postfix:
+  primary                           { $$ = $primary; }
+| postfix '.' member                { $$ = NODE(MEMBER, NONE, $member, @$, $1, NULL, NULL); }
+;
+
+primary:
+  NUMBER                            { $$ = ast_number(&state->builder, $NUMBER, @$); }
+| STRING                            { $$ = LEAF(STRING, $STRING, @$); }
+| NAME                              %prec JUXTAPOSED { $$ = LEAF(NAME, $NAME, @$); }
+| CONSTANT                          { $$ = LEAF(CONSTANT, $CONSTANT, @$); }
+| indexed                           %prec JUXTAPOSED { $$ = $indexed; }
+| vector                            { $$ = $vector; }
+| '(' full ')'                      { $$ = $full; }
+| NAME '(' arguments comma ')'      { $$ = LIST(CALL, $NAME, @$, $arguments); }
+| NAME '(' ')'                      { $$ = LIST(CALL, $NAME, @$, EMPTY); }
+| BUILTIN '(' operands ')'          { $$ = LIST(BUILTIN, $BUILTIN, @$, $operands); }
+| BUILTIN '(' ')'                   { $$ = LIST(BUILTIN, $BUILTIN, @$, EMPTY); }
+;
+
+// The parentheses of a function of one number are parentheses: `abs(a < b)`.
+operands:
+  full                              %prec JUXTAPOSED { $$ = ONE($full); }
+| operands sum                      %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
+| operands ',' sum                  %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
+;
+
+indexed:
+  NAME '[' sum ']'                  { $$ = NODE(INDEX, NONE, SYMBOL_NONE, @$, LEAF(NAME, $NAME, @NAME), $sum, NULL); }
+| indexed '[' sum ']'               { $$ = NODE(INDEX, NONE, SYMBOL_NONE, @$, $1, $sum, NULL); }
+;
+
+vector: '<' components comma '>'    { $$ = LIST(VECTOR, SYMBOL_NONE, @$, $components); };
+
+components:
+  sum                               %prec JUXTAPOSED { $$ = ONE($sum); }
+| components sum                    %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
+| components ',' sum                %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
+;
+
+member: NAME | reserved;
+
+reserved: CONSTANT | BUILTIN | WORD | COLOUR | TEXTURE | ARRAY | FUNCTION | DIRECTIVE_WORD;
+%%
+
+static void grammar_yyerror(Span *at, GrammarState *state, const char *message)
+{
+    (void)message; // bison's only other message is that its stack is full
+    diag_report(state->builder.diags, DIAG_E0601, *at, "expressions and blocks nest too deeply here");
+    state->faulty = true;
+}
+
+static int yyreport_syntax_error(const yypcontext_t *fault, GrammarState *state)
+{
+    yysymbol_kind_t kinds[YYNTOKENS];
+    const char *expected[YYNTOKENS];
+    int count = yypcontext_expected_tokens(fault, kinds, YYNTOKENS);
+    for (int i = 0; i < count; i++) {
+        expected[i] = yysymbol_name(kinds[i]);
+    }
+    grammar_report_syntax(state, expected, count > 0 ? (size_t)count : 0);
+    return 0;
+}

@@ -1,0 +1,193 @@
+// AST builders, copies and comparison.
+//
+// Turns what a grammar action knows into one node in the builder's arena. Keeps the height of each tree, so that a text
+// that nests too deeply is refused while it is built and no later walk can overflow the stack.
+//
+// SPDX-License-Identifier: MIT
+#include "ast/ast.h"
+
+#include <string.h>
+
+static const char *const kind_names[AST_KIND_COUNT] = {
+#define AST(kind, name, a, b, c) [AST_##kind] = name,
+#include "ast/ast_kinds.def"
+#undef AST
+};
+
+static const char *const op_spellings[AST_OP_COUNT] = {
+#define AST_OP(op, spelling, precedence) [AST_OP_##op] = spelling,
+#include "ast/ast_ops.def"
+#undef AST_OP
+};
+
+const char *ast_kind_name(AstKind kind)
+{
+    return kind_names[kind];
+}
+
+const char *ast_op_spelling(AstOp op)
+{
+    return op_spellings[op];
+}
+
+static AstNode *fail(AstBuilder *builder, DiagCode code, Span span)
+{
+    if (!builder->failed) {
+        builder->failed = true;
+        if (code == DIAG_E0601) {
+            diag_report(builder->diags, code, span, "expressions and blocks nest deeper than %u levels here",
+                        builder->depth_limit);
+        } else {
+            diag_report(builder->diags, code, span, "out of memory while reading the scene");
+        }
+    }
+    builder->dummy = (AstNode){.span = span};
+    return &builder->dummy;
+}
+
+static uint32_t greater(uint32_t one, uint32_t other)
+{
+    return one > other ? one : other;
+}
+
+static AstNode *new_node(AstBuilder *builder, AstNode content)
+{
+    if (RT_UNLIKELY(content.depth > builder->depth_limit)) {
+        return fail(builder, DIAG_E0601, content.span);
+    }
+    AstNode *node = arena_alloc(builder->arena, sizeof *node);
+    if (RT_UNLIKELY(node == NULL)) {
+        return fail(builder, DIAG_E0602, content.span);
+    }
+    *node = content;
+    return node;
+}
+
+AstNode *ast_node(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstNode *a, AstNode *b,
+                  AstNode *c)
+{
+    uint32_t depth = a != NULL ? a->depth : 0;
+    depth = b != NULL ? greater(depth, b->depth) : depth;
+    depth = c != NULL ? greater(depth, c->depth) : depth;
+    return new_node(builder, (AstNode){.kind = (uint8_t)kind,
+                                       .op = (uint8_t)op,
+                                       .symbol = symbol,
+                                       .depth = depth + 1,
+                                       .span = span,
+                                       .a = a,
+                                       .b = b,
+                                       .c = c});
+}
+
+AstNode *ast_node_list(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstList a, AstList b,
+                       AstList c)
+{
+    return new_node(builder, (AstNode){.kind = (uint8_t)kind,
+                                       .op = (uint8_t)op,
+                                       .symbol = symbol,
+                                       .depth = greater(a.depth, greater(b.depth, c.depth)) + 1,
+                                       .count = a.count,
+                                       .span = span,
+                                       .a = a.first,
+                                       .b = b.first,
+                                       .c = c.first});
+}
+
+AstNode *ast_number(AstBuilder *builder, double number, Span span)
+{
+    return new_node(builder, (AstNode){.kind = AST_NUMBER, .depth = 1, .span = span, .number = number});
+}
+
+AstList ast_append(AstList list, AstNode *node)
+{
+    if (list.first == NULL) {
+        list.first = node;
+    } else {
+        list.last->next = node;
+    }
+    list.last = node;
+    list.count++;
+    list.depth = greater(list.depth, node->depth);
+    return list;
+}
+
+AstList ast_append_after_comma(AstList list, AstNode *node)
+{
+    return ast_append(list, ast_flag(node, AST_AFTER_COMMA));
+}
+
+AstList ast_begin_with_comma(AstList list)
+{
+    if (list.first != NULL) {
+        list.first->flags |= AST_AFTER_COMMA;
+    }
+    return list;
+}
+
+AstList ast_end_with_comma(AstList list)
+{
+    if (list.last != NULL) {
+        list.last->flags |= AST_BEFORE_COMMA;
+    }
+    return list;
+}
+
+AstNode *ast_flag(AstNode *node, unsigned flags)
+{
+    node->flags = (uint16_t)(node->flags | flags);
+    return node;
+}
+
+static bool clone_list(const AstNode *from, Arena *arena, AstNode **to)
+{
+    for (; from != NULL; from = from->next) {
+        *to = ast_clone(from, arena);
+        if (*to == NULL) {
+            return false;
+        }
+        to = &(*to)->next;
+    }
+    return true;
+}
+
+AstNode *ast_clone(const AstNode *node, Arena *arena)
+{
+    AstNode *copy = arena_alloc(arena, sizeof *copy);
+    if (copy == NULL) {
+        return NULL;
+    }
+    *copy = *node;
+    copy->next = NULL;
+    if (node->kind == AST_NUMBER) {
+        return copy;
+    }
+    copy->a = copy->b = copy->c = NULL;
+    bool complete = clone_list(node->a, arena, &copy->a) && clone_list(node->b, arena, &copy->b) &&
+                    clone_list(node->c, arena, &copy->c);
+    return complete ? copy : NULL;
+}
+
+static bool lists_equal(const AstNode *one, const AstNode *other)
+{
+    while (one != NULL && other != NULL) {
+        if (!ast_equal(one, other)) {
+            return false;
+        }
+        one = one->next;
+        other = other->next;
+    }
+    return one == other;
+}
+
+bool ast_equal(const AstNode *one, const AstNode *other)
+{
+    const unsigned commas = AST_AFTER_COMMA | AST_BEFORE_COMMA;
+    if (one->kind != other->kind || one->op != other->op || one->symbol != other->symbol ||
+        (one->flags & commas) != (other->flags & commas)) {
+        return false;
+    }
+    if (one->kind == AST_NUMBER) {
+        return memcmp(&one->number, &other->number, sizeof one->number) == 0;
+    }
+    return lists_equal(one->a, other->a) && lists_equal(one->b, other->b) && lists_equal(one->c, other->c);
+}
