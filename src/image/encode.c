@@ -1,0 +1,191 @@
+// Transfer functions and quantisation; the rounding is the one measured on POV-Ray 3.7.0.10 (docs/numerics.md): half
+// up, in single precision.
+//
+// SPDX-License-Identifier: MIT
+#include "image/encode.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+static const ImageEncoding stored_as_is = {.depth = IMAGE_DEPTH_16, .already_encoded = true};
+
+static uint32_t float_bits(float value)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static float float_from_bits(uint32_t bits)
+{
+    float value;
+
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static float code_max(ImageDepth depth)
+{
+    return depth == IMAGE_DEPTH_8 ? 255.0f : 65535.0f;
+}
+
+// IEC 61966-2-1:1999, section 5.2.
+static double srgb_from_linear(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+double encode_transfer(const ImageEncoding *encoding, double linear)
+{
+    if (encoding->already_encoded) {
+        return linear;
+    }
+    if (encoding->transfer == IMAGE_TRANSFER_SRGB) {
+        return srgb_from_linear(linear);
+    }
+    return encoding->gamma == 1.0 ? linear : pow(linear, 1.0 / encoding->gamma);
+}
+
+unsigned encode_code(const ImageEncoding *encoding, float linear)
+{
+    float max = code_max(encoding->depth);
+    float scaled;
+
+    if (!(linear > 0.0f)) { // also NaN
+        return 0;
+    }
+    if (linear >= 1.0f) {
+        return (unsigned)max;
+    }
+    scaled = (float)(encode_transfer(encoding, (double)linear) * (double)max);
+    return (unsigned)(scaled + 0.5f);
+}
+
+// The least float from `low` up to 1, as bits, whose code is at least `code`: floats are ordered as their bits.
+static uint32_t threshold_find(const ImageEncoding *encoding, unsigned code, uint32_t low)
+{
+    uint32_t high = float_bits(1.0f);
+
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (encode_code(encoding, float_from_bits(middle)) >= code) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+// A picture has far more samples than there are codes: with tables no sample costs a power function.
+static void encoder_build_tables(Encoder *encoder)
+{
+    uint32_t bits = 0;
+    unsigned code = 0;
+
+    for (unsigned k = 0; k < ENCODE_CODES_8; k++) {
+        bits = threshold_find(&encoder->encoding, k, bits);
+        encoder->threshold[k] = float_from_bits(bits);
+    }
+    for (uint32_t b = 0; b < ENCODE_BUCKETS; b++) {
+        float value = float_from_bits(b << 16);
+        while (code + 1 < ENCODE_CODES_8 && value >= encoder->threshold[code + 1]) {
+            code++;
+        }
+        encoder->bucket[b] = (uint8_t)code;
+    }
+}
+
+void encoder_init(Encoder *encoder, const ImageEncoding *encoding, int channels)
+{
+    encoder->encoding = *encoding;
+    encoder->channels = channels;
+    if (encoding->depth == IMAGE_DEPTH_8) {
+        encoder_build_tables(encoder);
+    }
+}
+
+size_t encode_sample_bytes(ImageDepth depth)
+{
+    static const size_t bytes[] = {
+        [IMAGE_DEPTH_8] = sizeof(uint8_t), [IMAGE_DEPTH_16] = sizeof(uint16_t), [IMAGE_DEPTH_FLOAT] = sizeof(float)};
+
+    return bytes[depth];
+}
+
+static uint8_t encode_8(const Encoder *encoder, float value)
+{
+    unsigned code;
+
+    if (!(value > 0.0f)) {
+        return 0;
+    }
+    if (value >= 1.0f) {
+        return ENCODE_CODES_8 - 1;
+    }
+    code = encoder->bucket[float_bits(value) >> 16];
+    while (code + 1 < ENCODE_CODES_8 && value >= encoder->threshold[code + 1]) {
+        code++;
+    }
+    return (uint8_t)code;
+}
+
+static void run_8(const Encoder *encoder, const float *values, size_t count, uint8_t *samples)
+{
+    for (size_t i = 0; i < count; i++) {
+        samples[i] = encode_8(encoder, values[i]);
+    }
+}
+
+static void run_16(const Encoder *encoder, const float *values, size_t count, uint16_t *samples)
+{
+    for (size_t i = 0; i < count; i++) {
+        samples[i] = (uint16_t)encode_code(&encoder->encoding, values[i]);
+    }
+}
+
+static void run_float(const float *values, size_t count, float *samples)
+{
+    for (size_t i = 0; i < count; i++) {
+        samples[i] = isnan(values[i]) ? 0.0f : values[i];
+    }
+}
+
+// Writes the alpha channel over again: it is a share of area and not light, and is stored linear (PNG, third edition,
+// section 12.2, "Alpha channel").
+static void run_alpha(const Encoder *encoder, const float *values, size_t pixels, void *samples)
+{
+    ImageEncoding plain = stored_as_is;
+    size_t step = (size_t)encoder->channels;
+
+    plain.depth = encoder->encoding.depth;
+    for (size_t i = step - 1; i < pixels * step; i += step) {
+        unsigned code = encode_code(&plain, values[i]);
+        if (plain.depth == IMAGE_DEPTH_8) {
+            ((uint8_t *)samples)[i] = (uint8_t)code;
+        } else {
+            ((uint16_t *)samples)[i] = (uint16_t)code;
+        }
+    }
+}
+
+void encoder_run(const Encoder *encoder, const float *values, size_t pixels, void *samples)
+{
+    size_t count = pixels * (size_t)encoder->channels;
+    bool has_alpha = encoder->channels == 2 || encoder->channels == 4;
+
+    if (encoder->encoding.depth == IMAGE_DEPTH_FLOAT) {
+        run_float(values, count, samples);
+        return;
+    }
+    if (encoder->encoding.depth == IMAGE_DEPTH_8) {
+        run_8(encoder, values, count, samples);
+    } else {
+        run_16(encoder, values, count, samples);
+    }
+    if (has_alpha) {
+        run_alpha(encoder, values, pixels, samples);
+    }
+}

@@ -1,0 +1,221 @@
+// Pictures in memory, and the way of each to the writer or reader that knows its format.
+//
+// It owns the decision by the file name's ending; it must not know what any format looks like.
+//
+// SPDX-License-Identifier: MIT
+#include "image/image.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "image/atomic_file.h"
+#include "image/encode.h"
+#include "image/image_error.h"
+#include "image/module.h"
+#include "image/png_write.h"
+
+enum { ENDING_MAX = 8 };
+
+typedef struct RowSource {
+    const Image *image;
+    Encoder encoder;
+} RowSource;
+
+bool image_init(Image *image, int width, int height, int channels)
+{
+    size_t row = (size_t)width * (size_t)channels; // at most 2^33: no overflow
+
+    *image = (Image){.width = width, .height = height, .channels = channels};
+    image->values = calloc(row * sizeof *image->values, (size_t)height);
+    return image->values != NULL;
+}
+
+void image_fini(Image *image)
+{
+    free(image->values);
+    *image = (Image){0};
+}
+
+// The ending in lower case, without its dot; false when there is none that could name a format.
+static bool path_ending(const char *path, char ending[static ENDING_MAX + 1])
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot != NULL ? strlen(dot + 1) : 0;
+
+    if (dot == name || length == 0 || length > ENDING_MAX) {
+        return false;
+    }
+    for (size_t i = 0; i <= length; i++) {
+        char c = dot[1 + i];
+        bool is_upper = c >= 'A' && c <= 'Z';
+        ending[i] = is_upper ? (char)(c - 'A' + 'a') : c;
+    }
+    return true;
+}
+
+static bool path_is_stdout(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+// Finds the format. *module is NULL for PNG.
+static ImageStatus format_find(const char *path, ImageDepth depth, char ending[static ENDING_MAX + 1],
+                               const OiioModule **module, ImageError *error)
+{
+    *module = NULL;
+    image_error_clear(error);
+    if (path_is_stdout(path)) {
+        strcpy(ending, "png");
+    } else if (!path_ending(path, ending)) {
+        return IMAGE_UNKNOWN_FORMAT;
+    }
+    if (strcmp(ending, "png") == 0) {
+        return depth == IMAGE_DEPTH_FLOAT ? IMAGE_BAD_DEPTH : IMAGE_OK;
+    }
+    *module = module_load(error);
+    if (*module == NULL) {
+        return IMAGE_NO_MODULE;
+    }
+    return (*module)->check(ending, depth, error);
+}
+
+ImageDepth image_path_depth(const char *path)
+{
+    static const char *const float_only[] = {"exr", "sxr", "mxr", "hdr", "rgbe"};
+    char ending[ENDING_MAX + 1];
+
+    if (!path_is_stdout(path) && path_ending(path, ending)) {
+        for (size_t i = 0; i < RT_COUNT_OF(float_only); i++) {
+            if (strcmp(ending, float_only[i]) == 0) {
+                return IMAGE_DEPTH_FLOAT;
+            }
+        }
+    }
+    return IMAGE_DEPTH_8;
+}
+
+ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *error)
+{
+    char ending[ENDING_MAX + 1];
+    const OiioModule *module;
+    ImageStatus status = format_find(path, depth, ending, &module, error);
+
+    if (status != IMAGE_OK) {
+        return status;
+    }
+    return atomic_file_check(path, error) ? IMAGE_OK : IMAGE_IO;
+}
+
+static void rows_fetch(const void *client, int first_row, int row_count, void *samples)
+{
+    const RowSource *source = client;
+    const Image *image = source->image;
+    size_t width = (size_t)image->width;
+    const float *values = image->values + (size_t)first_row * width * (size_t)image->channels;
+
+    encoder_run(&source->encoder, values, width * (size_t)row_count, samples);
+}
+
+static ImageStatus bytes_put(const void *client, const void *bytes, size_t length, ImageError *error)
+{
+    return atomic_file_write(client, bytes, length, error) ? IMAGE_OK : IMAGE_IO;
+}
+
+static ImageStatus write_by_module(const OiioModule *module, const char *ending, const RowSource *source,
+                                   const AtomicFile *file, ImageError *error)
+{
+    OiioPicture picture = {
+        .ending = ending,
+        .width = source->image->width,
+        .height = source->image->height,
+        .channels = source->image->channels,
+        .depth = source->encoder.encoding.depth,
+        .client = source,
+        .fetch = rows_fetch,
+    };
+
+    OiioSink sink = {.client = file, .put = bytes_put};
+
+    return module->write(&picture, &sink, error);
+}
+
+ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path, ImageError *error)
+{
+    char ending[ENDING_MAX + 1];
+    const OiioModule *module;
+    AtomicFile file;
+    RowSource *source;
+    ImageStatus status = format_find(path, encoding->depth, ending, &module, error);
+
+    if (status != IMAGE_OK) {
+        return status;
+    }
+    source = malloc(sizeof *source);
+    if (source == NULL) {
+        return IMAGE_NO_MEMORY;
+    }
+    source->image = image;
+    encoder_init(&source->encoder, encoding, image->channels);
+    if (!atomic_file_open(&file, path, error)) {
+        status = IMAGE_IO;
+    } else {
+        status = module == NULL ? png_write(image, &source->encoder, &file, error)
+                                : write_by_module(module, ending, source, &file, error);
+        if (status != IMAGE_OK) {
+            atomic_file_abandon(&file);
+        } else if (!atomic_file_commit(&file, error)) {
+            status = IMAGE_IO;
+        }
+    }
+    free(source);
+    return status;
+}
+
+// Only regular files are read: a pipe would block, and the readers seek.
+static bool path_is_readable(const char *path, ImageError *error)
+{
+    struct stat status;
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    bool fine;
+
+    if (fd < 0 || fstat(fd, &status) != 0) {
+        image_error_system(error, path, errno);
+        if (fd >= 0) {
+            close(fd);
+        }
+        return false;
+    }
+    fine = S_ISREG(status.st_mode);
+    close(fd);
+    if (!fine) {
+        image_error_set(error, "%s: not a regular file", path);
+    }
+    return fine;
+}
+
+ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error)
+{
+    const OiioModule *module;
+    ImageStatus status;
+
+    *image = (Image){0};
+    image_error_clear(error);
+    if (!path_is_readable(path, error)) {
+        return IMAGE_IO;
+    }
+    module = module_load(error);
+    if (module == NULL) {
+        return IMAGE_NO_MODULE;
+    }
+    status = module->read(path, pixel_limit, image_init, image, error);
+    if (status != IMAGE_OK) {
+        image_fini(image);
+    }
+    return status;
+}

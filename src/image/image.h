@@ -1,0 +1,83 @@
+// Pictures as files: encoding, atomic writing, reading, and comparing.
+//
+// PNG goes through libpng. Every other format, and all reading, goes through OpenImageIO in a module that is loaded on
+// first use (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an
+// old picture is either kept or wholly replaced. The same picture and encoding give the same bytes.
+//
+// SPDX-License-Identifier: MIT
+#ifndef IMAGE_IMAGE_H
+#define IMAGE_IMAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/attributes.h"
+
+// Values are linear light unless the encoding says otherwise; row 0 is the top one.
+typedef struct Image {
+    int width, height;
+    int channels;  // 1 to 4: grey, grey+alpha, rgb, rgb+alpha
+    float *values; // width * height * channels; owned
+} Image;
+
+bool image_init(Image *image, int width, int height, int channels) RT_MUST_CHECK; // cleared; false: out of memory
+void image_fini(Image *image);
+
+typedef enum ImageDepth { IMAGE_DEPTH_8, IMAGE_DEPTH_16, IMAGE_DEPTH_FLOAT } ImageDepth;
+
+typedef enum ImageTransfer {
+    IMAGE_TRANSFER_SRGB,  // IEC 61966-2-1
+    IMAGE_TRANSFER_POWER, // value ^ (1/gamma); gamma 1 writes linear values
+} ImageTransfer;
+
+typedef struct ImageEncoding {
+    ImageDepth depth;
+    ImageTransfer transfer;
+    double gamma;      // IMAGE_TRANSFER_POWER only
+    bool already_encoded; // values are written as they are; `transfer` only names what the file says of itself
+} ImageEncoding;
+
+typedef enum ImageStatus {
+    IMAGE_OK,
+    IMAGE_NO_MEMORY,
+    IMAGE_UNKNOWN_FORMAT, // the file name's ending says nothing that can be written
+    IMAGE_BAD_DEPTH,      // the format does not have that depth
+    IMAGE_NO_MODULE,      // the OpenImageIO module could not be loaded
+    IMAGE_IO,             // opening, reading or writing failed
+    IMAGE_NOT_A_PICTURE,  // reading: not a picture, truncated, or of an unknown format
+    IMAGE_TOO_LARGE,      // reading: more pixels than the limit
+} ImageStatus;
+
+typedef struct ImageError {
+    char detail[256]; // one line from the system or the library, "" if there is none
+} ImageError;
+
+// Whether a path can be written at this depth, asked before a long run: the format by its ending, `-` is PNG on
+// standard output.
+ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *error) RT_MUST_CHECK;
+
+// The depth a path gets when none is asked for: float for formats that hold nothing else, such as EXR, else 8 bit.
+ImageDepth image_path_depth(const char *path);
+
+// Writes a picture. Values are clamped to 0..1 for 8 and 16 bit; for float they are written linear and unclamped.
+ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path,
+                        ImageError *error) RT_MUST_CHECK;
+
+// Reads a picture to values as they are stored, 0..1 for integer formats; no transfer is undone.
+ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error) RT_MUST_CHECK;
+
+// How two pictures of equal size differ, over the first three channels.
+typedef struct ImageDifference {
+    double max;             // greatest |a - b| of any channel
+    double rmse;
+    double psnr;            // in dB, against 1; HUGE_VAL for equal pictures
+    double p999;            // 99.9th percentile of the pixels' greatest channel difference
+    uint64_t pixels_beyond; // pixels with a channel that differs by more than `threshold`
+    uint64_t pixels;
+} ImageDifference;
+
+// False when sizes differ or memory ran out.
+bool image_compare(const Image *a, const Image *b, double threshold, ImageDifference *difference) RT_MUST_CHECK;
+
+#endif

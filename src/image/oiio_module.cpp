@@ -1,0 +1,224 @@
+// Pictures of every format but PNG written, and all formats read, by OpenImageIO behind a C boundary.
+//
+// The only C++ file: a module of its own, because linking OpenImageIO costs each start over a tenth of a second.
+// Nothing is thrown out of it. It opens no file to write: files are made in memory and handed over whole, because
+// OpenImageIO's writers do not bear a full disk (that of JPEG ends the process, those of TIFF and BMP hide it).
+//
+// SPDX-License-Identifier: MIT
+#include "image/oiio_module.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+constexpr int rows_at_once = 64; // a multiple of the rows in an EXR block, so that none is written in two parts
+constexpr int check_size = 16;
+
+// One line, cut to fit, without control characters. OpenImageIO joins its messages by newlines: the first one counts.
+void set_detail(ImageError *error, const std::string &text)
+{
+    size_t length = std::min({text.size(), text.find('\n'), sizeof error->detail - 1});
+
+    std::memcpy(error->detail, text.data(), length);
+    error->detail[length] = '\0';
+    std::replace_if(
+        error->detail, error->detail + length, [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+}
+
+// A file in memory that can be read while it is written: the writer of TIFF reads its directory again.
+class MemoryFile final : public OIIO::Filesystem::IOVecOutput
+{
+  public:
+    size_t read(void *data, size_t length) override
+    {
+        size_t done = pread(data, length, m_pos);
+        m_pos += static_cast<int64_t>(done);
+        return done;
+    }
+
+    size_t pread(void *data, size_t length, int64_t offset) override
+    {
+        const std::vector<unsigned char> &bytes = buffer();
+        size_t from = std::min(static_cast<size_t>(offset), bytes.size());
+        size_t done = std::min(length, bytes.size() - from);
+
+        std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), done, static_cast<unsigned char *>(data));
+        return done;
+    }
+};
+
+OIIO::TypeDesc sample_type(ImageDepth depth)
+{
+    switch (depth) {
+    case IMAGE_DEPTH_8:
+        return OIIO::TypeDesc::UINT8;
+    case IMAGE_DEPTH_16:
+        return OIIO::TypeDesc::UINT16;
+    case IMAGE_DEPTH_FLOAT:
+        break;
+    }
+    return OIIO::TypeDesc::FLOAT;
+}
+
+// Opens a writer onto the file. A format that can be written only to a path is refused: see above.
+ImageStatus open_output(const OiioPicture &picture, MemoryFile &file, std::unique_ptr<OIIO::ImageOutput> &output,
+                        ImageError *error)
+{
+    std::string name = std::string("picture.") + picture.ending;
+    OIIO::TypeDesc type = sample_type(picture.depth);
+    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, type);
+
+    output = OIIO::ImageOutput::create(name);
+    if (!output || std::strcmp(output->format_name(), "null") == 0 || !output->supports("ioproxy")) {
+        set_detail(error, output ? "not a format that can be written safely" : OIIO::geterror());
+        return IMAGE_UNKNOWN_FORMAT;
+    }
+    // No oiio:ColorSpace: OpenImageIO 2.4 then adds an Exif directory to TIFF, which breaks a file written to memory.
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("DateTime", ""); // else the writers of EXR and TIFF add the hour
+    if (!output->set_ioproxy(&file) || !output->open(name, spec)) {
+        set_detail(error, output->geterror());
+        return IMAGE_IO;
+    }
+    return output->spec().format == type ? IMAGE_OK : IMAGE_BAD_DEPTH;
+}
+
+ImageStatus write_rows(const OiioPicture &picture, OIIO::ImageOutput &output, ImageError *error)
+{
+    OIIO::TypeDesc type = sample_type(picture.depth);
+    size_t row_bytes = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.channels) * type.size();
+    std::vector<unsigned char> samples(row_bytes * static_cast<size_t>(std::min(rows_at_once, picture.height)));
+
+    for (int y = 0; y < picture.height; y += rows_at_once) {
+        int end = std::min(y + rows_at_once, picture.height);
+        picture.fetch(picture.client, y, end - y, samples.data());
+        if (!output.write_scanlines(y, end, 0, type, samples.data())) {
+            set_detail(error, output.geterror());
+            return IMAGE_IO;
+        }
+    }
+    return IMAGE_OK;
+}
+
+ImageStatus write_picture(const OiioPicture &picture, MemoryFile &file, ImageError *error)
+{
+    std::unique_ptr<OIIO::ImageOutput> output;
+    ImageStatus status = open_output(picture, file, output, error);
+
+    if (status != IMAGE_OK) {
+        return status;
+    }
+    status = write_rows(picture, *output, error);
+    if (!output->close() && status == IMAGE_OK) {
+        set_detail(error, output->geterror());
+        status = IMAGE_IO;
+    }
+    return status;
+}
+
+void fetch_black(const void *, int, int, void *)
+{
+} // the buffer begins cleared
+
+ImageStatus format_check(const char *ending, ImageDepth depth, ImageError *error)
+{
+    MemoryFile file;
+    OiioPicture picture = {ending, check_size, check_size, 3, depth, nullptr, fetch_black};
+
+    return write_picture(picture, file, error);
+}
+
+ImageStatus picture_save(const OiioPicture *picture, const OiioSink *sink, ImageError *error)
+{
+    MemoryFile file;
+    ImageStatus status = write_picture(*picture, file, error);
+
+    return status == IMAGE_OK ? sink->put(sink->client, file.buffer().data(), file.buffer().size(), error) : status;
+}
+
+ImageStatus judge_size(const OIIO::ImageSpec &spec, uint64_t pixel_limit)
+{
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0) {
+        return IMAGE_NOT_A_PICTURE;
+    }
+    uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
+    return pixels > pixel_limit ? IMAGE_TOO_LARGE : IMAGE_OK;
+}
+
+ImageStatus picture_load(const char *path, uint64_t pixel_limit, bool (*allocate)(Image *, int, int, int), Image *image,
+                         ImageError *error)
+{
+    // A relative path that looks like an address of the network is still a path.
+    std::string name = path[0] == '/' ? std::string(path) : std::string("./") + path;
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::open(name, &config);
+
+    if (!input) {
+        set_detail(error, OIIO::geterror());
+        return IMAGE_NOT_A_PICTURE;
+    }
+    ImageStatus status = judge_size(input->spec(), pixel_limit);
+    if (status != IMAGE_OK) {
+        return status;
+    }
+    int channels = std::min(input->spec().nchannels, 4);
+    if (!allocate(image, input->spec().width, input->spec().height, channels)) {
+        return IMAGE_NO_MEMORY;
+    }
+    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, image->values)) {
+        set_detail(error, input->geterror());
+        return IMAGE_NOT_A_PICTURE;
+    }
+    return IMAGE_OK;
+}
+
+// Runs a function, and turns whatever it throws into a status.
+template <typename Function, typename... Arguments>
+ImageStatus guarded(Function function, ImageError *error, Arguments... arguments) noexcept
+{
+    try {
+        return function(arguments..., error);
+    } catch (const std::bad_alloc &) {
+        return IMAGE_NO_MEMORY;
+    } catch (const std::exception &exception) {
+        set_detail(error, exception.what());
+    } catch (...) {
+        set_detail(error, "unknown exception");
+    }
+    return IMAGE_IO;
+}
+
+} // namespace
+
+extern "C" {
+
+static ImageStatus module_check(const char *ending, ImageDepth depth, ImageError *error) noexcept
+{
+    return guarded(format_check, error, ending, depth);
+}
+
+static ImageStatus module_write(const OiioPicture *picture, const OiioSink *sink, ImageError *error) noexcept
+{
+    return guarded(picture_save, error, picture, sink);
+}
+
+static ImageStatus module_read(const char *path, uint64_t pixel_limit, bool (*allocate)(Image *, int, int, int),
+                               Image *image, ImageError *error) noexcept
+{
+    return guarded(picture_load, error, path, pixel_limit, allocate, image);
+}
+
+const OiioModule rtlang_oiio_module = {OIIO_MODULE_VERSION, module_check, module_write, module_read};
+
+} // extern "C"
