@@ -33,8 +33,8 @@ static const BlockHook bodies[KIND_COUNT] = {
 
 // At the closing brace.
 static const BlockHook closings[KIND_COUNT] = {
-    [KIND_CAMERA] = camera_close,         [KIND_PLANE] = plane_close,         [KIND_FINISH] = finish_close,
-    [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
+    [KIND_CAMERA] = camera_close, [KIND_PLANE] = plane_close,           [KIND_UNION] = union_close,
+    [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
 };
 
 static const char *const type_needs[] = {
@@ -409,8 +409,11 @@ static void read_arguments(Block *block)
     }
     for (size_t i = 0; i < list->count; i++) {
         size_t before = block->arguments;
-        if (!read_argument(block, &list->items[i]) || block->arguments == before) {
-            return;
+        if (!read_argument(block, &list->items[i])) {
+            block->has_fault = true;
+        }
+        if (block->arguments == before) {
+            return; // left out, or missing
         }
     }
 }
@@ -432,6 +435,23 @@ static void skip_values(Block *block)
     const AstNode *item;
     while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item)) {
         cursor_skip(&block->cursor);
+    }
+}
+
+void block_unknown(Eval *ev, const AstNode *item)
+{
+    const char *word = eval_text(ev, item->symbol);
+    if (item->symbol < WORD_COUNT) {
+        block_unsupported(ev, word, item->span, KIND_NONE);
+        return;
+    }
+    Suggest suggest;
+    suggest_begin(&suggest, word);
+    for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
+        suggest_offer(&suggest, schema_kind((SchemaKind)kind)->word);
+    }
+    if (eval_report(ev, DIAG_E0250, item->span, "unknown kind of block `%s`", word) && suggest.best) {
+        diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
     }
 }
 
@@ -462,6 +482,18 @@ static bool is_property_elsewhere(const Block *block, Symbol symbol)
     return false;
 }
 
+// The type of a camera or light changes what its other words mean, so nothing more is said about those.
+static void refuse_unsupported(Block *block, const AstNode *item)
+{
+    if (!block->has_unsupported) {
+        block->has_unsupported = true;
+        block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, block->kind);
+    }
+    while (schema_kind(block->kind)->is_fixed && cursor_peek(&block->cursor)) {
+        cursor_skip(&block->cursor);
+    }
+}
+
 // A word or block that is no property of this kind.
 static void refuse_word(Block *block, const AstNode *item)
 {
@@ -473,11 +505,13 @@ static void refuse_word(Block *block, const AstNode *item)
                     schema_kind(kind)->word);
     } else if (word_class(item->symbol) == WORD_COLOUR) {
         block_fault(block, DIAG_E0254, item->span, "no colour is expected here in %s", block_word(block));
-    } else if (is_property_elsewhere(block, item->symbol)) {
+    } else if (item->kind == AST_BLOCK && item->symbol >= WORD_COUNT && block->kind == KIND_UNION) {
+        block->has_fault = true;
+        block_unknown(block->ev, item);
+    } else if (item->symbol >= WORD_COUNT || is_property_elsewhere(block, item->symbol)) {
         unknown_property(block, item);
-    } else if (!block->has_unsupported) {
-        block->has_unsupported = true;
-        block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, block->kind);
+    } else {
+        refuse_unsupported(block, item);
     }
     cursor_skip(&block->cursor);
     skip_values(block);
@@ -541,12 +575,13 @@ static void read_properties(Block *block)
     const AstNode *item;
     while ((item = cursor_peek(&block->cursor))) {
         const SchemaProperty *property = find_property(block, item);
-        if (item->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA)) {
+        bool is_word = item->kind == AST_WORD || item->kind == AST_BLOCK;
+        if (is_word && !block->has_fault && (item->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA))) {
             block_fault(block, DIAG_E0259, item->span, "no comma is expected here in %s", block_word(block));
         }
         if (property) {
             read_property(block, property, item);
-        } else if (item->kind == AST_WORD || item->kind == AST_BLOCK) {
+        } else if (is_word) {
             refuse_word(block, item);
         } else {
             refuse_value(block, item);

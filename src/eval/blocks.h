@@ -58,7 +58,9 @@ bool block_value(Block *block, const SchemaProperty *property, Span word) RT_MUS
 
 // Tells, now or when it is used, that rtlang has not a word; `owner` as in UnsupportedBlueprint.
 void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner);
-// The same for an identifier that was declared with such a word.
+// A block of a kind that rtlang has not, or that nobody has.
+void block_unknown(Eval *ev, const AstNode *item);
+// The same as block_unsupported for an identifier that was declared with such a word.
 void block_unsupported_name(Eval *ev, const UnsupportedBlueprint *what, Span use);
 
 // True when the number is finite, else a fault.
@@ -96,5 +98,6 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_
 bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
 bool plane_close(Block *block) RT_MUST_CHECK;
+bool union_close(Block *block) RT_MUST_CHECK;
 
 #endif

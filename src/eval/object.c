@@ -122,10 +122,15 @@ bool object_members(Block *block)
         return block_fault(block, DIAG_E0601, block->node->span, "unions are nested more than %u deep",
                            block->ev->options.limits->ast_depth);
     }
-    if (list.count < 2 && is_fine && !block->has_unsupported) {
+    return is_fine;
+}
+
+bool union_close(Block *block)
+{
+    if (!block->has_name && !block->has_unsupported && block->record->group.count < 2) {
         eval_warn(block->ev, DIAG_W0407, block->node->span, "a union should have at least two objects");
     }
-    return is_fine;
+    return true;
 }
 
 bool object_body(Block *block)
@@ -175,9 +180,6 @@ static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Transfor
     double radius = fabs(sphere->radius);
     double factor;
     uint64_t source = sphere->part.span.begin;
-    if (radius == 0.0) {
-        return true;
-    }
     Vec3 size = vec3(radius, radius, radius);
     Transform whole = transform_compose(transform_compose(transform_scale(size), transform_translate(sphere->centre)),
                                         *transform);
@@ -245,6 +247,9 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .outer = transform_compose(part->transform, outer->outer),
         .inherited = part->has_material ? &part->material : outer->inherited,
     };
+    if (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius == 0.0) {
+        return true; // as POV-Ray has it; told when it was read
+    }
     if (kind != KIND_UNION) {
         return place_shape(ev, kind, object, &inner.outer, inner.inherited);
     }
@@ -304,7 +309,7 @@ bool eval_place(Eval *ev, const AstNode *item)
     }
     SchemaKind kind = block_kind(ev, item);
     if (kind == KIND_NONE && item->kind == AST_BLOCK) {
-        block_unsupported(ev, eval_text(ev, item->symbol), item->span, KIND_NONE);
+        block_unknown(ev, item);
         return false;
     }
     if (!may_be_statement(kind)) {
@@ -349,6 +354,10 @@ static bool read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Value
 bool eval_block(Eval *ev, const AstNode *block, Value *value)
 {
     SchemaKind kind = block_kind(ev, block);
+    if (kind == KIND_NONE && block->symbol >= WORD_COUNT) {
+        block_unknown(ev, block);
+        return false;
+    }
     if (kind == KIND_NONE) {
         UnsupportedBlueprint what = {block->span, eval_text(ev, block->symbol), KIND_NONE};
         return keep(ev, block->span, KIND_UNSUPPORTED, &what, value);

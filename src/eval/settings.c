@@ -1,4 +1,4 @@
-// The scene's settings: global_settings, background, and the gamma model that follows from both text and version.
+// The scene's settings: global_settings and background.
 //
 // Several blocks are merged; the last value counts, of assumed_gamma the first. Knows nothing of pictures.
 //
@@ -56,14 +56,4 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)
     settings->adc_bailout = record->settings.adc_bailout;
     settings->max_trace_level = record->settings.max_trace_level;
     return true;
-}
-
-void eval_settle_settings(Eval *ev)
-{
-    Settings *settings = &ev->scene->settings;
-    settings->version = ev->version;
-    if (settings->gamma_model == GAMMA_NONE && ev->version_given && ev->version >= 3.7) {
-        settings->gamma_model = GAMMA_LINEAR;
-        eval_warn(ev, DIAG_W0405, SPAN_NONE, "no assumed_gamma in a scene of version 3.7: 1 is taken");
-    }
 }

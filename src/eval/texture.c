@@ -182,7 +182,9 @@ bool eval_default(Eval *ev, const AstNode *directive)
                                  "#default holds texture, pigment and finish blocks only");
             break;
         }
-        cursor_skip(&cursor);
+        do {
+            cursor_skip(&cursor); // what is not understood, with all that belongs to it
+        } while (!is_fine && (item = cursor_peek(&cursor)) && item->kind != AST_BLOCK);
     }
     cursor_close(&cursor);
     return is_fine;

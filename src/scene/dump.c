@@ -88,18 +88,18 @@ static void dump_light(const Light *light, TextBuffer *out)
 static void dump_finish(const Finish *finish, TextBuffer *out)
 {
     dump_rgb(out, "    ambient ", finish->ambient);
-    dump_rgb(out, "\n    emission ", finish->emission);
+    dump_rgb(out, " emission ", finish->emission);
     dump_number(out, "\n    diffuse ", finish->diffuse);
     // Only where it is used: POV-Ray has a note about the second number.
     if (finish->diffuse_back != 0.0 || signbit(finish->diffuse_back)) {
         dump_number(out, ", ", finish->diffuse_back);
     }
-    dump_number(out, "\n    brilliance ", finish->brilliance);
+    dump_number(out, " brilliance ", finish->brilliance);
     dump_number(out, "\n    phong ", finish->phong);
     dump_number(out, " phong_size ", finish->phong_size);
-    dump_number(out, "\n    specular ", finish->specular);
+    dump_number(out, " specular ", finish->specular);
     dump_number(out, " roughness ", finish->roughness);
-    dump_number(out, "\n    metallic ", finish->metallic);
+    dump_number(out, " metallic ", finish->metallic);
     dump_rgb(out, "\n    reflection { ", finish->reflection_min);
     dump_rgb(out, ", ", finish->reflection_max);
     dump_number(out, " falloff ", finish->reflection_falloff);
