@@ -116,6 +116,20 @@ static void spoil_camera(Scene *scene)
     scene->camera.up.z = NAN;
 }
 
+static void spoil_light(Scene *scene)
+{
+    Light light = {.position = {0.0, INFINITY, 0.0}};
+    if (!scene_add_light(scene, &light)) {
+        scene->camera.up.z = NAN; // out of memory shows as another code
+    }
+}
+
+static void spoil_all_shapes(Scene *scene)
+{
+    scene->spheres.count = scene->ellipsoids.count = scene->planes.count = 0;
+    scene->shape_count = 0;
+}
+
 static void spoil_radius(Scene *scene)
 {
     scene->spheres.items[1].radius = 0.0;
@@ -142,10 +156,16 @@ static void test_validation(void)
         const char *name;
         Spoil spoil;
         size_t errors;
+        DiagCode code; // of the last record; a warning when there is no error
     } cases[] = {
-        {"a whole scene", spoil_nothing, 0},      {"camera", spoil_camera, 1},
-        {"radius", spoil_radius, 1},              {"material", spoil_material, 1},
-        {"inverse of a matrix", spoil_inverse, 1}, {"finish", spoil_finish, 1},
+        {"a whole scene", spoil_nothing, 0, DIAG_W0402},
+        {"camera", spoil_camera, 1, DIAG_E0410},
+        {"light", spoil_light, 1, DIAG_E0411},
+        {"finish", spoil_finish, 1, DIAG_E0412},
+        {"radius", spoil_radius, 1, DIAG_E0413},
+        {"material", spoil_material, 1, DIAG_E0413},
+        {"inverse of a matrix", spoil_inverse, 1, DIAG_E0413},
+        {"no shapes", spoil_all_shapes, 0, DIAG_W0403},
     };
     for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
         Scene scene;
@@ -155,9 +175,10 @@ static void test_validation(void)
         diag_init(&diags, sources);
         cases[i].spoil(&scene);
         bool is_valid = scene_validate(&scene, &diags);
-        tap_ok(is_built && is_valid == (cases[i].errors == 0) && diags.error_count == cases[i].errors,
+        tap_ok(is_built && is_valid == (cases[i].errors == 0) && diags.error_count == cases[i].errors &&
+                   diags.count > 0 && diags.items[diags.count - 1].code == cases[i].code,
                "validation of %s", cases[i].name);
-        tap_ok(diags.warning_count == 2, "validation warns of no camera and no lights: %s", cases[i].name);
+        tap_ok(diags.items[0].code == DIAG_W0401, "validation warns of the missing camera: %s", cases[i].name);
         diag_fini(&diags);
         source_map_free(sources);
         scene_fini(&scene);
