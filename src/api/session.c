@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -283,24 +284,33 @@ void rt_cancel(rt_session *session)
     atomic_store(&session->cancel, true);
 }
 
+// `detail` of an image error names the path itself where the system was asked.
 static rt_status image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
 {
     static const struct {
         DiagCode code;
-        const char *message;
+        const char *format; // of path and detail
     } faults[] = {
-        [IMAGE_NO_MEMORY] = {DIAG_E0602, "out of memory writing"},
-        [IMAGE_UNKNOWN_FORMAT] = {DIAG_E0701, "the file name's ending says no known picture format:"},
-        [IMAGE_BAD_DEPTH] = {DIAG_E0702, "this format does not have the wanted depth:"},
-        [IMAGE_NO_MODULE] = {DIAG_E0507, "the OpenImageIO module is needed and cannot be loaded for"},
-        [IMAGE_IO] = {DIAG_E0505, "cannot write"},
-        [IMAGE_NOT_A_PICTURE] = {DIAG_E0505, "cannot write"},
-        [IMAGE_TOO_LARGE] = {DIAG_E0505, "cannot write"},
+        [IMAGE_NO_MEMORY] = {DIAG_E0602, "out of memory writing `%s`%s"},
+        [IMAGE_UNKNOWN_FORMAT] = {DIAG_E0701, "the ending of `%s` is that of no picture format%s"},
+        [IMAGE_BAD_DEPTH] = {DIAG_E0702, "`%s` cannot have the wanted depth%s"},
+        [IMAGE_NO_MODULE] = {DIAG_E0507, "`%s` needs OpenImageIO, which cannot be loaded%s"},
+        [IMAGE_IO] = {DIAG_E0505, "cannot write `%s`%s"},
+        [IMAGE_NOT_A_PICTURE] = {DIAG_E0505, "cannot write `%s`%s"},
+        [IMAGE_TOO_LARGE] = {DIAG_E0505, "cannot write `%s`%s"},
     };
-    if (status == IMAGE_OK)
+    if (status == IMAGE_OK) {
         return session_status(session, true);
-    diag_report(&session->diags, faults[status].code, SPAN_NONE, "%s `%s`%s%s", faults[status].message, path,
-                error->detail[0] ? ": " : "", error->detail);
+    }
+    // The path again in front of the system's words would say nothing new.
+    const char *detail = error->detail;
+    size_t length = strlen(path);
+    if (strncmp(detail, path, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
+        detail += length + 2;
+    }
+    char more[sizeof error->detail + 2];
+    snprintf(more, sizeof more, "%s%s", detail[0] ? ": " : "", detail);
+    diag_report(&session->diags, faults[status].code, SPAN_NONE, faults[status].format, path, more);
     return session_status(session, false);
 }
 

@@ -26,7 +26,7 @@ typedef struct Limits {
         .ast_depth = 1000,                                                                                             \
         .include_depth = 32,                                                                                           \
         .call_depth = 256,                                                                                             \
-        .steps = 200u * 1000 * 1000,                                                                                   \
+        .steps = 30u * 1000 * 1000,                                                                                    \
         .objects = 1000u * 1000 * 1000,                                                                                \
         .text_bytes = (uint64_t)64 << 30,                                                                              \
         .arena_bytes = (size_t)8 << 30,                                                                                \
