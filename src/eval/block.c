@@ -37,21 +37,6 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
 };
 
-static const char *const type_needs[] = {
-    [TYPE_FLAG] = "nothing",
-    [TYPE_SWITCH] = "a truth value",
-    [TYPE_NUMBER] = "a number",
-    [TYPE_OPTIONAL_NUMBER] = "a number",
-    [TYPE_SHARE] = "a number",
-    [TYPE_SHARE_PAIR] = "a number",
-    [TYPE_INTEGER] = "a number",
-    [TYPE_VECTOR] = "a vector",
-    [TYPE_COLOUR] = "a colour",
-    [TYPE_RGB] = "a colour",
-    [TYPE_BLOCK] = "braces",
-    [TYPE_ACTION] = "a value",
-};
-
 bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...)
 {
     char message[256];
@@ -307,7 +292,7 @@ bool block_value(Block *block, const SchemaProperty *property, Span word)
     bool takes_colour = property->type == TYPE_COLOUR || property->type == TYPE_RGB;
     if (needs_value(property) && !(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
         return block_fault(block, DIAG_E0253, word, "`%s` needs %s after it", property->word,
-                           type_needs[property->type]);
+                           schema_type_need(property->type));
     }
     if (is_given && property->given) {
         *((bool *)block->record + property->given) = true;
@@ -386,7 +371,7 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
     if (!(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
         return argument->is_optional ||
                block_fault(block, DIAG_E0253, block_here(block), "`%s` needs %s here: its %s", block_word(block),
-                           type_needs[argument->type], argument->word);
+                           schema_type_need(argument->type), argument->word);
     }
     const AstNode *item = cursor_peek(&block->cursor);
     if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA)) {

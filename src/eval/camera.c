@@ -61,7 +61,8 @@ static bool turn_to_look_at(Block *block)
     return true;
 }
 
-// The size of an orthographic picture is that of a perspective one at the distance of look_at, unless right or up say it.
+// The size of an orthographic picture is that of a perspective one at the distance of look_at, unless right or up say
+// it.
 static void set_orthographic_size(CameraBlueprint *camera, Vec3 location, double direction_length)
 {
     if ((camera->has_right || camera->has_up) && !camera->has_angle) {

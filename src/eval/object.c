@@ -1,7 +1,7 @@
 // Objects: blocks of shapes become immutable trees, and trees become scene records.
 //
-// Placing a tree composes the transforms on the way down, gives untextured shapes the texture of the nearest union or of
-// #default, and adds one record for each shape and light. A top-level object lives on the stack and in scratch memory.
+// Placing a tree composes the transforms on the way down, gives untextured shapes the texture of the nearest union or
+// of #default, and adds one record for each shape and light. A top-level object lives on the stack and in scratch memory.
 // Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT
@@ -343,8 +343,11 @@ static bool read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Value
     SchemaKind is;
     block_defaults(ev, kind, &record);
     bool is_read = block_read(ev, block, kind, &ev->program, &record, &is);
-    bool is_kept = is_read && (objects->has_deferred ? keep(ev, block->span, KIND_UNSUPPORTED, &objects->deferred, value)
-                                                     : keep(ev, block->span, is, &record, value));
+    if (objects->has_deferred) {
+        record.unsupported = objects->deferred;
+        is = KIND_UNSUPPORTED;
+    }
+    bool is_kept = is_read && keep(ev, block->span, is, &record, value);
     objects->is_deferring = was_deferring;
     objects->has_deferred = had_deferred;
     objects->deferred = outer;

@@ -114,7 +114,8 @@ static bool read_transform(Block *block, const AstNode *item, Transform *transfo
     const AstNode *name = cursor_peek(&block->cursor);
     Value value;
     if (!name || !block_is_name(name)) {
-        return block_fault(block, DIAG_E0253, item->span, "`transform` needs braces or the name of a transform after it");
+        return block_fault(block, DIAG_E0253, item->span,
+                           "`transform` needs braces or the name of a transform after it");
     }
     if (!eval_expression(block->ev, name, &value)) {
         return false;

@@ -362,22 +362,30 @@ const SchemaUnsupported *schema_unsupported(size_t index)
     return index < RT_COUNT_OF(unsupported) ? &unsupported[index] : NULL;
 }
 
-// ---- the reference
-
-static const char *const type_names[] = {
-    [TYPE_FLAG] = "alone",
-    [TYPE_SWITCH] = "alone, or a truth value",
-    [TYPE_NUMBER] = "number",
-    [TYPE_OPTIONAL_NUMBER] = "alone, or a number",
-    [TYPE_SHARE] = "[`albedo`] number",
-    [TYPE_SHARE_PAIR] = "[`albedo`] number [, number]",
-    [TYPE_INTEGER] = "whole number",
-    [TYPE_VECTOR] = "vector",
-    [TYPE_COLOUR] = "colour",
-    [TYPE_RGB] = "colour, rgb",
-    [TYPE_BLOCK] = "`{ … }`",
-    [TYPE_ACTION] = "see right",
+static const struct {
+    const char *name; // in the reference
+    const char *need; // in messages
+} types[] = {
+    [TYPE_FLAG] = {"alone", "nothing"},
+    [TYPE_SWITCH] = {"alone, or a truth value", "a truth value"},
+    [TYPE_NUMBER] = {"number", "a number"},
+    [TYPE_OPTIONAL_NUMBER] = {"alone, or a number", "a number"},
+    [TYPE_SHARE] = {"[`albedo`] number", "a number"},
+    [TYPE_SHARE_PAIR] = {"[`albedo`] number [, number]", "a number"},
+    [TYPE_INTEGER] = {"whole number", "a number"},
+    [TYPE_VECTOR] = {"vector", "a vector"},
+    [TYPE_COLOUR] = {"colour", "a colour"},
+    [TYPE_RGB] = {"colour, rgb", "a colour"},
+    [TYPE_BLOCK] = {"`{ … }`", "braces"},
+    [TYPE_ACTION] = {"see right", "a value"},
 };
+
+const char *schema_type_need(SchemaType type)
+{
+    return types[type].need;
+}
+
+// ---- the reference
 
 // A default as it is written: the shortest number that is the same in the precision the blueprint has.
 static void write_numbers(TextBuffer *out, const double *numbers, size_t count, bool is_single)
@@ -452,7 +460,7 @@ static void write_range(TextBuffer *out, const SchemaRange *range)
 
 static void write_row(TextBuffer *out, const SchemaBlock *kind, const SchemaProperty *property, bool is_argument)
 {
-    text_printf(out, is_argument ? "| *%s* | %s | " : "| `%s` | %s | ", property->word, type_names[property->type]);
+    text_printf(out, is_argument ? "| *%s* | %s | " : "| `%s` | %s | ", property->word, types[property->type].name);
     if (!is_argument) {
         write_default(out, kind, property);
     } else {

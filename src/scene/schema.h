@@ -123,6 +123,9 @@ const SchemaBlock *schema_kind(SchemaKind kind);
 // The property at `index`, counted over all groups of the kind; NULL at the end.
 const SchemaProperty *schema_property(SchemaKind kind, size_t index);
 
+// What a type wants, for messages: "a number".
+const char *schema_type_need(SchemaType type);
+
 // True when the property belongs to the kind's transforms.
 bool schema_is_transform(const SchemaProperty *property);
 

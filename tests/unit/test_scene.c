@@ -1,5 +1,5 @@
-// Scene records: materials are kept once, shapes keep their order, the dump says everything, validation finds what no ray
-// could be traced against.
+// Scene records: materials are kept once, shapes keep their order, the dump says everything, validation finds what no
+// ray could be traced against.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -93,7 +93,8 @@ static void check_reference(void)
     TextBuffer out;
     text_init(&out);
     schema_write_reference(&out);
-    tap_ok(!out.failed && strstr(text_get(&out), "### camera") && strstr(text_get(&out), "| `location` | vector | <0, 0, 0> |"),
+    tap_ok(!out.failed && strstr(text_get(&out), "### camera") &&
+               strstr(text_get(&out), "| `location` | vector | <0, 0, 0> |"),
            "the reference has the camera's location with its default");
     tap_ok(strstr(text_get(&out), "| `ambient` | colour, rgb | <0.1, 0.1, 0.1> |") != NULL,
            "single precision defaults are written short");
