@@ -1,0 +1,406 @@
+// The table of built-in functions and constants.
+//
+// A function of one number is an entry with its C function; any other is an entry with an evaluator of the call. Adding
+// one is a line. Functions of strings are in strings.c. Knows nothing of blocks.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <time.h>
+
+#include "eval/internal.h"
+#include "math/transform.h"
+
+static const double pi = 3.14159265358979323846;
+
+static bool give_number(Value *value, double number)
+{
+    *value = value_of_number(number);
+    return true;
+}
+
+static bool give_vector(Value *value, Vec3 vector)
+{
+    *value = (Value){.kind = VALUE_VECTOR, .components = 3, .v = {vector.x, vector.y, vector.z}};
+    return true;
+}
+
+// The first arguments of a call as numbers. All are worked out, so that each has its message.
+static bool numbers(Eval *ev, const AstNode *node, double *out, unsigned count)
+{
+    bool fine = true;
+    const AstNode *argument = node->a;
+    for (unsigned i = 0; i < count && argument != NULL; i++, argument = argument->next) {
+        out[i] = 0.0;
+        fine = eval_number(ev, argument, &out[i]) && fine;
+    }
+    return fine;
+}
+
+static bool vectors(Eval *ev, const AstNode *node, Vec3 *out, unsigned count)
+{
+    bool fine = true;
+    const AstNode *argument = node->a;
+    for (unsigned i = 0; i < count && argument != NULL; i++, argument = argument->next) {
+        fine = eval_vector3(ev, argument, &out[i]) && fine;
+    }
+    return fine;
+}
+
+static bool fault_domain(Eval *ev, const AstNode *node, double argument)
+{
+    return eval_fault(ev, DIAG_E0302, node->span, "`%s` has no value at %g", eval_text(ev, node->symbol), argument);
+}
+
+// A C conversion to int as x86 does it: what does not fit is the least int.
+static double to_int(double number)
+{
+    return number > -2147483649.0 && number < 2147483648.0 ? trunc(number) : -2147483648.0;
+}
+
+// ---- functions of numbers
+
+static double degrees_of(double radians)
+{
+    return radians * (180.0 / pi);
+}
+
+static double radians_of(double degrees)
+{
+    return degrees * (pi / 180.0);
+}
+
+static bool positive_only(Eval *ev, const AstNode *node, Value *value)
+{
+    double a;
+    if (!numbers(ev, node, &a, 1)) {
+        return false;
+    }
+    if (a < 0.0 || (a == 0.0 && node->symbol != W_sqrt)) {
+        return fault_domain(ev, node, a);
+    }
+    return give_number(value, node->symbol == W_sqrt ? sqrt(a) : node->symbol == W_ln ? log(a) : log10(a));
+}
+
+static bool inverse_sine(Eval *ev, const AstNode *node, Value *value)
+{
+    double a;
+    if (!numbers(ev, node, &a, 1)) {
+        return false;
+    }
+    if (fabs(a) > 1.0) {
+        eval_warn(ev, DIAG_W0302, node->span, "`%s` is asked for %g, and answers for %g", eval_text(ev, node->symbol), a,
+                  copysign(1.0, a));
+        a = copysign(1.0, a);
+    }
+    return give_number(value, node->symbol == W_asin ? asin(a) : acos(a));
+}
+
+static bool two_numbers(Eval *ev, const AstNode *node, Value *value)
+{
+    double a[2];
+    if (!numbers(ev, node, a, 2)) {
+        return false;
+    }
+    switch (node->symbol) {
+    case W_atan2:
+        return a[0] == 0.0 && a[1] == 0.0 ? fault_domain(ev, node, 0.0) : give_number(value, atan2(a[0], a[1]));
+    case W_pow:
+        return a[0] == 0.0 && a[1] == 0.0 ? fault_domain(ev, node, 0.0) : give_number(value, pow(a[0], a[1]));
+    case W_mod: return give_number(value, fmod(a[0], a[1]));
+    default: return give_number(value, to_int(a[0] / a[1])); // div
+    }
+}
+
+static bool least_or_greatest(Eval *ev, const AstNode *node, Value *value)
+{
+    double best = 0.0;
+    bool fine = true, is_max = node->symbol == W_max;
+    for (const AstNode *argument = node->a; argument != NULL; argument = argument->next) {
+        double number = 0.0;
+        fine = eval_number(ev, argument, &number) && fine;
+        bool is_better = argument == node->a || (is_max ? number > best : number < best);
+        best = is_better ? number : best;
+    }
+    return fine && give_number(value, best);
+}
+
+static bool bitwise(Eval *ev, const AstNode *node, Value *value)
+{
+    int32_t bits = 0;
+    bool fine = true;
+    for (const AstNode *argument = node->a; argument != NULL; argument = argument->next) {
+        double number = 0.0;
+        fine = eval_number(ev, argument, &number) && fine;
+        int32_t next = (int32_t)to_int(number);
+        bits = argument == node->a ? next
+               : node->symbol == W_bitwise_and ? bits & next
+               : node->symbol == W_bitwise_or  ? bits | next
+                                               : bits ^ next;
+    }
+    return fine && give_number(value, bits);
+}
+
+static bool select_by_sign(Eval *ev, const AstNode *node, Value *value)
+{
+    double a[4] = {0};
+    if (!numbers(ev, node, a, node->count)) {
+        return false;
+    }
+    double not_negative = node->count == 3 || a[0] == 0.0 ? a[2] : a[3];
+    return give_number(value, a[0] < 0.0 ? a[1] : not_negative);
+}
+
+// ---- random numbers
+
+static bool new_stream(Eval *ev, const AstNode *node, Value *value)
+{
+    double seed;
+    if (!numbers(ev, node, &seed, 1)) {
+        return false;
+    }
+    if (!ARRAY_PUSH(&ev->streams, (uint32_t)(int32_t)to_int(seed))) {
+        return eval_no_memory(ev, node->span);
+    }
+    return give_number(value, (double)(ev->streams.count - 1));
+}
+
+// The generator of POV-Ray, as measured: state' = state * 1812433253 + 12345 modulo 2^32, value = state' / (2^32 - 1).
+static bool next_random(Eval *ev, const AstNode *node, Value *value)
+{
+    double handle;
+    if (!numbers(ev, node, &handle, 1)) {
+        return false;
+    }
+    if (!(handle > -1.0 && handle < (double)ev->streams.count)) {
+        return eval_fault(ev, DIAG_E0303, node->a->span, "`rand` needs what `seed` gave, and %g is not that", handle);
+    }
+    uint32_t *state = &ev->streams.items[(size_t)fmax(handle, 0.0)];
+    *state = *state * 1812433253u + 12345u;
+    return give_number(value, *state / 4294967295.0);
+}
+
+// ---- functions of vectors
+
+static bool vector_number(Eval *ev, const AstNode *node, Value *value)
+{
+    Vec3 a[2];
+    if (!vectors(ev, node, a, node->count)) {
+        return false;
+    }
+    return give_number(value, node->symbol == W_vlength ? vec3_length(a[0]) : vec3_dot(a[0], a[1]));
+}
+
+static bool vector_vector(Eval *ev, const AstNode *node, Value *value)
+{
+    Vec3 a[2];
+    if (!vectors(ev, node, a, node->count)) {
+        return false;
+    }
+    if (node->symbol == W_vcross) {
+        return give_vector(value, vec3_cross(a[0], a[1]));
+    }
+    if (node->symbol == W_vrotate) {
+        Transform rotation = transform_rotate(a[1]);
+        return give_vector(value, transform_direction(&rotation, a[0]));
+    }
+    double length = vec3_length(a[0]);
+    if (length == 0.0) {
+        eval_warn(ev, DIAG_W0303, node->span, "a vector of length zero has no direction; it stays zero");
+        return give_vector(value, a[0]);
+    }
+    return give_vector(value, vec3(a[0].x / length, a[0].y / length, a[0].z / length));
+}
+
+// Rodrigues' formula.
+static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
+{
+    Vec3 a[2];
+    double angle = 0.0;
+    bool fine = vectors(ev, node, a, 2);
+    if (!eval_number(ev, node->a->next->next, &angle) || !fine) {
+        return false;
+    }
+    double length = vec3_length(a[1]);
+    Vec3 axis = vec3(a[1].x / length, a[1].y / length, a[1].z / length);
+    double sine = sin(radians_of(angle)), cosine = cos(radians_of(angle));
+    Vec3 turned = vec3_scale(cosine, a[0]);
+    turned = vec3_add_scaled(turned, sine, vec3_cross(axis, a[0]));
+    return give_vector(value, vec3_add_scaled(turned, (1.0 - cosine) * vec3_dot(axis, a[0]), axis));
+}
+
+// ---- names, arrays, files
+
+static bool is_defined(Eval *ev, const AstNode *node, Value *value)
+{
+    const AstNode *name = node->a;
+    return give_number(value, name->kind == AST_NAME && scope_find(ev, name->symbol) != NULL ? 1.0 : 0.0);
+}
+
+static bool array_dimensions(Eval *ev, const AstNode *node, Value *value)
+{
+    Value array;
+    double dimension = 0.0;
+    if (!eval_expression(ev, node->a, &array) || !value_array(ev, &array, node->a->span)) {
+        return false;
+    }
+    if (node->symbol == W_dimensions) {
+        return give_number(value, array.array->dimension_count);
+    }
+    const AstNode *second = node->a->next;
+    if (!eval_number(ev, second, &dimension)) {
+        return false;
+    }
+    if (!(dimension >= 1.0 && trunc(dimension) <= array.array->dimension_count)) {
+        return eval_fault(ev, DIAG_E0301, second->span, "this array has dimensions 1 to %u, not %g",
+                          array.array->dimension_count, dimension);
+    }
+    return give_number(value, array.array->sizes[(unsigned)dimension - 1]);
+}
+
+static bool file_exists(Eval *ev, const AstNode *node, Value *value)
+{
+    Value name;
+    return eval_string(ev, node->a, &name) && give_number(value, include_exists(ev, &name) ? 1.0 : 0.0);
+}
+
+static bool not_supported(Eval *ev, const AstNode *node, Value *value)
+{
+    (void)value;
+    return eval_fault(ev, DIAG_E0210, node->span, "`%s` is not supported", eval_text(ev, node->symbol));
+}
+
+// ---- the table
+
+enum { ANY_COUNT = 255 };
+
+typedef struct Builtin {
+    BuiltinFn evaluate;      // NULL when `of_number` is set
+    double (*of_number)(double);
+    uint8_t least, greatest; // number of arguments
+} Builtin;
+
+#define OF_NUMBER(function) {NULL, function, 1, 1}
+
+static const Builtin builtins[WORD_COUNT] = {
+    [W_abs] = OF_NUMBER(fabs),       [W_sin] = OF_NUMBER(sin),       [W_cos] = OF_NUMBER(cos),
+    [W_tan] = OF_NUMBER(tan),        [W_atan] = OF_NUMBER(atan),     [W_sinh] = OF_NUMBER(sinh),
+    [W_cosh] = OF_NUMBER(cosh),      [W_tanh] = OF_NUMBER(tanh),     [W_asinh] = OF_NUMBER(asinh),
+    [W_acosh] = OF_NUMBER(acosh),    [W_atanh] = OF_NUMBER(atanh),   [W_exp] = OF_NUMBER(exp),
+    [W_floor] = OF_NUMBER(floor),    [W_ceil] = OF_NUMBER(ceil),     [W_int] = OF_NUMBER(to_int),
+    [W_degrees] = OF_NUMBER(degrees_of), [W_radians] = OF_NUMBER(radians_of),
+    [W_sqrt] = {positive_only, NULL, 1, 1},
+    [W_ln] = {positive_only, NULL, 1, 1},
+    [W_log] = {positive_only, NULL, 1, 1},
+    [W_asin] = {inverse_sine, NULL, 1, 1},
+    [W_acos] = {inverse_sine, NULL, 1, 1},
+    [W_atan2] = {two_numbers, NULL, 2, 2},
+    [W_pow] = {two_numbers, NULL, 2, 2},
+    [W_mod] = {two_numbers, NULL, 2, 2},
+    [W_div] = {two_numbers, NULL, 2, 2},
+    [W_min] = {least_or_greatest, NULL, 1, ANY_COUNT},
+    [W_max] = {least_or_greatest, NULL, 1, ANY_COUNT},
+    [W_bitwise_and] = {bitwise, NULL, 2, ANY_COUNT},
+    [W_bitwise_or] = {bitwise, NULL, 2, ANY_COUNT},
+    [W_bitwise_xor] = {bitwise, NULL, 2, ANY_COUNT},
+    [W_select] = {select_by_sign, NULL, 3, 4},
+    [W_seed] = {new_stream, NULL, 1, 1},
+    [W_rand] = {next_random, NULL, 1, 1},
+    [W_vlength] = {vector_number, NULL, 1, 1},
+    [W_vdot] = {vector_number, NULL, 2, 2},
+    [W_vcross] = {vector_vector, NULL, 2, 2},
+    [W_vrotate] = {vector_vector, NULL, 2, 2},
+    [W_vnormalize] = {vector_vector, NULL, 1, 1},
+    [W_vaxis_rotate] = {rotate_about_axis, NULL, 3, 3},
+    [W_defined] = {is_defined, NULL, 1, 1},
+    [W_dimensions] = {array_dimensions, NULL, 1, 1},
+    [W_dimension_size] = {array_dimensions, NULL, 2, 2},
+    [W_file_exists] = {file_exists, NULL, 1, 1},
+    [W_str] = {builtin_str, NULL, 3, 3},
+    [W_vstr] = {builtin_vstr, NULL, 5, 5},
+    [W_concat] = {builtin_concat, NULL, 1, ANY_COUNT},
+    [W_chr] = {builtin_chr, NULL, 1, 1},
+    [W_asc] = {builtin_asc, NULL, 1, 1},
+    [W_val] = {builtin_val, NULL, 1, 1},
+    [W_strlen] = {builtin_strlen, NULL, 1, 1},
+    [W_strcmp] = {builtin_strcmp, NULL, 2, 2},
+    [W_substr] = {builtin_substr, NULL, 3, 3},
+    [W_strupr] = {builtin_strupr, NULL, 1, 1},
+    [W_strlwr] = {builtin_strlwr, NULL, 1, 1},
+    // Words of the language that rtlang does not have.
+    [W_trace] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_inside] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_min_extent] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_max_extent] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_vturbulence] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_datetime] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_sum] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_prod] = {not_supported, NULL, 0, ANY_COUNT},
+};
+
+static bool fault_count(Eval *ev, const AstNode *node, const Builtin *builtin)
+{
+    unsigned bound = node->count < builtin->least ? builtin->least : builtin->greatest;
+    const char *which = builtin->least == builtin->greatest ? "" : node->count < bound ? "at least " : "at most ";
+    return eval_fault(ev, DIAG_E0203, node->span, "`%s` takes %s%u argument%s, and %u %s given",
+                      eval_text(ev, node->symbol), which, bound, bound == 1 ? "" : "s", (unsigned)node->count,
+                      node->count == 1 ? "is" : "are");
+}
+
+bool builtin_call(Eval *ev, const AstNode *node, Value *value)
+{
+    const Builtin *builtin = &builtins[node->symbol];
+    if (RT_UNLIKELY(node->count < builtin->least ||
+                    (node->count > builtin->greatest && builtin->greatest != ANY_COUNT))) {
+        return fault_count(ev, node, builtin);
+    }
+    bool fine;
+    ev->inner++;
+    if (builtin->of_number != NULL) {
+        double argument;
+        fine = eval_number(ev, node->a, &argument) && give_number(value, builtin->of_number(argument));
+    } else {
+        fine = builtin->evaluate != NULL ? builtin->evaluate(ev, node, value) : not_supported(ev, node, value);
+    }
+    ev->inner--;
+    return fine;
+}
+
+// ---- constants
+
+static const struct {
+    Word word;
+    uint8_t components; // 0: a number
+    double v[4];
+} constants[] = {
+    {W_x, 3, {1, 0, 0}},    {W_y, 3, {0, 1, 0}},   {W_z, 3, {0, 0, 1}},   {W_u, 2, {1, 0}},
+    {W_v, 2, {0, 1}},       {W_t, 4, {0, 0, 0, 1}}, {W_pi, 0, {3.14159265358979323846}},
+    {W_true, 0, {1}},       {W_yes, 0, {1}},       {W_on, 0, {1}},        {W_false, 0, {0}},
+    {W_no, 0, {0}},         {W_off, 0, {0}},       {W_clock, 0, {0}},     {W_clock_on, 0, {0}},
+};
+
+// Days since the first moment of the year 2000, universal time.
+static double days_since_2000(void)
+{
+    return ((double)time(NULL) - 946684800.0) / 86400.0;
+}
+
+bool builtin_constant(Eval *ev, const AstNode *node, Value *value)
+{
+    for (size_t i = 0; i < RT_COUNT_OF(constants); i++) {
+        if (constants[i].word != (Word)node->symbol) {
+            continue;
+        }
+        *value = value_of_number(constants[i].v[0]);
+        if (constants[i].components > 0) {
+            value->kind = VALUE_VECTOR;
+            value->components = constants[i].components;
+            for (unsigned j = 0; j < 4; j++) {
+                value->v[j] = constants[i].v[j];
+            }
+        }
+        return true;
+    }
+    return node->symbol == W_version ? give_number(value, ev->version)
+           : node->symbol == W_now   ? give_number(value, days_since_2000())
+                                     : not_supported(ev, node, value);
+}

@@ -1,0 +1,207 @@
+// The cursor: walks the items of a block as if the text of macros and branches stood there.
+//
+// Each loop, branch, call and included text that is being walked is a frame, innermost first; frames are taken from the
+// program arena and used again. Owns the frames. Knows nothing of what the items mean.
+//
+// SPDX-License-Identifier: MIT
+#include "eval/internal.h"
+
+enum { CURSOR_WEIGHT = 4 }; // of native recursion, see eval_deepen
+
+CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    CursorFrame *frame = ev->free_frames;
+    if (frame != NULL) {
+        ev->free_frames = frame->outer;
+    } else {
+        frame = arena_alloc(&ev->program, sizeof *frame);
+        if (frame == NULL) {
+            eval_no_memory(ev, cursor->span);
+            return NULL;
+        }
+    }
+    frame->outer = cursor->frame;
+    frame->next = items;
+    frame->node = node;
+    frame->kind = kind;
+    cursor->frame = frame;
+    return frame;
+}
+
+static void pop(Cursor *cursor)
+{
+    Eval *ev = cursor->ev;
+    CursorFrame *frame = cursor->frame;
+    if (frame->kind == FRAME_MACRO) {
+        macro_leave(ev);
+    } else if (frame->kind == FRAME_INCLUDE) {
+        scope_pop(ev);
+        eval_frame_leave(ev);
+        ev->include_depth--;
+    }
+    cursor->frame = frame->outer;
+    frame->outer = ev->free_frames;
+    ev->free_frames = frame;
+}
+
+void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span)
+{
+    *cursor = (Cursor){.ev = ev, .span = span};
+    cursor->counted = eval_deepen(ev, CURSOR_WEIGHT, span);
+    if (cursor->counted) {
+        cursor_push(cursor, FRAME_ITEMS, items, NULL);
+    }
+}
+
+void cursor_close(Cursor *cursor)
+{
+    while (cursor->frame != NULL) {
+        pop(cursor);
+    }
+    if (cursor->included) {
+        arena_rewind(&cursor->ev->parse, cursor->mark);
+    }
+    if (cursor->counted) {
+        eval_shallow(cursor->ev, CURSOR_WEIGHT);
+    }
+    cursor->counted = cursor->included = false;
+    cursor->item = NULL;
+}
+
+const AstNode *case_items(const AstNode *node)
+{
+    return node->kind == AST_CASE ? node->b : node->kind == AST_RANGE ? node->c : node->a;
+}
+
+// The end of what a frame walks: another turn, the next case, or back to the frame around it.
+static void end_of_frame(Cursor *cursor)
+{
+    CursorFrame *frame = cursor->frame;
+    switch (frame->kind) {
+    case FRAME_WHILE:
+        if (loop_continues(cursor->ev, frame)) {
+            frame->next = frame->node->b;
+            return;
+        }
+        break;
+    case FRAME_FOR:
+        if (loop_continues(cursor->ev, frame)) {
+            frame->next = frame->node->c;
+            return;
+        }
+        break;
+    case FRAME_SWITCH:
+        frame->node = frame->node->next;
+        if (frame->node != NULL) {
+            frame->next = case_items(frame->node);
+            return;
+        }
+        break;
+    default: break;
+    }
+    pop(cursor);
+}
+
+void cursor_break(Cursor *cursor, const AstNode *node)
+{
+    const CursorFrame *frame = cursor->frame;
+    while (frame != NULL && (frame->kind == FRAME_ITEMS || frame->kind == FRAME_INCLUDE)) {
+        frame = frame->outer;
+    }
+    if (frame == NULL) {
+        eval_fault(cursor->ev, DIAG_E0209, node->span, "no loop, `#switch` or macro that `#break` could leave");
+        return;
+    }
+    const CursorFrame *rest = frame->outer;
+    while (cursor->frame != rest) {
+        pop(cursor);
+    }
+}
+
+static void expand(Cursor *cursor, const AstNode *call)
+{
+    Eval *ev = cursor->ev;
+    const Macro *macro;
+    CursorFrame *frame;
+    if (!macro_find(ev, call, &macro) || (frame = cursor_push(cursor, FRAME_ITEMS, NULL, call)) == NULL) {
+        return;
+    }
+    if (macro_enter(ev, call, macro, &frame->diag)) {
+        frame->kind = FRAME_MACRO;
+        frame->next = macro->body->b;
+    } else {
+        pop(cursor);
+    }
+}
+
+const AstNode *cursor_peek(Cursor *cursor)
+{
+    Eval *ev = cursor->ev;
+    if (cursor->item != NULL) {
+        return ev->stop ? NULL : cursor->item;
+    }
+    while (cursor->frame != NULL && !ev->stop) {
+        const AstNode *item = cursor->frame->next;
+        if (item == NULL) {
+            end_of_frame(cursor);
+            continue;
+        }
+        cursor->frame->next = item->next;
+        if (item->kind == AST_CALL) {
+            expand(cursor, item);
+        } else if (!directive_run(cursor, item)) {
+            cursor->item = item;
+            return item;
+        }
+    }
+    return NULL;
+}
+
+void cursor_skip(Cursor *cursor)
+{
+    cursor->item = NULL;
+}
+
+bool cursor_at_word(Cursor *cursor, Word word)
+{
+    const AstNode *item = cursor_peek(cursor);
+    return item != NULL && item->kind == AST_WORD && item->symbol == (Symbol)word;
+}
+
+bool cursor_at_value(Cursor *cursor)
+{
+    const AstNode *item = cursor_peek(cursor);
+    return item != NULL && (item->kind <= AST_MEMBER ||
+                            (item->kind == AST_WORD && word_class(item->symbol) == WORD_COLOUR));
+}
+
+static bool take(Cursor *cursor, Value *value, Span *span)
+{
+    const AstNode *item = cursor_peek(cursor);
+    if (item == NULL) {
+        *span = cursor->span;
+        return !cursor->ev->stop && eval_fault(cursor->ev, DIAG_E0213, cursor->span, "a value is missing at the end");
+    }
+    *span = item->span;
+    cursor->item = NULL;
+    return eval_expression(cursor->ev, item, value);
+}
+
+bool cursor_value(Cursor *cursor, Value *value)
+{
+    Span span;
+    return take(cursor, value, &span);
+}
+
+bool cursor_number(Cursor *cursor, double *number, Span *span)
+{
+    Value value;
+    return take(cursor, &value, span) && value_number(cursor->ev, &value, *span, number);
+}
+
+bool cursor_vector3(Cursor *cursor, Vec3 *vector, Span *span)
+{
+    Value value;
+    return take(cursor, &value, span) && value_vector3(cursor->ev, &value, *span, vector);
+}

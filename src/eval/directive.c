@@ -1,0 +1,354 @@
+// Directives: what each one does when the walk through a block, or through the top level, comes to it.
+//
+// One function for each kind of directive, in a table. Branches and loops are frames pushed on the cursor. Knows nothing
+// of kinds of blocks.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "eval/internal.h"
+
+typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
+
+// ---- declarations
+
+// Numbers, vectors and colours end with a semicolon since version 3.5 of the language.
+static void check_end(Eval *ev, const AstNode *node, const Value *value)
+{
+    bool needs_end = value->kind == VALUE_NUMBER || value_is_tuple(value);
+    if (!needs_end || (node->flags & AST_ENDED) || ev->version < 3.5) {
+        return;
+    }
+    Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
+    if (eval_report(ev, DIAG_E0205, end, "a `;` is missing after the declaration of %s", value_describe(value))) {
+        diag_suggest(ev->options.diags, "write `;` after it");
+    }
+}
+
+// After a fault the name is kept without a value, so that its uses are not reported as well.
+static void forget_value(Eval *ev, const AstNode *target, bool local)
+{
+    const Value *known = target->kind == AST_NAME ? scope_find(ev, target->symbol) : NULL;
+    bool can_change = target->kind == AST_NAME && (known == NULL || known->kind != VALUE_MACRO);
+    if (can_change && !scope_declare(ev, target->symbol, local, &(Value){.kind = VALUE_NONE}, target->span)) {
+        return; // out of memory, or an element of another type: reported there
+    }
+}
+
+static bool assign(Eval *ev, const AstNode *node, const Value *value)
+{
+    const AstNode *target = node->a;
+    if (target->kind == AST_NAME) {
+        return scope_declare(ev, target->symbol, node->op == AST_OP_LOCAL, value, target->span);
+    }
+    Value *element;
+    ValueArray *array;
+    return array_locate(ev, target, &element, &array) && array_assign(ev, array, element, value, node->b->span);
+}
+
+static void run_declare(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    Value value;
+    if (!eval_open_rvalue(ev, node->b, &value)) {
+        forget_value(ev, node->a, node->op == AST_OP_LOCAL);
+        return;
+    }
+    check_end(ev, node, &value);
+    if (!assign(ev, node, &value)) {
+        return; // reported; the old value stays
+    }
+}
+
+static void run_undef(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    if (node->a->kind == AST_NAME) {
+        if (!scope_undef(ev, node->a->symbol)) {
+            eval_warn(ev, DIAG_W0202, node->a->span, "`%s` is not declared", eval_text(ev, node->a->symbol));
+        }
+        return;
+    }
+    Value *element;
+    ValueArray *array;
+    if (array_locate(ev, node->a, &element, &array)) {
+        element->kind = VALUE_NONE;
+        array->example = array->example == element ? NULL : array->example;
+    }
+}
+
+static void run_macro(Cursor *cursor, const AstNode *node)
+{
+    macro_define(cursor->ev, node);
+}
+
+static void run_default(Cursor *cursor, const AstNode *node)
+{
+    if (!eval_default(cursor->ev, node)) {
+        return; // reported; the defaults stay as they were
+    }
+}
+
+static void run_version(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    double version;
+    ev->inner++;
+    bool fine = eval_number(ev, node->a, &version);
+    ev->inner--;
+    if (!fine) {
+        return;
+    }
+    if (!(version <= 3.7 || numbers_equal(version, 3.7))) {
+        eval_fault(ev, DIAG_E0212, node->a->span, "the scene asks for version %g of the language; this is 3.7", version);
+        return;
+    }
+    ev->version = version;
+    ev->version_given = true;
+}
+
+// ---- branches
+
+static void push_branch(Cursor *cursor, const AstNode *items)
+{
+    // Without memory the cursor stops, see cursor_push.
+    if (items != NULL && cursor_push(cursor, FRAME_ITEMS, items, NULL) == NULL) {
+        return;
+    }
+}
+
+static void run_if(Cursor *cursor, const AstNode *node)
+{
+    bool holds;
+    if (eval_condition(cursor->ev, node->a, &holds)) {
+        push_branch(cursor, holds ? node->b : node->c);
+    }
+}
+
+static bool is_declared(Eval *ev, const AstNode *target)
+{
+    if (target->kind == AST_NAME) {
+        return scope_find(ev, target->symbol) != NULL;
+    }
+    Value *element;
+    ValueArray *array;
+    return array_locate(ev, target, &element, &array) && element->kind != VALUE_NONE;
+}
+
+static void run_ifdef(Cursor *cursor, const AstNode *node)
+{
+    if (node->a == NULL) {
+        return; // its condition was not readable
+    }
+    bool is_wanted = is_declared(cursor->ev, node->a) == (node->op == AST_OP_IFDEF);
+    push_branch(cursor, is_wanted ? node->b : node->c);
+}
+
+static bool case_holds(Eval *ev, const AstNode *node, double value, bool *holds)
+{
+    double low, high;
+    *holds = node->kind == AST_ELSE;
+    if (node->kind == AST_CASE && node->a != NULL) { // else its head was not readable
+        bool fine = eval_number(ev, node->a, &low);
+        *holds = fine && numbers_equal(value, low);
+        return fine;
+    }
+    if (node->kind == AST_RANGE) {
+        bool fine = eval_number(ev, node->a, &low) && eval_number(ev, node->b, &high);
+        *holds = fine && low <= value && value <= high;
+        return fine;
+    }
+    return true;
+}
+
+// The first case that holds, or NULL; false after a fault.
+static bool find_case(Eval *ev, const AstNode *node, const AstNode **found)
+{
+    double value;
+    if (!eval_number(ev, node->a, &value)) {
+        return false;
+    }
+    for (*found = node->b; *found != NULL; *found = (*found)->next) {
+        bool holds;
+        if (!case_holds(ev, *found, value, &holds)) {
+            return false;
+        }
+        if (holds) {
+            return true;
+        }
+    }
+    return true;
+}
+
+static void run_switch(Cursor *cursor, const AstNode *node)
+{
+    const AstNode *found;
+    if (!find_case(cursor->ev, node, &found)) {
+        return;
+    }
+    if (found != NULL && cursor_push(cursor, FRAME_SWITCH, case_items(found), found) == NULL) {
+        return;
+    }
+    push_branch(cursor, node->c); // what stands before the first case
+}
+
+// ---- loops
+
+static void run_while(Cursor *cursor, const AstNode *node)
+{
+    bool holds;
+    if (eval_condition(cursor->ev, node->a, &holds) && holds && eval_step(cursor->ev, node->span)) {
+        if (cursor_push(cursor, FRAME_WHILE, node->b, node) == NULL) {
+            return;
+        }
+    }
+}
+
+// As measured, with the language's tolerance at the end.
+static bool for_holds(double number, double end, double step)
+{
+    return step > 0.0 ? number < end + 1e-10 : number > end - 1e-10;
+}
+
+static void run_for(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    double from = 0, end = 0, step = 1;
+    if (node->a == NULL) {
+        return; // its head was not readable
+    }
+    const AstNode *third = node->b->next->next;
+    ev->inner++;
+    bool fine = eval_number(ev, node->b, &from);
+    fine = eval_number(ev, node->b->next, &end) && fine;
+    fine = (third == NULL || eval_number(ev, third, &step)) && fine;
+    ev->inner--;
+    if (!fine) {
+        return;
+    }
+    if (step == 0.0) {
+        eval_fault(ev, DIAG_E0305, third->span, "the step of a loop must not be zero");
+        return;
+    }
+    if (third != NULL && third->next != NULL) {
+        eval_fault(ev, DIAG_E0203, third->next->span, "`#for` takes a name and at most three numbers");
+        return;
+    }
+    Symbol name = node->a->symbol;
+    Value value = value_of_number(from);
+    if (scope_is_reference(ev, name)) {
+        eval_fault(ev, DIAG_E0220, node->a->span, "`%s` stands for the caller's variable and cannot count a loop",
+                   eval_text(ev, name));
+        return;
+    }
+    if (!scope_declare(ev, name, true, &value, node->a->span) || !for_holds(from, end, step) ||
+        !eval_step(ev, node->span)) {
+        return;
+    }
+    CursorFrame *frame = cursor_push(cursor, FRAME_FOR, node->c, node);
+    if (frame != NULL) {
+        frame->end = end;
+        frame->step = step;
+    }
+}
+
+bool loop_continues(Eval *ev, CursorFrame *frame)
+{
+    const AstNode *node = frame->node;
+    if (frame->kind == FRAME_WHILE) {
+        bool holds;
+        ArenaMark mark = arena_mark(&ev->scratch);
+        bool fine = eval_condition(ev, node->a, &holds);
+        arena_rewind(&ev->scratch, mark);
+        return fine && holds && eval_step(ev, node->span);
+    }
+    Value *counter = scope_find(ev, node->a->symbol);
+    if (counter == NULL || counter->kind != VALUE_NUMBER) {
+        return (counter == NULL || counter->kind != VALUE_NONE) &&
+               eval_fault(ev, DIAG_E0220, node->a->span, "the loop has lost its counter: `%s` is %s now",
+                          eval_text(ev, node->a->symbol), counter != NULL ? value_describe(counter) : "not declared");
+    }
+    counter->number += frame->step;
+    return for_holds(counter->number, frame->end, frame->step) && eval_step(ev, node->span);
+}
+
+static void run_break(Cursor *cursor, const AstNode *node)
+{
+    cursor_break(cursor, node);
+}
+
+// ---- messages
+
+static const EvalStream streams[AST_OP_COUNT] = {
+    [AST_OP_DEBUG] = EVAL_STREAM_DEBUG,
+    [AST_OP_RENDER] = EVAL_STREAM_RENDER,
+    [AST_OP_STATISTICS] = EVAL_STREAM_STATISTICS,
+};
+
+// What is said, on one line.
+static int one_line(const Value *value, char *line, size_t size)
+{
+    size_t length = value->length < size ? value->length : size - 1;
+    for (size_t i = 0; i < length; i++) {
+        line[i] = (unsigned char)value->text[i] < ' ' ? ' ' : value->text[i];
+    }
+    while (length > 0 && line[length - 1] == ' ') {
+        length--;
+    }
+    return (int)length;
+}
+
+static void run_message(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    Value value;
+    char line[512];
+    if (!eval_string(ev, node->a, &value)) {
+        return;
+    }
+    if (node->op == AST_OP_WARNING) {
+        int length = one_line(&value, line, sizeof line);
+        eval_warn(ev, DIAG_W0201, node->span, "%.*s", length, line);
+    } else if (node->op == AST_OP_ERROR) {
+        int length = one_line(&value, line, sizeof line);
+        eval_fault(ev, DIAG_E0211, node->span, "%.*s", length, line);
+        ev->stop = true;
+    } else {
+        message_write(ev, streams[node->op], value.text, value.length, node->span);
+    }
+}
+
+// ---- files
+
+static void run_file(Cursor *cursor, const AstNode *node)
+{
+    const char *what = ast_kind_name((AstKind)node->kind);
+    if (node->kind == AST_WRITE) {
+        eval_fault(cursor->ev, DIAG_E0210, node->span, "`%s` is not supported: a scene writes no files", what);
+    } else {
+        eval_fault(cursor->ev, DIAG_E0210, node->span, "`%s` is not supported yet", what);
+    }
+}
+
+// ---- the table
+
+static const DirectiveFn directives[AST_KIND_COUNT] = {
+    [AST_DECLARE] = run_declare, [AST_UNDEF] = run_undef,     [AST_IF] = run_if,         [AST_IFDEF] = run_ifdef,
+    [AST_SWITCH] = run_switch,   [AST_BREAK] = run_break,     [AST_WHILE] = run_while,   [AST_FOR] = run_for,
+    [AST_MACRO] = run_macro,     [AST_INCLUDE] = include_run, [AST_DEFAULT] = run_default, [AST_VERSION] = run_version,
+    [AST_MESSAGE] = run_message, [AST_FOPEN] = run_file,      [AST_FCLOSE] = run_file,   [AST_READ] = run_file,
+    [AST_WRITE] = run_file,
+};
+
+bool directive_run(Cursor *cursor, const AstNode *node)
+{
+    DirectiveFn run = directives[node->kind];
+    if (run == NULL) {
+        return false;
+    }
+    Arena *scratch = &cursor->ev->scratch;
+    ArenaMark mark = arena_mark(scratch);
+    run(cursor, node);
+    arena_rewind(scratch, mark);
+    return true;
+}

@@ -1,0 +1,165 @@
+// The top level: a scene's text, item by item, becomes scene records.
+//
+// Sets up the state of an evaluation, declares what stands declared before the first item, and decides in the end what
+// the scene's version means for its gamma. Knows nothing of single directives or kinds of blocks.
+//
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "eval/internal.h"
+
+// Identifiers that POV-Ray declares; a scene may change them. There is no animation, so its variables are zero.
+static const char *const zeros[] = {
+    "clock_delta", "initial_clock", "final_clock", "initial_frame", "final_frame", "frame_number",
+};
+
+static void fault_not_an_object(Eval *ev, const AstNode *item)
+{
+    Value value;
+    if (item->kind == AST_WORD) {
+        eval_fault(ev, DIAG_E0222, item->span, "expected an object or a directive, found `%s`",
+                   eval_text(ev, item->symbol));
+    } else if (item->kind > AST_MEMBER) {
+        eval_fault(ev, DIAG_E0222, item->span, "expected an object or a directive, found %s",
+                   ast_kind_name((AstKind)item->kind));
+    } else if (eval_expression(ev, item, &value)) {
+        eval_fault(ev, DIAG_E0222, item->span, "expected an object or a directive, found %s", value_describe(&value));
+    }
+}
+
+static void place(Eval *ev, const AstNode *item)
+{
+    bool is_placeable = item->kind == AST_BLOCK || item->kind == AST_NAME || item->kind == AST_INDEX;
+    ArenaMark mark = arena_mark(&ev->scratch);
+    if (!is_placeable) {
+        fault_not_an_object(ev, item);
+    } else if (!eval_place(ev, item)) {
+        ev->faulty = true;
+    }
+    arena_rewind(&ev->scratch, mark);
+}
+
+void eval_item(Eval *ev, const AstNode *item)
+{
+    if (item->kind == AST_BLOCK) {
+        place(ev, item);
+        return;
+    }
+    Cursor cursor;
+    const AstNode *found;
+    cursor_open(&cursor, ev, item, item->span);
+    cursor.top = true;
+    while ((found = cursor_peek(&cursor)) != NULL) {
+        place(ev, found);
+        cursor_skip(&cursor);
+    }
+    cursor_close(&cursor);
+}
+
+static bool take_item(void *client, const AstNode *item)
+{
+    Eval *ev = client;
+    eval_item(ev, item);
+    return !ev->stop;
+}
+
+// ---- before the first item
+
+static bool declare(Eval *ev, const char *name, const Value *value)
+{
+    Symbol symbol = intern_text(ev->options.names, name, strlen(name));
+    return symbol != SYMBOL_NONE && scope_declare(ev, symbol, false, value, SPAN_NONE);
+}
+
+static bool declare_text(Eval *ev, const char *name, const char *text)
+{
+    Value value = {.kind = VALUE_STRING};
+    value.text = text;
+    value.length = strlen(text);
+    return declare(ev, name, &value);
+}
+
+// Of two declarations of a name the first counts, and none may be a reserved word, as in POV-Ray.
+static bool declare_option(Eval *ev, const EvalDeclaration *option)
+{
+    Symbol symbol = intern_text(ev->options.names, option->name, strlen(option->name));
+    if (symbol == SYMBOL_NONE) {
+        return false;
+    }
+    if (word_class(symbol) != WORD_IDENTIFIER || scope_find(ev, symbol) != NULL) {
+        return true;
+    }
+    Value value = value_of_number(option->number);
+    return option->text != NULL ? declare_text(ev, option->name, option->text) : declare(ev, option->name, &value);
+}
+
+static bool declare_all(Eval *ev, const Source *source)
+{
+    const EvalOptions *options = &ev->options;
+    Value width = value_of_number(options->image_width), height = value_of_number(options->image_height);
+    bool fine = true;
+    for (size_t i = 0; i < options->declaration_count; i++) {
+        fine = fine && declare_option(ev, &options->declarations[i]);
+    }
+    for (size_t i = 0; i < RT_COUNT_OF(zeros); i++) {
+        fine = fine && declare_option(ev, &(EvalDeclaration){.name = zeros[i]});
+    }
+    return fine && declare(ev, "image_width", &width) && declare(ev, "image_height", &height) &&
+           declare_text(ev, "input_file_name", source_name(source));
+}
+
+// ---- the whole
+
+static void init(Eval *ev, const EvalOptions *options, Scene *scene)
+{
+    *ev = (Eval){.options = *options, .scene = scene, .version = 3.7, .inner = 1};
+    arena_init(&ev->parse, options->limits->arena_bytes);
+    arena_init(&ev->program, options->limits->arena_bytes);
+    arena_init(&ev->scratch, options->limits->arena_bytes);
+    text_init(&ev->line);
+}
+
+static void fini(Eval *ev)
+{
+    objects_fini(ev);
+    scope_fini(ev);
+    text_fini(&ev->line);
+    ARRAY_FREE(&ev->streams);
+    ARRAY_FREE(&ev->reported);
+    arena_fini(&ev->scratch);
+    arena_fini(&ev->program);
+    arena_fini(&ev->parse);
+}
+
+// A scene that names no gamma is linear when a #version says that it knows 3.7, and is not converted at all otherwise,
+// as in POV-Ray.
+static void settle_version(const Eval *ev)
+{
+    Settings *settings = &ev->scene->settings;
+    settings->version = ev->version;
+    bool is_modern = ev->version_given && (ev->version > 3.7 || numbers_equal(ev->version, 3.7));
+    if (settings->gamma_model == GAMMA_NONE && is_modern) {
+        settings->gamma_model = GAMMA_LINEAR;
+        settings->assumed_gamma = 1.0;
+    }
+}
+
+bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
+{
+    Eval ev;
+    size_t errors = options->diags->error_count;
+    const DiagFrame *frame = options->diags->frame;
+    init(&ev, options, scene);
+    options->diags->frame = NULL;
+    if (!scope_init(&ev) || !objects_init(&ev) || !declare_all(&ev, source)) {
+        eval_no_memory(&ev, SPAN_NONE);
+    } else {
+        GrammarContext context = {options->names, &ev.parse, options->diags, options->limits};
+        bool is_whole = grammar_parse(&context, source, take_item, &ev);
+        ev.faulty = ev.faulty || !is_whole;
+        settle_version(&ev);
+    }
+    fini(&ev);
+    options->diags->frame = frame;
+    return !ev.faulty && !ev.stop && options->diags->error_count == errors;
+}

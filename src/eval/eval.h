@@ -1,0 +1,57 @@
+// The evaluator: AST items become scene records.
+//
+// eval_file parses a scene through grammar's facade, one top-level item at a time, runs its directives, works out its
+// expressions and adds cameras, lights and shapes to a Scene. The language is pure: only scene text below the folders it
+// is given is read, nothing is written or run. Faults are recorded where they are found; evaluation goes on to find more.
+// Knows nothing of rays or pictures.
+//
+// SPDX-License-Identifier: MIT
+#ifndef EVAL_EVAL_H
+#define EVAL_EVAL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/diag.h"
+#include "base/intern.h"
+#include "base/limits.h"
+#include "base/source.h"
+#include "scene/scene.h"
+
+typedef enum EvalStream {
+    EVAL_STREAM_DEBUG,
+    EVAL_STREAM_WARNING,
+    EVAL_STREAM_ERROR,
+    EVAL_STREAM_RENDER,
+    EVAL_STREAM_STATISTICS,
+} EvalStream;
+
+// A name that is declared before the scene begins, as with -D.
+typedef struct EvalDeclaration {
+    const char *name;
+    const char *text; // the string, or NULL
+    double number;    // when text is NULL
+} EvalDeclaration;
+
+// What an evaluation is given. Pointers must stay valid during the call; nothing is owned.
+typedef struct EvalOptions {
+    SourceMap *sources;
+    InternTable *names; // reserved words interned
+    DiagSink *diags;
+    const Limits *limits;
+    const char *const *include_paths; // folders, searched in order after the current one
+    size_t include_path_count;
+    const EvalDeclaration *declarations;
+    size_t declaration_count;
+    int image_width, image_height; // for the scene's own arithmetic
+    // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console
+    // does. What #warning and #error say is a diagnostic. May be NULL.
+    void (*message)(void *client, EvalStream stream, const char *text, size_t length);
+    void *client;
+} EvalOptions;
+
+// Evaluates the source into the scene (initialised, empty). False when a fault was reported; the scene then holds what
+// could be made of it.
+bool eval_source(const EvalOptions *options, Source *source, Scene *scene) RT_MUST_CHECK;
+
+#endif

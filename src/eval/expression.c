@@ -1,0 +1,529 @@
+// Expressions: AST nodes become values, with the language's operators, promotions and tolerance of comparisons.
+//
+// One function for each kind of node, in a table. Owns nothing. Knows nothing of blocks and of what directives do.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <string.h>
+
+#include "eval/internal.h"
+#include "scene/blueprint.h"
+
+// Measured: numbers that differ by 1e-10 are equal, and 1e-10 itself is false. Absolute, whatever the size.
+static const double comparison_tolerance = 1e-10;
+
+bool numbers_equal(double one, double other)
+{
+    return one == other || fabs(one - other) <= comparison_tolerance;
+}
+
+bool number_is_true(double number)
+{
+    return !(fabs(number) <= comparison_tolerance);
+}
+
+static void set_number(Value *value, double number)
+{
+    value->kind = VALUE_NUMBER;
+    value->components = 0;
+    value->block = 0;
+    value->name = SYMBOL_NONE;
+    value->number = number;
+}
+
+bool eval_number(Eval *ev, const AstNode *node, double *number)
+{
+    Value value;
+    return eval_expression(ev, node, &value) && value_number(ev, &value, node->span, number);
+}
+
+bool eval_vector3(Eval *ev, const AstNode *node, Vec3 *vector)
+{
+    Value value;
+    return eval_expression(ev, node, &value) && value_vector3(ev, &value, node->span, vector);
+}
+
+bool eval_string(Eval *ev, const AstNode *node, Value *value)
+{
+    ev->inner++;
+    bool fine = eval_expression(ev, node, value) && value_string(ev, value, node->span);
+    ev->inner--;
+    return fine;
+}
+
+bool eval_condition(Eval *ev, const AstNode *node, bool *holds)
+{
+    double number = 0;
+    unsigned inner = ev->inner;
+    ev->inner = 0;
+    bool fine = eval_number(ev, node, &number);
+    ev->inner = inner;
+    *holds = fine && number_is_true(number);
+    return fine;
+}
+
+// ---- leaves
+
+static bool eval_literal(Eval *ev, const AstNode *node, Value *value)
+{
+    (void)ev;
+    set_number(value, node->number);
+    return true;
+}
+
+static bool eval_text_literal(Eval *ev, const AstNode *node, Value *value)
+{
+    *value = (Value){.kind = VALUE_STRING};
+    value->text = intern_get(ev->options.names, node->symbol);
+    value->length = intern_length(ev->options.names, node->symbol);
+    return true;
+}
+
+static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
+{
+    if (eval_report(ev, DIAG_E0201, node->span, "%s `%s` is not declared", what, eval_text(ev, node->symbol))) {
+        scope_suggest(ev, node->symbol);
+    }
+    return false;
+}
+
+static bool eval_name(Eval *ev, const AstNode *node, Value *value)
+{
+    const Value *found = scope_find(ev, node->symbol);
+    if (RT_UNLIKELY(found == NULL)) {
+        return fault_undeclared(ev, node, "the name");
+    }
+    if (RT_UNLIKELY(found->kind == VALUE_NONE)) {
+        return false; // its declaration has been reported
+    }
+    if (RT_UNLIKELY(found->kind == VALUE_MACRO)) {
+        return eval_fault(ev, DIAG_E0208, node->span, "the macro `%s` is called without its parentheses",
+                          eval_text(ev, node->symbol));
+    }
+    *value = *found;
+    value->name = node->symbol;
+    return true;
+}
+
+static bool eval_element(Eval *ev, const AstNode *node, Value *value)
+{
+    Value *element;
+    ValueArray *array;
+    if (!array_locate(ev, node, &element, &array)) {
+        return false;
+    }
+    if (element->kind == VALUE_NONE) {
+        return eval_fault(ev, DIAG_E0207, node->span, "this element of the array has no value yet");
+    }
+    *value = *element;
+    return true;
+}
+
+// ---- calls
+
+bool macro_find(Eval *ev, const AstNode *call, const Macro **macro)
+{
+    const Value *found = scope_find(ev, call->symbol);
+    const char *name = eval_text(ev, call->symbol);
+    if (found == NULL) {
+        return fault_undeclared(ev, call, "the macro");
+    }
+    if (found->kind == VALUE_MACRO) {
+        *macro = found->macro;
+        return true;
+    }
+    if (found->kind == VALUE_BLOCK && found->block == KIND_UNSUPPORTED) {
+        const UnsupportedBlueprint *what = found->record;
+        if (eval_report(ev, DIAG_E0210, call->span, "`%s` is a %s, which is not supported", name, what->word)) {
+            diag_note(ev->options.diags, what->span, "it stands here");
+        }
+        return false;
+    }
+    return found->kind != VALUE_NONE &&
+           eval_fault(ev, DIAG_E0208, call->span, "`%s` is %s and cannot be called", name, value_describe(found));
+}
+
+static bool eval_call(Eval *ev, const AstNode *node, Value *value)
+{
+    return macro_value(ev, node, NULL, false, value);
+}
+
+static bool eval_inline(Eval *ev, const AstNode *node, Value *value)
+{
+    return inline_value(ev, node, false, value);
+}
+
+// An operand of `parent`: a macro's text must not fall apart there.
+static bool eval_operand(Eval *ev, const AstNode *parent, const AstNode *node, Value *value)
+{
+    if (RT_UNLIKELY(node->kind == AST_CALL) && !(node->flags & AST_IN_PARENTHESES)) {
+        return macro_value(ev, node, parent, false, value);
+    }
+    return eval_expression(ev, node, value);
+}
+
+// ---- operators
+
+static const char *spelling(const AstNode *node)
+{
+    return ast_op_spelling((AstOp)node->op);
+}
+
+static bool eval_unary(Eval *ev, const AstNode *node, Value *value)
+{
+    if (!eval_operand(ev, node, node->a, value)) {
+        return false;
+    }
+    value->name = SYMBOL_NONE;
+    if (value->kind == VALUE_NUMBER) {
+        switch (node->op) {
+        case AST_OP_NEG: value->number = -value->number; break;
+        case AST_OP_NOT: value->number = number_is_true(value->number) ? 0.0 : 1.0; break;
+        default: break;
+        }
+        return true;
+    }
+    if (!value_is_tuple(value) || node->op == AST_OP_NOT) {
+        return eval_fault(ev, DIAG_E0202, node->a->span, "`%s` needs a number%s, found %s", spelling(node),
+                          node->op == AST_OP_NOT ? "" : " or a vector", value_describe(value));
+    }
+    for (unsigned i = 0; node->op == AST_OP_NEG && i < value->components; i++) {
+        value->v[i] = -value->v[i];
+    }
+    return true;
+}
+
+// As measured: whatever the numerator, the quotient by zero is +infinity.
+static double divide(Eval *ev, const AstNode *node, double one, double other)
+{
+    if (RT_UNLIKELY(other == 0.0)) {
+        eval_warn(ev, DIAG_W0301, node->b->span, "division by zero gives infinity");
+        return HUGE_VAL;
+    }
+    return one / other;
+}
+
+static double arithmetic(Eval *ev, const AstNode *node, double one, double other)
+{
+    switch (node->op) {
+    case AST_OP_ADD: return one + other;
+    case AST_OP_SUB: return one - other;
+    case AST_OP_MUL: return one * other;
+    default: return divide(ev, node, one, other);
+    }
+}
+
+static bool relation(AstOp op, double one, double other)
+{
+    switch (op) {
+    case AST_OP_EQ: return numbers_equal(one, other);
+    case AST_OP_NE: return !numbers_equal(one, other);
+    case AST_OP_LT: return one < other;
+    case AST_OP_LE: return one < other || numbers_equal(one, other);
+    case AST_OP_GT: return one > other;
+    case AST_OP_GE: return one > other || numbers_equal(one, other);
+    case AST_OP_AND: return number_is_true(one) && number_is_true(other);
+    default: return number_is_true(one) || number_is_true(other);
+    }
+}
+
+static bool is_arithmetic(const AstNode *node)
+{
+    return node->op >= AST_OP_ADD && node->op <= AST_OP_DIV;
+}
+
+// A number fills all components, a narrower vector is continued with zeros.
+static void widen(Value *value, unsigned components)
+{
+    if (value->kind == VALUE_NUMBER) {
+        double number = value->number;
+        for (unsigned i = 0; i < components; i++) {
+            value->v[i] = number;
+        }
+    } else {
+        for (unsigned i = value->components; i < components; i++) {
+            value->v[i] = 0.0;
+        }
+    }
+}
+
+static unsigned width(const Value *value)
+{
+    return value->kind == VALUE_NUMBER ? 0 : value->components;
+}
+
+static bool tuple_arithmetic(Eval *ev, const AstNode *node, Value *left, Value *right)
+{
+    unsigned components = width(left) > width(right) ? width(left) : width(right);
+    bool is_colour = left->kind == VALUE_COLOUR || right->kind == VALUE_COLOUR;
+    widen(left, components);
+    widen(right, components);
+    for (unsigned i = 0; i < components; i++) {
+        left->v[i] = arithmetic(ev, node, left->v[i], right->v[i]);
+    }
+    left->kind = is_colour ? VALUE_COLOUR : VALUE_VECTOR;
+    left->components = (uint8_t)components;
+    return true;
+}
+
+static int compare_strings(const Value *one, const Value *other)
+{
+    size_t shorter = one->length < other->length ? one->length : other->length;
+    int order = memcmp(one->text, other->text, shorter);
+    return order != 0 ? order : (one->length > other->length) - (one->length < other->length);
+}
+
+static bool is_arithmetic_value(const Value *value)
+{
+    return value->kind == VALUE_NUMBER || value_is_tuple(value);
+}
+
+static bool fault_operand(Eval *ev, const AstNode *node, const Value *left, const Value *right)
+{
+    bool takes_vectors = is_arithmetic(node);
+    bool left_fits = takes_vectors ? is_arithmetic_value(left) : left->kind == VALUE_NUMBER;
+    return eval_fault(ev, DIAG_E0202, left_fits ? node->b->span : node->a->span, "`%s` needs %s, found %s",
+                      spelling(node), takes_vectors ? "a number or a vector" : "a number",
+                      value_describe(left_fits ? right : left));
+}
+
+static bool eval_binary(Eval *ev, const AstNode *node, Value *value)
+{
+    Value right;
+    bool left_fine = eval_operand(ev, node, node->a, value);
+    if (!eval_operand(ev, node, node->b, &right) || !left_fine) {
+        return false;
+    }
+    value->name = SYMBOL_NONE;
+    if (value->kind == VALUE_NUMBER && right.kind == VALUE_NUMBER) {
+        value->number = is_arithmetic(node) ? arithmetic(ev, node, value->number, right.number)
+                                            : relation((AstOp)node->op, value->number, right.number);
+        return true;
+    }
+    if (is_arithmetic(node) && is_arithmetic_value(value) && is_arithmetic_value(&right)) {
+        return tuple_arithmetic(ev, node, value, &right);
+    }
+    bool compares = node->op >= AST_OP_EQ && node->op <= AST_OP_GE;
+    if (compares && value->kind == VALUE_STRING && right.kind == VALUE_STRING) {
+        set_number(value, relation((AstOp)node->op, compare_strings(value, &right), 0.0));
+        return true;
+    }
+    return fault_operand(ev, node, value, &right);
+}
+
+// Both branches are always worked out, as in POV-Ray.
+static bool eval_conditional(Eval *ev, const AstNode *node, Value *value)
+{
+    double condition = 0;
+    Value otherwise;
+    bool fine = eval_number(ev, node->a, &condition);
+    fine = eval_expression(ev, node->b, value) && fine;
+    fine = eval_expression(ev, node->c, &otherwise) && fine;
+    if (!fine) {
+        return false;
+    }
+    const AstNode *branches[] = {node->b, node->c};
+    const Value *values[] = {value, &otherwise};
+    for (unsigned i = 0; i < 2; i++) {
+        if (!is_arithmetic_value(values[i])) {
+            return eval_fault(ev, DIAG_E0202, branches[i]->span, "`?` chooses between numbers or vectors, found %s",
+                              value_describe(values[i]));
+        }
+    }
+    if (!number_is_true(condition)) {
+        *value = otherwise;
+    }
+    value->name = SYMBOL_NONE;
+    return true;
+}
+
+// A component, or those that a directive between them gives.
+static bool take_components(Eval *ev, const AstNode *part, Value *value, unsigned *count)
+{
+    double number = 0;
+    if (part->kind != AST_INLINE) {
+        bool fine = eval_number(ev, part, &number);
+        value->v[*count < 5 ? *count : 4] = number;
+        ++*count;
+        return fine;
+    }
+    Cursor cursor;
+    Span span;
+    bool fine = true;
+    cursor_open(&cursor, ev, part->a, part->span);
+    while (cursor_peek(&cursor) != NULL) {
+        fine = cursor_number(&cursor, &number, &span) && fine;
+        value->v[*count < 5 ? *count : 4] = number;
+        ++*count;
+    }
+    cursor_close(&cursor);
+    return fine && !ev->stop;
+}
+
+static bool eval_vector(Eval *ev, const AstNode *node, Value *value)
+{
+    unsigned count = 0;
+    bool fine = true;
+    ev->inner++;
+    for (const AstNode *part = node->a; part != NULL; part = part->next) {
+        fine = take_components(ev, part, value, &count) && fine;
+    }
+    ev->inner--;
+    if (count < 2 || count > 5) {
+        return eval_fault(ev, DIAG_E0204, node->span, "a vector has 2 to 5 components, not %u", count);
+    }
+    value->kind = VALUE_VECTOR;
+    value->components = (uint8_t)count;
+    value->block = 0;
+    value->name = SYMBOL_NONE;
+    return fine;
+}
+
+static const struct {
+    Word word;
+    unsigned component;
+} members[] = {
+    {W_x, 0}, {W_y, 1}, {W_z, 2}, {W_t, 3}, {W_u, 0}, {W_v, 1},
+    {W_red, 0}, {W_green, 1}, {W_blue, 2}, {W_filter, 3}, {W_transmit, 4},
+};
+
+static bool eval_member(Eval *ev, const AstNode *node, Value *value)
+{
+    if (!eval_operand(ev, node, node->a, value)) {
+        return false;
+    }
+    const char *name = eval_text(ev, node->symbol);
+    if (value->kind == VALUE_NUMBER && (node->symbol == W_x || node->symbol == W_u || node->symbol == W_red)) {
+        value->name = SYMBOL_NONE;
+        return true;
+    }
+    if (!value_is_tuple(value)) {
+        return eval_fault(ev, DIAG_E0204, node->span, "%s has no component `%s`", value_describe(value), name);
+    }
+    if (node->symbol == W_gray && value->components >= 3) {
+        // The weights of POV-Ray's manual, 2.2.1.4.4 "Vector Expressions".
+        set_number(value, 0.297 * value->v[0] + 0.589 * value->v[1] + 0.114 * value->v[2]);
+        return true;
+    }
+    for (size_t i = 0; i < RT_COUNT_OF(members); i++) {
+        if (members[i].word == (Word)node->symbol && members[i].component < value->components) {
+            set_number(value, value->v[members[i].component]);
+            return true;
+        }
+    }
+    return eval_fault(ev, DIAG_E0204, node->span, "%s has no component `%s`", value_describe(value), name);
+}
+
+// ---- the table
+
+typedef bool (*EvalFn)(Eval *ev, const AstNode *node, Value *value);
+
+static const EvalFn evaluators[AST_KIND_COUNT] = {
+    [AST_NUMBER] = eval_literal,     [AST_STRING] = eval_text_literal, [AST_NAME] = eval_name,
+    [AST_CONSTANT] = builtin_constant, [AST_UNARY] = eval_unary,       [AST_BINARY] = eval_binary,
+    [AST_CONDITIONAL] = eval_conditional, [AST_VECTOR] = eval_vector,  [AST_CALL] = eval_call,
+    [AST_BUILTIN] = builtin_call,    [AST_INDEX] = eval_element,       [AST_MEMBER] = eval_member,
+    [AST_INLINE] = eval_inline,
+};
+
+static bool fault_no_expression(Eval *ev, const AstNode *node)
+{
+    if (node->kind == AST_WORD && word_class(node->symbol) == WORD_COLOUR) {
+        return eval_fault(ev, DIAG_E0214, node->span, "a colour word such as `%s` cannot stand inside an expression",
+                          eval_text(ev, node->symbol));
+    }
+    bool has_word = node->kind == AST_WORD || node->kind == AST_BLOCK;
+    return eval_fault(ev, DIAG_E0202, node->span, "expected an expression, found %s%s%s",
+                      has_word ? "`" : "", has_word ? eval_text(ev, node->symbol) : ast_kind_name((AstKind)node->kind),
+                      has_word ? "`" : "");
+}
+
+bool eval_expression(Eval *ev, const AstNode *node, Value *value)
+{
+    EvalFn evaluate = evaluators[node->kind];
+    if (RT_UNLIKELY(evaluate == NULL)) {
+        return fault_no_expression(ev, node);
+    }
+    if (!eval_deepen(ev, 1, node->span)) {
+        return false;
+    }
+    unsigned closes = node->flags & AST_IN_PARENTHESES ? 1 : 0;
+    ev->inner += closes;
+    bool fine = evaluate(ev, node, value);
+    ev->inner -= closes;
+    eval_shallow(ev, 1);
+    return fine;
+}
+
+// ---- right-hand sides
+
+static bool eval_sequence(Eval *ev, const AstNode *node, Value *value)
+{
+    if (node->a->kind == AST_BLOCK) {
+        return eval_texture_layers(ev, node->a, value);
+    }
+    Cursor cursor;
+    Rgbft colour;
+    Span span;
+    cursor_open(&cursor, ev, node->a, node->span);
+    bool fine = cursor_colour(&cursor, &colour, &span);
+    const AstNode *rest = fine ? cursor_peek(&cursor) : NULL;
+    if (rest != NULL) {
+        fine = eval_fault(ev, DIAG_E0213, rest->span, "a colour ends before this");
+    }
+    cursor_close(&cursor);
+    *value = (Value){.kind = VALUE_COLOUR, .components = 5};
+    memcpy(value->v, (double[]){colour.red, colour.green, colour.blue, colour.filter, colour.transmit},
+           sizeof value->v);
+    return fine;
+}
+
+// Functions are not supported yet: that is a fault where one is called, not where it is declared.
+static bool eval_function(Eval *ev, const AstNode *node, Value *value)
+{
+    UnsupportedBlueprint *what = arena_alloc(&ev->program, sizeof *what);
+    if (what == NULL) {
+        return eval_no_memory(ev, node->span);
+    }
+    *what = (UnsupportedBlueprint){.span = node->span, .word = "function", .owner = KIND_NONE};
+    *value = (Value){.kind = VALUE_BLOCK, .block = KIND_UNSUPPORTED, .record = what};
+    return true;
+}
+
+static bool eval_braces(Eval *ev, const AstNode *node, Value *value)
+{
+    ev->inner++;
+    bool fine = eval_block(ev, node, value);
+    ev->inner--;
+    return fine;
+}
+
+bool eval_rvalue(Eval *ev, const AstNode *node, Value *value)
+{
+    switch (node->kind) {
+    case AST_SEQUENCE: return eval_sequence(ev, node, value);
+    case AST_BLOCK: return eval_braces(ev, node, value);
+    case AST_ARRAY: return array_create(ev, node, value);
+    case AST_FUNCTION: return eval_function(ev, node, value);
+    case AST_CALL:
+        if (!(node->flags & AST_IN_PARENTHESES)) {
+            return macro_value(ev, node, NULL, true, value);
+        }
+        return eval_expression(ev, node, value);
+    case AST_INLINE:
+        if (!(node->flags & AST_IN_PARENTHESES)) {
+            return inline_value(ev, node, true, value);
+        }
+        return eval_expression(ev, node, value);
+    default: return eval_expression(ev, node, value);
+    }
+}
+
+bool eval_open_rvalue(Eval *ev, const AstNode *node, Value *value)
+{
+    unsigned inner = ev->inner;
+    ev->inner = 0;
+    bool fine = eval_rvalue(ev, node, value);
+    ev->inner = inner;
+    return fine;
+}

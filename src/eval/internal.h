@@ -1,0 +1,309 @@
+// The evaluator's inner interface, shared by the files of src/eval only.
+//
+//   value.c      values and conversions            scope.c     names and what they stand for
+//   expression.c AST expressions to values          builtins.c  the table of built-in functions and constants
+//   array.c      arrays and their elements          strings.c   the built-in functions of strings
+//   cursor.c     items of a block, with directives run and macro calls expanded on the way
+//   colour.c     colour phrases                     macro.c     definitions, calls and their values
+//   directive.c  what each directive does           include.c   finding and reading scene text
+//   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
+//   block.c      a block's properties into a struct, driven by scene/schema.h
+//   transforms.c, object.c, texture.c, camera.c, light.c, settings.c: what each kind of block means
+//   eval.c       the top level
+//
+// SPDX-License-Identifier: MIT
+#ifndef EVAL_INTERNAL_H
+#define EVAL_INTERNAL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "ast/ast.h"
+#include "ast/words.h"
+#include "base/arena.h"
+#include "base/array.h"
+#include "base/text.h"
+#include "eval/eval.h"
+#include "grammar/grammar.h"
+#include "math/colour.h"
+#include "math/vec3.h"
+#include "scene/schema.h"
+
+// ---- values
+
+typedef enum ValueKind {
+    VALUE_NONE, // an uninitialised array element, or the result of a fault that has been reported
+    VALUE_NUMBER,
+    VALUE_VECTOR, // 2 to 5 components
+    VALUE_COLOUR, // red, green, blue, filter, transmit
+    VALUE_STRING,
+    VALUE_ARRAY,
+    VALUE_MACRO,
+    VALUE_BLOCK, // a declared texture, sphere, camera, …: an immutable struct of its kind
+} ValueKind;
+
+typedef struct ValueArray ValueArray; // below
+typedef struct Macro Macro;           // below
+
+typedef struct Value {
+    uint8_t kind;       // ValueKind
+    uint8_t components; // of a vector
+    uint16_t block;     // VALUE_BLOCK: its SchemaKind
+    Symbol name;        // the identifier it was read from, for messages; SYMBOL_NONE
+    union {
+        double number;
+        double v[5];
+        struct {
+            const char *text;
+            size_t length;
+        };
+        ValueArray *array;
+        const Macro *macro;
+        const void *record; // of schema_kind(block)->size bytes, in the scene arena
+    };
+} Value;
+
+enum { ARRAY_DIMENSIONS_MAX = 5, ARRAY_ELEMENTS_MAX = 1 << 28 };
+
+// All elements that are set are of one kind, as the first one that was set.
+struct ValueArray {
+    unsigned dimension_count;
+    uint32_t sizes[ARRAY_DIMENSIONS_MAX];
+    size_t count; // the product of the sizes
+    Value *elements;
+    const Value *example; // an element that is set, or NULL
+};
+
+// A macro's text lives in the program arena.
+struct Macro {
+    Symbol name;
+    Span span;
+    unsigned parameter_count;
+    Symbol *parameters;
+    AstNode *body;
+};
+
+typedef struct Scope Scope;             // scope.c
+typedef struct CursorFrame CursorFrame; // cursor.c
+typedef struct ObjectState ObjectState; // object.c: default texture, scratch of the objects
+
+typedef struct Eval {
+    EvalOptions options;
+    Scene *scene;
+    Arena parse;   // the AST of the current top-level item
+    Arena program; // macros and everything declared, until the end
+    Arena scratch; // temporaries of the current top-level item
+    Scope *scope;
+    ObjectState *objects;
+    const DiagFrame *frame; // also in options.diags->frame
+    double version;
+    bool version_given;           // a #version was run
+    ARRAY(uint32_t) streams;      // the states of rand, by handle
+    ARRAY(uint64_t) reported;     // a hash table of what was reported, see report.c
+    size_t reported_count;
+    TextBuffer line;              // of #debug, not ended yet
+    CursorFrame *free_frames;     // for reuse, in the program arena
+    uint64_t steps;
+    unsigned call_depth, include_depth, expression_depth;
+    bool faulty;    // a text was not read to its end
+    unsigned inner; // parentheses of any kind around the expression that is being worked out
+    bool stop; // a limit is exhausted, #error was met or there are too many faults: unwind
+} Eval;
+
+// Reports a fault at a span; the return value is false, so that `return eval_fault(…)` reads well. What was reported at
+// the same place before is not reported again.
+bool eval_fault(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+void eval_warn(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+// The same; true when the record was kept, so that diag_note and diag_suggest may add to it.
+bool eval_report(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+// Reports exhausted memory once and sets `stop`; returns false.
+bool eval_no_memory(Eval *ev, Span span);
+const char *eval_text(const Eval *ev, Symbol symbol);
+
+// Enter and leave what is on the call stack of messages. The frame must live until it is left.
+void eval_frame_enter(Eval *ev, DiagFrame *frame, const char *what, const char *name, Span span);
+void eval_frame_leave(Eval *ev);
+
+// Counts a turn of a loop or a call; false, with `stop` set, when there were too many.
+bool eval_step(Eval *ev, Span span) RT_MUST_CHECK;
+// Count levels of native recursion, `weight` each; eval_deepen is false when there are too many, and then nothing was
+// counted.
+bool eval_deepen(Eval *ev, unsigned weight, Span span) RT_MUST_CHECK;
+void eval_shallow(Eval *ev, unsigned weight);
+
+// One top-level item. EVAL_STREAM_DEBUG and the like go to message.c.
+void eval_item(Eval *ev, const AstNode *item);
+void message_write(Eval *ev, EvalStream stream, const char *text, size_t length, Span span);
+
+// "a number", "a vector of 3", "a colour", "a string", "an array", "a macro", "a texture"
+const char *value_describe(const Value *value);
+
+// Conversions with the language's promotions; on failure they report "expected …, found …" at the span. A value of
+// VALUE_NONE has been reported already and fails quietly.
+bool value_number(Eval *ev, const Value *value, Span span, double *number) RT_MUST_CHECK;
+bool value_vector3(Eval *ev, const Value *value, Span span, Vec3 *vector) RT_MUST_CHECK;
+bool value_colour(Eval *ev, const Value *value, Span span, Rgbft *colour) RT_MUST_CHECK;
+bool value_string(Eval *ev, const Value *value, Span span) RT_MUST_CHECK;
+bool value_array(Eval *ev, const Value *value, Span span) RT_MUST_CHECK;
+
+static inline Value value_of_number(double number)
+{
+    return (Value){.kind = VALUE_NUMBER, .number = number};
+}
+
+static inline bool value_is_tuple(const Value *value)
+{
+    return value->kind == VALUE_VECTOR || value->kind == VALUE_COLOUR;
+}
+
+// A copy that lives as long as the arena: colours in single precision, texts and arrays copied.
+bool value_store(Eval *ev, const Value *value, Arena *arena, Span span, Value *copy) RT_MUST_CHECK;
+
+// ---- names
+
+bool scope_init(Eval *ev) RT_MUST_CHECK;
+void scope_fini(Eval *ev);
+
+// A level of local names, for a macro call or an included file.
+bool scope_push(Eval *ev, Span span) RT_MUST_CHECK;
+void scope_pop(Eval *ev);
+
+// What a name stands for, looking from the innermost level outwards, or NULL.
+Value *scope_find(const Eval *ev, Symbol name);
+
+// #declare changes what the name stands for, or makes a global; #local makes or changes a name of the innermost level.
+bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span) RT_MUST_CHECK;
+
+// Names of the innermost level: a parameter by value, and one that stands for a variable of the caller. `array` is the
+// array of which the variable is an element, or NULL.
+bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span) RT_MUST_CHECK;
+bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *array, Span span) RT_MUST_CHECK;
+// The array of which a parameter by reference is an element, or NULL.
+ValueArray *scope_array(const Eval *ev, Symbol name);
+bool scope_is_reference(const Eval *ev, Symbol name);
+
+bool scope_define_macro(Eval *ev, const Macro *macro) RT_MUST_CHECK;
+bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
+void scope_suggest(const Eval *ev, Symbol name); // adds "did you mean" to the record that was kept last
+
+// ---- arrays
+
+bool array_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// The element that an INDEX node means, set or not, and its array.
+bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **array) RT_MUST_CHECK;
+bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span) RT_MUST_CHECK;
+
+// ---- expressions
+
+bool eval_expression(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// Any right-hand side: an expression, a SEQUENCE (colour phrase, texture layers), a block, an array, a function.
+bool eval_rvalue(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// A right-hand side with no parentheses of its own around it, see ev->inner.
+bool eval_open_rvalue(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool eval_number(Eval *ev, const AstNode *node, double *number) RT_MUST_CHECK;
+bool eval_vector3(Eval *ev, const AstNode *node, Vec3 *vector) RT_MUST_CHECK;
+bool eval_string(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// A condition of a directive.
+bool eval_condition(Eval *ev, const AstNode *node, bool *holds) RT_MUST_CHECK;
+
+// As the language compares: numbers that differ by 1e-10 or less are equal, and such a number is false.
+bool numbers_equal(double one, double other);
+bool number_is_true(double number);
+
+bool builtin_call(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_constant(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// Functions of strings, entries of the table in builtins.c.
+typedef bool (*BuiltinFn)(Eval *ev, const AstNode *node, Value *value);
+bool builtin_str(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_vstr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_concat(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_chr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_asc(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_val(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_strlen(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_strcmp(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_substr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_strupr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_strlwr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+
+// ---- items of a block
+
+// Walks the items of one block. Directives are run and macro calls expanded on the way, so the user of a cursor sees only
+// words, blocks, entries and expressions (an expression that is a bare identifier included).
+typedef struct Cursor {
+    Eval *ev;
+    CursorFrame *frame; // what is being walked, innermost first; NULL at the end
+    const AstNode *item; // the item that cursor_peek found; NULL when none is pending
+    Span span;           // of the block, for messages
+    bool top;            // walks the top level: included text is handed on item by item, and not kept
+    bool included;       // text was included on the way, and stands in the parse arena since `mark`
+    bool counted;        // in expression_depth
+    ArenaMark mark;
+} Cursor;
+
+void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span);
+void cursor_close(Cursor *cursor); // unwinds scopes of macro calls that were not walked to their end
+
+// The next item, not consumed; NULL at the end of the block or when evaluation must stop.
+const AstNode *cursor_peek(Cursor *cursor);
+// Consumes the item that cursor_peek returned.
+void cursor_skip(Cursor *cursor);
+
+bool cursor_at_word(Cursor *cursor, Word word);  // peeks
+bool cursor_at_value(Cursor *cursor);            // an expression or a colour word stands next
+// Consume and evaluate. `owner` is what the value belongs to, for "expected a number after `radius`".
+bool cursor_value(Cursor *cursor, Value *value) RT_MUST_CHECK; // one expression
+bool cursor_number(Cursor *cursor, double *number, Span *span) RT_MUST_CHECK;
+bool cursor_vector3(Cursor *cursor, Vec3 *vector, Span *span) RT_MUST_CHECK;
+// A whole colour phrase: `color rgb <…> filter 0.5`, `Red`, `red 1 green 0.5`, `rgb 1`, …
+bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span) RT_MUST_CHECK;
+
+// What directives do to a cursor, and macro calls.
+typedef enum FrameKind { FRAME_ITEMS, FRAME_WHILE, FRAME_FOR, FRAME_SWITCH, FRAME_MACRO, FRAME_INCLUDE } FrameKind;
+
+struct CursorFrame {
+    CursorFrame *outer;
+    const AstNode *next; // the next item to look at
+    const AstNode *node; // the loop, the call, or the case of a #switch that is walked
+    FrameKind kind;
+    double end, step;    // FRAME_FOR
+    DiagFrame diag;      // FRAME_MACRO, FRAME_INCLUDE
+};
+
+CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, const AstNode *node); // NULL: no memory
+void cursor_break(Cursor *cursor, const AstNode *node); // #break
+const AstNode *case_items(const AstNode *node); // of a CASE, RANGE or ELSE
+bool directive_run(Cursor *cursor, const AstNode *node); // false when the node is no directive
+bool loop_continues(Eval *ev, CursorFrame *frame); // at the end of a loop's body: one more turn
+void include_run(Cursor *cursor, const AstNode *node);
+bool include_exists(const Eval *ev, const Value *name);
+
+// ---- macros
+
+void macro_define(Eval *ev, const AstNode *node);
+// Begins a call: a new level of names with the parameters in it. macro_leave ends it.
+bool macro_enter(Eval *ev, const AstNode *call, const Macro *macro, DiagFrame *frame) RT_MUST_CHECK;
+void macro_leave(Eval *ev);
+// The macro that a CALL node means.
+bool macro_find(Eval *ev, const AstNode *call, const Macro **macro) RT_MUST_CHECK;
+// The value of a call. `whole`: any right-hand side will do; else an expression, which stands under the operator `parent`
+// (NULL: none) and must not fall apart there.
+bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value) RT_MUST_CHECK;
+// The value that a directive in the place of an expression gives.
+bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MUST_CHECK;
+
+// ---- blocks
+
+// Evaluates `word { items }` to a record in the program arena (block.c and the files of the kinds).
+bool eval_block(Eval *ev, const AstNode *block, Value *value) RT_MUST_CHECK;
+// Layers: texture{} texture{}.
+bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value) RT_MUST_CHECK;
+// A block, or an identifier of an object, as a statement: adds it to the scene.
+bool eval_place(Eval *ev, const AstNode *item) RT_MUST_CHECK;
+// #default { items }
+bool eval_default(Eval *ev, const AstNode *directive) RT_MUST_CHECK;
+
+bool objects_init(Eval *ev) RT_MUST_CHECK;
+void objects_fini(Eval *ev);
+
+#endif

@@ -1,0 +1,306 @@
+// Macros: what a definition keeps, how a call begins and ends, and the value that a call stands for.
+//
+// A macro's text is copied into the program arena. Parameters are values, or stand for the caller's variable when the
+// argument is a bare name or element. Knows nothing of blocks.
+//
+// SPDX-License-Identifier: MIT
+#include "eval/internal.h"
+
+enum { CALL_WEIGHT = 8 }; // of native recursion, see eval_deepen
+
+static bool check_parameters(Eval *ev, const AstNode *node)
+{
+    for (const AstNode *parameter = node->a; parameter != NULL; parameter = parameter->next) {
+        if (word_class(parameter->symbol) != WORD_IDENTIFIER) {
+            return eval_fault(ev, DIAG_E0219, parameter->span, "`%s` is a reserved word and cannot be a parameter",
+                              eval_text(ev, parameter->symbol));
+        }
+    }
+    return true;
+}
+
+static Macro *copy_macro(Eval *ev, const AstNode *node)
+{
+    Macro *macro = arena_alloc(&ev->program, sizeof *macro);
+    Symbol *parameters = arena_alloc_array(&ev->program, node->count, sizeof *parameters);
+    AstNode *body = ast_clone(node, &ev->program);
+    if (macro == NULL || parameters == NULL || body == NULL) {
+        eval_no_memory(ev, node->span);
+        return NULL;
+    }
+    *macro = (Macro){.name = node->symbol, .span = node->span, .parameters = parameters, .body = body};
+    for (const AstNode *parameter = node->a; parameter != NULL; parameter = parameter->next) {
+        parameters[macro->parameter_count++] = parameter->symbol;
+    }
+    return macro;
+}
+
+void macro_define(Eval *ev, const AstNode *node)
+{
+    const Value *known = scope_find(ev, node->symbol);
+    bool is_same = known != NULL && known->kind == VALUE_MACRO && known->macro->span.begin == node->span.begin;
+    // A definition in a loop is kept once. One without a name has had its message.
+    if (is_same || node->symbol == SYMBOL_NONE || !check_parameters(ev, node)) {
+        return;
+    }
+    Macro *macro = copy_macro(ev, node);
+    // A macro over a value is reported there; the value stays.
+    if (macro == NULL || !scope_define_macro(ev, macro)) {
+        return;
+    }
+}
+
+// ---- calls
+
+typedef struct Argument {
+    Value value;
+    Value *variable; // by reference, or NULL
+    ValueArray *array;
+} Argument;
+
+static bool read_argument(Eval *ev, const AstNode *node, Argument *argument)
+{
+    bool is_bare = !(node->flags & AST_IN_PARENTHESES);
+    argument->variable = NULL;
+    argument->array = NULL;
+    if (is_bare && node->kind == AST_INDEX) {
+        return array_locate(ev, node, &argument->variable, &argument->array) &&
+               (argument->variable->kind != VALUE_NONE ||
+                eval_fault(ev, DIAG_E0207, node->span, "this element of the array has no value yet"));
+    }
+    // The look-up reports undeclared names and macros.
+    if (!eval_open_rvalue(ev, node, &argument->value)) {
+        return false;
+    }
+    if (is_bare && node->kind == AST_NAME) {
+        argument->variable = scope_find(ev, node->symbol);
+        argument->array = scope_array(ev, node->symbol);
+    }
+    return true;
+}
+
+static bool bind(Eval *ev, Symbol name, const Argument *argument, Span span)
+{
+    return argument->variable != NULL ? scope_bind_reference(ev, name, argument->variable, argument->array, span)
+                                      : scope_bind_value(ev, name, &argument->value, span);
+}
+
+// All arguments are worked out in the caller's scope before the first is bound.
+static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
+{
+    Argument *arguments = arena_alloc_array(&ev->scratch, macro->parameter_count, sizeof *arguments);
+    if (arguments == NULL) {
+        return eval_no_memory(ev, call->span);
+    }
+    bool fine = true;
+    unsigned i = 0;
+    for (const AstNode *node = call->a; node != NULL; node = node->next) {
+        fine = read_argument(ev, node, &arguments[i++]) && fine;
+    }
+    if (!fine || !scope_push(ev, call->span)) {
+        return false;
+    }
+    for (i = 0; i < macro->parameter_count; i++) {
+        if (!bind(ev, macro->parameters[i], &arguments[i], call->span)) {
+            scope_pop(ev);
+            return false;
+        }
+    }
+    return true;
+}
+
+bool macro_enter(Eval *ev, const AstNode *call, const Macro *macro, DiagFrame *frame)
+{
+    if (!eval_step(ev, call->span)) {
+        return false;
+    }
+    if (ev->call_depth >= ev->options.limits->call_depth) {
+        eval_fault(ev, DIAG_E0604, call->span, "macro calls nest deeper than %u levels", ev->options.limits->call_depth);
+        ev->stop = true;
+        return false;
+    }
+    if (call->count != macro->parameter_count) {
+        if (eval_report(ev, DIAG_E0203, call->span, "the macro `%s` takes %u argument%s, and %u %s given",
+                        eval_text(ev, macro->name), macro->parameter_count, macro->parameter_count == 1 ? "" : "s",
+                        (unsigned)call->count, call->count == 1 ? "is" : "are")) {
+            diag_note(ev->options.diags, macro->span, "it is defined here");
+        }
+        return false;
+    }
+    ArenaMark mark = arena_mark(&ev->scratch);
+    bool fine = bind_all(ev, call, macro);
+    arena_rewind(&ev->scratch, mark);
+    if (fine) {
+        ev->call_depth++;
+        eval_frame_enter(ev, frame, "in macro", eval_text(ev, macro->name), call->span);
+    }
+    return fine;
+}
+
+void macro_leave(Eval *ev)
+{
+    eval_frame_leave(ev);
+    ev->call_depth--;
+    scope_pop(ev);
+}
+
+// ---- the value of a call
+
+static unsigned precedence(const AstNode *node)
+{
+    static const uint8_t precedences[AST_OP_COUNT] = {
+#define AST_OP(op, spelling, precedence) [AST_OP_##op] = precedence,
+#include "ast/ast_ops.def"
+#undef AST_OP
+    };
+    // A sign in front of a product may as well stand in front of its first factor.
+    return node->op == AST_OP_NEG || node->op == AST_OP_PLUS ? precedences[AST_OP_MUL] : precedences[node->op];
+}
+
+// A macro stands for its text: in `M()*2` a body `5+1` would mean 5+1*2. True when text and value agree, rounding aside:
+// a*(b*c) is taken for (a*b)*c, or no recursive product could be written.
+static bool holds_together(const AstNode *body, const AstNode *parent, const AstNode *call)
+{
+    if (parent == NULL || body->kind != AST_BINARY || (body->flags & AST_IN_PARENTHESES)) {
+        return true;
+    }
+    if (parent->kind == AST_MEMBER) {
+        return false;
+    }
+    bool is_right = parent->kind == AST_BINARY && parent->b == call;
+    bool is_inverse = parent->op == AST_OP_SUB || parent->op == AST_OP_DIV;
+    return is_right && is_inverse ? precedence(body) > precedence(parent) : precedence(body) >= precedence(parent);
+}
+
+// True when more text of the macro follows, if only an #end.
+static bool is_followed(const Cursor *cursor)
+{
+    for (const CursorFrame *frame = cursor->frame; frame != NULL; frame = frame->outer) {
+        bool ends_in_directive = frame->outer != NULL && frame->kind != FRAME_MACRO && frame->kind != FRAME_INCLUDE;
+        bool has_directive = frame->next != NULL && frame->next->kind >= AST_DECLARE;
+        if (has_directive || ends_in_directive) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Where a value is wanted from items: the span and a name for messages.
+typedef struct Wanted {
+    Span span;
+    const char *name; // of the macro; NULL for a directive
+} Wanted;
+
+static bool fault_no_value(Eval *ev, const Wanted *wanted)
+{
+    return !ev->stop && eval_fault(ev, DIAG_E0213, wanted->span, "%s%s%s gives no value here",
+                                   wanted->name != NULL ? "the macro `" : "the directive",
+                                   wanted->name != NULL ? wanted->name : "", wanted->name != NULL ? "`" : "");
+}
+
+static bool fault_torn_apart(Eval *ev, const AstNode *item, const Wanted *wanted)
+{
+    if (eval_report(ev, DIAG_E0217, wanted->span, "the `%s` that the macro `%s` gives would be torn apart here",
+                    ast_op_spelling((AstOp)item->op), wanted->name)) {
+        diag_note(ev->options.diags, item->span, "a macro stands for its text, so this needs parentheses");
+    }
+    return false;
+}
+
+static bool fault_followed(Eval *ev, const Wanted *wanted)
+{
+    if (eval_report(ev, DIAG_E0221, wanted->span, "the directive after the value%s%s%s ends the expression",
+                    wanted->name != NULL ? " in the macro `" : "", wanted->name != NULL ? wanted->name : "",
+                    wanted->name != NULL ? "`" : "")) {
+        diag_suggest(ev->options.diags, wanted->name != NULL ? "put parentheses around the call"
+                                                             : "put parentheses around the directive");
+    }
+    return false;
+}
+
+static bool take_expression(Cursor *cursor, const Wanted *wanted, Value *value)
+{
+    Eval *ev = cursor->ev;
+    if (cursor_peek(cursor) == NULL) {
+        return fault_no_value(ev, wanted);
+    }
+    if (!cursor_value(cursor, value)) {
+        return false;
+    }
+    bool ends_statement = value->kind == VALUE_NUMBER || value_is_tuple(value);
+    return !(ev->inner == 0 && ends_statement && is_followed(cursor)) || fault_followed(ev, wanted);
+}
+
+static bool take_whole(Cursor *cursor, const Wanted *wanted, Value *value)
+{
+    Eval *ev = cursor->ev;
+    const AstNode *item = cursor_peek(cursor);
+    if (item != NULL && item->kind == AST_WORD && word_class(item->symbol) == WORD_COLOUR) {
+        Rgbft colour;
+        Span span;
+        if (!cursor_colour(cursor, &colour, &span)) {
+            return false;
+        }
+        *value = (Value){.kind = VALUE_COLOUR,
+                         .components = 5,
+                         .v = {colour.red, colour.green, colour.blue, colour.filter, colour.transmit}};
+        return true;
+    }
+    if (item != NULL && (item->kind == AST_BLOCK || item->kind == AST_ARRAY)) {
+        cursor_skip(cursor);
+        return eval_rvalue(ev, item, value);
+    }
+    return take_expression(cursor, wanted, value);
+}
+
+// What belongs to the call's scope is copied before the call ends.
+static bool keep(Eval *ev, Value *value, Span span)
+{
+    value->name = SYMBOL_NONE;
+    bool has_memory = value->kind == VALUE_STRING || value->kind == VALUE_ARRAY;
+    return !has_memory || value_store(ev, value, &ev->scratch, span, value);
+}
+
+// Nothing may follow the value.
+static bool finish(Cursor *cursor)
+{
+    const AstNode *rest = cursor_peek(cursor);
+    return rest == NULL || eval_fault(cursor->ev, DIAG_E0213, rest->span, "the value has ended before this");
+}
+
+bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value)
+{
+    const Macro *macro;
+    DiagFrame frame;
+    if (!macro_find(ev, call, &macro) || !eval_deepen(ev, CALL_WEIGHT, call->span)) {
+        return false;
+    }
+    bool fine = macro_enter(ev, call, macro, &frame);
+    if (fine) {
+        Cursor cursor;
+        Wanted wanted = {call->span, eval_text(ev, call->symbol)};
+        cursor_open(&cursor, ev, macro->body->b, call->span);
+        const AstNode *item = cursor_peek(&cursor);
+        if (item != NULL && !holds_together(item, parent, call)) {
+            fine = fault_torn_apart(ev, item, &wanted);
+        } else {
+            fine = whole ? take_whole(&cursor, &wanted, value) : take_expression(&cursor, &wanted, value);
+        }
+        fine = fine && keep(ev, value, call->span) && finish(&cursor);
+        cursor_close(&cursor);
+        macro_leave(ev);
+    }
+    eval_shallow(ev, CALL_WEIGHT);
+    return fine && !ev->stop;
+}
+
+bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value)
+{
+    Cursor cursor;
+    Wanted wanted = {node->span, NULL};
+    cursor_open(&cursor, ev, node->a, node->span);
+    bool fine = whole ? take_whole(&cursor, &wanted, value) : take_expression(&cursor, &wanted, value);
+    fine = fine && keep(ev, value, node->span) && finish(&cursor);
+    cursor_close(&cursor);
+    return fine && !ev->stop;
+}

@@ -1,0 +1,58 @@
+// The text streams: what #debug, #render and #statistics say becomes lines as POV-Ray's console shows them.
+//
+// Owns the line that is not ended yet; a last line without its newline is never shown, as in POV-Ray. Knows nothing of
+// values.
+//
+// SPDX-License-Identifier: MIT
+#include "eval/internal.h"
+
+// Measured: a line of more than 80 bytes is broken before the last blank or tab at 61 to 80, which begins the next line;
+// without one, after 80 bytes.
+enum { LINE_BREAK_FIRST = 61, LINE_BREAK_LAST = 80 };
+
+static size_t break_at(const char *text, size_t length)
+{
+    if (length <= LINE_BREAK_LAST) {
+        return length;
+    }
+    for (size_t at = LINE_BREAK_LAST; at >= LINE_BREAK_FIRST; at--) {
+        if (text[at] == ' ' || text[at] == '\t') {
+            return at;
+        }
+    }
+    return LINE_BREAK_LAST;
+}
+
+static void send(Eval *ev, EvalStream stream, const char *text, size_t length)
+{
+    if (ev->options.message != NULL) {
+        ev->options.message(ev->options.client, stream, text, length);
+    }
+}
+
+static void send_line(Eval *ev, EvalStream stream, const char *text, size_t length)
+{
+    do {
+        size_t part = break_at(text, length);
+        send(ev, stream, text, part);
+        send(ev, stream, "\n", 1);
+        text += part;
+        length -= part;
+    } while (length > 0);
+}
+
+void message_write(Eval *ev, EvalStream stream, const char *text, size_t length, Span span)
+{
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == '\n') {
+            send_line(ev, stream, text_get(&ev->line), ev->line.length);
+            text_clear(&ev->line);
+        } else {
+            // The console shows other bytes than ASCII, and zeros, as blanks.
+            text_append_char(&ev->line, (unsigned char)text[i] >= 0x80 || text[i] == '\0' ? ' ' : text[i]);
+        }
+    }
+    if (ev->line.failed) {
+        eval_no_memory(ev, span);
+    }
+}

@@ -1,0 +1,238 @@
+// Names and what they stand for: globals, and levels of locals for each macro call and included file.
+//
+// A table indexed by Symbol holds the innermost meaning of each name, and each meaning knows the one that it hides, so a
+// look-up is one step whatever the nesting. A callee sees its caller's locals, as in POV-Ray. Owns the table and the
+// locals; globals stand in the program arena. Knows nothing of syntax.
+//
+// SPDX-License-Identifier: MIT
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "eval/internal.h"
+
+typedef struct Binding Binding;
+struct Binding {
+    Value own;
+    Value *variable;   // &own, or what a parameter by reference stands for
+    ValueArray *array; // of which the variable is an element, or NULL
+    Binding *hidden;   // the meaning of the same name further out
+    Binding *next;     // in the same level
+    Symbol name;       // SYMBOL_NONE after #undef
+    uint32_t level;    // 0: global
+};
+
+typedef struct Level {
+    ArenaMark mark;
+    Binding *locals;
+} Level;
+
+struct Scope {
+    Arena arena; // of locals
+    ARRAY(Binding *) innermost;
+    ARRAY(Level) levels; // level n is items[n - 1]
+};
+
+bool scope_init(Eval *ev)
+{
+    ev->scope = calloc(1, sizeof *ev->scope);
+    if (ev->scope == NULL) {
+        return false;
+    }
+    arena_init(&ev->scope->arena, ev->options.limits->arena_bytes);
+    return true;
+}
+
+void scope_fini(Eval *ev)
+{
+    if (ev->scope != NULL) {
+        arena_fini(&ev->scope->arena);
+        ARRAY_FREE(&ev->scope->innermost);
+        ARRAY_FREE(&ev->scope->levels);
+        free(ev->scope);
+    }
+    ev->scope = NULL;
+}
+
+bool scope_push(Eval *ev, Span span)
+{
+    Scope *scope = ev->scope;
+    Level level = {.mark = arena_mark(&scope->arena)};
+    return ARRAY_PUSH(&scope->levels, level) || eval_no_memory(ev, span);
+}
+
+void scope_pop(Eval *ev)
+{
+    Scope *scope = ev->scope;
+    Level *level = &scope->levels.items[scope->levels.count - 1];
+    for (Binding *local = level->locals; local != NULL; local = local->next) {
+        if (local->name != SYMBOL_NONE) {
+            scope->innermost.items[local->name] = local->hidden;
+        }
+    }
+    arena_rewind(&scope->arena, level->mark);
+    scope->levels.count--;
+}
+
+static Binding *find(const Eval *ev, Symbol name)
+{
+    return name < ev->scope->innermost.count ? ev->scope->innermost.items[name] : NULL;
+}
+
+Value *scope_find(const Eval *ev, Symbol name)
+{
+    Binding *binding = find(ev, name);
+    return binding != NULL ? binding->variable : NULL;
+}
+
+ValueArray *scope_array(const Eval *ev, Symbol name)
+{
+    const Binding *binding = find(ev, name);
+    return binding != NULL ? binding->array : NULL;
+}
+
+bool scope_is_reference(const Eval *ev, Symbol name)
+{
+    const Binding *binding = find(ev, name);
+    return binding != NULL && binding->variable != &binding->own;
+}
+
+static bool make_room(Eval *ev, Symbol name, Span span)
+{
+    Scope *scope = ev->scope;
+    if (name < scope->innermost.count) {
+        return true;
+    }
+    size_t wanted = intern_count(ev->options.names);
+    if (!ARRAY_RESERVE(&scope->innermost, wanted)) {
+        return eval_no_memory(ev, span);
+    }
+    memset(scope->innermost.items + scope->innermost.count, 0,
+           (wanted - scope->innermost.count) * sizeof *scope->innermost.items);
+    scope->innermost.count = wanted;
+    return true;
+}
+
+// A global is made only when the name has no meaning at all, so hiding is always from further in.
+static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
+{
+    Scope *scope = ev->scope;
+    if (!make_room(ev, name, span)) {
+        return NULL;
+    }
+    Binding *binding = arena_alloc(level > 0 ? &scope->arena : &ev->program, sizeof *binding);
+    if (binding == NULL) {
+        eval_no_memory(ev, span);
+        return NULL;
+    }
+    *binding = (Binding){.name = name, .level = (uint32_t)level, .hidden = scope->innermost.items[name]};
+    binding->variable = &binding->own;
+    if (level > 0) {
+        binding->next = scope->levels.items[level - 1].locals;
+        scope->levels.items[level - 1].locals = binding;
+    }
+    scope->innermost.items[name] = binding;
+    return binding;
+}
+
+// A local of the innermost level keeps its texts and arrays beside it; whatever may outlive that level keeps them to the
+// end.
+static Arena *arena_for(Eval *ev, const Binding *binding)
+{
+    bool is_innermost = binding->level > 0 && binding->level == ev->scope->levels.count;
+    return is_innermost && binding->variable == &binding->own ? &ev->scope->arena : &ev->program;
+}
+
+static Binding *find_or_make(Eval *ev, Symbol name, bool local, Span span)
+{
+    size_t level = ev->scope->levels.count;
+    Binding *binding = find(ev, name);
+    if (binding == NULL || (local && binding->level != level)) {
+        return make(ev, name, local ? level : 0, span);
+    }
+    return binding;
+}
+
+bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span)
+{
+    Binding *binding = find_or_make(ev, name, local, span);
+    if (binding == NULL) {
+        return false;
+    }
+    if (binding->variable->kind == VALUE_MACRO) {
+        return eval_fault(ev, DIAG_E0206, span, "`%s` is a macro and cannot become %s", eval_text(ev, name),
+                          value_describe(value));
+    }
+    if (binding->array != NULL) {
+        return array_assign(ev, binding->array, binding->variable, value, span);
+    }
+    Value kept;
+    if (!value_store(ev, value, arena_for(ev, binding), span, &kept)) {
+        return false;
+    }
+    *binding->variable = kept;
+    return true;
+}
+
+bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span)
+{
+    Binding *binding = make(ev, name, ev->scope->levels.count, span);
+    return binding != NULL && value_store(ev, value, &ev->scope->arena, span, &binding->own);
+}
+
+bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *array, Span span)
+{
+    Binding *binding = make(ev, name, ev->scope->levels.count, span);
+    if (binding == NULL) {
+        return false;
+    }
+    binding->variable = variable;
+    binding->array = array;
+    return true;
+}
+
+bool scope_define_macro(Eval *ev, const Macro *macro)
+{
+    Binding *binding = find(ev, macro->name);
+    if (binding == NULL) {
+        binding = make(ev, macro->name, 0, macro->span);
+    } else if (binding->variable->kind != VALUE_MACRO) {
+        return eval_fault(ev, DIAG_E0206, macro->span, "`%s` is %s and cannot become a macro",
+                          eval_text(ev, macro->name), value_describe(binding->variable));
+    }
+    if (binding == NULL) {
+        return false;
+    }
+    *binding->variable = (Value){.kind = VALUE_MACRO, .macro = macro};
+    return true;
+}
+
+bool scope_undef(Eval *ev, Symbol name)
+{
+    Binding *binding = find(ev, name);
+    if (binding == NULL) {
+        return false;
+    }
+    ev->scope->innermost.items[name] = binding->hidden;
+    binding->name = SYMBOL_NONE;
+    return true;
+}
+
+void scope_suggest(const Eval *ev, Symbol name)
+{
+    Suggest suggest;
+    suggest_begin(&suggest, eval_text(ev, name));
+    for (Symbol symbol = 1; symbol < ev->scope->innermost.count; symbol++) {
+        if (ev->scope->innermost.items[symbol] != NULL) {
+            suggest_offer(&suggest, eval_text(ev, symbol));
+        }
+    }
+    for (Symbol word = 1; word < WORD_COUNT; word++) {
+        if (word_class(word) != WORD_DIRECTIVE) {
+            suggest_offer(&suggest, eval_text(ev, word));
+        }
+    }
+    if (suggest.best != NULL) {
+        diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
+    }
+}

@@ -1,0 +1,280 @@
+// The built-in functions of strings.
+//
+// Strings are bytes with a length, made in the scratch arena. Numbers are written and read as in C, whatever the locale.
+// Knows nothing of names.
+//
+// SPDX-License-Identifier: MIT
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "eval/internal.h"
+
+enum { FORMAT_MAX = 1000 }; // the greatest width and precision
+
+static bool give_string(Eval *ev, const AstNode *node, Value *value, const char *text, size_t length)
+{
+    char *copy = arena_copy_text(&ev->scratch, text, length);
+    if (copy == NULL) {
+        return eval_no_memory(ev, node->span);
+    }
+    *value = (Value){.kind = VALUE_STRING};
+    value->text = copy;
+    value->length = length;
+    return true;
+}
+
+static const AstNode *argument(const AstNode *node, unsigned index)
+{
+    const AstNode *found = node->a;
+    while (index-- > 0) {
+        found = found->next;
+    }
+    return found;
+}
+
+static void use_point(char *text)
+{
+    const char *point = localeconv()->decimal_point;
+    char *at = strcmp(point, ".") != 0 ? strstr(text, point) : NULL;
+    if (at != NULL) {
+        size_t length = strlen(point);
+        *at = '.';
+        memmove(at + 1, at + length, strlen(at + length) + 1);
+    }
+}
+
+// Appends a number as printf's %f does: width < 0 fills with zeros, precision < 0 is six decimals.
+static void append_number(TextBuffer *out, double number, int width, int precision)
+{
+    char text[2 * FORMAT_MAX + 400];
+    if (width < 0) {
+        snprintf(text, sizeof text, "%0*.*f", -width, precision, number);
+    } else {
+        snprintf(text, sizeof text, "%*.*f", width, precision, number);
+    }
+    use_point(text);
+    text_append(out, text);
+}
+
+static bool format_argument(Eval *ev, const AstNode *node, const char *what, int *out)
+{
+    double number;
+    if (!eval_number(ev, node, &number)) {
+        return false;
+    }
+    if (!(fabs(number) < FORMAT_MAX + 1)) {
+        return eval_fault(ev, DIAG_E0304, node->span, "%s of %g is beyond %d", what, number, FORMAT_MAX);
+    }
+    *out = (int)number;
+    return true;
+}
+
+static bool give_buffer(Eval *ev, const AstNode *node, Value *value, TextBuffer *buffer)
+{
+    bool fine = buffer->failed ? eval_no_memory(ev, node->span)
+                               : give_string(ev, node, value, text_get(buffer), buffer->length);
+    text_fini(buffer);
+    return fine;
+}
+
+bool builtin_str(Eval *ev, const AstNode *node, Value *value)
+{
+    double number;
+    int width, precision;
+    if (!eval_number(ev, node->a, &number) || !format_argument(ev, argument(node, 1), "a width", &width) ||
+        !format_argument(ev, argument(node, 2), "a precision", &precision)) {
+        return false;
+    }
+    TextBuffer out;
+    text_init(&out);
+    append_number(&out, number, width, precision);
+    return give_buffer(ev, node, value, &out);
+}
+
+bool builtin_vstr(Eval *ev, const AstNode *node, Value *value)
+{
+    double count;
+    Value vector, separator;
+    int width, precision;
+    if (!eval_number(ev, node->a, &count) || !eval_expression(ev, argument(node, 1), &vector) ||
+        !eval_string(ev, argument(node, 2), &separator) ||
+        !format_argument(ev, argument(node, 3), "a width", &width) ||
+        !format_argument(ev, argument(node, 4), "a precision", &precision)) {
+        return false;
+    }
+    double v[5] = {0};
+    if (value_is_tuple(&vector)) {
+        memcpy(v, vector.v, vector.components * sizeof *v);
+    } else if (!value_number(ev, &vector, argument(node, 1)->span, &v[0])) {
+        return false;
+    }
+    TextBuffer out;
+    text_init(&out);
+    unsigned components = (unsigned)fmin(fmax(count, 2.0), 5.0);
+    for (unsigned i = 0; i < components; i++) {
+        if (i > 0) {
+            text_append_n(&out, separator.text, separator.length);
+        }
+        append_number(&out, v[i], width, precision);
+    }
+    return give_buffer(ev, node, value, &out);
+}
+
+bool builtin_concat(Eval *ev, const AstNode *node, Value *value)
+{
+    TextBuffer out;
+    bool fine = true;
+    text_init(&out);
+    for (const AstNode *part = node->a; part != NULL; part = part->next) {
+        Value string;
+        if (eval_string(ev, part, &string)) {
+            text_append_n(&out, string.text, string.length);
+        } else {
+            fine = false;
+        }
+    }
+    if (!fine) {
+        text_fini(&out);
+        return false;
+    }
+    return give_buffer(ev, node, value, &out);
+}
+
+bool builtin_chr(Eval *ev, const AstNode *node, Value *value)
+{
+    double code;
+    if (!eval_number(ev, node->a, &code)) {
+        return false;
+    }
+    if (!(code > -1.0 && code < 256.0)) {
+        return eval_fault(ev, DIAG_E0304, node->a->span, "`chr` takes 0 to 255, not %g", code);
+    }
+    char byte = (char)(unsigned char)fmax(code, 0.0);
+    return give_string(ev, node, value, &byte, 1);
+}
+
+bool builtin_asc(Eval *ev, const AstNode *node, Value *value)
+{
+    Value string;
+    if (!eval_string(ev, node->a, &string)) {
+        return false;
+    }
+    *value = value_of_number(string.length > 0 ? (unsigned char)string.text[0] : 0);
+    return true;
+}
+
+// The decimal number that a text begins with: its length, 0 when there is none.
+static size_t decimal_length(const char *text)
+{
+    static const char digits[] = "0123456789";
+    size_t whole = strspn(text, digits), length = whole;
+    if (text[length] == '.') {
+        size_t fraction = strspn(text + length + 1, digits);
+        if (whole + fraction == 0) {
+            return 0;
+        }
+        length += 1 + fraction;
+    }
+    if (length > 0 && (text[length] == 'e' || text[length] == 'E')) {
+        size_t sign = text[length + 1] == '+' || text[length + 1] == '-' ? 1 : 0;
+        size_t exponent = strspn(text + length + 1 + sign, digits);
+        length += exponent > 0 ? 1 + sign + exponent : 0;
+    }
+    return length;
+}
+
+bool builtin_val(Eval *ev, const AstNode *node, Value *value)
+{
+    Value string;
+    if (!eval_string(ev, node->a, &string)) {
+        return false;
+    }
+    const char *text = string.text + strspn(string.text, " \t\n\v\f\r");
+    const char *unsigned_text = text + (*text == '-' || *text == '+' ? 1 : 0);
+    bool is_hexadecimal = unsigned_text[0] == '0' && (unsigned_text[1] == 'x' || unsigned_text[1] == 'X');
+    size_t length = is_hexadecimal ? 0 : decimal_length(unsigned_text);
+    double number;
+    if (length == 0) {
+        number = strtod(text, NULL); // hexadecimal, inf, nan, or zero for no number
+    } else {
+        if (number_parse(unsigned_text, length, &number) == NUMBER_MALFORMED) {
+            number = 0.0;
+        }
+        number = *text == '-' ? -number : number;
+    }
+    *value = value_of_number(number);
+    return true;
+}
+
+bool builtin_strlen(Eval *ev, const AstNode *node, Value *value)
+{
+    Value string;
+    if (!eval_string(ev, node->a, &string)) {
+        return false;
+    }
+    *value = value_of_number((double)string.length);
+    return true;
+}
+
+bool builtin_strcmp(Eval *ev, const AstNode *node, Value *value)
+{
+    Value one, other;
+    bool fine = eval_string(ev, node->a, &one);
+    if (!eval_string(ev, node->a->next, &other) || !fine) {
+        return false;
+    }
+    int order = strcmp(one.text, other.text);
+    *value = value_of_number((order > 0) - (order < 0));
+    return true;
+}
+
+bool builtin_substr(Eval *ev, const AstNode *node, Value *value)
+{
+    Value string;
+    double start, count;
+    if (!eval_string(ev, node->a, &string) || !eval_number(ev, argument(node, 1), &start) ||
+        !eval_number(ev, argument(node, 2), &count)) {
+        return false;
+    }
+    start = trunc(start) - 1.0;
+    count = trunc(count);
+    if (!(start >= 0.0 && count >= 0.0 && start + count <= (double)string.length)) {
+        return eval_fault(ev, DIAG_E0304, node->span, "%g characters from number %g on are not in a string of %zu", count,
+                          start + 1.0, string.length);
+    }
+    return give_string(ev, node, value, string.text + (size_t)start, (size_t)count);
+}
+
+static bool change_case(Eval *ev, const AstNode *node, Value *value, char first, char last, int change)
+{
+    Value string;
+    if (!eval_string(ev, node->a, &string)) {
+        return false;
+    }
+    char *copy = arena_copy_text(&ev->scratch, string.text, string.length);
+    if (copy == NULL) {
+        return eval_no_memory(ev, node->span);
+    }
+    for (size_t i = 0; i < string.length; i++) {
+        if (copy[i] >= first && copy[i] <= last) {
+            copy[i] = (char)(copy[i] + change);
+        }
+    }
+    *value = string;
+    value->text = copy;
+    return true;
+}
+
+bool builtin_strupr(Eval *ev, const AstNode *node, Value *value)
+{
+    return change_case(ev, node, value, 'a', 'z', 'A' - 'a');
+}
+
+bool builtin_strlwr(Eval *ev, const AstNode *node, Value *value)
+{
+    return change_case(ev, node, value, 'A', 'Z', 'a' - 'A');
+}

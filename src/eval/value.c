@@ -1,0 +1,144 @@
+// Values: what they are called in messages, how they convert where a number, a vector or a colour is wanted, and how
+// they are kept.
+//
+// Turns a Value of one kind into another with the language's promotions. Owns nothing. Knows nothing of syntax.
+//
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "eval/internal.h"
+
+static const char *const block_descriptions[KIND_COUNT] = {
+    [KIND_NONE] = "nothing",
+    [KIND_CAMERA] = "a camera",
+    [KIND_LIGHT_SOURCE] = "a light source",
+    [KIND_SPHERE] = "a sphere",
+    [KIND_PLANE] = "a plane",
+    [KIND_UNION] = "a union",
+    [KIND_OBJECT] = "an object",
+    [KIND_BACKGROUND] = "a background",
+    [KIND_GLOBAL_SETTINGS] = "global settings",
+    [KIND_TEXTURE] = "a texture",
+    [KIND_PIGMENT] = "a pigment",
+    [KIND_FINISH] = "a finish",
+    [KIND_REFLECTION] = "a reflection",
+    [KIND_TRANSFORM] = "a transform",
+    [KIND_UNSUPPORTED] = "something that is not supported",
+};
+
+const char *value_describe(const Value *value)
+{
+    static const char *const tuples[] = {"", "", "a vector of 2", "a vector of 3", "a vector of 4", "a vector of 5"};
+    switch ((ValueKind)value->kind) {
+    case VALUE_NONE: return "nothing";
+    case VALUE_NUMBER: return "a number";
+    case VALUE_VECTOR: return tuples[value->components];
+    case VALUE_COLOUR: return "a colour";
+    case VALUE_STRING: return "a string";
+    case VALUE_ARRAY: return "an array";
+    case VALUE_MACRO: return "a macro";
+    case VALUE_BLOCK: return block_descriptions[value->block];
+    }
+    return "nothing";
+}
+
+static bool fault_expected(Eval *ev, const Value *value, Span span, const char *wanted)
+{
+    if (value->kind == VALUE_NONE) {
+        return false;
+    }
+    return eval_fault(ev, DIAG_E0202, span, "expected %s, found %s", wanted, value_describe(value));
+}
+
+bool value_number(Eval *ev, const Value *value, Span span, double *number)
+{
+    if (RT_UNLIKELY(value->kind != VALUE_NUMBER)) {
+        return fault_expected(ev, value, span, "a number");
+    }
+    *number = value->number;
+    return true;
+}
+
+bool value_vector3(Eval *ev, const Value *value, Span span, Vec3 *vector)
+{
+    if (value->kind == VALUE_NUMBER) {
+        *vector = vec3(value->number, value->number, value->number);
+        return true;
+    }
+    if (value->kind != VALUE_VECTOR || value->components > 3) {
+        return fault_expected(ev, value, span, "a vector of 3");
+    }
+    *vector = vec3(value->v[0], value->v[1], value->components == 3 ? value->v[2] : 0.0);
+    return true;
+}
+
+// Colours are kept in single precision, as POV-Ray keeps them.
+bool value_colour(Eval *ev, const Value *value, Span span, Rgbft *colour)
+{
+    double v[5] = {0};
+    if (value->kind == VALUE_NUMBER) {
+        for (unsigned i = 0; i < 5; i++) {
+            v[i] = value->number;
+        }
+    } else if (value_is_tuple(value)) {
+        memcpy(v, value->v, value->components * sizeof *v);
+    } else {
+        return fault_expected(ev, value, span, "a colour");
+    }
+    *colour = (Rgbft){(float)v[0], (float)v[1], (float)v[2], (float)v[3], (float)v[4]};
+    return true;
+}
+
+bool value_string(Eval *ev, const Value *value, Span span)
+{
+    return value->kind == VALUE_STRING || fault_expected(ev, value, span, "a string");
+}
+
+bool value_array(Eval *ev, const Value *value, Span span)
+{
+    return value->kind == VALUE_ARRAY || fault_expected(ev, value, span, "an array");
+}
+
+static bool store_array(Eval *ev, const ValueArray *array, Arena *arena, Span span, Value *copy)
+{
+    ValueArray *kept = arena_copy(arena, array, sizeof *array);
+    Value *elements = arena_alloc_array(arena, array->count, sizeof *elements);
+    if (kept == NULL || elements == NULL) {
+        return eval_no_memory(ev, span);
+    }
+    kept->elements = elements;
+    for (size_t i = 0; i < array->count; i++) {
+        if (!value_store(ev, &array->elements[i], arena, span, &elements[i])) {
+            return false;
+        }
+    }
+    kept->example = array->example != NULL ? elements + (array->example - array->elements) : NULL;
+    copy->array = kept;
+    return true;
+}
+
+bool value_store(Eval *ev, const Value *value, Arena *arena, Span span, Value *copy)
+{
+    *copy = *value;
+    copy->name = SYMBOL_NONE;
+    if (value->kind == VALUE_COLOUR || (value->kind == VALUE_VECTOR && value->components == 5)) {
+        copy->kind = VALUE_COLOUR;
+        for (unsigned i = 0; i < 5; i++) {
+            copy->v[i] = (float)value->v[i];
+        }
+    } else if (value->kind == VALUE_STRING) {
+        copy->text = arena_copy_text(arena, value->text, value->length);
+        if (copy->text == NULL) {
+            return eval_no_memory(ev, span);
+        }
+    } else if (value->kind == VALUE_ARRAY) {
+        // Arrays of arrays nest as deep as the scene makes them.
+        if (!eval_deepen(ev, 1, span)) {
+            return false;
+        }
+        bool fine = store_array(ev, value->array, arena, span, copy);
+        eval_shallow(ev, 1);
+        return fine;
+    }
+    return true;
+}

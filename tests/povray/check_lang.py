@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Gives every `-- debug` case of the language's tests to POV-Ray and compares its debug stream with the expectation.
+
+Usage: check_lang.py FILE.test...   Prints TAP; skips where there is no POV-Ray.
+"""
+# SPDX-License-Identifier: MIT
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# Keeps POV-Ray from warning about an empty scene; in one line, so that nothing else moves.
+PREFACE = "#version 3.7; global_settings { assumed_gamma 1 } sphere { 0, 1 }\n"
+
+
+def read_cases(path):
+    """A list of (name, program, {file: text}, expected debug text or None)."""
+    cases, sections = [], None
+    with open(path, encoding="latin-1", newline="") as file:
+        for line in file:
+            if line.startswith("== "):
+                sections = []
+                cases.append(sections)
+            if sections is not None and line[:3] in ("== ", "-- "):
+                sections.append([line[3:].strip(), ""])
+            elif sections:
+                sections[-1][1] += line
+    for (name, program), *rest in cases:
+        files = {header[5:]: text for header, text in rest if header.startswith("file ")}
+        debug = [text for header, text in rest if header == "debug"]
+        yield name, program, files, debug[0].rstrip("\n") if debug else None
+
+
+def run_povray(program, files):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in dict(files, **{"test.pov": PREFACE + program}).items():
+            path = os.path.join(folder, name)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="latin-1", newline="") as file:
+                file.write(text)
+        result = subprocess.run(
+            ["povray", "+Itest.pov", "+Llib", "-D", "+W320", "+H240", "+SR1", "+ER1", "+SC1", "+EC1", "-F", "+GDdebug.txt"],
+            cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=60,
+            check=False)
+        try:
+            with open(os.path.join(folder, "debug.txt"), encoding="latin-1", newline="") as file:
+                debug = file.read()
+        except FileNotFoundError:
+            debug = ""
+        return debug, result.returncode, result.stderr.decode("latin-1")
+
+
+def comment(title, text):
+    print("# " + title + ":")
+    for line in text.splitlines():
+        print("#   " + line)
+
+
+def main():
+    if shutil.which("povray") is None:
+        print("1..0 # SKIP povray is not installed")
+        return 0
+    number = failed = 0
+    for path in sys.argv[1:]:
+        for name, program, files, expected in read_cases(path):
+            if expected is None:
+                continue
+            number += 1
+            got, code, errors = run_povray(program, files)
+            fine = code == 0 and got.rstrip("\n") == expected
+            print(f"{'ok' if fine else 'not ok'} {number} - {os.path.basename(path)}: {name}", flush=True)
+            if not fine:
+                failed += 1
+                comment("expected", expected)
+                comment("POV-Ray", got)
+                if code:
+                    comment("its messages", errors[-700:])
+    print(f"1..{number}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
