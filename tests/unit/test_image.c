@@ -21,7 +21,7 @@
 #include "base/attributes.h"
 #include "image/encode.h"
 #include "image/image.h"
-#include "tap.h"
+#include "unit/tap.h"
 
 enum { WIDTH = 37, HEIGHT = 70 }; // more rows than the module fetches at once
 

@@ -7,7 +7,7 @@
 #include "base/attributes.h"
 #include "image/encode.h"
 #include "image/image.h"
-#include "tap.h"
+#include "unit/tap.h"
 
 static const ImageEncoding srgb_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, false};
 static const ImageEncoding srgb_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_SRGB, 0.0, false};

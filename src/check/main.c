@@ -1,0 +1,340 @@
+// rtcheck: renders scenes with rtlang and with POV-Ray and says how far the pictures are apart.
+//
+// rtlang is used through its public header, as any program would; only reading and comparing pictures is shared inside.
+//
+// SPDX-License-Identifier: MIT
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE
+#endif
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "check/options.h"
+#include "check/povray_run.h"
+#include "check/report.h"
+#include "image/image.h"
+#include "rtlang/rtlang.h"
+
+enum { EXIT_AGREE = 0, EXIT_DIFFER = 1, EXIT_USAGE = 2, EXIT_NO_TOOL = 3 };
+
+typedef struct Check {
+    const Options *options;
+    char *povray;
+    char **include_paths; // absolute
+    char folder[PATH_MAX]; // absolute; holds pictures and logs
+    bool keeps_folder;
+} Check;
+
+// The files of one scene.
+typedef struct Files {
+    char *rtlang, *povray, *log;
+} Files;
+
+// Set by an interrupt: the handler has no other way to the loop over the scenes.
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+static double clock_seconds(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool files_init(Files *files, const Check *check, int number)
+{
+    const char *scene = check->options->scenes[number];
+    const char *slash = strrchr(scene, '/');
+    const char *name = slash != NULL ? slash + 1 : scene;
+
+    *files = (Files){0};
+    if (asprintf(&files->rtlang, "%s/%02d-%s.rtlang.png", check->folder, number + 1, name) < 0) {
+        files->rtlang = NULL;
+    }
+    if (asprintf(&files->povray, "%s/%02d-%s.povray.png", check->folder, number + 1, name) < 0) {
+        files->povray = NULL;
+    }
+    if (asprintf(&files->log, "%s/%02d-%s.povray.log", check->folder, number + 1, name) < 0) {
+        files->log = NULL;
+    }
+    return files->rtlang != NULL && files->povray != NULL && files->log != NULL;
+}
+
+static void files_fini(Files *files)
+{
+    free(files->rtlang);
+    free(files->povray);
+    free(files->log);
+}
+
+typedef struct RtlangRun {
+    rt_session *session;
+    Outcome *outcome;
+} RtlangRun;
+
+// Keeps the first error as the outcome's detail.
+static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
+{
+    RtlangRun *run = client;
+
+    if (diagnostic->severity == RT_ERROR && run->outcome->detail[0] == '\0') {
+        snprintf(run->outcome->detail, sizeof run->outcome->detail, "rtlang:\n%s", diagnostic->text);
+    }
+}
+
+static void on_progress(void *client, double done)
+{
+    const RtlangRun *run = client;
+
+    (void)done;
+    if (interrupted != 0) {
+        rt_cancel(run->session);
+    }
+}
+
+static rt_status rtlang_steps(rt_session *session, const Check *check, const char *scene, const char *output)
+{
+    static const rt_output linear_16 = {.depth = RT_DEPTH_16, .file_gamma = 1.0};
+    const Options *options = check->options;
+    rt_status status = rt_set_size(session, options->width, options->height);
+
+    for (int i = 0; status == RT_OK && i < options->include_path_count; i++) {
+        status = rt_add_include_path(session, check->include_paths[i]);
+    }
+    if (status == RT_OK) {
+        status = rt_load_file(session, scene);
+    }
+    if (status == RT_OK) {
+        status = rt_render(session, options->threads);
+    }
+    return status == RT_OK ? rt_write(session, output, &linear_16) : status;
+}
+
+static bool rtlang_run(const Check *check, const char *output, Outcome *outcome)
+{
+    RtlangRun run = {.outcome = outcome};
+    rt_callbacks callbacks = {.client = &run, .diagnostic = on_diagnostic, .progress = on_progress};
+    double start = clock_seconds();
+    rt_status status = RT_FAULT_LIMIT;
+
+    run.session = rt_session_new(&callbacks);
+    if (run.session != NULL) {
+        status = rtlang_steps(run.session, check, outcome->scene, output);
+    }
+    rt_session_free(run.session);
+    outcome->rtlang_seconds = clock_seconds() - start;
+    if (status != RT_OK && outcome->detail[0] == '\0') {
+        snprintf(outcome->detail, sizeof outcome->detail, "rtlang failed with status %d", (int)status);
+    }
+    return status == RT_OK;
+}
+
+static bool povray_make(const Check *check, const Files *files, Outcome *outcome)
+{
+    const Options *options = check->options;
+    PovrayJob job = {
+        .program = check->povray,
+        .scene = outcome->scene,
+        .output = files->povray,
+        .log = files->log,
+        .include_paths = check->include_paths,
+        .include_path_count = options->include_path_count,
+        .width = options->width,
+        .height = options->height,
+        .threads = options->threads,
+    };
+    double start = clock_seconds();
+    bool fine = povray_run(&job, outcome->detail, sizeof outcome->detail);
+
+    outcome->povray_seconds = clock_seconds() - start;
+    return fine;
+}
+
+static bool picture_read(const Options *options, const char *path, Image *image, Outcome *outcome)
+{
+    uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
+    ImageError error = {""};
+    ImageStatus status = image_read(path, pixels, image, &error);
+
+    if (status != IMAGE_OK) {
+        snprintf(outcome->detail, sizeof outcome->detail, "cannot read %s: %s", path, error.detail);
+        outcome->tool_missing = status == IMAGE_NO_MODULE;
+    }
+    return status == IMAGE_OK;
+}
+
+// Stored values are whole steps of 1/65535, but read as rounded floats: the threshold is put half way to the next step,
+// so that a difference of just so many steps is on the right side of it.
+static double threshold_between_steps(double threshold)
+{
+    double whole = threshold * 65535.0;
+    double nearest = round(whole);
+    bool is_whole = fabs(whole - nearest) <= 1e-9 * nearest; // 2/65535 as a double, or as decimals
+
+    return ((is_whole ? nearest : floor(whole)) + 0.5) / 65535.0;
+}
+
+static void pictures_compare(const Options *options, const Files *files, Outcome *outcome)
+{
+    double threshold = threshold_between_steps(options->threshold);
+    const ImageDifference *difference = &outcome->difference;
+    Image ours = {0}, theirs = {0};
+
+    if (picture_read(options, files->rtlang, &ours, outcome) &&
+        picture_read(options, files->povray, &theirs, outcome)) {
+        outcome->compared = image_compare(&ours, &theirs, threshold, &outcome->difference);
+        if (!outcome->compared) {
+            snprintf(outcome->detail, sizeof outcome->detail, "pictures of %dx%d and %dx%d cannot be compared",
+                     ours.width, ours.height, theirs.width, theirs.height);
+        }
+    }
+    outcome->agrees = outcome->compared &&
+                      (double)difference->pixels_beyond <= options->ties * (double)difference->pixels;
+    image_fini(&ours);
+    image_fini(&theirs);
+}
+
+static void scene_check(const Check *check, int number, Outcome *outcome)
+{
+    Files files;
+
+    *outcome = (Outcome){.scene = check->options->scenes[number]};
+    if (!files_init(&files, check, number)) {
+        snprintf(outcome->detail, sizeof outcome->detail, "out of memory");
+    } else if (rtlang_run(check, files.rtlang, outcome) && povray_make(check, &files, outcome)) {
+        pictures_compare(check->options, &files, outcome);
+    }
+    files_fini(&files);
+}
+
+static int scenes_check(const Check *check)
+{
+    const Options *options = check->options;
+    int exit_code = EXIT_AGREE;
+
+    for (int i = 0; i < options->scene_count && interrupted == 0; i++) {
+        Outcome outcome;
+
+        scene_check(check, i, &outcome);
+        if (interrupted != 0) {
+            break;
+        }
+        (options->json ? report_json : report_text)(stdout, &outcome);
+        fflush(stdout);
+        if (outcome.tool_missing) {
+            return EXIT_NO_TOOL;
+        }
+        if (!outcome.agrees) {
+            exit_code = EXIT_DIFFER;
+        }
+    }
+    return interrupted != 0 ? 128 + SIGINT : exit_code;
+}
+
+static bool folder_make(Check *check)
+{
+    const char *base = getenv("TMPDIR");
+    const char *keep = check->options->keep;
+    char *path = NULL;
+    bool fine = false;
+
+    check->keeps_folder = keep != NULL;
+    if (keep != NULL) {
+        fine = (mkdir(keep, 0777) == 0 || errno == EEXIST) && realpath(keep, check->folder) != NULL;
+    } else if (asprintf(&path, "%s/rtcheck-XXXXXX", base != NULL && base[0] != '\0' ? base : "/tmp") >= 0) {
+        fine = mkdtemp(path) != NULL && realpath(path, check->folder) != NULL;
+        free(path);
+    }
+    if (!fine) {
+        fprintf(stderr, "rtcheck: cannot make a folder for the pictures: %s\n", strerror(errno));
+    }
+    return fine;
+}
+
+// The folder is this run's own and flat.
+static void folder_remove(const Check *check)
+{
+    DIR *folder = check->keeps_folder ? NULL : opendir(check->folder);
+    const struct dirent *entry;
+
+    if (folder == NULL) {
+        return;
+    }
+    while ((entry = readdir(folder)) != NULL) {
+        unlinkat(dirfd(folder), entry->d_name, 0); // fails for `.` and `..`, as it should
+    }
+    closedir(folder);
+    rmdir(check->folder);
+}
+
+// POV-Ray runs in another folder, so that relative paths are made absolute.
+static bool include_paths_resolve(Check *check)
+{
+    const Options *options = check->options;
+
+    check->include_paths = calloc((size_t)options->include_path_count + 1, sizeof *check->include_paths);
+    if (check->include_paths == NULL) {
+        return false;
+    }
+    for (int i = 0; i < options->include_path_count; i++) {
+        check->include_paths[i] = realpath(options->include_paths[i], NULL);
+        if (check->include_paths[i] == NULL) {
+            fprintf(stderr, "rtcheck: %s: %s\n", options->include_paths[i], strerror(errno));
+            return false;
+        }
+    }
+    return true;
+}
+
+static int run(const Options *options)
+{
+    Check check = {.options = options};
+    int exit_code = EXIT_USAGE;
+
+    check.povray = povray_find(options->povray);
+    if (check.povray == NULL) {
+        fprintf(stderr, "rtcheck: no program `%s` found (Debian: apt-get install povray)\n", options->povray);
+        return EXIT_NO_TOOL;
+    }
+    if (include_paths_resolve(&check) && folder_make(&check)) {
+        exit_code = scenes_check(&check);
+        folder_remove(&check);
+    }
+    for (int i = 0; check.include_paths != NULL && i < options->include_path_count; i++) {
+        free(check.include_paths[i]);
+    }
+    free(check.include_paths);
+    free(check.povray);
+    return exit_code;
+}
+
+int main(int argc, char **argv)
+{
+    struct sigaction action = {.sa_handler = on_interrupt};
+    Options options;
+    OptionsResult parsed = options_parse(argc, argv, &options);
+    int exit_code = parsed == OPTIONS_DONE ? EXIT_AGREE : EXIT_USAGE;
+
+    if (parsed == OPTIONS_GO) {
+        sigaction(SIGINT, &action, NULL);
+        sigaction(SIGTERM, &action, NULL);
+        exit_code = run(&options);
+    }
+    options_fini(&options);
+    return exit_code;
+}

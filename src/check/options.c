@@ -1,0 +1,235 @@
+// Reads rtcheck's command line with getopt_long: name, argument, help and effect of an option stand in one table row.
+//
+// It prints what is wrong with a command line, and knows nothing of what the options do.
+//
+// SPDX-License-Identifier: MIT
+#include "check/options.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rtlang/rtlang.h"
+
+#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+
+// Takes the argument of an option; false when it is not what the row says is expected.
+typedef bool (*OptionApply)(Options *options, const char *argument);
+
+typedef struct OptionRow {
+    char letter; // 0: no short form
+    const char *name;
+    const char *argument; // NULL: takes none
+    OptionApply apply;    // NULL: prints and stops
+    const char *expected; // of the argument
+    const char *help;
+} OptionRow;
+
+static bool parse_integer(const char *text, long low, long high, int *value)
+{
+    char *end;
+    long number = strtol(text, &end, 10);
+
+    if (end == text || *end != '\0' || number < low || number > high) {
+        return false;
+    }
+    *value = (int)number;
+    return true;
+}
+
+// A number or a quotient of two, such as 2/65535; not below zero.
+static bool parse_ratio(const char *text, double *value)
+{
+    char *end;
+    double number = strtod(text, &end);
+
+    if (end == text) {
+        return false;
+    }
+    if (*end == '/') {
+        const char *divisor = end + 1;
+        number /= strtod(divisor, &end);
+        if (end == divisor) {
+            return false;
+        }
+    }
+    *value = number;
+    return *end == '\0' && isfinite(number) && number >= 0.0;
+}
+
+static bool apply_width(Options *options, const char *argument)
+{
+    return parse_integer(argument, 1, 65535, &options->width);
+}
+
+static bool apply_height(Options *options, const char *argument)
+{
+    return parse_integer(argument, 1, 65535, &options->height);
+}
+
+static bool apply_threads(Options *options, const char *argument)
+{
+    return parse_integer(argument, 1, 512, &options->threads);
+}
+
+static bool apply_threshold(Options *options, const char *argument)
+{
+    return parse_ratio(argument, &options->threshold);
+}
+
+static bool apply_ties(Options *options, const char *argument)
+{
+    return parse_ratio(argument, &options->ties);
+}
+
+static bool apply_povray(Options *options, const char *argument)
+{
+    options->povray = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_include_path(Options *options, const char *argument)
+{
+    options->include_paths[options->include_path_count++] = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_keep(Options *options, const char *argument)
+{
+    options->keep = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_json(Options *options, const char *argument)
+{
+    (void)argument;
+    options->json = true;
+    return true;
+}
+
+static const OptionRow rows[] = {
+    {'W', "width", "PIXELS", apply_width, "a whole number from 1 to 65535", "width of the pictures (default 320)"},
+    {'H', "height", "PIXELS", apply_height, "a whole number from 1 to 65535", "height of the pictures (default 240)"},
+    {0, "threshold", "VALUE", apply_threshold, "a number or a quotient of two",
+     "greatest difference of a pixel that counts as equal (default 2/65535)"},
+    {0, "ties", "SHARE", apply_ties, "a number or a quotient of two",
+     "share of the pixels that may differ by more (default 0.0001)"},
+    {0, "povray", "PROGRAM", apply_povray, "a program", "POV-Ray's program (default povray)"},
+    {'I', "include-path", "FOLDER", apply_include_path, "a folder", "also look here for #include; may repeat"},
+    {'j', "threads", "N", apply_threads, "a whole number from 1 to 512",
+     "threads of each renderer (default: all processors)"},
+    {0, "keep", "FOLDER", apply_keep, "a folder", "keep the pictures and POV-Ray's messages there"},
+    {0, "json", NULL, apply_json, "", "print one JSON object a scene"},
+    {'V', "version", NULL, NULL, "", "print the version and stop"},
+    {'h', "help", NULL, NULL, "", "print this and stop"},
+};
+
+// The table in getopt's two forms. An option's `val` is its row's number above all characters.
+enum { FIRST_VAL = 256, SHORT_ROOM = 2 * COUNT_OF(rows) + 2 };
+
+static void print_help(void)
+{
+    printf("Usage: rtcheck [OPTION]... SCENE...\n"
+           "Renders each scene with rtlang and with POV-Ray, without anti-aliasing, and compares the pictures in\n"
+           "linear 16 bit. Differences are printed in steps of 1/65535.\n\n");
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        char left[64];
+
+        snprintf(left, sizeof left, "--%s%s%s", rows[i].name, rows[i].argument != NULL ? "=" : "",
+                 rows[i].argument != NULL ? rows[i].argument : "");
+        printf("  %c%c%c %-23s %s\n", rows[i].letter != 0 ? '-' : ' ', rows[i].letter != 0 ? rows[i].letter : ' ',
+               rows[i].letter != 0 ? ',' : ' ', left, rows[i].help);
+    }
+    printf("\nExit status: 0 every scene agrees, 1 one does not, 2 usage, 3 POV-Ray or the module that reads pictures\n"
+           "is missing.\n");
+}
+
+static void getopt_tables_fill(struct option long_options[COUNT_OF(rows) + 1], char *short_options)
+{
+    *short_options++ = ':';
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        int has_argument = rows[i].argument != NULL ? required_argument : no_argument;
+
+        long_options[i] = (struct option){rows[i].name, has_argument, NULL, FIRST_VAL + (int)i};
+        if (rows[i].letter != 0) {
+            *short_options++ = rows[i].letter;
+            if (rows[i].argument != NULL) {
+                *short_options++ = ':';
+            }
+        }
+    }
+    long_options[COUNT_OF(rows)] = (struct option){0};
+    *short_options = '\0';
+}
+
+static const OptionRow *row_find(int val)
+{
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        if (val == FIRST_VAL + (int)i || (rows[i].letter != 0 && val == rows[i].letter)) {
+            return &rows[i];
+        }
+    }
+    return NULL;
+}
+
+static OptionsResult complain(const char *what, const char *about)
+{
+    fprintf(stderr, "rtcheck: %s%s\nrtcheck --help lists the options\n", what, about);
+    return OPTIONS_WRONG;
+}
+
+static OptionsResult option_take(Options *options, int val, const char *word)
+{
+    const OptionRow *row = row_find(val);
+
+    if (val == ':') {
+        return complain("an argument is missing after ", word);
+    }
+    if (row == NULL) {
+        return complain("unknown option or needless argument: ", word);
+    }
+    if (row->apply == NULL && row->letter == 'h') {
+        print_help();
+        return OPTIONS_DONE;
+    }
+    if (row->apply == NULL) {
+        printf("rtcheck %s\n", rt_version());
+        return OPTIONS_DONE;
+    }
+    if (!row->apply(options, optarg)) {
+        fprintf(stderr, "rtcheck: option --%s wants %s, found `%s`\n", row->name, row->expected, optarg);
+        return OPTIONS_WRONG;
+    }
+    return OPTIONS_GO;
+}
+
+OptionsResult options_parse(int argc, char **argv, Options *options)
+{
+    struct option long_options[COUNT_OF(rows) + 1];
+    char short_options[SHORT_ROOM];
+    int val;
+
+    *options = (Options){.width = 320, .height = 240, .threshold = 2.0 / 65535.0, .ties = 1e-4, .povray = "povray"};
+    options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
+    if (options->include_paths == NULL) {
+        return complain("out of memory", "");
+    }
+    getopt_tables_fill(long_options, short_options);
+    opterr = 0;
+    while ((val = getopt_long(argc, argv, short_options, long_options, NULL)) != -1) {
+        OptionsResult result = option_take(options, val, argv[optind - 1]);
+        if (result != OPTIONS_GO) {
+            return result;
+        }
+    }
+    options->scenes = argv + optind;
+    options->scene_count = argc - optind;
+    return options->scene_count > 0 ? OPTIONS_GO : complain("no scene given", "");
+}
+
+void options_fini(Options *options)
+{
+    free(options->include_paths);
+}

@@ -1,0 +1,34 @@
+// Command line of rtcheck: one table of options, read into one plain struct.
+//
+// SPDX-License-Identifier: MIT
+#ifndef CHECK_OPTIONS_H
+#define CHECK_OPTIONS_H
+
+#include <stdbool.h>
+
+// Pointers refer to argv.
+typedef struct Options {
+    int width, height;
+    int threads;      // for both renderers; 0: as many as the machine has
+    double threshold; // of a channel's difference, in linear light
+    double ties;      // the share of pixels that may differ by more
+    const char *povray;
+    const char *keep; // folder for the pictures and POV-Ray's messages; NULL: they are thrown away
+    const char **include_paths; // owned list
+    int include_path_count;
+    bool json;
+    char **scenes;
+    int scene_count;
+} Options;
+
+typedef enum OptionsResult {
+    OPTIONS_GO,    // run
+    OPTIONS_DONE,  // --help or --version was printed
+    OPTIONS_WRONG, // a message was printed to stderr
+} OptionsResult;
+
+// To be released by options_fini whatever the result.
+OptionsResult options_parse(int argc, char **argv, Options *options);
+void options_fini(Options *options);
+
+#endif

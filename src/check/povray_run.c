@@ -1,0 +1,216 @@
+// One job to one POV-Ray process. Its switches: POV-Ray 3.7 manual, "Command-Line and INI-File Options".
+//
+// SPDX-License-Identifier: MIT
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE
+#endif
+#include "check/povray_run.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { FIXED_ARGUMENTS = 12, TAIL_BYTES = 400 };
+
+typedef struct ArgumentList {
+    char **items; // ends with NULL
+    int count;
+    bool failed; // out of memory
+} ArgumentList;
+
+static bool is_program(const char *path)
+{
+    struct stat status;
+
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode) && access(path, X_OK) == 0;
+}
+
+char *povray_find(const char *name)
+{
+    const char *search = getenv("PATH");
+    char *found = NULL;
+
+    if (strchr(name, '/') != NULL) {
+        return is_program(name) ? realpath(name, NULL) : NULL;
+    }
+    while (search != NULL && found == NULL) {
+        int length = (int)strcspn(search, ":");
+        char *path;
+
+        if (asprintf(&path, "%.*s/%s", length > 0 ? length : 1, length > 0 ? search : ".", name) < 0) {
+            return NULL;
+        }
+        found = is_program(path) ? realpath(path, NULL) : NULL;
+        free(path);
+        search = search[length] == ':' ? search + length + 1 : NULL;
+    }
+    return found;
+}
+
+__attribute__((format(printf, 2, 3))) static void argument_add(ArgumentList *list, const char *format, ...)
+{
+    va_list arguments;
+    char *text;
+
+    va_start(arguments, format);
+    if (vasprintf(&text, format, arguments) < 0) {
+        list->failed = true;
+    } else {
+        list->items[list->count++] = text;
+    }
+    va_end(arguments);
+}
+
+static void arguments_fini(ArgumentList *list)
+{
+    for (int i = 0; i < list->count; i++) {
+        free(list->items[i]);
+    }
+    free(list->items);
+}
+
+// Paths are quoted: POV-Ray splits an argument at blanks.
+static bool arguments_make(ArgumentList *list, const PovrayJob *job)
+{
+    const char *slash = strrchr(job->scene, '/');
+
+    *list = (ArgumentList){0};
+    list->items = calloc((size_t)job->include_path_count + FIXED_ARGUMENTS + 1, sizeof *list->items);
+    if (list->items == NULL) {
+        return false;
+    }
+    argument_add(list, "%s", job->program);
+    argument_add(list, "+I\"./%s\"", slash != NULL ? slash + 1 : job->scene);
+    argument_add(list, "+O\"%s\"", job->output);
+    argument_add(list, "+FN16");
+    argument_add(list, "File_Gamma=1.0");
+    argument_add(list, "-D");
+    argument_add(list, "-A");
+    argument_add(list, "-P");
+    argument_add(list, "+W%d", job->width);
+    argument_add(list, "+H%d", job->height);
+    if (job->threads > 0) {
+        argument_add(list, "+WT%d", job->threads);
+    }
+    for (int i = 0; i < job->include_path_count; i++) {
+        argument_add(list, "+L\"%s\"", job->include_paths[i]);
+    }
+    return !list->failed;
+}
+
+// The folder of the scene, to be freed.
+static char *scene_folder(const char *scene)
+{
+    const char *slash = strrchr(scene, '/');
+
+    return slash == NULL ? strdup(".") : strndup(scene, (size_t)(slash - scene) + 1);
+}
+
+// 0, or an errno value.
+static int process_start(const PovrayJob *job, char **arguments, const char *folder, pid_t *process)
+{
+    posix_spawn_file_actions_t actions;
+    int code = posix_spawn_file_actions_init(&actions);
+
+    if (code != 0) {
+        return code;
+    }
+    code = posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (code == 0) {
+        code = posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, job->log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    }
+    if (code == 0) {
+        code = posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    }
+    if (code == 0) {
+        code = posix_spawn_file_actions_addchdir_np(&actions, folder);
+    }
+    if (code == 0) {
+        code = posix_spawn(process, job->program, &actions, NULL, arguments, environ);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    return code;
+}
+
+// Waits for the end; 0, or the exit status, or 128 and the signal's number, or -1 when that cannot be known.
+static int process_wait(pid_t process)
+{
+    int status;
+
+    while (waitpid(process, &status, 0) < 0) {
+        if (errno != EINTR) {
+            return -1;
+        }
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+// The end of the log from the beginning of a line.
+static void log_tail(const char *path, char tail[static TAIL_BYTES])
+{
+    FILE *log = fopen(path, "rb");
+    size_t length = 0;
+    char *line;
+
+    if (log != NULL) {
+        if (fseek(log, 1 - TAIL_BYTES, SEEK_END) != 0) { // a shorter log
+            rewind(log);
+        }
+        length = fread(tail, 1, TAIL_BYTES - 1, log);
+        fclose(log);
+    }
+    tail[length] = '\0';
+    line = length == TAIL_BYTES - 1 ? strchr(tail, '\n') : NULL;
+    if (line != NULL) {
+        memmove(tail, line + 1, strlen(line + 1) + 1);
+    }
+}
+
+static bool outcome_judge(const PovrayJob *job, int status, char *detail, size_t detail_size)
+{
+    struct stat output;
+    char tail[TAIL_BYTES];
+    bool has_output = stat(job->output, &output) == 0 && output.st_size > 0;
+
+    if (status == 0 && has_output) {
+        return true;
+    }
+    log_tail(job->log, tail);
+    if (status == 0) {
+        snprintf(detail, detail_size, "povray made no picture:\n%s", tail);
+    } else {
+        snprintf(detail, detail_size, "povray ended with status %d:\n%s", status, tail);
+    }
+    return false;
+}
+
+bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
+{
+    ArgumentList arguments;
+    char *folder = scene_folder(job->scene);
+    bool fine = false;
+    pid_t process;
+    int code;
+
+    snprintf(detail, detail_size, "out of memory");
+    if (arguments_make(&arguments, job) && folder != NULL) {
+        code = process_start(job, arguments.items, folder, &process);
+        if (code != 0) {
+            snprintf(detail, detail_size, "povray cannot be started: %s", strerror(code));
+        } else {
+            fine = outcome_judge(job, process_wait(process), detail, detail_size);
+        }
+    }
+    arguments_fini(&arguments);
+    free(folder);
+    return fine;
+}

@@ -1,0 +1,28 @@
+// Finding POV-Ray and running it on one scene: linear 16 bit, without anti-aliasing, no shell, no window.
+//
+// SPDX-License-Identifier: MIT
+#ifndef CHECK_POVRAY_RUN_H
+#define CHECK_POVRAY_RUN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// All paths but the scene's are absolute: POV-Ray runs in the scene's folder, so that its relative includes are found.
+typedef struct PovrayJob {
+    const char *program;
+    const char *scene;
+    const char *output; // picture to be made
+    const char *log;    // file for what POV-Ray says
+    char *const *include_paths;
+    int include_path_count;
+    int width, height;
+    int threads; // 0: as many as the machine has
+} PovrayJob;
+
+// The absolute path of a program as a shell would find it, to be freed; NULL: there is none.
+char *povray_find(const char *name);
+
+// Runs and waits. False when POV-Ray failed or left no picture; `detail` then says why, in a few lines.
+bool povray_run(const PovrayJob *job, char *detail, size_t detail_size);
+
+#endif

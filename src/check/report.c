@@ -1,0 +1,85 @@
+// Outcomes as text for people and as JSON for programs.
+//
+// SPDX-License-Identifier: MIT
+#include "check/report.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+static double steps(double difference)
+{
+    return difference * 65535.0;
+}
+
+static double share_beyond(const ImageDifference *difference)
+{
+    return (double)difference->pixels_beyond / (double)difference->pixels;
+}
+
+void report_text(FILE *out, const Outcome *outcome)
+{
+    const ImageDifference *d = &outcome->difference;
+
+    if (!outcome->compared) {
+        int length = (int)strlen(outcome->detail);
+        while (length > 0 && outcome->detail[length - 1] == '\n') {
+            length--;
+        }
+        fprintf(out, "%s: FAIL: %.*s\n", outcome->scene, length, outcome->detail);
+        return;
+    }
+    fprintf(out,
+            "%s: max %.0f, rmse %.3g, psnr %.1f dB, beyond %" PRIu64 " (%.4f %%), rtlang %.3f s, povray %.3f s "
+            "(%.1fx): %s\n",
+            outcome->scene, steps(d->max), steps(d->rmse), d->psnr, d->pixels_beyond, 100.0 * share_beyond(d),
+            outcome->rtlang_seconds, outcome->povray_seconds, outcome->povray_seconds / outcome->rtlang_seconds,
+            outcome->agrees ? "ok" : "FAIL");
+}
+
+static void json_string(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (const char *c = text; *c != '\0'; c++) {
+        if (*c == '"' || *c == '\\') {
+            fprintf(out, "\\%c", *c);
+        } else if ((unsigned char)*c < ' ') {
+            fprintf(out, "\\u%04x", (unsigned)(unsigned char)*c);
+        } else {
+            fputc(*c, out);
+        }
+    }
+    fputc('"', out);
+}
+
+// JSON has no infinity: null stands for it.
+static void json_number(FILE *out, const char *name, double value)
+{
+    if (isfinite(value)) {
+        fprintf(out, ", \"%s\": %.9g", name, value);
+    } else {
+        fprintf(out, ", \"%s\": null", name);
+    }
+}
+
+void report_json(FILE *out, const Outcome *outcome)
+{
+    const ImageDifference *d = &outcome->difference;
+
+    fprintf(out, "{\"scene\": ");
+    json_string(out, outcome->scene);
+    fprintf(out, ", \"agrees\": %s", outcome->agrees ? "true" : "false");
+    if (outcome->compared) {
+        json_number(out, "max", steps(d->max));
+        json_number(out, "rmse", steps(d->rmse));
+        json_number(out, "p999", steps(d->p999));
+        json_number(out, "psnr", d->psnr);
+        fprintf(out, ", \"beyond\": %" PRIu64 ", \"pixels\": %" PRIu64, d->pixels_beyond, d->pixels);
+        json_number(out, "rtlang_seconds", outcome->rtlang_seconds);
+        json_number(out, "povray_seconds", outcome->povray_seconds);
+    } else {
+        fprintf(out, ", \"fault\": ");
+        json_string(out, outcome->detail);
+    }
+    fprintf(out, "}\n");
+}

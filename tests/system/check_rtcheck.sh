@@ -1,0 +1,93 @@
+#!/bin/sh
+# rtcheck's judgement, messages and exit codes, with stand-ins for POV-Ray. $RTCHECK names the program. Prints TAP.
+# SPDX-License-Identifier: MIT
+: "${RTCHECK:?}"
+work=$(mktemp -d) || exit 99
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/a folder" "$work/include" "$work/tmp" && cd "$work/a folder" || exit 99
+TMPDIR=$work/tmp
+export TMPDIR
+number=0
+
+scene='#version 3.7; global_settings { assumed_gamma 1 }
+camera { location -3*z look_at 0 } light_source { <4,5,-6> rgb 1 } sphere { 0, 1 pigment { rgb <1,.5,.2> } }'
+printf '%s\n' "$scene" > 'a scene.scn'
+printf '%s\n#include "more.inc"\n' "$scene" > includes.scn
+echo 'sphere { x, .5 pigment { rgb x } }' > "$work/include/more.inc"
+printf '%s\nnonsense\n' "$scene" > wrong.scn
+
+# stand_in NAME COMMANDS: a povray that has $output, $ours (rtlang's picture of the same scene) and $width.
+stand_in() {
+    {
+        echo '#!/bin/sh'
+        echo 'for a; do case $a in +O*) output=${a#+O?}; output=${output%?};; +W[0-9]*) width=${a#+W};; esac; done'
+        echo 'ours=${output%.povray.png}.rtlang.png'
+        echo "$2"
+    } > "$work/$1"
+    chmod +x "$work/$1"
+}
+stand_in same 'cp "$ours" "$output"'
+stand_in other 'cp "${ours%/*}/01-a scene.scn.rtlang.png" "$output"'
+stand_in fails 'echo the reason is here >&2; exit 7'
+stand_in lazy 'echo nothing to do >&2'
+stand_in here 'test -f "./a scene.scn" && for a; do echo "$a" >&2; done; exit 1'
+stand_in cut 'head -c 100 "$ours" > "$output"'
+
+# expect NAME STATUS PATTERN ARGUMENT...: runs rtcheck; its output must match the pattern of case.
+expect() {
+    name=$1 status=$2 pattern=$3
+    shift 3
+    output=$("$RTCHECK" "$@" 2>&1)
+    found=$?
+    number=$((number + 1))
+    eval "case \$output in $pattern) matches=yes;; *) matches=no;; esac"
+    if [ $found -eq "$status" ] && [ $matches = yes ]; then
+        echo "ok $number - $name"
+    else
+        echo "not ok $number - $name"
+        echo "# status $found, wanted $status; output: $output" | sed '2,$s/^/# /'
+        failed=1
+    fi
+}
+
+"$RTCHECK" -W 16 -H 8 --povray "$work/same" 'a scene.scn' > "$work/first" 2>&1
+if [ $? -eq 3 ]; then
+    echo '1..0 # SKIP pictures cannot be read here:' "$(cat "$work/first")"
+    exit 0
+fi
+
+expect 'equal pictures agree' 0 '"a scene.scn: max 0, "*" beyond 0 "*": ok"' -W 16 -H 8 --povray "$work/same" 'a scene.scn'
+expect 'different pictures do not' 1 '*"includes.scn: max "*": FAIL"' \
+    -W 16 -H 8 -I ../include --povray "$work/other" 'a scene.scn' includes.scn
+expect 'unless so many may differ' 0 '*"includes.scn: "*": ok"' \
+    -W 16 -H 8 -I ../include --ties 1/1 --povray "$work/other" 'a scene.scn' includes.scn
+expect 'or by so much' 0 '*"includes.scn: "*": ok"' \
+    -W 16 -H 8 -I ../include --threshold 1 --povray "$work/other" 'a scene.scn' includes.scn
+expect 'JSON' 0 '"{\"scene\": \"a scene.scn\", \"agrees\": true, \"max\": 0,"*"\"psnr\": null"*"}"' \
+    --json -W 16 -H 8 --povray "$work/same" 'a scene.scn'
+expect 'a fault in the scene is told' 1 '"wrong.scn: FAIL: rtlang:"*"wrong.scn:3:1"*' --povray "$work/same" wrong.scn
+expect 'a missing scene' 1 '*"nowhere.scn"*"not found"*' --povray "$work/same" nowhere.scn
+expect 'POV-Ray fails' 1 '*"povray ended with status 7:"*"the reason is here"' --povray "$work/fails" 'a scene.scn'
+expect 'POV-Ray makes nothing' 1 '*"povray made no picture:"*"nothing to do"' --povray "$work/lazy" 'a scene.scn'
+expect 'half a picture' 1 '*"cannot read "*".povray.png: "*' --povray "$work/cut" 'a scene.scn'
+expect 'no POV-Ray' 3 '"rtcheck: no program \`nosuch\` found"*' --povray nosuch 'a scene.scn'
+expect 'no scene' 2 '*"no scene given"*' --json
+expect 'a wrong number' 2 '*"--width wants"*"found \`0\`"*' --width 0 'a scene.scn'
+expect 'an unknown option' 2 '*"--nope"*' --nope 'a scene.scn'
+expect 'a missing folder' 2 '*"nowhere: No such file"*' -I nowhere 'a scene.scn'
+expect 'help' 0 '"Usage: rtcheck "*' --help
+cd / || exit 99
+expect 'POV-Ray runs in the folder of the scene, with these switches' 1 \
+    '*"+I\"./a scene.scn\""*"+FN16"*"File_Gamma=1.0"*"-D"*"-A"*"+W16"*"+H8"*"+WT1"*"+L\"$work/include\""*' \
+    -W 16 -H 8 -j 1 -I "$work/include" --povray "$work/here" "$work/a folder/a scene.scn"
+expect 'pictures are kept where asked' 0 '*": ok"' \
+    -W 16 -H 8 --keep "$work/kept" --povray "$work/same" "$work/a folder/a scene.scn"
+number=$((number + 1))
+if [ -s "$work/kept/01-a scene.scn.rtlang.png" ] && [ -z "$(ls -A "$TMPDIR")" ]; then
+    echo "ok $number - kept, and nothing else left behind"
+else
+    echo "not ok $number - kept, and nothing else left behind"
+    failed=1
+fi
+echo "1..$number"
+exit ${failed:-0}
