@@ -170,7 +170,7 @@ bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **a
         return false;
     }
     if (place.used < place.array->dimension_count) {
-        return eval_fault(ev, DIAG_E0216, node->span, "this array has %u dimensions, and only %u indices are given",
+        return eval_fault(ev, DIAG_E0216, node->span, "this array has %u dimensions and needs as many indices, not %u",
                           place.array->dimension_count, place.used);
     }
     *array = place.array;

@@ -16,6 +16,11 @@ static const char *const zeros[] = {
 static void fault_not_an_object(Eval *ev, const AstNode *item)
 {
     Value value;
+    bool belongs_to_word = ev->has_stray_word && item->kind <= AST_MEMBER;
+    ev->has_stray_word = belongs_to_word || item->kind == AST_WORD;
+    if (belongs_to_word) {
+        return; // reported with the word
+    }
     if (item->kind == AST_WORD) {
         eval_fault(ev, DIAG_E0222, item->span, "expected an object or a directive, found `%s`",
                    eval_text(ev, item->symbol));
@@ -33,8 +38,9 @@ static void place(Eval *ev, const AstNode *item)
     ArenaMark mark = arena_mark(&ev->scratch);
     if (!is_placeable) {
         fault_not_an_object(ev, item);
-    } else if (!eval_place(ev, item)) {
-        ev->faulty = true;
+    } else {
+        ev->has_stray_word = false;
+        ev->faulty = !eval_place(ev, item) || ev->faulty;
     }
     arena_rewind(&ev->scratch, mark);
 }

@@ -105,6 +105,7 @@ typedef struct Eval {
     CursorFrame *free_frames;     // for reuse, in the program arena
     uint64_t steps;
     unsigned call_depth, include_depth, expression_depth;
+    bool has_stray_word; // at the top level, reported: its values are not reported as well
     bool faulty;    // a text was not read to its end
     unsigned inner; // parentheses of any kind around the expression that is being worked out
     bool stop; // a limit is exhausted, #error was met or there are too many faults: unwind

@@ -30,6 +30,8 @@ def read_cases(path):
     for (name, program), *rest in cases:
         files = {header[5:]: text for header, text in rest if header.startswith("file ")}
         debug = [text for header, text in rest if header == "debug"]
+        if any(header == "diagnostics" and ": error[" in text for header, text in rest):
+            debug = []  # POV-Ray stops at the first fault
         yield name, program, files, debug[0].rstrip("\n") if debug else None
 
 
