@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""The same scenes given to rtlang and to POV-Ray by rtcheck: the pictures must agree in every pixel but silhouette ties.
+
+All of tests/povray/*.scn and examples/*.scn at 320x240 without anti-aliasing; a scene's line tells the greatest difference and
+how many pixels are beyond 2/65535. A scene that says nothing of gamma is compared as stored codes, which both programs then
+write as they are. Prints TAP.
+SPDX-License-Identifier: MIT
+"""
+import glob
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pictures  # noqa: E402
+
+TOP = os.environ.get("top_srcdir", ".")
+MISSING_TOOL = 3  # rtcheck's exit code when it cannot run POV-Ray or cannot read pictures
+
+
+def scenes():
+    return [scene for folder in ("tests/povray", "examples") for scene in sorted(glob.glob(f"{TOP}/{folder}/*.scn"))]
+
+
+def run_rtcheck(names, povray):
+    """Scene -> what rtcheck says of it; and its exit code and messages."""
+    folders = [f"-I{folder}" for folder in pictures.include_folders()]
+    done = subprocess.run([os.environ["RTCHECK"], f"--width={pictures.WIDTH}", f"--height={pictures.HEIGHT}", "--json",
+                           f"--threshold={pictures.CODE_BAR}/65535", f"--ties={pictures.TIE_SHARE}",
+                           f"--povray={povray}", *folders, *names],
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=1800, check=False)
+    lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
+    return {line["scene"]: line for line in lines}, done.returncode, done.stderr
+
+
+def judge(answer):
+    """(passed, words) of one scene. The bar is worked out here again, so that rtcheck cannot be too kind."""
+    if answer is None:
+        return False, "rtcheck said nothing"
+    if "fault" in answer:
+        return False, answer["fault"].replace("\n", " | ")
+    met, words = pictures.verdict(round(answer["max"]), answer["beyond"], answer["pixels"])
+    return met and answer["agrees"], words
+
+
+def judge_rtcheck(scene, answer):
+    """rtcheck's numbers against those of another reader of pictures."""
+    with tempfile.TemporaryDirectory() as folder:
+        greatest, beyond, pixels = pictures.compare_programs(scene, folder, pictures.include_folders())
+    same = answer and (greatest, beyond, pixels) == (round(answer.get("max", -1)), answer.get("beyond"),
+                                                     answer.get("pixels"))
+    return bool(same), f"{os.path.basename(scene)} by a second reader: " + pictures.verdict(greatest, beyond, pixels)[1]
+
+
+def main():
+    names, povray = scenes(), pictures.povray()
+    if not povray:
+        print("1..0 # SKIP no povray here")
+        return 0
+    answers, status, messages = run_rtcheck(names, povray)
+    if status == MISSING_TOOL:
+        print("1..0 # SKIP " + messages.strip().splitlines()[0])
+        return 0
+    results = [(os.path.relpath(name, TOP), *judge(answers.get(name))) for name in names]
+    # The scene that differs most says most about the one who measures.
+    hardest = max(names, key=lambda name: (answers.get(name) or {}).get("max", -1.0))
+    results.append(("rtcheck", *judge_rtcheck(hardest, answers.get(hardest))))
+    passed_all = all(passed for _, passed, _ in results)
+    results.append(("rtcheck's exit code", (status == 0) == passed_all, str(status)))
+    print(f"1..{len(results)}")
+    for number, (name, passed, words) in enumerate(results, 1):
+        print(f"{'ok' if passed else 'not ok'} {number} - {name}: {words}")
+    for line in messages.splitlines():
+        print("# " + line)
+    return 0 if all(passed for _, passed, _ in results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
