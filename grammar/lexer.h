@@ -57,9 +57,9 @@ typedef struct GrammarState {
 
     // Token stream.
     Token previous, current; // the last two delivered to the parser
-    Token held;              // read while skipping, to be delivered next
-    bool holds;
-    bool skips; // a fault was reported: skip before the next token
+    Token held[2];           // read while skipping, to be delivered again: the last one first
+    unsigned held_count;
+    bool skips;          // a fault was reported: skip before the next token
     bool past_directive; // the fault is a directive inside an expression: skip all of it
     ARRAY(Opener) openers;
 } GrammarState;

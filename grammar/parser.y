@@ -43,9 +43,9 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
 #define LIST(kind, symbol, at, a) LISTS(kind, NONE, symbol, at, a, EMPTY, EMPTY)
 #define ONE(node) ast_append(EMPTY, (node))
 
+// As span_join, for spans that all exist; an empty rule stands at the end of what came before.
 #define YYLLOC_DEFAULT(current, rhs, count)                                                                            \
-    ((current) = (count) > 0 ? span_join(YYRHSLOC(rhs, 1), YYRHSLOC(rhs, count))                                       \
-                             : (Span){YYRHSLOC(rhs, 0).end, YYRHSLOC(rhs, 0).end})
+    ((current) = (Span){(count) > 0 ? YYRHSLOC(rhs, 1).begin : YYRHSLOC(rhs, 0).end, YYRHSLOC(rhs, count).end})
 
 // Most texts nest a few levels; the limit is reached only after the AST's own depth limit, or by parentheses.
 #define YYMAXDEPTH 20000
@@ -59,7 +59,7 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token <number> NUMBER "a number"
 %token <symbol> STRING "a string"
 %token <symbol> NAME "a name" CONSTANT "a constant" BUILTIN "a function"
-%token <symbol> WORD "a word" COLOUR "a colour word" TEXTURE "texture" DIRECTIVE_WORD "a directive's word"
+%token <symbol> WORD "a word" COLOUR "a colour word" TEXTURE "texture" DIRECTIVE_WORD "a directive's word" DEPRECATED "deprecated"
 %token <symbol> ARRAY "array" FUNCTION "function"
 %token LESS_EQUAL "<=" GREATER_EQUAL ">=" NOT_EQUAL "!="
 %token HASH_DECLARE "#declare" HASH_LOCAL "#local" HASH_UNDEF "#undef"
@@ -73,9 +73,9 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 
 %type <node> item block layer entry array function directive declare assignment conditional message file case
 %type <node> value initialiser
-%type <node> full logic relation sum product unary postfix primary indexed vector target subject condition
-%type <list> items body block_body components arguments operands colour colour_open layers sizes rows
-%type <list> parameters names bounds targets cases else_part function_body
+%type <node> full logic relation sum indexed inline include target subject condition
+%type <list> items entry_items body block_body components arguments operands colour colour_open layers sizes rows
+%type <list> parameters names bounds written cases else_part function_body
 %type <symbol> word block_word parameter mode member reserved
 
 %printer { fprintf(yyo, "symbol %u", (unsigned)$$); } <symbol>
@@ -85,7 +85,11 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 
 // Two expressions side by side: whatever can continue the first one does, as in POV-Ray.
 %precedence JUXTAPOSED
-%precedence '(' '[' '+' '-' '<' ';' COLOUR TEXTURE
+%precedence '(' '[' '<' ';' COLOUR TEXTURE
+%left '+' '-'
+%left '*' '/'
+%precedence UNARY
+%precedence '.'
 
 %start text
 
@@ -116,14 +120,14 @@ items:
 block_body:
   %empty                            { $$ = EMPTY; }
 | items                             { $$ = $items; }
-| items ','                         { $$ = ast_end_with_comma($items); }
+| items ','                         { $$ = ast_flag_last($items, AST_BEFORE_COMMA); }
 ;
 
 body:
   block_body                        { $$ = $block_body; }
-| items ';'                         { ast_flag($items.last, AST_ENDED); $$ = $items; }
-| ',' items                         { $$ = ast_begin_with_comma($items); }
-| ',' items ','                     { $$ = ast_begin_with_comma(ast_end_with_comma($items)); }
+| items ';'                         { $$ = ast_flag_last($items, AST_ENDED); }
+| ',' items                         { $$ = ast_flag_first($items, AST_AFTER_COMMA); }
+| ',' items ','                     { $$ = ast_flag_first(ast_flag_last($items, AST_BEFORE_COMMA), AST_AFTER_COMMA); }
 ;
 
 item:
@@ -148,7 +152,17 @@ block_word: WORD | NAME;
 
 layer: TEXTURE '{' block_body '}'   { $$ = LIST(BLOCK, $TEXTURE, @$, $block_body); };
 
-entry: '[' block_body ']'           { $$ = LIST(ENTRY, SYMBOL_NONE, @$, $block_body); };
+entry:
+  '[' entry_items comma ']'         { $$ = LIST(ENTRY, SYMBOL_NONE, @$, $entry_items); }
+| '[' ']'                           { $$ = LIST(ENTRY, SYMBOL_NONE, @$, EMPTY); }
+;
+
+// As items, but after a fault the block around the entry goes on, not the entry.
+entry_items:
+  item                              { $$ = ONE($item); }
+| entry_items item                  { $$ = ast_append($1, $item); }
+| entry_items ',' item              { $$ = ast_append_after_comma($1, $item); }
+;
 
 // ---- Values: the right side of a declaration, an argument, an element.
 
@@ -160,6 +174,7 @@ value:
 | block_word '{' block_body '}'     { $$ = LIST(BLOCK, $block_word, @$, $block_body); }
 | array                             { $$ = $array; }
 | function                          { $$ = $function; }
+| inline                            { $$ = $inline; }
 ;
 
 arguments:
@@ -195,6 +210,7 @@ initialiser:
   '{' arguments comma '}'           { $$ = LIST(INITIALISER, SYMBOL_NONE, @$, $arguments); }
 | '{' rows comma '}'                { $$ = LIST(INITIALISER, SYMBOL_NONE, @$, $rows); }
 | '{' '}'                           { $$ = LIST(INITIALISER, SYMBOL_NONE, @$, EMPTY); }
+| '{' error RESYNC '}'              { $$ = LIST(INITIALISER, SYMBOL_NONE, @$, EMPTY); yyerrok; }
 ;
 
 rows:
@@ -254,11 +270,13 @@ directive:
     { $$ = LISTS(MACRO, NONE, $NAME, @$, EMPTY, $body, EMPTY); }
 | HASH_MACRO error RESYNC body HASH_END
     { $$ = LISTS(MACRO, NONE, SYMBOL_NONE, @$, EMPTY, $body, EMPTY); yyerrok; }
-| HASH_INCLUDE sum                  %prec JUXTAPOSED { $$ = NODE(INCLUDE, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| include                           { $$ = $include; }
 | HASH_DEFAULT '{' block_body '}'   { $$ = LIST(DEFAULT, SYMBOL_NONE, @$, $block_body); }
 | HASH_VERSION sum                  %prec JUXTAPOSED { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
 | HASH_VERSION sum ';'              { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
 ;
+
+include: HASH_INCLUDE sum           %prec JUXTAPOSED { $$ = NODE(INCLUDE, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); };
 
 declare:
   assignment                        %prec JUXTAPOSED { $$ = $assignment; }
@@ -267,8 +285,17 @@ declare:
 ;
 
 assignment:
-  HASH_DECLARE target '=' value     { $$ = NODE(DECLARE, DECLARE, SYMBOL_NONE, @$, $target, $value, NULL); }
-| HASH_LOCAL target '=' value       { $$ = NODE(DECLARE, LOCAL, SYMBOL_NONE, @$, $target, $value, NULL); }
+  HASH_DECLARE deprecation target '=' value
+    { $$ = NODE(DECLARE, DECLARE, SYMBOL_NONE, @$, $target, $value, NULL); }
+| HASH_LOCAL deprecation target '=' value
+    { $$ = NODE(DECLARE, LOCAL, SYMBOL_NONE, @$, $target, $value, NULL); }
+;
+
+// `deprecated "why"` warns those who use the name; rtlang does not.
+deprecation:
+  %empty
+| DEPRECATED STRING
+| DEPRECATED WORD STRING
 ;
 
 target:
@@ -349,18 +376,22 @@ message:
 file:
   HASH_FOPEN NAME sum mode          { $$ = NODE(FOPEN, NONE, $mode, @$, LEAF(NAME, $NAME, @NAME), $sum, NULL); }
 | HASH_FCLOSE NAME                  { $$ = NODE(FCLOSE, NONE, SYMBOL_NONE, @$, LEAF(NAME, $NAME, @NAME), NULL, NULL); }
-| HASH_READ '(' NAME ',' targets comma ')'
-    { $$ = LISTS(READ, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $targets, EMPTY); }
-| HASH_WRITE '(' NAME comma arguments ')'
-    { $$ = LISTS(WRITE, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $arguments, EMPTY); }
+| HASH_READ '(' NAME ',' written comma ')'
+    { $$ = LISTS(READ, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $written, EMPTY); }
+| HASH_WRITE '(' NAME comma written comma ')'
+    { $$ = LISTS(WRITE, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $written, EMPTY); }
 ;
 
 mode: WORD | DIRECTIVE_WORD;
 
-targets:
-  target                            { $$ = ONE($target); }
-| targets target                    { $$ = ast_append($1, $target); }
-| targets ',' target                { $$ = ast_append($1, $target); }
+// Values, or the places that take them, and words for the form of a number (uint8, …) before them.
+written:
+  value                             { $$ = ONE($value); }
+| WORD                              { $$ = ONE(LEAF(WORD, $WORD, @$)); }
+| written value                     { $$ = ast_append($1, $value); }
+| written ',' value                 { $$ = ast_append($1, $value); }
+| written WORD                      { $$ = ast_append($1, LEAF(WORD, $WORD, @WORD)); }
+| written ',' WORD                  { $$ = ast_append($1, LEAF(WORD, $WORD, @WORD)); }
 ;
 
 // ---- Expressions. Relations and choices stand in parentheses only, so that `<1, 2>` is always a vector.
@@ -387,42 +418,34 @@ relation:
 | relation GREATER_EQUAL sum        %prec JUXTAPOSED { $$ = BINARY(GE, @$, $1, $sum); }
 ;
 
+// One rule, by precedences: a number is one reduction away from here.
 sum:
-  product                           { $$ = $product; }
-| sum '+' product                   { $$ = BINARY(ADD, @$, $1, $product); }
-| sum '-' product                   { $$ = BINARY(SUB, @$, $1, $product); }
-;
-
-product:
-  unary                             { $$ = $unary; }
-| product '*' unary                 { $$ = BINARY(MUL, @$, $1, $unary); }
-| product '/' unary                 { $$ = BINARY(DIV, @$, $1, $unary); }
-;
-
-unary:
-  postfix                           { $$ = $postfix; }
-| '-' unary[operand]                { $$ = NODE(UNARY, NEG, SYMBOL_NONE, @$, $operand, NULL, NULL); }
-| '+' unary[operand]                { $$ = NODE(UNARY, PLUS, SYMBOL_NONE, @$, $operand, NULL, NULL); }
-| '!' unary[operand]                { $$ = NODE(UNARY, NOT, SYMBOL_NONE, @$, $operand, NULL, NULL); }
-;
-
-postfix:
-  primary                           { $$ = $primary; }
-| postfix '.' member                { $$ = NODE(MEMBER, NONE, $member, @$, $1, NULL, NULL); }
-;
-
-primary:
   NUMBER                            { $$ = ast_number(&state->builder, $NUMBER, @$); }
 | STRING                            { $$ = LEAF(STRING, $STRING, @$); }
 | NAME                              %prec JUXTAPOSED { $$ = LEAF(NAME, $NAME, @$); }
 | CONSTANT                          { $$ = LEAF(CONSTANT, $CONSTANT, @$); }
 | indexed                           %prec JUXTAPOSED { $$ = $indexed; }
-| vector                            { $$ = $vector; }
-| '(' full ')'                      { $$ = $full; }
+| '<' components comma '>'          { $$ = LIST(VECTOR, SYMBOL_NONE, @$, $components); }
+| '(' full ')'                      { $$ = ast_flag($full, AST_IN_PARENTHESES); }
+| '(' inline ')'                    { $$ = ast_flag($inline, AST_IN_PARENTHESES); }
 | NAME '(' arguments comma ')'      { $$ = LIST(CALL, $NAME, @$, $arguments); }
 | NAME '(' ')'                      { $$ = LIST(CALL, $NAME, @$, EMPTY); }
 | BUILTIN '(' operands ')'          { $$ = LIST(BUILTIN, $BUILTIN, @$, $operands); }
 | BUILTIN '(' ')'                   { $$ = LIST(BUILTIN, $BUILTIN, @$, EMPTY); }
+| sum '.' member                    { $$ = NODE(MEMBER, NONE, $member, @$, $1, NULL, NULL); }
+| '-' sum[operand]                  %prec UNARY { $$ = NODE(UNARY, NEG, SYMBOL_NONE, @$, $operand, NULL, NULL); }
+| '+' sum[operand]                  %prec UNARY { $$ = NODE(UNARY, PLUS, SYMBOL_NONE, @$, $operand, NULL, NULL); }
+| '!' sum[operand]                  %prec UNARY { $$ = NODE(UNARY, NOT, SYMBOL_NONE, @$, $operand, NULL, NULL); }
+| sum '*' sum                       { $$ = BINARY(MUL, @$, $1, $3); }
+| sum '/' sum                       { $$ = BINARY(DIV, @$, $1, $3); }
+| sum '+' sum                       { $$ = BINARY(ADD, @$, $1, $3); }
+| sum '-' sum                       { $$ = BINARY(SUB, @$, $1, $3); }
+;
+
+// A directive in the place of a value: what its chosen branch or its file holds.
+inline:
+  conditional                       { $$ = NODE(INLINE, NONE, SYMBOL_NONE, @$, $conditional, NULL, NULL); }
+| include                           { $$ = NODE(INLINE, NONE, SYMBOL_NONE, @$, $include, NULL, NULL); }
 ;
 
 // The parentheses of a function of one number are parentheses: `abs(a < b)`.
@@ -437,17 +460,19 @@ indexed:
 | indexed '[' sum ']'               { $$ = NODE(INDEX, NONE, SYMBOL_NONE, @$, $1, $sum, NULL); }
 ;
 
-vector: '<' components comma '>'    { $$ = LIST(VECTOR, SYMBOL_NONE, @$, $components); };
-
 components:
   sum                               %prec JUXTAPOSED { $$ = ONE($sum); }
+| inline                            { $$ = ONE($inline); }
 | components sum                    %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
 | components ',' sum                %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
+| components inline                 { $$ = ast_append($1, $inline); }
+| components ',' inline             { $$ = ast_append($1, $inline); }
 ;
 
 member: NAME | reserved;
 
-reserved: CONSTANT | BUILTIN | WORD | COLOUR | TEXTURE | ARRAY | FUNCTION | DIRECTIVE_WORD;
+reserved:
+  CONSTANT | BUILTIN | WORD | COLOUR | TEXTURE | ARRAY | FUNCTION | DIRECTIVE_WORD | DEPRECATED;
 %%
 
 static void grammar_yyerror(Span *at, GrammarState *state, const char *message)

@@ -65,7 +65,7 @@ int grammar_word_token(Symbol symbol)
         [WORD_TEXTURE] = TOKEN_TEXTURE,    [WORD_ARRAY] = TOKEN_ARRAY,        [WORD_FUNCTION] = TOKEN_FUNCTION,
         [WORD_BUILTIN] = TOKEN_BUILTIN,    [WORD_CONSTANT] = TOKEN_CONSTANT,  [WORD_DIRECTIVE] = TOKEN_DIRECTIVE_WORD,
     };
-    return tokens[word_class(symbol)];
+    return symbol == W_deprecated ? TOKEN_DEPRECATED : tokens[word_class(symbol)];
 }
 
 static const Directive *find_directive(int token)
@@ -129,7 +129,10 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
     if (state->context->diags->count > kept) {
         diag_suggest(state->context->diags, "did you mean `#%s`?", suggest.best);
     }
-    return grammar_directive_token(state, suggest.best, strlen(suggest.best), span);
+    int meant = grammar_directive_token(state, suggest.best, strlen(suggest.best), span);
+    DirectiveRole role = role_of(meant);
+    bool belongs = role == ROLE_SIMPLE || role == ROLE_OPENS || state->openers.count > 0;
+    return belongs ? meant : TOKEN_INVALID;
 }
 
 // ---- What is open.
@@ -279,7 +282,7 @@ typedef enum ExpectedClass {
     EXPECT_OPERATOR, // continues one
     EXPECT_RELATION, // inside parentheses, else a vector's brackets
     EXPECT_WORD,     // starts a block, a colour, an array, a function
-    EXPECT_ITEM,     // a directive: here an item can start
+    EXPECT_ITEM,     // a directive that is no value: here an item can start
     EXPECT_NOTHING,  // never named
 } ExpectedClass;
 
@@ -297,9 +300,11 @@ static ExpectedClass expected_class(const char *name)
         {"'<'", EXPECT_RELATION},   {"'>'", EXPECT_RELATION},    {"'='", EXPECT_RELATION},
         {"<=", EXPECT_OPERATOR},    {">=", EXPECT_OPERATOR},     {"!=", EXPECT_OPERATOR},
         {"a word", EXPECT_WORD},    {"a colour word", EXPECT_WORD}, {"texture", EXPECT_WORD},
-        {"array", EXPECT_WORD},     {"function", EXPECT_WORD},   {"#if", EXPECT_ITEM},
+        {"array", EXPECT_WORD},     {"function", EXPECT_WORD},   {"#declare", EXPECT_ITEM},
+        {"#if", EXPECT_NOTHING},    {"#ifdef", EXPECT_NOTHING},  {"#ifndef", EXPECT_NOTHING},
+        {"#switch", EXPECT_NOTHING}, {"#include", EXPECT_NOTHING},
         {"an unreadable token", EXPECT_NOTHING},                 {"the next item", EXPECT_NOTHING},
-        {"a directive's word", EXPECT_NOTHING},
+        {"a directive's word", EXPECT_NOTHING},                {"deprecated", EXPECT_NOTHING},
     };
     for (size_t i = 0; i < RT_COUNT_OF(classes); i++) {
         if (strcmp(name, classes[i].name) == 0) {
@@ -381,6 +386,7 @@ static bool is_reserved_word(int token)
     case TOKEN_ARRAY:
     case TOKEN_FUNCTION:
     case TOKEN_DIRECTIVE_WORD:
+    case TOKEN_DEPRECATED:
         return true;
     default:
         return false;
@@ -458,7 +464,7 @@ static bool report_split(GrammarState *state)
         return false;
     }
     const Opener *outer = outer_opener(state, ends_branch);
-    if (outer == NULL || (!ends_branch && outer->kind != '{')) {
+    if (outer == NULL || (ends_branch ? opener->kind : outer->kind) != '{') {
         return false;
     }
     TextBuffer found, inner;
@@ -555,14 +561,26 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
 
 // ---- Delivery, and going on after a fault.
 
+// Old scenes write `declare` and `default` without `#`; POV-Ray warns and goes on, and so do we.
+static void supply_hash(GrammarState *state, Token *token, int before)
+{
+    if ((token->symbol == W_declare || token->symbol == W_default) && before != '.') {
+        const char *word = intern_get(state->context->names, token->symbol);
+        diag_report(state->context->diags, DIAG_W0101, token->span, "`%s` should have a `#` before it", word);
+        token->kind = grammar_directive_token(state, word, strlen(word), token->span);
+    }
+}
+
 static void next_token(GrammarState *state, Token *token)
 {
-    if (state->holds) {
-        *token = state->held;
-        state->holds = false;
+    if (state->held_count > 0) {
+        *token = state->held[--state->held_count];
     } else if (!state->ended && !state->builder.failed) {
-        state->file_name = state->current.kind == TOKEN_HASH_INCLUDE;
-        grammar_scan(token, state->scanner);
+        int before = state->current.kind;
+        state->file_name = before == TOKEN_HASH_INCLUDE;
+        if (grammar_scan(token, state->scanner) == TOKEN_DIRECTIVE_WORD) {
+            supply_hash(state, token, before);
+        }
     }
     if (RT_UNLIKELY(state->ended || state->builder.failed)) {
         *token = (Token){.kind = TOKEN_END_OF_FILE, .span = {state->offset, state->offset}};
@@ -571,17 +589,19 @@ static void next_token(GrammarState *state, Token *token)
 
 static void hold_token(GrammarState *state, Token token)
 {
-    state->held = token;
-    state->holds = true;
+    state->held[state->held_count++] = token; // the last one held is the first to be delivered
 }
 
 // In the parentheses after a directive: to their end, or to what cannot stand in them.
 static void skip_header(GrammarState *state, size_t level, Token token)
 {
-    for (;;) {
+    for (Token last = {0};; last = token, next_token(state, &token)) {
         if (token.kind == TOKEN_END_OF_FILE || token.kind == '{' || token.kind == '}' || token.kind == ';' ||
             is_directive(token.kind)) {
             hold_token(state, token);
+            if (token.kind == '{' && (is_reserved_word(last.kind) || last.kind == TOKEN_NAME)) {
+                hold_token(state, last); // the block is whole
+            }
             state->openers.count = level;
             state->openers.items[level - 1].header_done = true;
             return;
@@ -590,39 +610,50 @@ static void skip_header(GrammarState *state, size_t level, Token token)
         if (state->openers.count == level && state->openers.items[level - 1].header_done) {
             return;
         }
-        next_token(state, &token);
     }
 }
 
-// Among items: to the `}` that ends the block (which is left), past a `;` or a whole block, or up to a directive.
+// Whether skipping among items ends before this token, which is then delivered.
+static bool ends_skipping(const GrammarState *state, size_t level, const Token *token)
+{
+    DirectiveRole role = role_of(token->kind);
+    const Opener *openers = state->openers.items;
+    size_t count = state->openers.count;
+    if (token->kind == TOKEN_END_OF_FILE) {
+        return true;
+    }
+    if (count <= level) {
+        return role != ROLE_NONE || (token->kind == '}' && level > 0 && openers[level - 1].kind == '{');
+    }
+    // An open brace among what is skipped does not outlive the branch that it stands in.
+    bool ends_branch = role == ROLE_MIDDLE || role == ROLE_ELSE || role == ROLE_END;
+    return ends_branch && level > 0 && is_directive(openers[level - 1].kind) && !is_directive(openers[count - 1].kind);
+}
+
+// Among items: to the `}` that ends the block, up to a directive, or past a `;` or a whole block.
 static void skip_items(GrammarState *state, size_t level, Token token)
 {
+    bool was_among_items = state->openers.count == level;
     state->openers.count = level;
-    bool in_block = level > 0 && state->openers.items[level - 1].kind == '{';
-    bool refused = true; // the token is the one at fault
-    for (;; refused = false) {
-        if (token.kind == TOKEN_END_OF_FILE) {
-            hold_token(state, token);
-            return;
-        }
-        if (state->openers.count <= level) {
-            DirectiveRole role = role_of(token.kind);
-            bool stray = refused && role != ROLE_SIMPLE && role != ROLE_OPENS;
-            bool passed = refused && state->past_directive;
-            if (token.kind == ';' || (token.kind == '}' && !in_block) || (role != ROLE_NONE && stray)) {
-                return;
-            }
-            if (token.kind == '}' || (role != ROLE_NONE && !passed)) {
-                hold_token(state, token);
-                return;
-            }
-        }
+    DirectiveRole role = role_of(token.kind);
+    bool inside_value = state->past_directive;
+    unsigned semicolons = inside_value && role == ROLE_SIMPLE ? 2 : 1;
+    if (was_among_items && role != ROLE_NONE && !inside_value && role != ROLE_SIMPLE && role != ROLE_OPENS) {
+        return; // it belongs to nothing
+    }
+    bool passes = inside_value;
+    while (passes || !ends_skipping(state, level, &token)) {
+        passes = false;
+        bool among_items = state->openers.count <= level;
         track(state, &token);
-        if (token.kind == '}' && state->openers.count == level) {
+        if ((token.kind == ';' && among_items && --semicolons == 0) ||
+            (token.kind == '}' && state->openers.count <= level)) {
             return;
         }
         next_token(state, &token);
     }
+    state->openers.count = level;
+    hold_token(state, token);
 }
 
 static void skip(GrammarState *state)

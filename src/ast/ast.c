@@ -116,18 +116,18 @@ AstList ast_append_after_comma(AstList list, AstNode *node)
     return ast_append(list, ast_flag(node, AST_AFTER_COMMA));
 }
 
-AstList ast_begin_with_comma(AstList list)
+AstList ast_flag_first(AstList list, unsigned flags)
 {
     if (list.first != NULL) {
-        list.first->flags |= AST_AFTER_COMMA;
+        ast_flag(list.first, flags);
     }
     return list;
 }
 
-AstList ast_end_with_comma(AstList list)
+AstList ast_flag_last(AstList list, unsigned flags)
 {
     if (list.last != NULL) {
-        list.last->flags |= AST_BEFORE_COMMA;
+        ast_flag(list.last, flags);
     }
     return list;
 }

@@ -36,6 +36,7 @@ enum {
     AST_AFTER_COMMA = 1,  // an item with a comma before it
     AST_BEFORE_COMMA = 2, // the last item of a body, with a comma after it
     AST_ENDED = 4,        // with its `;`: a #declare, or the last item of a body; ast_equal does not look at it
+    AST_IN_PARENTHESES = 8, // an expression with its own parentheses: a macro's argument, value or call may depend on them
 };
 
 typedef struct AstNode AstNode;
@@ -84,9 +85,9 @@ AstNode *ast_number(AstBuilder *builder, double number, Span span);
 AstList ast_append(AstList list, AstNode *node);
 // The same for an item with a comma before it.
 AstList ast_append_after_comma(AstList list, AstNode *node);
-// Note the comma before the first or after the last element (nothing in an empty list).
-AstList ast_begin_with_comma(AstList list);
-AstList ast_end_with_comma(AstList list);
+// Set flags of the first or the last element (of none in an empty list).
+AstList ast_flag_first(AstList list, unsigned flags);
+AstList ast_flag_last(AstList list, unsigned flags);
 // Sets flags of a node and returns it.
 AstNode *ast_flag(AstNode *node, unsigned flags);
 

@@ -1,7 +1,7 @@
 // The printable form of the AST: canonical scene text that parses to an equal tree.
 //
-// Expressions get the parentheses that precedence asks for and no others. Items that stand side by side get more where the
-// next one would otherwise continue the one before (`1 (-2)`, `(A) (2 + B)*3`). Knows syntax only.
+// Expressions get the parentheses that were written and those that precedence asks for. Items that stand side by side get
+// more where the next one would otherwise continue the one before (`1 (-2)`, `(A) (2 + B)*3`). Knows syntax only.
 //
 // SPDX-License-Identifier: MIT
 #include "ast/ast.h"
@@ -18,10 +18,12 @@ enum {
 typedef struct Printer {
     const InternTable *names;
     TextBuffer *out;
+    int indent; // of the item being printed, for directives inside expressions
 } Printer;
 
 static void print_items(Printer *printer, const AstNode *items, int indent);
 static void print_value(Printer *printer, const AstNode *node, int indent);
+static void print_directive(Printer *printer, const AstNode *node, int indent);
 
 static const unsigned char op_precedences[AST_OP_COUNT] = {
 #define AST_OP(op, spelling, precedence) [AST_OP_##op] = precedence,
@@ -87,14 +89,22 @@ static void print_string(Printer *printer, Symbol symbol)
     text_append_char(printer->out, '"');
 }
 
+// Parentheses that were written are kept: to a macro they make a difference. A directive without them would be an item.
+static bool needs_closing(const AstNode *node, int precedence)
+{
+    return (node->flags & AST_IN_PARENTHESES) || node->kind == AST_INLINE || precedence_of(node) < precedence;
+}
+
 // At least as binding as `precedence`, or in parentheses.
 static void print_operand(Printer *printer, const AstNode *node, int precedence);
 
 static void print_list(Printer *printer, const AstNode *list, int indent)
 {
+    const char *separator = "";
     for (const AstNode *node = list; node != NULL; node = node->next) {
-        put(printer, node == list ? "" : ", ");
+        put(printer, separator);
         print_value(printer, node, indent);
+        separator = node->kind == AST_WORD ? " " : ", ";
     }
 }
 
@@ -147,17 +157,20 @@ static void print_expression(Printer *printer, const AstNode *node)
         break;
     case AST_VECTOR:
         put(printer, "<");
-        print_list(printer, node->a, 0);
+        print_list(printer, node->a, printer->indent);
         put(printer, ">");
         break;
     case AST_CALL:
         put_symbol(printer, node->symbol);
         put(printer, "(");
-        print_list(printer, node->a, 0);
+        print_list(printer, node->a, printer->indent);
         put(printer, ")");
         break;
     case AST_BUILTIN:
         print_builtin(printer, node);
+        break;
+    case AST_INLINE:
+        print_directive(printer, node->a, printer->indent);
         break;
     case AST_INDEX:
         print_operand(printer, node->a, PRECEDENCE_POSTFIX);
@@ -178,7 +191,7 @@ static void print_expression(Printer *printer, const AstNode *node)
 
 static void print_operand(Printer *printer, const AstNode *node, int precedence)
 {
-    bool closed = precedence_of(node) < precedence;
+    bool closed = needs_closing(node, precedence);
     put(printer, closed ? "(" : "");
     print_expression(printer, node);
     put(printer, closed ? ")" : "");
@@ -186,7 +199,7 @@ static void print_operand(Printer *printer, const AstNode *node, int precedence)
 
 void ast_print_expression(const AstNode *node, const InternTable *names, TextBuffer *out)
 {
-    print_operand(&(Printer){names, out}, node, PRECEDENCE_SUM);
+    print_operand(&(Printer){.names = names, .out = out}, node, PRECEDENCE_SUM);
 }
 
 // ---- Expressions side by side.
@@ -198,16 +211,16 @@ static bool follows_bare(const AstNode *node)
 
 static bool begins_with_sign(const AstNode *node)
 {
-    while (node->kind == AST_BINARY && precedence_of(node) >= PRECEDENCE_SUM &&
-           precedence_of(node->a) >= precedence_of(node)) {
+    while (node->kind == AST_BINARY && !needs_closing(node, PRECEDENCE_SUM) &&
+           !needs_closing(node->a, precedence_of(node))) {
         node = node->a;
     }
-    return node->kind == AST_UNARY && node->op != AST_OP_NOT;
+    return node->kind == AST_UNARY && node->op != AST_OP_NOT && !needs_closing(node, PRECEDENCE_SUM);
 }
 
 static bool begins_with_parenthesis(const AstNode *node)
 {
-    if (precedence_of(node) < PRECEDENCE_SUM) {
+    if (needs_closing(node, PRECEDENCE_SUM)) {
         return true;
     }
     const AstNode *first = node;
@@ -217,7 +230,7 @@ static bool begins_with_parenthesis(const AstNode *node)
             return false;
         }
         int wanted = first->kind == AST_BINARY ? precedence_of(first) : PRECEDENCE_POSTFIX;
-        if (precedence_of(operand) < wanted || (first->kind == AST_MEMBER && operand->kind == AST_NUMBER)) {
+        if (needs_closing(operand, wanted) || (first->kind == AST_MEMBER && operand->kind == AST_NUMBER)) {
             return true;
         }
         first = operand;
@@ -228,18 +241,21 @@ static bool begins_with_parenthesis(const AstNode *node)
 static bool ends_with_name(const AstNode *node)
 {
     for (;;) {
+        if (needs_closing(node, PRECEDENCE_SUM)) {
+            return false;
+        }
         switch (node->kind) {
         case AST_NAME:
         case AST_INDEX:
             return true;
         case AST_BINARY:
-            if (precedence_of(node) < PRECEDENCE_SUM || precedence_of(node->b) <= precedence_of(node)) {
+            if (needs_closing(node->b, precedence_of(node) + 1)) {
                 return false;
             }
             node = node->b;
             break;
         case AST_UNARY:
-            if (precedence_of(node->a) < PRECEDENCE_UNARY) {
+            if (needs_closing(node->a, PRECEDENCE_UNARY)) {
                 return false;
             }
             node = node->a;
@@ -587,6 +603,7 @@ static void print_item(Printer *printer, const AstNode *node, Neighbours *neighb
 static void print_items(Printer *printer, const AstNode *items, int indent)
 {
     Neighbours neighbours = {0};
+    printer->indent = indent;
     for (const AstNode *node = items; node != NULL; node = node->next) {
         const AstNode *previous = neighbours.previous;
         bool same_line = previous != NULL && is_expression(node) && is_operand_of_line(previous);
@@ -602,11 +619,12 @@ static void print_items(Printer *printer, const AstNode *items, int indent)
         neighbours.previous = node;
     }
     put(printer, items != NULL ? "\n" : "");
+    printer->indent = indent - 1;
 }
 
 void ast_print(const AstNode *item, const InternTable *names, int indent, TextBuffer *out)
 {
     AstNode alone = *item;
     alone.next = NULL;
-    print_items(&(Printer){names, out}, &alone, indent);
+    print_items(&(Printer){.names = names, .out = out}, &alone, indent);
 }
