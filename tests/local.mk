@@ -26,8 +26,9 @@ unit_programs = \
   tests/unit/test_base_arena tests/unit/test_base_diag tests/unit/test_base_intern tests/unit/test_base_source \
   tests/unit/test_base_suggest tests/unit/test_base_text tests/unit/test_math tests/unit/test_trace_sphere \
   tests/unit/test_trace_geometry tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
-  tests/unit/test_grammar tests/unit/test_image tests/unit/test_render tests/lang/run_lang
-check_PROGRAMS += $(unit_programs)
+  tests/unit/test_grammar tests/unit/test_image tests/unit/test_image_values \
+  tests/unit/test_render
+check_PROGRAMS += $(unit_programs) tests/lang/run_lang
 
 unit_headers = %D%/unit/tap.h %D%/unit/random.h
 tests_unit_test_base_arena_SOURCES = %D%/unit/test_base_arena.c $(unit_headers)
@@ -59,6 +60,9 @@ tests_unit_test_grammar_LDADD = $(UNIT_GRAMMAR)
 tests_unit_test_image_SOURCES = %D%/unit/test_image.c
 tests_unit_test_image_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
+tests_unit_test_image_values_SOURCES = %D%/unit/test_image_values.c
+tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
+tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
@@ -69,9 +73,9 @@ tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
 tests_fuzz_fuzz_scene_LDADD = libapi.la
 
 test_scripts = \
-  %D%/fuzz/replay.sh \
+  %D%/fuzz/replay.sh %D%/lang/check_cases.sh \
   %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.sh %D%/check-docs.py \
-  %D%/golden/check_golden.py %D%/system/run_system.sh %D%/povray/check_pictures.py %D%/povray/check_lang.py \
+  %D%/golden/check_golden.py %D%/system/run_system.sh %D%/system/check_rtcheck.sh %D%/povray/check_pictures.py %D%/povray/check_lang.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py
 
 TESTS += $(unit_programs) $(test_scripts)

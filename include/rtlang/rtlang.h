@@ -96,7 +96,13 @@ RT_API rt_status rt_render(rt_session *session, int threads);
 RT_API void rt_cancel(rt_session *session);
 
 /* How the picture is written. */
-typedef enum rt_depth { RT_DEPTH_8 = 8, RT_DEPTH_16 = 16, RT_DEPTH_FLOAT = 32 } rt_depth;
+typedef enum rt_depth {
+    RT_DEPTH_AUTO = 0, /* what suits the format: float for EXR and HDR, else 8 */
+    RT_DEPTH_8 = 8,
+    RT_DEPTH_16 = 16,
+    RT_DEPTH_FLOAT = 32
+} rt_depth;
+
 typedef struct rt_output {
     rt_depth depth;
     double file_gamma; /* 0: sRGB; otherwise the power, 1 writes linear values */

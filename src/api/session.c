@@ -316,12 +316,16 @@ static rt_status image_fault(rt_session *session, ImageStatus status, const char
 
 static bool is_output(const rt_output *output)
 {
-    return (output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 || output->depth == RT_DEPTH_FLOAT) &&
+    return (output->depth == RT_DEPTH_AUTO || output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 ||
+            output->depth == RT_DEPTH_FLOAT) &&
            output->file_gamma >= 0.0 && isfinite(output->file_gamma);
 }
 
-static ImageDepth output_depth(const rt_output *output)
+static ImageDepth output_depth(const rt_output *output, const char *path)
 {
+    if (output->depth == RT_DEPTH_AUTO) {
+        return image_path_depth(path);
+    }
     return output->depth == RT_DEPTH_8 ? IMAGE_DEPTH_8 : output->depth == RT_DEPTH_16 ? IMAGE_DEPTH_16 : IMAGE_DEPTH_FLOAT;
 }
 
@@ -330,7 +334,7 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
     ImageError error = {""};
     if (!is_output(output))
         return RT_FAULT_USAGE;
-    return image_fault(session, image_check_path(path, output_depth(output), &error), path, &error);
+    return image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
 }
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
@@ -341,7 +345,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
     ImageError error = {""};
     Image image = {session->film.width, session->film.height, 3, session->film.rgb};
     ImageEncoding encoding = {
-        .depth = output_depth(output),
+        .depth = output_depth(output, path),
         .transfer = output->file_gamma > 0.0 ? IMAGE_TRANSFER_POWER : IMAGE_TRANSFER_SRGB,
         .gamma = output->file_gamma,
         .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,

@@ -135,7 +135,7 @@ static const OptionRow rows[] = {
     {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
-    {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default 8; float for EXR and HDR)"},
+    {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
     {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
@@ -238,7 +238,7 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
 
 OptionsResult options_parse(int argc, char **argv, Options *options)
 {
-    *options = (Options){.width = 320, .height = 240, .encoding = {RT_DEPTH_8, 0.0}};
+    *options = (Options){.width = 320, .height = 240, .encoding = {RT_DEPTH_AUTO, 0.0}};
     // No more paths and declarations than arguments.
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);

@@ -1,6 +1,7 @@
 // Arrays: making them, with or without their elements, and finding and setting an element.
 //
-// Elements stand in one block, the last index running fastest; an element may be an array itself. Knows nothing of names.
+// Elements stand in one block, the last index running fastest; an element may be an array itself. Knows nothing of
+// names.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -88,8 +88,8 @@ static bool inverse_sine(Eval *ev, const AstNode *node, Value *value)
         return false;
     }
     if (fabs(a) > 1.0) {
-        eval_warn(ev, DIAG_W0302, node->span, "`%s` is asked for %g, and answers for %g", eval_text(ev, node->symbol), a,
-                  copysign(1.0, a));
+        eval_warn(ev, DIAG_W0302, node->span, "`%s` is asked for %g, and answers for %g", eval_text(ev, node->symbol),
+                  a, copysign(1.0, a));
         a = copysign(1.0, a);
     }
     return give_number(value, node->symbol == W_asin ? asin(a) : acos(a));

@@ -1,7 +1,7 @@
 // Directives: what each one does when the walk through a block, or through the top level, comes to it.
 //
-// One function for each kind of directive, in a table. Branches and loops are frames pushed on the cursor. Knows nothing
-// of kinds of blocks.
+// One function for each kind of directive, in a table. Branches and loops are frames pushed on the cursor. Knows
+// nothing of kinds of blocks.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -28,10 +28,12 @@ static void check_end(Eval *ev, const AstNode *node, const Value *value)
 // After a fault the name is kept without a value, so that its uses are not reported as well.
 static void forget_value(Eval *ev, const AstNode *target, bool local)
 {
-    const Value *known = target->kind == AST_NAME ? scope_find(ev, target->symbol) : NULL;
-    bool can_change = target->kind == AST_NAME && (known == NULL || known->kind != VALUE_MACRO);
-    if (can_change && !scope_declare(ev, target->symbol, local, &(Value){.kind = VALUE_NONE}, target->span)) {
-        return; // out of memory, or an element of another type: reported there
+    const Value *known = scope_find(ev, target->symbol);
+    bool is_free = target->kind == AST_NAME && (known == NULL || known->kind != VALUE_MACRO) &&
+                   scope_array(ev, target->symbol) == NULL;
+    ev->faulty = true;
+    if (is_free && !scope_declare(ev, target->symbol, local, &(Value){.kind = VALUE_NONE}, target->span)) {
+        ev->stop = true; // no memory even for that
     }
 }
 
@@ -55,9 +57,7 @@ static void run_declare(Cursor *cursor, const AstNode *node)
         return;
     }
     check_end(ev, node, &value);
-    if (!assign(ev, node, &value)) {
-        return; // reported; the old value stays
-    }
+    ev->faulty = !assign(ev, node, &value) || ev->faulty;
 }
 
 static void run_undef(Cursor *cursor, const AstNode *node)
@@ -84,9 +84,8 @@ static void run_macro(Cursor *cursor, const AstNode *node)
 
 static void run_default(Cursor *cursor, const AstNode *node)
 {
-    if (!eval_default(cursor->ev, node)) {
-        return; // reported; the defaults stay as they were
-    }
+    Eval *ev = cursor->ev;
+    ev->faulty = !eval_default(ev, node) || ev->faulty;
 }
 
 static void run_version(Cursor *cursor, const AstNode *node)
@@ -100,7 +99,8 @@ static void run_version(Cursor *cursor, const AstNode *node)
         return;
     }
     if (!(version <= 3.7 || numbers_equal(version, 3.7))) {
-        eval_fault(ev, DIAG_E0212, node->a->span, "the scene asks for version %g of the language; this is 3.7", version);
+        eval_fault(ev, DIAG_E0212, node->a->span, "the scene asks for version %g of the language; this is 3.7",
+                   version);
         return;
     }
     ev->version = version;
@@ -111,9 +111,8 @@ static void run_version(Cursor *cursor, const AstNode *node)
 
 static void push_branch(Cursor *cursor, const AstNode *items)
 {
-    // Without memory the cursor stops, see cursor_push.
-    if (items != NULL && cursor_push(cursor, FRAME_ITEMS, items, NULL) == NULL) {
-        return;
+    if (items != NULL) {
+        cursor_push(cursor, FRAME_ITEMS, items, NULL);
     }
 }
 
@@ -198,9 +197,7 @@ static void run_while(Cursor *cursor, const AstNode *node)
 {
     bool holds;
     if (eval_condition(cursor->ev, node->a, &holds) && holds && eval_step(cursor->ev, node->span)) {
-        if (cursor_push(cursor, FRAME_WHILE, node->b, node) == NULL) {
-            return;
-        }
+        cursor_push(cursor, FRAME_WHILE, node->b, node);
     }
 }
 

@@ -8,6 +8,9 @@
 
 #include "eval/internal.h"
 
+// Levels of native recursion for each level that a text may nest: room for calls within calls.
+enum { DEEPENING_PER_AST_LEVEL = 6 };
+
 // Identifiers that POV-Ray declares; a scene may change them. There is no animation, so its variables are zero.
 static const char *const zeros[] = {
     "clock_delta", "initial_clock", "final_clock", "initial_frame", "final_frame", "frame_number",
@@ -119,6 +122,7 @@ static bool declare_all(Eval *ev, const Source *source)
 static void init(Eval *ev, const EvalOptions *options, Scene *scene)
 {
     *ev = (Eval){.options = *options, .scene = scene, .version = 3.7, .inner = 1};
+    ev->expression_depth_limit = options->limits->ast_depth * DEEPENING_PER_AST_LEVEL;
     arena_init(&ev->parse, options->limits->arena_bytes);
     arena_init(&ev->program, options->limits->arena_bytes);
     arena_init(&ev->scratch, options->limits->arena_bytes);

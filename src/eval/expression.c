@@ -34,6 +34,10 @@ static void set_number(Value *value, double number)
 bool eval_number(Eval *ev, const AstNode *node, double *number)
 {
     Value value;
+    if (node->kind == AST_NUMBER) {
+        *number = node->number;
+        return true;
+    }
     return eval_expression(ev, node, &value) && value_number(ev, &value, node->span, number);
 }
 
@@ -63,13 +67,6 @@ bool eval_condition(Eval *ev, const AstNode *node, bool *holds)
 }
 
 // ---- leaves
-
-static bool eval_literal(Eval *ev, const AstNode *node, Value *value)
-{
-    (void)ev;
-    set_number(value, node->number);
-    return true;
-}
 
 static bool eval_text_literal(Eval *ev, const AstNode *node, Value *value)
 {
@@ -418,12 +415,12 @@ static bool eval_member(Eval *ev, const AstNode *node, Value *value)
 
 typedef bool (*EvalFn)(Eval *ev, const AstNode *node, Value *value);
 
+// All kinds of expressions but numbers, which need no call.
 static const EvalFn evaluators[AST_KIND_COUNT] = {
-    [AST_NUMBER] = eval_literal,     [AST_STRING] = eval_text_literal, [AST_NAME] = eval_name,
-    [AST_CONSTANT] = builtin_constant, [AST_UNARY] = eval_unary,       [AST_BINARY] = eval_binary,
-    [AST_CONDITIONAL] = eval_conditional, [AST_VECTOR] = eval_vector,  [AST_CALL] = eval_call,
-    [AST_BUILTIN] = builtin_call,    [AST_INDEX] = eval_element,       [AST_MEMBER] = eval_member,
-    [AST_INLINE] = eval_inline,
+    [AST_STRING] = eval_text_literal, [AST_NAME] = eval_name,     [AST_CONSTANT] = builtin_constant,
+    [AST_UNARY] = eval_unary,         [AST_BINARY] = eval_binary, [AST_CONDITIONAL] = eval_conditional,
+    [AST_VECTOR] = eval_vector,       [AST_CALL] = eval_call,     [AST_BUILTIN] = builtin_call,
+    [AST_INDEX] = eval_element,       [AST_MEMBER] = eval_member, [AST_INLINE] = eval_inline,
 };
 
 static bool fault_no_expression(Eval *ev, const AstNode *node)
@@ -440,6 +437,10 @@ static bool fault_no_expression(Eval *ev, const AstNode *node)
 
 bool eval_expression(Eval *ev, const AstNode *node, Value *value)
 {
+    if (node->kind == AST_NUMBER) {
+        set_number(value, node->number);
+        return true;
+    }
     EvalFn evaluate = evaluators[node->kind];
     if (RT_UNLIKELY(evaluate == NULL)) {
         return fault_no_expression(ev, node);

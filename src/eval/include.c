@@ -124,7 +124,8 @@ static bool suggest_own_folder(Eval *ev, Search *search, Span span)
         char *folder = arena_copy_text(&ev->scratch, location.name, (size_t)(slash - location.name));
         is_there = folder != NULL && exists(&search->path, folder, search->name, "");
         if (is_there) {
-            diag_suggest(ev->options.diags, "it stands beside this file, where nothing is searched: add `-I %s`", folder);
+            diag_suggest(ev->options.diags, "it stands beside this file, where nothing is searched: add `-I %s`",
+                         folder);
         }
     }
     return is_there;

@@ -104,11 +104,11 @@ typedef struct Eval {
     TextBuffer line;              // of #debug, not ended yet
     CursorFrame *free_frames;     // for reuse, in the program arena
     uint64_t steps;
-    unsigned call_depth, include_depth, expression_depth;
+    unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     bool has_stray_word; // at the top level, reported: its values are not reported as well
-    bool faulty;    // a text was not read to its end
-    unsigned inner; // parentheses of any kind around the expression that is being worked out
-    bool stop; // a limit is exhausted, #error was met or there are too many faults: unwind
+    bool faulty;         // something was reported, if only before
+    unsigned inner;      // parentheses of any kind around the expression that is being worked out
+    bool stop;           // a limit is exhausted, #error was met or there are too many faults: unwind
 } Eval;
 
 // Reports a fault at a span; the return value is false, so that `return eval_fault(…)` reads well. What was reported at
@@ -127,10 +127,24 @@ void eval_frame_leave(Eval *ev);
 
 // Counts a turn of a loop or a call; false, with `stop` set, when there were too many.
 bool eval_step(Eval *ev, Span span) RT_MUST_CHECK;
+// Reports that evaluation nests too deeply and sets `stop`; returns false.
+bool eval_too_deep(Eval *ev, Span span);
+
 // Count levels of native recursion, `weight` each; eval_deepen is false when there are too many, and then nothing was
 // counted.
-bool eval_deepen(Eval *ev, unsigned weight, Span span) RT_MUST_CHECK;
-void eval_shallow(Eval *ev, unsigned weight);
+RT_MUST_CHECK static inline bool eval_deepen(Eval *ev, unsigned weight, Span span)
+{
+    if (RT_UNLIKELY(ev->expression_depth + weight > ev->expression_depth_limit)) {
+        return eval_too_deep(ev, span);
+    }
+    ev->expression_depth += weight;
+    return true;
+}
+
+static inline void eval_shallow(Eval *ev, unsigned weight)
+{
+    ev->expression_depth -= weight;
+}
 
 // One top-level item. EVAL_STREAM_DEBUG and the like go to message.c.
 void eval_item(Eval *ev, const AstNode *item);
@@ -229,8 +243,8 @@ bool builtin_strlwr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 
 // ---- items of a block
 
-// Walks the items of one block. Directives are run and macro calls expanded on the way, so the user of a cursor sees only
-// words, blocks, entries and expressions (an expression that is a bare identifier included).
+// Walks the items of one block. Directives are run and macro calls expanded on the way, so the user of a cursor sees
+// only words, blocks, entries and expressions (an expression that is a bare identifier included).
 typedef struct Cursor {
     Eval *ev;
     CursorFrame *frame; // what is being walked, innermost first; NULL at the end
@@ -271,7 +285,8 @@ struct CursorFrame {
     DiagFrame diag;      // FRAME_MACRO, FRAME_INCLUDE
 };
 
-CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, const AstNode *node); // NULL: no memory
+// NULL when out of memory, which stops the evaluation.
+CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, const AstNode *node);
 void cursor_break(Cursor *cursor, const AstNode *node); // #break
 const AstNode *case_items(const AstNode *node); // of a CASE, RANGE or ELSE
 bool directive_run(Cursor *cursor, const AstNode *node); // false when the node is no directive
@@ -287,8 +302,8 @@ bool macro_enter(Eval *ev, const AstNode *call, const Macro *macro, DiagFrame *f
 void macro_leave(Eval *ev);
 // The macro that a CALL node means.
 bool macro_find(Eval *ev, const AstNode *call, const Macro **macro) RT_MUST_CHECK;
-// The value of a call. `whole`: any right-hand side will do; else an expression, which stands under the operator `parent`
-// (NULL: none) and must not fall apart there.
+// The value of a call. `whole`: any right-hand side will do; else an expression, which stands under the operator
+// `parent` (NULL: none) and must not fall apart there.
 bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value) RT_MUST_CHECK;
 // The value that a directive in the place of an expression gives.
 bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MUST_CHECK;

@@ -43,11 +43,9 @@ void macro_define(Eval *ev, const AstNode *node)
     if (is_same || node->symbol == SYMBOL_NONE || !check_parameters(ev, node)) {
         return;
     }
-    Macro *macro = copy_macro(ev, node);
-    // A macro over a value is reported there; the value stays.
-    if (macro == NULL || !scope_define_macro(ev, macro)) {
-        return;
-    }
+    const Macro *macro = copy_macro(ev, node);
+    bool is_kept = macro != NULL && scope_define_macro(ev, macro);
+    ev->faulty = ev->faulty || !is_kept;
 }
 
 // ---- calls
@@ -115,7 +113,8 @@ bool macro_enter(Eval *ev, const AstNode *call, const Macro *macro, DiagFrame *f
         return false;
     }
     if (ev->call_depth >= ev->options.limits->call_depth) {
-        eval_fault(ev, DIAG_E0604, call->span, "macro calls nest deeper than %u levels", ev->options.limits->call_depth);
+        eval_fault(ev, DIAG_E0604, call->span, "macro calls nest deeper than %u levels",
+                   ev->options.limits->call_depth);
         ev->stop = true;
         return false;
     }
@@ -157,8 +156,8 @@ static unsigned precedence(const AstNode *node)
     return node->op == AST_OP_NEG || node->op == AST_OP_PLUS ? precedences[AST_OP_MUL] : precedences[node->op];
 }
 
-// A macro stands for its text: in `M()*2` a body `5+1` would mean 5+1*2. True when text and value agree, rounding aside:
-// a*(b*c) is taken for (a*b)*c, or no recursive product could be written.
+// A macro stands for its text: in `M()*2` a body `5+1` would mean 5+1*2. True when text and value agree, rounding
+// aside: a*(b*c) is taken for (a*b)*c, or no recursive product could be written.
 static bool holds_together(const AstNode *body, const AstNode *parent, const AstNode *call)
 {
     if (parent == NULL || body->kind != AST_BINARY || (body->flags & AST_IN_PARENTHESES)) {

@@ -6,8 +6,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/internal.h"
 
-// Measured: a line of more than 80 bytes is broken before the last blank or tab at 61 to 80, which begins the next line;
-// without one, after 80 bytes.
+// Measured: a line of more than 80 bytes is broken before the last blank or tab at 61 to 80, which begins the next
+// line; without one, after 80 bytes.
 enum { LINE_BREAK_FIRST = 61, LINE_BREAK_LAST = 80 };
 
 static size_t break_at(const char *text, size_t length)

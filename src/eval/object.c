@@ -177,7 +177,7 @@ static void make_zeros_positive(Transform *transform)
 
 static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Transform *transform, MaterialIndex material)
 {
-    double radius = fabs(sphere->radius);
+    double radius = sphere->radius;
     double factor;
     uint64_t source = sphere->part.span.begin;
     Vec3 size = vec3(radius, radius, radius);
@@ -248,7 +248,8 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .inherited = part->has_material ? &part->material : outer->inherited,
     };
     if (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius == 0.0) {
-        return true; // as POV-Ray has it; told when it was read
+        eval_warn(ev, DIAG_W0348, part->span, "a sphere of radius 0 is not drawn");
+        return true;
     }
     if (kind != KIND_UNION) {
         return place_shape(ev, kind, object, &inner.outer, inner.inherited);

@@ -10,11 +10,7 @@
 
 #include "eval/internal.h"
 
-enum {
-    REPORTED_SLOTS_FIRST = 64,
-    // Levels of native recursion for each level that a text may nest: room for calls within calls.
-    DEEPENING_PER_AST_LEVEL = 6,
-};
+enum { REPORTED_SLOTS_FIRST = 64 };
 
 const char *eval_text(const Eval *ev, Symbol symbol)
 {
@@ -153,19 +149,9 @@ bool eval_step(Eval *ev, Span span)
     return false;
 }
 
-bool eval_deepen(Eval *ev, unsigned weight, Span span)
+bool eval_too_deep(Eval *ev, Span span)
 {
-    unsigned limit = ev->options.limits->ast_depth * DEEPENING_PER_AST_LEVEL;
-    if (RT_LIKELY(ev->expression_depth + weight <= limit)) {
-        ev->expression_depth += weight;
-        return true;
-    }
     eval_fault(ev, DIAG_E0606, span, "expressions, blocks and macro calls nest too deeply");
     ev->stop = true;
     return false;
-}
-
-void eval_shallow(Eval *ev, unsigned weight)
-{
-    ev->expression_depth -= weight;
 }

@@ -1,7 +1,7 @@
 // Names and what they stand for: globals, and levels of locals for each macro call and included file.
 //
-// A table indexed by Symbol holds the innermost meaning of each name, and each meaning knows the one that it hides, so a
-// look-up is one step whatever the nesting. A callee sees its caller's locals, as in POV-Ray. Owns the table and the
+// A table indexed by Symbol holds the innermost meaning of each name, and each meaning knows the one that it hides, so
+// a look-up is one step whatever the nesting. A callee sees its caller's locals, as in POV-Ray. Owns the table and the
 // locals; globals stand in the program arena. Knows nothing of syntax.
 //
 // SPDX-License-Identifier: MIT
@@ -135,8 +135,8 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
     return binding;
 }
 
-// A local of the innermost level keeps its texts and arrays beside it; whatever may outlive that level keeps them to the
-// end.
+// A local of the innermost level keeps its texts and arrays beside it; whatever may outlive that level keeps them to
+// the end.
 static Arena *arena_for(Eval *ev, const Binding *binding)
 {
     bool is_innermost = binding->level > 0 && binding->level == ev->scope->levels.count;

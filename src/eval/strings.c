@@ -1,7 +1,7 @@
 // The built-in functions of strings.
 //
-// Strings are bytes with a length, made in the scratch arena. Numbers are written and read as in C, whatever the locale.
-// Knows nothing of names.
+// Strings are bytes with a length, made in the scratch arena. Numbers are written and read as in C, whatever the
+// locale. Knows nothing of names.
 //
 // SPDX-License-Identifier: MIT
 #include <locale.h>
@@ -243,8 +243,8 @@ bool builtin_substr(Eval *ev, const AstNode *node, Value *value)
     start = trunc(start) - 1.0;
     count = trunc(count);
     if (!(start >= 0.0 && count >= 0.0 && start + count <= (double)string.length)) {
-        return eval_fault(ev, DIAG_E0304, node->span, "%g characters from number %g on are not in a string of %zu", count,
-                          start + 1.0, string.length);
+        return eval_fault(ev, DIAG_E0304, node->span, "%g characters from number %g on are not in a string of %zu",
+                          count, start + 1.0, string.length);
     }
     return give_string(ev, node, value, string.text + (size_t)start, (size_t)count);
 }

@@ -79,8 +79,8 @@ static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {
 
 static const SchemaProperty sphere_arguments[] = {
     {"centre", TYPE_VECTOR, AT(SphereBlueprint, centre), .doc = "its middle"},
-    {"radius", TYPE_NUMBER, AT(SphereBlueprint, radius), .range = {RANGE_WARN, true, 0.0, INFINITY},
-     .doc = "0: not drawn; less: as if positive"},
+    {"radius", TYPE_NUMBER, AT(SphereBlueprint, radius), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "0: not drawn"},
 };
 
 static const SphereBlueprint sphere_defaults = {.part = OBJECT_PART, .radius = 1.0};
