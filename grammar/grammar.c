@@ -1,7 +1,7 @@
 // The facade: sets up one parse and runs it.
 //
-// Turns a Source into calls of the client, one top-level item at a time, and takes the memory of each item back when the
-// client returns. Owns nothing beyond the call.
+// Turns a Source into calls of the client, one top-level item at a time, and takes the memory of each item back when
+// the client returns. Owns nothing beyond the call.
 //
 // SPDX-License-Identifier: MIT
 #include "grammar/grammar.h"

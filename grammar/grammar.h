@@ -26,9 +26,9 @@ typedef struct GrammarContext {
 // call only. Returning false stops the parse.
 typedef bool (*GrammarItemFn)(void *client, const AstNode *item);
 
-// Parses the whole source. After a syntax fault the parser resynchronises at `}`, `;` or a directive and goes on, so that
-// one run reports many faults; items that are whole are still handed over. True when no fault was found and the client
-// never returned false.
+// Parses the whole source. After a syntax fault the parser resynchronises at `}`, `;` or a directive and goes on, so
+// that one run reports many faults; items that are whole are still handed over. True when no fault was found and the
+// client never returned false.
 bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn item, void *client) RT_MUST_CHECK;
 
 // The same, but keeps all items in the arena as one list, for an #include inside a block.

@@ -1,8 +1,8 @@
 // What scanner, token stream and parser share; private to the grammar.
 //
-// One GrammarState is one parse. The scanner (lexer.l) turns text into tokens; the token stream (tokens.c) stands between
-// it and the parser: it knows the brackets and directives that are open, words the messages of syntax faults and skips
-// what cannot be understood; the facade (grammar.c) sets all up.
+// One GrammarState is one parse. The scanner (lexer.l) turns text into tokens; the token stream (tokens.c) stands
+// between it and the parser: it knows the brackets and directives that are open and skips what cannot be understood;
+// messages.c says what is wrong; the facade (grammar.c) sets all up.
 //
 // SPDX-License-Identifier: MIT
 #ifndef GRAMMAR_LEXER_H
@@ -23,6 +23,15 @@ typedef struct Token {
         double number;
     };
 } Token;
+
+typedef enum DirectiveRole {
+    ROLE_NONE,
+    ROLE_SIMPLE, // stands alone
+    ROLE_OPENS,  // wants an #end
+    ROLE_MIDDLE, // inside one that wants an #end, with parentheses of its own
+    ROLE_ELSE,
+    ROLE_END,
+} DirectiveRole;
 
 // A bracket or a directive that still wants its other end.
 typedef struct Opener {
@@ -73,9 +82,18 @@ void grammar_scan_end(GrammarState *state);
 int grammar_word_token(Symbol symbol);
 // The token of a `#word`; reports E0105 and gives the one that was probably meant, or the token INVALID.
 int grammar_directive_token(GrammarState *state, const char *word, size_t length, Span span);
-// Reports a fault at the current token; `expected` names the tokens that would do.
+bool grammar_is_directive(int token);
+DirectiveRole grammar_role(int token);
+Symbol grammar_directive_word(int token);       // of a token that is a directive
+Opener *grammar_innermost(GrammarState *state); // NULL when nothing is open
+
+// Messages: reports a fault at the current token; `expected` names the tokens that would do.
 void grammar_report_syntax(GrammarState *state, const char *const *expected, size_t count);
 void grammar_fault(GrammarState *state, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+
+// Appends a token as messages name it, for example "`rgb`" or "the end of the file".
+void grammar_describe(const GrammarState *state, const Token *token, TextBuffer *out);
+bool grammar_is_reserved(int token);
 
 // The next token into state->current, without the stack of openers: for a dump.
 void grammar_next_token(GrammarState *state);

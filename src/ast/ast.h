@@ -36,7 +36,8 @@ enum {
     AST_AFTER_COMMA = 1,  // an item with a comma before it
     AST_BEFORE_COMMA = 2, // the last item of a body, with a comma after it
     AST_ENDED = 4,        // with its `;`: a #declare, or the last item of a body; ast_equal does not look at it
-    AST_IN_PARENTHESES = 8, // an expression with its own parentheses: a macro's argument, value or call may depend on them
+    AST_IN_PARENTHESES =
+        8, // an expression with its own parentheses: a macro's argument, value or call may depend on them
 };
 
 typedef struct AstNode AstNode;
@@ -63,8 +64,9 @@ typedef struct AstList {
     uint32_t depth; // of the deepest element
 } AstList;
 
-// What the builders need. They never return NULL: when memory or depth runs out they record one diagnostic, set `failed`
-// and return the builder's dummy node, so that grammar actions need no checks; the parser stops as soon as it sees `failed`.
+// What the builders need. They never return NULL: when memory or depth runs out they record one diagnostic, set
+// `failed` and return the builder's dummy node, so that grammar actions need no checks; the parser stops as soon as it
+// sees `failed`.
 typedef struct AstBuilder {
     Arena *arena;
     DiagSink *diags;

@@ -1,7 +1,7 @@
 // The printable form of the AST: canonical scene text that parses to an equal tree.
 //
-// Expressions get the parentheses that were written and those that precedence asks for. Items that stand side by side get
-// more where the next one would otherwise continue the one before (`1 (-2)`, `(A) (2 + B)*3`). Knows syntax only.
+// Expressions get the parentheses that were written and those that precedence asks for. Items that stand side by side
+// get more where the next one would otherwise continue the one before (`1 (-2)`, `(A) (2 + B)*3`). Knows syntax only.
 //
 // SPDX-License-Identifier: MIT
 #include "ast/ast.h"
@@ -266,8 +266,8 @@ static bool ends_with_name(const AstNode *node)
     }
 }
 
-// Whether the expressions from here that end with a name must all be closed: the first other thing after them begins with
-// a bracket. `*end` is that thing.
+// Whether the expressions from here that end with a name must all be closed: the first other thing after them begins
+// with a bracket. `*end` is that thing.
 static bool run_is_closed(const AstNode *node, const AstNode **end)
 {
     for (;;) {

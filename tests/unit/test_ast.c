@@ -73,12 +73,19 @@ static void test_words(void)
         const char *text;
         WordClass class;
     } cases[] = {
-        {W_sphere, "sphere", WORD_PLAIN},   {W_rgb, "rgb", WORD_COLOUR},        {W_texture, "texture", WORD_TEXTURE},
-        {W_array, "array", WORD_ARRAY},     {W_function, "function", WORD_FUNCTION}, {W_sin, "sin", WORD_BUILTIN},
-        {W_pi, "pi", WORD_CONSTANT},        {W_declare, "declare", WORD_DIRECTIVE}, {W_x, "x", WORD_CONSTANT},
+        {W_sphere, "sphere", WORD_PLAIN},
+        {W_rgb, "rgb", WORD_COLOUR},
+        {W_texture, "texture", WORD_TEXTURE},
+        {W_array, "array", WORD_ARRAY},
+        {W_function, "function", WORD_FUNCTION},
+        {W_sin, "sin", WORD_BUILTIN},
+        {W_pi, "pi", WORD_CONSTANT},
+        {W_declare, "declare", WORD_DIRECTIVE},
+        {W_x, "x", WORD_CONSTANT},
     };
     for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
-        tap_ok(symbol(&bench, cases[i].text) == (Symbol)cases[i].word && word_class((Symbol)cases[i].word) == cases[i].class,
+        tap_ok(symbol(&bench, cases[i].text) == (Symbol)cases[i].word &&
+                   word_class((Symbol)cases[i].word) == cases[i].class,
                "%s has its symbol and class", cases[i].text);
     }
     tap_ok(word_class(symbol(&bench, "Sphere")) == WORD_IDENTIFIER, "case matters");
@@ -100,8 +107,8 @@ static void test_lists(void)
     list = ast_flag_first(ast_flag_last(list, AST_BEFORE_COMMA), AST_AFTER_COMMA);
     tap_ok(list.first->flags == AST_AFTER_COMMA && (list.last->flags & AST_BEFORE_COMMA), "commas at both ends");
     tap_ok(ast_flag_last((AstList){0}, AST_BEFORE_COMMA).first == NULL, "no comma in an empty list");
-    AstNode *block = ast_node_list(&bench.builder, AST_BLOCK, AST_OP_NONE, W_sphere, SPAN_NONE, list, (AstList){0},
-                                   (AstList){0});
+    AstNode *block =
+        ast_node_list(&bench.builder, AST_BLOCK, AST_OP_NONE, W_sphere, SPAN_NONE, list, (AstList){0}, (AstList){0});
     tap_ok(block->depth == 3 && block->count == 2 && block->a == list.first, "a node counts list a and the height");
 
     Arena other;
@@ -137,7 +144,8 @@ static void test_limits(void)
     bench_fini(&bench);
 
     bench_init(&bench, 3, 0);
-    tap_ok(number(&bench, 1) == &bench.builder.dummy && number(&bench, 1) == &bench.builder.dummy, "no memory: the dummy");
+    tap_ok(number(&bench, 1) == &bench.builder.dummy && number(&bench, 1) == &bench.builder.dummy,
+           "no memory: the dummy");
     tap_ok(bench.diags.count == 1 && bench.diags.items[0].code == DIAG_E0602, "no memory: one E0602");
     bench_fini(&bench);
 }
@@ -155,9 +163,10 @@ static void test_print(void)
     check_print(&bench, ast_node(&bench.builder, AST_MEMBER, AST_OP_NONE, W_x, SPAN_NONE, one, NULL, NULL), "(1).x\n");
     AstNode *negative = ast_node(&bench.builder, AST_UNARY, AST_OP_NEG, SYMBOL_NONE, SPAN_NONE, one, NULL, NULL);
     AstList items = ast_append(ast_append((AstList){0}, name), negative);
-    check_print(&bench,
-                ast_node_list(&bench.builder, AST_BLOCK, AST_OP_NONE, W_box, SPAN_NONE, items, (AstList){0}, (AstList){0}),
-                "box {\n  (A) (-1)\n}\n");
+    check_print(
+        &bench,
+        ast_node_list(&bench.builder, AST_BLOCK, AST_OP_NONE, W_box, SPAN_NONE, items, (AstList){0}, (AstList){0}),
+        "box {\n  (A) (-1)\n}\n");
     tap_ok(strcmp(ast_kind_name(AST_IF), "#if") == 0 && strcmp(ast_op_spelling(AST_OP_NE), "!=") == 0, "names");
     bench_fini(&bench);
 }

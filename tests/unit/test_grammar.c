@@ -82,8 +82,7 @@ static const struct {
      "sphere {\n  <0 - 1, 2>, 0.5\n  pigment {\n    color\n    rgb <1, 0, 0>\n    filter 1\n  }\n}\n"},
     {"finish { ambient 0.1 phong 1 -2 phong_size 18angle 1e 1e+ 2.x }",
      "finish {\n  ambient 0.1\n  phong 1 - 2\n  phong_size 18\n  angle 1 1 2 x\n}\n"},
-    {"camera { location A (1) look_at B[1][C].x*2 }",
-     "camera {\n  location A(1)\n  look_at B[1][C].x*2\n}\n"},
+    {"camera { location A (1) look_at B[1][C].x*2 }", "camera {\n  location A(1)\n  look_at B[1][C].x*2\n}\n"},
     {"#declare A = 1; #local B=A+1;; # declare C = \"a\\u00e9\\n\" #/**/declare D = rgb 1 filter 2;",
      "#declare A = 1;\n#local B = A + 1;\n#declare C = \"a\xc3\xa9\\n\";\n#declare D = rgb 1 filter 2;\n"},
     {"#declare T = texture{P} texture{Q} #declare A=array[2][2]{{1,2}{3,4,}} #undef A",
@@ -91,7 +90,8 @@ static const struct {
     {"#declare F=function(x,a){x>a&1}; #declare G = function { pattern { bozo } }",
      "#declare F = function(x, a) { x > a & 1 };\n#declare G = function { pattern {\n  bozo\n} };\n"},
     {"#if(1<2&!(A=3)|(1?2:0?3:4)>1) sphere{0,1} #elseif(2) A #else B #end",
-     "#if (1 < 2 & !(A = 3) | (1 ? 2 : 0 ? 3 : 4) > 1)\n  sphere {\n    0, 1\n  }\n#elseif (2)\n  A\n#else\n  B\n#end\n"},
+     "#if (1 < 2 & !(A = 3) | (1 ? 2 : 0 ? 3 : 4) > 1)\n  sphere {\n    0, 1\n  }\n#elseif (2)\n  A\n#else\n  "
+     "B\n#end\n"},
     {"#ifdef(A[1]) #end #ifndef(x) 1, #else ,2 #end", "#ifdef (A[1])\n#end\n#ifndef (x)\n  1,\n#else\n  , 2\n#end\n"},
     {"#switch(A) #debug \"a\" #case(1) #break #range(1 2) B #else C #end",
      "#switch (A)\n  #debug \"a\"\n#case (1)\n  #break\n#range (1, 2)\n  B\n#else\n  C\n#end\n"},
@@ -100,12 +100,12 @@ static const struct {
     {"#macro M(a b,c,) rgb a*2 #end #macro N() 5; #end M(1 x, rgb 1,) N()",
      "#macro M (a, b, c)\n  rgb a*2\n#end\n#macro N ()\n  5;\n#end\nM(1, x, rgb 1)\nN()\n"},
     {"#version 3.7; #include \"a\\b.inc\" #default{finish{F}} #warning concat(\"a\" str(1<2,0,0)) #error A",
-     "#version 3.7;\n#include \"a\\b.inc\"\n#default {\n  finish {\n    F\n  }\n}\n#warning concat(\"a\", str(1 < 2, 0, 0))\n"
+     "#version 3.7;\n#include \"a\\b.inc\"\n#default {\n  finish {\n    F\n  }\n}\n#warning concat(\"a\", str(1 < 2, "
+     "0, 0))\n"
      "#error A\n"},
     {"#fopen F \"a\" read #read(F,A,B[1]) #write(F, uint8 A, 2) #fclose F",
      "#fopen F \"a\" read\n#read (F, A, B[1])\n#write (F, uint8 A, 2)\n#fclose F\n"},
-    {"color_map { [0 rgb 1] [.5, Red] }",
-     "color_map {\n  [\n    0\n    rgb 1\n  ]\n  [\n    0.5, Red\n  ]\n}\n"},
+    {"color_map { [0 rgb 1] [.5, Red] }", "color_map {\n  [\n    0\n    rgb 1\n  ]\n  [\n    0.5, Red\n  ]\n}\n"},
     {"union { A B } box { A (B) C }", "union {\n  A B\n}\nbox {\n  A(B) C\n}\n"},
     {"#declare A = <1, #if (B) 2 #else 3 #end>*(#include N);",
      "#declare A = <1, (#if (B)\n  2\n#else\n  3\n#end)>*(#include N);\n"},
@@ -131,31 +131,20 @@ static void test_programs(void)
 static const struct {
     const char *text, *faults;
 } faults[] = {
-    {"sphere { <0,0,0> 1",
-     "1:19 E0107 the file ends before the `}` of `sphere {`\n"
-     "note `sphere {` opened here\n"},
-    {"#if (1) sphere { 0, 1 }",
-     "1:24 E0107 the file ends before the `#end` of `#if`\n"
-     "note `#if` opened here\n"},
-    {"#macro M(a",
-     "1:11 E0107 the file ends before the `)` of `(`\n"
-     "note `(` opened here\n"},
-    {"sphere { 1 + }",
-     "1:14 E0106 expected a number or vector after `+`, found `}`\n"},
-    {"sphere { <0, 1 }",
-     "1:16 E0106 expected `,` or `>` after `1`, found `}`\n"},
-    {"#declare A 3",
-     "1:12 E0106 expected `=` after `A`, found `3`\n"},
-    {"#declare x = 3;",
-     "1:10 E0106 `x` is a reserved word and cannot be declared\n"},
-    {"#declare = 3;",
-     "1:10 E0106 expected a name after `#declare`, found `=`\n"},
-    {"#macro sphere() #end",
-     "1:8 E0106 `sphere` is a reserved word and cannot be declared\n"},
-    {"#macro M(a box) #end",
-     "1:12 E0106 `box` is a reserved word and cannot be declared\n"},
-    {"#for (x, 1, 2) #end",
-     "1:7 E0106 `x` is a reserved word and cannot be declared\n"},
+    {"sphere { <0,0,0> 1", "1:19 E0107 the file ends before the `}` of `sphere {`\n"
+                           "note `sphere {` opened here\n"},
+    {"#if (1) sphere { 0, 1 }", "1:24 E0107 the file ends before the `#end` of `#if`\n"
+                                "note `#if` opened here\n"},
+    {"#macro M(a", "1:11 E0107 the file ends before the `)` of `(`\n"
+                   "note `(` opened here\n"},
+    {"sphere { 1 + }", "1:14 E0106 expected a number or vector after `+`, found `}`\n"},
+    {"sphere { <0, 1 }", "1:16 E0106 expected `,` or `>` after `1`, found `}`\n"},
+    {"#declare A 3", "1:12 E0106 expected `=` after `A`, found `3`\n"},
+    {"#declare x = 3;", "1:10 E0106 `x` is a reserved word and cannot be declared\n"},
+    {"#declare = 3;", "1:10 E0106 expected a name after `#declare`, found `=`\n"},
+    {"#macro sphere() #end", "1:8 E0106 `sphere` is a reserved word and cannot be declared\n"},
+    {"#macro M(a box) #end", "1:12 E0106 `box` is a reserved word and cannot be declared\n"},
+    {"#for (x, 1, 2) #end", "1:7 E0106 `x` is a reserved word and cannot be declared\n"},
     {"#if (1) sphere { #else box { #end 0, 1 }",
      "1:18 E0109 `#else` stands inside `sphere {`: each branch or body of a directive must hold whole items\n"
      "note `sphere {` opened here\n"
@@ -164,85 +153,55 @@ static const struct {
      "1:18 E0109 `}` stands inside `#if`: each branch or body of a directive must hold whole items\n"
      "note `#if` opened here\n"
      "note `sphere {` opened here\n"},
-    {"#esle",
-     "1:1 E0105 `#esle` is not a directive\n"
-     "help did you mean `#else`?\n"},
-    {"#dclare A = 1;",
-     "1:1 E0105 `#dclare` is not a directive\n"
-     "help did you mean `#declare`?\n"},
-    {"#iff (1) sphere { 0, 1 } #end",
-     "1:1 E0105 `#iff` is not a directive\n"
-     "help did you mean `#if`?\n"},
-    {"# ; sphere { 0, 1 }",
-     "1:1 E0105 the name of a directive must follow `#`\n"},
-    {"#zzzzzzzz 1",
-     "1:1 E0105 `#zzzzzzzz` is not a directive\n"},
-    {"#end sphere { 0, 1 }",
-     "1:1 E0106 `#end` without the directive that it belongs to\n"},
-    {"#while (1) #else #end",
-     "1:12 E0106 `#else` does not belong to `#while` here\n"},
-    {"#if sphere { 0, 1 } #end",
-     "1:5 E0106 expected `(` after `#if`, found `sphere`\n"},
-    {"#if (1 sphere { 0, 1 } #end",
-     "1:8 E0106 expected `)` after `1`, found `sphere`\n"},
-    {"#if () sphere { 0, 1 } #end",
-     "1:6 E0106 expected a number or vector after `(`, found `)`\n"},
-    {"#switch (1) #case (1 ) ) #range 1 #end",
-     "1:24 E0106 unexpected `)` after `)`\n"
-     "1:33 E0106 expected `(` after `#range`, found `1`\n"},
+    {"#esle", "1:1 E0105 `#esle` is not a directive\n"
+              "help did you mean `#else`?\n"},
+    {"#dclare A = 1;", "1:1 E0105 `#dclare` is not a directive\n"
+                       "help did you mean `#declare`?\n"},
+    {"#iff (1) sphere { 0, 1 } #end", "1:1 E0105 `#iff` is not a directive\n"
+                                      "help did you mean `#if`?\n"},
+    {"# ; sphere { 0, 1 }", "1:1 E0105 the name of a directive must follow `#`\n"},
+    {"#zzzzzzzz 1", "1:1 E0105 `#zzzzzzzz` is not a directive\n"},
+    {"#end sphere { 0, 1 }", "1:1 E0106 `#end` without the directive that it belongs to\n"},
+    {"#while (1) #else #end", "1:12 E0106 `#else` does not belong to `#while` here\n"},
+    {"#if sphere { 0, 1 } #end", "1:5 E0106 expected `(` after `#if`, found `sphere`\n"},
+    {"#if (1 sphere { 0, 1 } #end", "1:8 E0106 expected `)` after `1`, found `sphere`\n"},
+    {"#if () sphere { 0, 1 } #end", "1:6 E0106 expected a number or vector after `(`, found `)`\n"},
+    {"#switch (1) #case (1 ) ) #range 1 #end", "1:24 E0106 unexpected `)` after `)`\n"
+                                               "1:33 E0106 expected `(` after `#range`, found `1`\n"},
     {"sphere { 0, 1 ) } sphere { radius = 3 } sphere { 0 1 ] pigment { } }",
      "1:15 E0106 unexpected `)` after `1`\n"
      "1:35 E0106 unexpected `=` after `radius`\n"
      "1:54 E0106 unexpected `]` after `1`\n"},
-    {"#macro M() { #end",
-     "1:12 E0106 unexpected `{` after `)`\n"},
-    {"sphere { 0, 1 }}",
-     "1:16 E0106 unexpected `}` after `}`\n"},
-    {"sphere { <1,,2>, 1 } box { <1,2>> }",
-     "1:13 E0106 expected a number or vector or `>` after `,`, found `,`\n"
-     "1:33 E0106 unexpected `>` after `>`\n"},
+    {"#macro M() { #end", "1:12 E0106 unexpected `{` after `)`\n"},
+    {"sphere { 0, 1 }}", "1:16 E0106 unexpected `}` after `}`\n"},
+    {"sphere { <1,,2>, 1 } box { <1,2>> }", "1:13 E0106 expected a number or vector or `>` after `,`, found `,`\n"
+                                            "1:33 E0106 unexpected `>` after `>`\n"},
     {"#declare A = <0, #declare B = 2; B>; sphere { 0, 1 }",
      "1:18 E0109 `#declare` stands inside an expression or a list of values; a directive stands between whole items\n"},
-    {"#declare A = array[2] { 1 ] 2 }; sphere { 0, 1 }",
-     "1:27 E0106 expected `,` or `}` after `1`, found `]`\n"},
-    {"color_map { [ 0 ) rgb 1 ] [ 1 rgb 2 ] }",
-     "1:17 E0106 unexpected `)` after `0`\n"},
-    {"#declare F = function { x + }; sphere { 0, 1 }",
-     "1:29 E0106 expected a number or vector after `+`, found `}`\n"},
-    {"finish { ambient 0.1, , diffuse 1 }",
-     "1:23 E0106 unexpected `,` after `,`\n"},
-    {"sphere { 0, 1 }; 1 = 2",
-     "1:16 E0106 unexpected `;` after `}`\n"
-     "1:20 E0106 unexpected `=` after `1`\n"},
-    {"#include \"a\";",
-     "1:13 E0106 unexpected `;` after the string\n"},
-    {"\"abc",
-     "1:1 E0102 this string has no closing `\"`\n"},
-    {"/* /* abc */",
-     "1:1 E0103 this comment has no end `*/`\n"},
-    {"#declare A = 1e999;",
-     "1:14 E0104 `1e999` is beyond the greatest number, about 1.8e308\n"},
-    {"a $ b \xc3\xa9 c",
-     "1:3 E0101 `$` has no meaning here\n"
-     "1:7 E0101 letters outside ASCII stand in comments and strings only\n"},
-    {"#declare A = \"a\\q\";",
-     "1:16 E0101 `\\q` means nothing in a string; a backslash is written `\\\\`\n"},
-    {"#declare A = 1.5.5;",
-     "1:14 E0101 `1.5.5` has more than one decimal point\n"},
-    {"a \x01" " b",
+    {"#declare A = array[2] { 1 ] 2 }; sphere { 0, 1 }", "1:27 E0106 expected `,` or `}` after `1`, found `]`\n"},
+    {"color_map { [ 0 ) rgb 1 ] [ 1 rgb 2 ] }", "1:17 E0106 unexpected `)` after `0`\n"},
+    {"#declare F = function { x + }; sphere { 0, 1 }", "1:29 E0106 expected a number or vector after `+`, found `}`\n"},
+    {"finish { ambient 0.1, , diffuse 1 }", "1:23 E0106 unexpected `,` after `,`\n"},
+    {"sphere { 0, 1 }; 1 = 2", "1:16 E0106 unexpected `;` after `}`\n"
+                               "1:20 E0106 unexpected `=` after `1`\n"},
+    {"#include \"a\";", "1:13 E0106 unexpected `;` after the string\n"},
+    {"\"abc", "1:1 E0102 this string has no closing `\"`\n"},
+    {"/* /* abc */", "1:1 E0103 this comment has no end `*/`\n"},
+    {"#declare A = 1e999;", "1:14 E0104 `1e999` is beyond the greatest number, about 1.8e308\n"},
+    {"a $ b \xc3\xa9 c", "1:3 E0101 `$` has no meaning here\n"
+                         "1:7 E0101 letters outside ASCII stand in comments and strings only\n"},
+    {"#declare A = \"a\\q\";", "1:16 E0101 `\\q` means nothing in a string; a backslash is written `\\\\`\n"},
+    {"#declare A = 1.5.5;", "1:14 E0101 `1.5.5` has more than one decimal point\n"},
+    {"a \x01"
+     " b",
      "1:3 E0108 byte 0x01: this is not the text of a scene\n"},
-    {"default { } declare A = 1;",
-     "1:1 W0101 `default` should have a `#` before it\n"
-     "1:13 W0101 `declare` should have a `#` before it\n"},
-    {"#declare A = array[2 {1,2}",
-     "1:22 E0106 expected `]` after `2`, found `{`\n"},
-    {"camera { location <1,2,3 look_at 0 }",
-     "1:26 E0106 expected `,` or `>` after `3`, found `look_at`\n"},
-    {"A[1",
-     "1:4 E0107 the file ends before the `]` of `[`\n"
-     "note `[` opened here\n"},
-    {"rgb (1 }",
-     "1:8 E0106 expected `)` after `1`, found `}`\n"},
+    {"default { } declare A = 1;", "1:1 W0101 `default` should have a `#` before it\n"
+                                   "1:13 W0101 `declare` should have a `#` before it\n"},
+    {"#declare A = array[2 {1,2}", "1:22 E0106 expected `]` after `2`, found `{`\n"},
+    {"camera { location <1,2,3 look_at 0 }", "1:26 E0106 expected `,` or `>` after `3`, found `look_at`\n"},
+    {"A[1", "1:4 E0107 the file ends before the `]` of `[`\n"
+            "note `[` opened here\n"},
+    {"rgb (1 }", "1:8 E0106 expected `)` after `1`, found `}`\n"},
 };
 
 static void test_faults(void)
@@ -289,16 +248,26 @@ static void test_depths(void)
         DiagCode code;
         bool clean;
     } cases[] = {
-        {"1+", "1", "", 1000000, DIAG_E0601, false},    {"1 ", "1", "", 1000000, DIAG_E0601, true},
-        {"(", "1", ")", 100000, DIAG_E0601, false},     {"(", "1", ")", 1000, DIAG_E0601, true},
-        {"union {", "", "}", 100000, DIAG_E0601, false}, {"[", "", "]", 100000, DIAG_E0601, false},
-        {"/*", "", "*/", 100000, DIAG_E0601, true},     {"-", "1", "", 100000, DIAG_E0601, false},
-        {"#if(1)", "", "#end ", 100000, DIAG_E0601, false}, {"<", "1", ">", 100000, DIAG_E0601, false},
-        {"A(", "1", ")", 100000, DIAG_E0601, false},    {"A[", "1", "]", 100000, DIAG_E0601, false},
-        {"#if(1)#elseif(1)", "", "#end ", 100000, DIAG_E0601, false}, {"  ", "", "//x\n", 1000000, DIAG_E0601, true},
-        {"/", "", "\n", 1000000, DIAG_E0601, true},     {"1", "", "", 100000, DIAG_E0101, false},
-        {"a", "", "", 1000000, DIAG_E0101, false},      {"(", "", "", 100000, DIAG_E0601, false},
-        {"{", "", "", 1000, DIAG_E0106, false},         {"0?", "1", ":1", 10000, DIAG_E0106, false},
+        {"1+", "1", "", 1000000, DIAG_E0601, false},
+        {"1 ", "1", "", 1000000, DIAG_E0601, true},
+        {"(", "1", ")", 100000, DIAG_E0601, false},
+        {"(", "1", ")", 1000, DIAG_E0601, true},
+        {"union {", "", "}", 100000, DIAG_E0601, false},
+        {"[", "", "]", 100000, DIAG_E0601, false},
+        {"/*", "", "*/", 100000, DIAG_E0601, true},
+        {"-", "1", "", 100000, DIAG_E0601, false},
+        {"#if(1)", "", "#end ", 100000, DIAG_E0601, false},
+        {"<", "1", ">", 100000, DIAG_E0601, false},
+        {"A(", "1", ")", 100000, DIAG_E0601, false},
+        {"A[", "1", "]", 100000, DIAG_E0601, false},
+        {"#if(1)#elseif(1)", "", "#end ", 100000, DIAG_E0601, false},
+        {"  ", "", "//x\n", 1000000, DIAG_E0601, true},
+        {"/", "", "\n", 1000000, DIAG_E0601, true},
+        {"1", "", "", 100000, DIAG_E0101, false},
+        {"a", "", "", 1000000, DIAG_E0101, false},
+        {"(", "", "", 100000, DIAG_E0601, false},
+        {"{", "", "", 1000, DIAG_E0106, false},
+        {"0?", "1", ":1", 10000, DIAG_E0106, false},
     };
     for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
         char *text = nested(cases[i].open, cases[i].middle, cases[i].close, cases[i].count);
@@ -307,7 +276,8 @@ static void test_depths(void)
         bool good = parse.clean == cases[i].clean;
         good = good && (parse.clean ? parse.diags.count == 0
                                     : parse.diags.count > 0 && parse.diags.items[0].code == cases[i].code);
-        if (!tap_ok(good, "%zu times `%.8s`", cases[i].count, *cases[i].open == '#' ? cases[i].open + 1 : cases[i].open)) {
+        if (!tap_ok(good, "%zu times `%.8s`", cases[i].count,
+                    *cases[i].open == '#' ? cases[i].open + 1 : cases[i].open)) {
             printf("# got %.200s\n", text_get(&parse.faults));
         }
         parse_fini(&parse);
@@ -348,8 +318,8 @@ static void test_streaming(void)
         Client client = {&context, parse.sources, 0, stops[i], 3};
         bool clean = grammar_parse(&context, source, count_item, &client);
         size_t wanted = stops[i] == 0 ? 4000 : stops[i];
-        tap_ok(clean == (stops[i] == 0) && client.count == wanted && parse.diags.count == 0, "%zu items are handed over",
-               wanted);
+        tap_ok(clean == (stops[i] == 0) && client.count == wanted && parse.diags.count == 0,
+               "%zu items are handed over", wanted);
     }
     tap_ok(parse.arena.bytes_reserved <= (size_t)1 << 20, "the arena does not grow with the text");
     free(text);
@@ -369,7 +339,8 @@ static void test_tokens(void)
     bool clean = grammar_dump_tokens(&context, source, parse.sources, &out);
     tap_ok(clean && strcmp(text_get(&out), "1:1 directive `#declare`\n1:10 name `A`\n1:11 mark `=`\n1:12 number `0.5`\n"
                                            "1:14 mark `;`\n2:1 word `sphere`\n2:8 string \"x\"\n2:12 mark `<=`\n"
-                                           "2:21 end the end of the file\n") == 0, "tokens are dumped");
+                                           "2:21 end the end of the file\n") == 0,
+           "tokens are dumped");
     if (tap_failed > 0) {
         printf("# %s\n", text_get(&out));
     }

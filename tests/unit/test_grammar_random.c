@@ -1,5 +1,5 @@
-// The grammar by generated input: what is printed parses to an equal tree; no truncation, garbage or soup of tokens does
-// harm, and a parse is clean exactly when nothing was reported.
+// The grammar by generated input: what is printed parses to an equal tree; no truncation, garbage or soup of tokens
+// does harm, and a parse is clean exactly when nothing was reported.
 //
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
@@ -221,8 +221,8 @@ static AstNode *make_sequence(Bench *bench, unsigned depth)
 
 static AstNode *make_array(Bench *bench, unsigned depth)
 {
-    AstNode *values = make_list(bench, AST_INITIALISER, AST_OP_NONE, 0, make_values(bench, depth, 0, 3), (AstList){0},
-                                (AstList){0});
+    AstNode *values =
+        make_list(bench, AST_INITIALISER, AST_OP_NONE, 0, make_values(bench, depth, 0, 3), (AstList){0}, (AstList){0});
     return make_list(bench, AST_ARRAY, AST_OP_NONE, 0, make_expressions(bench, depth, 1, 2), one(values), (AstList){0});
 }
 
@@ -253,8 +253,8 @@ static AstNode *make_value(Bench *bench, unsigned depth)
 
 static AstNode *make_if(Bench *bench, unsigned depth)
 {
-    AstList rest = below(&bench->random, 3) == 0 && depth > 0 ? one(make_if(bench, depth - 1))
-                                                             : make_items(bench, depth, true);
+    AstList rest =
+        below(&bench->random, 3) == 0 && depth > 0 ? one(make_if(bench, depth - 1)) : make_items(bench, depth, true);
     AstList body = make_items(bench, depth, true);
     switch (below(&bench->random, 3)) {
     case 0:
@@ -265,8 +265,8 @@ static AstNode *make_if(Bench *bench, unsigned depth)
         AstNode *low = make_expression(bench, depth), *high = make_expression(bench, depth);
         AstList cases = one(make_list(bench, AST_CASE, AST_OP_NONE, 0, one(low), body, (AstList){0}));
         low = make_expression(bench, depth);
-        cases = ast_append(cases, make_list(bench, AST_RANGE, AST_OP_NONE, 0, one(low), one(high),
-                                            make_items(bench, depth, true)));
+        cases = ast_append(
+            cases, make_list(bench, AST_RANGE, AST_OP_NONE, 0, one(low), one(high), make_items(bench, depth, true)));
         cases = ast_append(cases, make_list(bench, AST_ELSE, AST_OP_NONE, 0, rest, (AstList){0}, (AstList){0}));
         return make_list(bench, AST_SWITCH, AST_OP_NONE, 0, one(make_expression(bench, depth)), cases,
                          make_items(bench, depth, true));
@@ -295,7 +295,8 @@ static AstNode *make_directive(Bench *bench, unsigned depth)
     case 5:
         return make(bench, AST_MESSAGE, AST_OP_DEBUG, 0, make_expression(bench, depth), NULL, NULL);
     case 6:
-        return make_list(bench, AST_DEFAULT, AST_OP_NONE, 0, make_items(bench, depth, false), (AstList){0}, (AstList){0});
+        return make_list(bench, AST_DEFAULT, AST_OP_NONE, 0, make_items(bench, depth, false), (AstList){0},
+                         (AstList){0});
     case 7:
         return make(bench, AST_FOPEN, AST_OP_NONE, W_write, name, make_expression(bench, depth), NULL);
     case 8:
@@ -402,10 +403,12 @@ static void test_truncations(void)
 {
     static const char text[] =
         "#version 3.7; #include \"a.inc\" /* c /* d */ */ #declare A = array[2] { <1, 2 -3>, rgb .5 }; // e\n"
-        "#macro M(a, b) #local F = function(x) { x > 2 }; sphere { a, abs(b<1) texture { T } } #end M(1e-5, \"x\\ty\")\n"
+        "#macro M(a, b) #local F = function(x) { x > 2 }; sphere { a, abs(b<1) texture { T } } #end M(1e-5, "
+        "\"x\\ty\")\n"
         "#if (A[0].x >= 1 & !(B = 2)) #while (1) #for (I, 0, 10, 2) color_map { [0 rgb 1] } #break #end #end\n"
         "#elseif (1 ? 2 : 3) #switch (1) #case (1) #range (2, 3) #else #end #else #fopen F \"f\" read #read(F, A)\n"
-        "#write(F, 1) #fclose F #end #default { finish { ambient 0.1, phong (#ifdef (A) 1 #end) } } #undef A #debug S\n";
+        "#write(F, 1) #fclose F #end #default { finish { ambient 0.1, phong (#ifdef (A) 1 #end) } } #undef A #debug "
+        "S\n";
     bool good = true;
     for (size_t length = 0; length < sizeof text && good; length++) {
         good = survives(text, length);
@@ -430,10 +433,12 @@ static void test_garbage(void)
 static void test_soup(void)
 {
     static const char *const pieces[] = {
-        "{", "}", "(", ")", "[", "]", "<", ">", ",", ";", "=", "+", "-", "*", ".", "?", ":", "&", "!", "1", "A", "x", "\"s\"",
-        "sphere", "texture", "rgb", "array", "function", "sin", "deprecated", "read", "#if", "#ifdef", "#else", "#elseif",
-        "#end", "#switch", "#case", "#range", "#while", "#for", "#macro", "#declare", "#include", "#default", "#break",
-        "#esle", "#", "sphere{", "#if(1)", "(1)", "{1}", "A(", "default", "@",
+        "{",    "}",      "(",        ")",        "[",        "]",      "<",       ">",        ",",       ";",
+        "=",    "+",      "-",        "*",        ".",        "?",      ":",       "&",        "!",       "1",
+        "A",    "x",      "\"s\"",    "sphere",   "texture",  "rgb",    "array",   "function", "sin",     "deprecated",
+        "read", "#if",    "#ifdef",   "#else",    "#elseif",  "#end",   "#switch", "#case",    "#range",  "#while",
+        "#for", "#macro", "#declare", "#include", "#default", "#break", "#esle",   "#",        "sphere{", "#if(1)",
+        "(1)",  "{1}",    "A(",       "default",  "@",
     };
     Random random = {7};
     bool good = true;
