@@ -43,7 +43,8 @@ def run_povray(program, files):
             with open(path, "w", encoding="latin-1", newline="") as file:
                 file.write(text)
         result = subprocess.run(
-            ["povray", "+Itest.pov", "+Llib", "-D", "+W320", "+H240", "+SR1", "+ER1", "+SC1", "+EC1", "-F", "+GDdebug.txt"],
+            ["povray", "+Itest.pov", "+Llib", "-D", "+W320", "+H240", "+SR1", "+ER1", "+SC1", "+EC1", "-F",
+             "+GDdebug.txt"],
             cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=60,
             check=False)
         try:
