@@ -74,47 +74,44 @@ static bool take_item(void *client, const AstNode *item)
 
 // ---- before the first item
 
-static bool declare(Eval *ev, const char *name, const Value *value)
-{
-    Symbol symbol = intern_text(ev->options.names, name, strlen(name));
-    return symbol != SYMBOL_NONE && scope_declare(ev, symbol, false, value, SPAN_NONE);
-}
-
-static bool declare_text(Eval *ev, const char *name, const char *text)
-{
-    Value value = {.kind = VALUE_STRING};
-    value.text = text;
-    value.length = strlen(text);
-    return declare(ev, name, &value);
-}
-
 // Of two declarations of a name the first counts, and none may be a reserved word, as in POV-Ray.
-static bool declare_option(Eval *ev, const EvalDeclaration *option)
+static bool declare(Eval *ev, const EvalDeclaration *declaration)
 {
-    Symbol symbol = intern_text(ev->options.names, option->name, strlen(option->name));
-    if (symbol == SYMBOL_NONE) {
+    Symbol name = intern_text(ev->options.names, declaration->name, strlen(declaration->name));
+    if (name == SYMBOL_NONE) {
         return false;
     }
-    if (word_class(symbol) != WORD_IDENTIFIER || scope_find(ev, symbol) != NULL) {
+    if (word_class(name) != WORD_IDENTIFIER || scope_find(ev, name) != NULL) {
         return true;
     }
-    Value value = value_of_number(option->number);
-    return option->text != NULL ? declare_text(ev, option->name, option->text) : declare(ev, option->name, &value);
+    Value value = value_of_number(declaration->number);
+    if (declaration->text != NULL) {
+        value.kind = VALUE_STRING;
+        value.text = declaration->text;
+        value.length = strlen(declaration->text);
+    }
+    return scope_declare(ev, name, false, &value, SPAN_NONE);
 }
 
 static bool declare_all(Eval *ev, const Source *source)
 {
     const EvalOptions *options = &ev->options;
-    Value width = value_of_number(options->image_width), height = value_of_number(options->image_height);
+    const EvalDeclaration own[] = {
+        {.name = "image_width", .number = options->image_width},
+        {.name = "image_height", .number = options->image_height},
+        {.name = "input_file_name", .text = source_name(source)},
+    };
     bool fine = true;
     for (size_t i = 0; i < options->declaration_count; i++) {
-        fine = fine && declare_option(ev, &options->declarations[i]);
+        fine = fine && declare(ev, &options->declarations[i]);
+    }
+    for (size_t i = 0; i < RT_COUNT_OF(own); i++) {
+        fine = fine && declare(ev, &own[i]);
     }
     for (size_t i = 0; i < RT_COUNT_OF(zeros); i++) {
-        fine = fine && declare_option(ev, &(EvalDeclaration){.name = zeros[i]});
+        fine = fine && declare(ev, &(EvalDeclaration){.name = zeros[i]});
     }
-    return fine && declare(ev, "image_width", &width) && declare(ev, "image_height", &height) &&
-           declare_text(ev, "input_file_name", source_name(source));
+    return fine;
 }
 
 // ---- the whole

@@ -8,17 +8,6 @@
 
 enum { CALL_WEIGHT = 8 }; // of native recursion, see eval_deepen
 
-static bool check_parameters(Eval *ev, const AstNode *node)
-{
-    for (const AstNode *parameter = node->a; parameter != NULL; parameter = parameter->next) {
-        if (word_class(parameter->symbol) != WORD_IDENTIFIER) {
-            return eval_fault(ev, DIAG_E0219, parameter->span, "`%s` is a reserved word and cannot be a parameter",
-                              eval_text(ev, parameter->symbol));
-        }
-    }
-    return true;
-}
-
 static Macro *copy_macro(Eval *ev, const AstNode *node)
 {
     Macro *macro = arena_alloc(&ev->program, sizeof *macro);
@@ -40,7 +29,7 @@ void macro_define(Eval *ev, const AstNode *node)
     const Value *known = scope_find(ev, node->symbol);
     bool is_same = known != NULL && known->kind == VALUE_MACRO && known->macro->span.begin == node->span.begin;
     // A definition in a loop is kept once. One without a name has had its message.
-    if (is_same || node->symbol == SYMBOL_NONE || !check_parameters(ev, node)) {
+    if (is_same || node->symbol == SYMBOL_NONE) {
         return;
     }
     const Macro *macro = copy_macro(ev, node);

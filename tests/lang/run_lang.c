@@ -3,7 +3,8 @@
 //     == name of the case
 //     the program
 //     -- file lib/x.inc        a file beside it, before the expectations; lib/ is on the include path
-//     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth or ast_depth
+//     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth or text_bytes
+//     -- declare N 5           a number declared before the scene begins, as with -D
 //     -- debug                 the lines that #debug gives, as POV-Ray shows them
 //     -- scene                 the scene's dump
 //     -- diagnostics           all messages
@@ -134,6 +135,8 @@ static void set_limit(Limits *limits, const char *setting)
         limits->call_depth = value;
     } else if (strcmp(name, "include_depth") == 0) {
         limits->include_depth = value;
+    } else if (strcmp(name, "text_bytes") == 0) {
+        limits->text_bytes = value;
     } else {
         must(strcmp(name, "ast_depth") == 0, setting);
         limits->ast_depth = value;
@@ -169,8 +172,25 @@ static void prepare(const Case *test, Limits *limits, bool removes)
     }
 }
 
+// The names are written into `names`, the declarations into `declarations`, one for each section at most.
+static size_t read_declarations(const Case *test, char names[][32], EvalDeclaration *declarations)
+{
+    size_t count = 0;
+    for (size_t i = 1; i < test->count; i++) {
+        const char *header = test->sections[i].header;
+        if (strncmp(header, "declare ", 8) == 0) {
+            must(sscanf(header, "declare %31s %lf", names[count], &declarations[count].number) == 2, header);
+            declarations[count].name = names[count];
+            count++;
+        }
+    }
+    return count;
+}
+
 static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
 {
+    char declared_names[SECTIONS_MAX][32];
+    EvalDeclaration declarations[SECTIONS_MAX] = {{0}};
     static const char *const folders[] = {"lib"};
     SourceMap *sources = source_map_new();
     InternTable *names = intern_new(limits->arena_bytes);
@@ -183,7 +203,8 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     must(source != NULL, "no memory");
     EvalOptions options = {
         .sources = sources, .names = names, .diags = &diags, .limits = limits, .include_paths = folders,
-        .include_path_count = 1, .image_width = 320, .image_height = 240, .message = take_message, .client = outcome,
+        .include_path_count = 1, .declarations = declarations,
+        .declaration_count = read_declarations(test, declared_names, declarations), .image_width = 320, .image_height = 240, .message = take_message, .client = outcome,
     };
     if (!eval_source(&options, source, &scene) && diags.error_count == 0) {
         text_append(&outcome->diagnostics, "evaluation failed without a message\n");

@@ -16,7 +16,7 @@ PREFACE = "#version 3.7; global_settings { assumed_gamma 1 } sphere { 0, 1 }\n"
 
 
 def read_cases(path):
-    """A list of (name, program, {file: text}, expected debug text or None)."""
+    """Yields (name, program, {file: text}, [declaration], expected debug text or None)."""
     cases, sections = [], None
     with open(path, encoding="latin-1", newline="") as file:
         for line in file:
@@ -32,10 +32,11 @@ def read_cases(path):
         debug = [text for header, text in rest if header == "debug"]
         if any(header == "diagnostics" and ": error[" in text for header, text in rest):
             debug = []  # POV-Ray stops at the first fault
-        yield name, program, files, debug[0].rstrip("\n") if debug else None
+        declared = ["Declare=" + "=".join(header.split()[1:]) for header, _ in rest if header.startswith("declare ")]
+        yield name, program, files, declared, debug[0].rstrip("\n") if debug else None
 
 
-def run_povray(program, files):
+def run_povray(program, files, declared):
     with tempfile.TemporaryDirectory() as folder:
         for name, text in dict(files, **{"test.pov": PREFACE + program}).items():
             path = os.path.join(folder, name)
@@ -44,7 +45,7 @@ def run_povray(program, files):
                 file.write(text)
         result = subprocess.run(
             ["povray", "+Itest.pov", "+Llib", "-D", "+W320", "+H240", "+SR1", "+ER1", "+SC1", "+EC1", "-F",
-             "+GDdebug.txt"],
+             "+GDdebug.txt"] + declared,
             cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=60,
             check=False)
         try:
@@ -67,11 +68,11 @@ def main():
         return 0
     number = failed = 0
     for path in sys.argv[1:]:
-        for name, program, files, expected in read_cases(path):
+        for name, program, files, declared, expected in read_cases(path):
             if expected is None:
                 continue
             number += 1
-            got, code, errors = run_povray(program, files)
+            got, code, errors = run_povray(program, files, declared)
             fine = code == 0 and got.rstrip("\n") == expected
             print(f"{'ok' if fine else 'not ok'} {number} - {os.path.basename(path)}: {name}", flush=True)
             if not fine:
