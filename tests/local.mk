@@ -26,7 +26,7 @@ unit_programs = \
   tests/unit/test_base_arena tests/unit/test_base_diag tests/unit/test_base_intern tests/unit/test_base_source \
   tests/unit/test_base_suggest tests/unit/test_base_text tests/unit/test_math tests/unit/test_trace_sphere \
   tests/unit/test_trace_geometry tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
-  tests/unit/test_grammar tests/unit/test_image tests/unit/test_image_values \
+  tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_values \
   tests/unit/test_render
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang
 
@@ -57,6 +57,8 @@ tests_unit_test_ast_SOURCES = %D%/unit/test_ast.c
 tests_unit_test_ast_LDADD = libast.la libbase.la
 tests_unit_test_grammar_SOURCES = %D%/unit/test_grammar.c
 tests_unit_test_grammar_LDADD = $(UNIT_GRAMMAR)
+tests_unit_test_grammar_random_SOURCES = %D%/unit/test_grammar_random.c
+tests_unit_test_grammar_random_LDADD = $(UNIT_GRAMMAR)
 tests_unit_test_image_SOURCES = %D%/unit/test_image.c
 tests_unit_test_image_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
@@ -74,8 +76,9 @@ tests_fuzz_fuzz_scene_LDADD = libapi.la
 
 test_scripts = \
   %D%/fuzz/replay.sh %D%/lang/check_cases.sh \
-  %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.sh %D%/check-docs.py \
-  %D%/golden/check_golden.py %D%/system/run_system.sh %D%/system/check_rtcheck.sh %D%/povray/check_pictures.py %D%/povray/check_lang.py \
+  %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.py %D%/check-docs.py \
+  %D%/golden/check_golden.py %D%/system/run_system.py %D%/system/check_rtcheck.sh \
+  %D%/povray/check_pictures.py %D%/povray/check_lang.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py
 
 TESTS += $(unit_programs) $(test_scripts)

@@ -101,7 +101,7 @@ int main(int argc, char **argv)
 {
     const char *mutations = getenv("FUZZ_MUTATIONS");
     for (int i = 1; i < argc; i++) {
-        replay(argv[i], mutations ? atoi(mutations) : 60);
+        replay(argv[i], mutations ? atoi(mutations) : 4);
     }
     return tap_done();
 }
