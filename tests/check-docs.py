@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Checks that what the documents say is so.
+
+Options of the manual pages against --help; relative links; every fenced block marked `scn` through rtlang --check; the tables
+of docs/language.md against the schema (PRINT_SCHEMA is the program that prints it; with UPDATE_DOCS=1 they are written anew).
+Prints TAP. SPDX-License-Identifier: MIT
+"""
+import glob
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+TOP = os.environ.get("top_srcdir", ".")
+BEGIN, END = "<!-- schema:begin -->\n", "<!-- schema:end -->"
+
+
+def read(name):
+    with open(os.path.join(TOP, name), encoding="utf-8") as text:
+        return text.read()
+
+
+def output_of(*arguments):
+    return subprocess.run(arguments, stdout=subprocess.PIPE, check=True, text=True, encoding="utf-8").stdout
+
+
+def check_options(program, page):
+    """Pairs of short and long option, which must be the same in --help and on the page."""
+    helped = set(re.findall(r"^  (?:-(\w), |    )--([\w-]+)", output_of(program, "--help"), re.MULTILINE))
+    told = set()
+    for line in re.findall(r"^\.It (Fl .*)$", read(page), re.MULTILINE):
+        short, long = re.search(r"Fl (\w)\b", line), re.search(r"Fl \\-([\w-]+)", line)
+        told.add((short.group(1) if short else "", long.group(1)))
+    for short, long in sorted(helped - told):
+        yield f"--{long} is in --help only, or with another letter than `{short}`"
+    for short, long in sorted(told - helped):
+        yield f"--{long} is on the page only, or with another letter than `{short}`"
+
+
+def check_links(name):
+    text = re.sub(r"```.*?```", "", read(name), flags=re.DOTALL)
+    for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
+        if "://" not in target and not os.path.exists(os.path.join(TOP, os.path.dirname(name), target)):
+            yield f"no {target}"
+    for anchor in re.findall(r"\]\(#([^)]*)\)", text):
+        titles = [re.sub(r"[^\w\- ]", "", title).strip().lower().replace(" ", "-")
+                  for title in re.findall(r"^#+ (.*)$", text, re.MULTILINE)]
+        if anchor not in titles:
+            yield f"no title for #{anchor}"
+
+
+def check_scenes(name):
+    text = read(name)
+    for match in re.finditer(r"^```scn\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        line = text.count("\n", 0, match.start()) + 2
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "block.scn")
+            with open(path, "w", encoding="utf-8") as scene:
+                scene.write(match.group(1))
+            done = subprocess.run([os.environ["RTLANG"], "--check", path], stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True, check=False)
+        if done.returncode:
+            yield f"the block at line {line}: " + done.stdout.replace(folder, "").strip().replace("\n", " | ")
+
+
+def check_schema():
+    printer = os.environ.get("PRINT_SCHEMA") or "tests/unit/print_schema"
+    want, text = output_of(printer).strip() + "\n", read("docs/language.md")
+    head, rest = text.split(BEGIN)
+    found, tail = rest.split(END)
+    if found == want:
+        return
+    if os.environ.get("UPDATE_DOCS"):
+        with open(os.path.join(TOP, "docs/language.md"), "w", encoding="utf-8") as out:
+            out.write(head + BEGIN + want + END + tail)
+        return
+    lines = zip(found.splitlines() + [""], want.splitlines() + [""])
+    yield next((f"{a!r} should be {b!r}" for a, b in lines if a != b), "there are lines too many or too few")
+
+
+def checks():
+    yield "rtlang.1 has rtlang's options", check_options(os.environ["RTLANG"], "docs/rtlang.1")
+    yield "rtcheck.1 has rtcheck's options", check_options(os.environ["RTCHECK"], "docs/rtcheck.1")
+    pages = ["README.md", "CONTRIBUTING.md"] + sorted(glob.glob("docs/*.md", root_dir=TOP))
+    for name in pages + (["examples/README.md"] if os.path.exists(os.path.join(TOP, "examples/README.md")) else []):
+        yield f"{name}: links lead somewhere", check_links(name)
+    for name in pages:
+        if "```scn\n" in read(name):
+            yield f"{name}: rtlang accepts its scenes", check_scenes(name)
+    yield "docs/language.md: the tables are the schema's", check_schema()
+
+
+def main():
+    number, failed = 0, 0
+    for number, (what, faults) in enumerate(checks(), 1):
+        faults = list(faults)
+        failed += bool(faults)
+        print(f"{'not ok' if faults else 'ok'} {number} - {what}")
+        for fault in faults:
+            print("# " + fault)
+    print(f"1..{number}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
