@@ -510,7 +510,8 @@ static void refuse_value(Block *block, const AstNode *item)
     } else if (item->kind == AST_NAME) {
         block_fault(block, DIAG_E0254, item->span, "`%s` cannot stand here in %s", eval_text(block->ev, item->symbol),
                     block_word(block));
-    } else {
+    } else if (!block->has_fault) {
+        // After a fault it may be a value that would have had its place.
         block_fault(block, DIAG_E0254, item->span, "one value too many in %s", block_word(block));
     }
     cursor_skip(&block->cursor);

@@ -133,6 +133,7 @@ static bool suggest_own_folder(Eval *ev, Search *search, Span span)
 
 static void report_missing(Eval *ev, Search *search, Span span)
 {
+    ev->include_is_missing = true;
     if (eval_report(ev, DIAG_E0501, span, "include file `%s` not found", search->name)) {
         note_folders(ev);
         if (!suggest_own_folder(ev, search, span)) {

@@ -101,6 +101,7 @@ typedef struct Eval {
     ARRAY(uint32_t) streams;      // the states of rand, by handle
     ARRAY(uint64_t) reported;     // a hash table of what was reported, see report.c
     size_t reported_count;
+    bool include_is_missing; // a name that is not declared may be one that it declares
     TextBuffer line;              // of #debug, not ended yet
     CursorFrame *free_frames;     // for reuse, in the program arena
     uint64_t steps;
@@ -117,6 +118,8 @@ bool eval_fault(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_
 void eval_warn(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 // The same; true when the record was kept, so that diag_note and diag_suggest may add to it.
 bool eval_report(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
+// True the first time for this code and symbol.
+bool eval_is_first(Eval *ev, DiagCode code, Symbol symbol);
 // Reports exhausted memory once and sets `stop`; returns false.
 bool eval_no_memory(Eval *ev, Span span);
 const char *eval_text(const Eval *ev, Symbol symbol);

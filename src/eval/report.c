@@ -79,6 +79,11 @@ static bool is_new(Eval *ev, DiagCode code, Span span)
     return true;
 }
 
+bool eval_is_first(Eval *ev, DiagCode code, Symbol symbol)
+{
+    return is_new(ev, code, (Span){symbol, UINT64_MAX}); // no place ends there
+}
+
 RT_PRINTF(4, 0) static bool report(Eval *ev, DiagCode code, Span span, const char *format, va_list arguments)
 {
     char message[1024];
