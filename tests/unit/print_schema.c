@@ -10,7 +10,7 @@ int main(void)
     TextBuffer reference;
     text_init(&reference);
     schema_write_reference(&reference);
-    bool failed = reference.failed || fwrite(reference.data, 1, reference.length, stdout) != reference.length;
+    bool failed = reference.failed || fputs(text_get(&reference), stdout) == EOF;
     text_fini(&reference);
-    return failed || fflush(stdout) != 0;
+    return failed || fflush(stdout) != 0 ? 1 : 0;
 }
