@@ -15,6 +15,7 @@ import tempfile
 TOP = os.environ.get("top_srcdir", ".")
 HERE = os.path.join(TOP, "tests/golden")
 sys.path.insert(0, os.path.join(TOP, "tests/povray"))
+sys.dont_write_bytecode = True  # the folder is distributed as it is
 import pictures  # noqa: E402
 
 WIDTH, HEIGHT = 80, 60

@@ -13,6 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True  # the folder is distributed as it is
 import pictures  # noqa: E402
 
 # Codes that say: this is of the language, but rtlang has it not.

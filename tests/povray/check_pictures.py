@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True  # the folder is distributed as it is
 import pictures  # noqa: E402
 
 TOP = os.environ.get("top_srcdir", ".")
