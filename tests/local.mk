@@ -11,6 +11,7 @@ PY_LOG_COMPILER = $(PYTHON3)
 AM_TESTS_ENVIRONMENT = \
   RTLANG='$(abs_top_builddir)/rtlang$(EXEEXT)'; export RTLANG; \
   RTCHECK='$(abs_top_builddir)/rtcheck$(EXEEXT)'; export RTCHECK; \
+  PRINT_SCHEMA='$(abs_top_builddir)/tests/unit/print_schema'; export PRINT_SCHEMA; \
   POVRAY='$(POVRAY)'; export POVRAY; \
   CC='$(CC)'; export CC; \
   RTLANG_MODULE_DIR='$(abs_top_builddir)/.libs'; export RTLANG_MODULE_DIR; \
@@ -28,7 +29,7 @@ unit_programs = \
   tests/unit/test_trace_geometry tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
   tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_values \
   tests/unit/test_render
-check_PROGRAMS += $(unit_programs) tests/lang/run_lang
+check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema
 
 unit_headers = %D%/unit/tap.h %D%/unit/random.h
 tests_unit_test_base_arena_SOURCES = %D%/unit/test_base_arena.c $(unit_headers)
@@ -53,6 +54,8 @@ tests_unit_test_scene_SOURCES = %D%/unit/test_scene.c
 tests_unit_test_scene_LDADD = $(UNIT_SCENE)
 tests_unit_test_schema_SOURCES = %D%/unit/test_schema.c
 tests_unit_test_schema_LDADD = libscene.la libast.la libmath.la libbase.la
+tests_unit_print_schema_SOURCES = %D%/unit/print_schema.c
+tests_unit_print_schema_LDADD = libscene.la libmath.la libbase.la
 tests_unit_test_ast_SOURCES = %D%/unit/test_ast.c
 tests_unit_test_ast_LDADD = libast.la libbase.la
 tests_unit_test_grammar_SOURCES = %D%/unit/test_grammar.c
@@ -84,3 +87,10 @@ test_scripts = \
 TESTS += $(unit_programs) $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
 EXTRA_DIST += $(test_scripts) %D%/fuzz %D%/lang %D%/golden %D%/system %D%/povray %D%/unit
+
+# Rewrite what the tests hold as expected; look at the difference before it is committed.
+.PHONY: update-golden update-docs
+update-golden: rtlang$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_golden.py
+update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py

@@ -12,8 +12,8 @@ enum { TRACE_LEVEL_MAX = 256 }; // the language's own limit of max_trace_level
 
 typedef struct Limits {
     unsigned ast_depth;     // nesting of expressions and blocks
-    unsigned include_depth; // nesting of #include
-    unsigned call_depth;    // nesting of macro calls
+    unsigned include_depth; // nesting of #include; POV-Ray refuses 32
+    unsigned call_depth;    // nesting of macro calls; POV-Ray refuses 99
     uint64_t steps;         // loop turns and macro calls, all together
     uint64_t objects;       // shapes in the scene
     uint64_t text_bytes;    // bytes of scene text, all files together
@@ -24,8 +24,8 @@ typedef struct Limits {
 #define LIMITS_DEFAULT                                                                                                 \
     ((Limits){                                                                                                         \
         .ast_depth = 1000,                                                                                             \
-        .include_depth = 32,                                                                                           \
-        .call_depth = 256,                                                                                             \
+        .include_depth = 31,                                                                                           \
+        .call_depth = 98,                                                                                              \
         .steps = 30u * 1000 * 1000,                                                                                    \
         .objects = 1000u * 1000 * 1000,                                                                                \
         .text_bytes = (uint64_t)64 << 30,                                                                              \
