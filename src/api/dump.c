@@ -22,8 +22,9 @@ rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path,
     Source *source;
     text_clear(&session->dump);
     *text = text_get(&session->dump);
-    if (!session_open(session, path, &source))
+    if (!session_open(session, path, &source)) {
         return session_status(session, false);
+    }
     Arena arena;
     arena_init(&arena, session->limits.arena_bytes);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits};
@@ -40,8 +41,9 @@ rt_status rt_dump_scene(rt_session *session, const char **text)
 {
     text_clear(&session->dump);
     *text = text_get(&session->dump);
-    if (!session->loaded)
+    if (!session->loaded) {
         return RT_FAULT_USAGE;
+    }
     scene_dump(&session->scene, &session->dump);
     *text = text_get(&session->dump);
     return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;

@@ -29,16 +29,18 @@ void session_deliver(rt_session *session)
     }
     TextBuffer text;
     text_init(&text);
-    while (session->diags_delivered < session->diags.count)
+    while (session->diags_delivered < session->diags.count) {
         deliver_one(session, &session->diags.items[session->diags_delivered++], &text);
+    }
     text_fini(&text);
 }
 
 rt_status session_status(rt_session *session, bool fine)
 {
     session_deliver(session);
-    if (fine)
+    if (fine) {
         return RT_OK;
+    }
     // Without a recorded class there was no memory even for the record.
     return session->diags.class == CLASS_NONE ? RT_FAULT_LIMIT : (rt_status)session->diags.class;
 }

@@ -38,10 +38,12 @@ const char *rt_version(void)
 rt_session *rt_session_new(const rt_callbacks *callbacks)
 {
     rt_session *session = calloc(1, sizeof *session);
-    if (!session)
+    if (!session) {
         return NULL;
-    if (callbacks)
+    }
+    if (callbacks) {
         session->callbacks = *callbacks;
+    }
     session->limits = LIMITS_DEFAULT;
     session->width = WIDTH_DEFAULT;
     session->height = HEIGHT_DEFAULT;
@@ -60,12 +62,15 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
 
 void rt_session_free(rt_session *session)
 {
-    if (!session)
+    if (!session) {
         return;
-    for (size_t i = 0; i < session->include_paths.count; i++)
+    }
+    for (size_t i = 0; i < session->include_paths.count; i++) {
         free(session->include_paths.items[i]);
-    for (size_t i = 0; i < session->declarations.count; i++)
+    }
+    for (size_t i = 0; i < session->declarations.count; i++) {
         free((char *)session->declarations.items[i].name);
+    }
     ARRAY_FREE(&session->include_paths);
     ARRAY_FREE(&session->declarations);
     film_fini(&session->film);
@@ -91,9 +96,11 @@ rt_status rt_add_include_path(rt_session *session, const char *folder)
 
 static bool is_declared(const rt_session *session, const char *name)
 {
-    for (size_t i = 0; i < session->declarations.count; i++)
-        if (strcmp(session->declarations.items[i].name, name) == 0)
+    for (size_t i = 0; i < session->declarations.count; i++) {
+        if (strcmp(session->declarations.items[i].name, name) == 0) {
             return true;
+        }
+    }
     return false;
 }
 
@@ -108,17 +115,20 @@ static bool is_identifier(const rt_session *session, const char *name, size_t le
 rt_status rt_declare(rt_session *session, const char *name_value)
 {
     const char *equals = strchr(name_value, '=');
-    if (!equals || !is_identifier(session, name_value, (size_t)(equals - name_value)))
+    if (!equals || !is_identifier(session, name_value, (size_t)(equals - name_value))) {
         return RT_FAULT_USAGE;
+    }
     const char *digits = equals + 1;
     bool negative = *digits == '-';
     digits += negative || *digits == '+';
     double value;
-    if (number_parse(digits, strlen(digits), &value) != NUMBER_OK)
+    if (number_parse(digits, strlen(digits), &value) != NUMBER_OK) {
         return RT_FAULT_USAGE;
+    }
     char *name = strndup(name_value, (size_t)(equals - name_value));
-    if (!name)
+    if (!name) {
         return RT_FAULT_LIMIT;
+    }
     EvalDeclaration declaration = {.name = name, .number = negative ? -value : value};
     if (is_declared(session, name)) {
         free(name);
@@ -133,8 +143,9 @@ rt_status rt_declare(rt_session *session, const char *name_value)
 
 rt_status rt_set_size(rt_session *session, int width, int height)
 {
-    if (width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS)
+    if (width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS) {
         return RT_FAULT_USAGE;
+    }
     session->width = width;
     session->height = height;
     return RT_OK;
@@ -145,8 +156,7 @@ rt_status rt_set_size(rt_session *session, int width, int height)
 bool session_open(rt_session *session, const char *path, Source **source)
 {
     int error_number = 0;
-    SourceResult result =
-        source_open_file(session->sources, path, session->limits.text_bytes, source, &error_number);
+    SourceResult result = source_open_file(session->sources, path, session->limits.text_bytes, source, &error_number);
     switch (result) {
     case SOURCE_OK:
         return true;
@@ -178,8 +188,9 @@ static void forward_message(void *client, EvalStream stream, const char *text, s
         [EVAL_STREAM_STATISTICS] = RT_STREAM_STATISTICS,
     };
     rt_session *session = client;
-    if (session->callbacks.message)
+    if (session->callbacks.message) {
         session->callbacks.message(session->callbacks.client, streams[stream], text, length);
+    }
 }
 
 static rt_status load(rt_session *session, Source *source, double start)
@@ -209,18 +220,21 @@ rt_status rt_load_file(rt_session *session, const char *path)
 {
     double start = session_clock();
     Source *source;
-    if (session->loaded)
+    if (session->loaded) {
         return RT_FAULT_USAGE;
-    if (!session_open(session, path, &source))
+    }
+    if (!session_open(session, path, &source)) {
         return session_status(session, false);
+    }
     return load(session, source, start);
 }
 
 rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length)
 {
     double start = session_clock();
-    if (session->loaded)
+    if (session->loaded) {
         return RT_FAULT_USAGE;
+    }
     Source *source = source_open_text(session->sources, name, text, length);
     return source ? load(session, source, start) : RT_FAULT_LIMIT;
 }
@@ -237,19 +251,21 @@ static void forward_progress(void *client, double done)
 static void film_to_linear(const Settings *settings, Film *film)
 {
     size_t count = (size_t)film->width * (size_t)film->height * 3;
-    if (settings->gamma_model != GAMMA_POWER && settings->gamma_model != GAMMA_SRGB)
+    if (settings->gamma_model != GAMMA_POWER && settings->gamma_model != GAMMA_SRGB) {
         return;
+    }
     for (size_t i = 0; i < count; i++) {
         double value = fmax(film->rgb[i], 0.0);
-        film->rgb[i] = (float)(settings->gamma_model == GAMMA_SRGB ? rgb_srgb_decode(value)
-                                                                   : pow(value, settings->assumed_gamma));
+        film->rgb[i] =
+            (float)(settings->gamma_model == GAMMA_SRGB ? rgb_srgb_decode(value) : pow(value, settings->assumed_gamma));
     }
 }
 
 rt_status rt_render(rt_session *session, int threads)
 {
-    if (!session->loaded || session->rendered || threads < 0)
+    if (!session->loaded || session->rendered || threads < 0) {
         return RT_FAULT_USAGE;
+    }
     double start = session_clock();
     Prepared *prepared = prepared_new(&session->scene);
     if (!prepared || !film_init(&session->film, session->width, session->height)) {
@@ -268,14 +284,17 @@ rt_status rt_render(rt_session *session, int threads)
     };
     RenderResult result = render_film(prepared, &options, &session->film, &session->statistics);
     prepared_free(prepared);
-    if (result == RENDER_OK)
+    if (result == RENDER_OK) {
         film_to_linear(&session->scene.settings, &session->film);
+    }
     session->trace_seconds = session_clock() - start;
     session->rendered = result == RENDER_OK;
-    if (result == RENDER_CANCELLED)
+    if (result == RENDER_CANCELLED) {
         return RT_CANCELLED;
-    if (result == RENDER_NO_MEMORY)
+    }
+    if (result == RENDER_NO_MEMORY) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory rendering");
+    }
     return session_status(session, result == RENDER_OK);
 }
 
@@ -326,21 +345,25 @@ static ImageDepth output_depth(const rt_output *output, const char *path)
     if (output->depth == RT_DEPTH_AUTO) {
         return image_path_depth(path);
     }
-    return output->depth == RT_DEPTH_8 ? IMAGE_DEPTH_8 : output->depth == RT_DEPTH_16 ? IMAGE_DEPTH_16 : IMAGE_DEPTH_FLOAT;
+    return output->depth == RT_DEPTH_8    ? IMAGE_DEPTH_8
+           : output->depth == RT_DEPTH_16 ? IMAGE_DEPTH_16
+                                          : IMAGE_DEPTH_FLOAT;
 }
 
 rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
 {
     ImageError error = {""};
-    if (!is_output(output))
+    if (!is_output(output)) {
         return RT_FAULT_USAGE;
+    }
     return image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
 }
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
 {
-    if (!session->rendered || !is_output(output))
+    if (!session->rendered || !is_output(output)) {
         return RT_FAULT_USAGE;
+    }
     double start = session_clock();
     ImageError error = {""};
     Image image = {session->film.width, session->film.height, 3, session->film.rgb};
@@ -357,8 +380,9 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
 
 const float *rt_pixels(const rt_session *session, int *width, int *height)
 {
-    if (!session->rendered)
+    if (!session->rendered) {
         return NULL;
+    }
     *width = session->film.width;
     *height = session->film.height;
     return session->film.rgb;

@@ -18,8 +18,9 @@ static rt_session *volatile interrupted_session;
 static void on_interrupt(int signal_number)
 {
     (void)signal_number;
-    if (interrupted_session)
+    if (interrupted_session) {
         rt_cancel(interrupted_session);
+    }
 }
 
 static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
@@ -50,32 +51,38 @@ static rt_status fail_usage(const char *message, const char *what)
 static bool find_data_folder(char *folder, size_t size)
 {
     snprintf(folder, size, "%s", PKGDATADIR);
-    if (access(folder, R_OK) == 0)
+    if (access(folder, R_OK) == 0) {
         return true;
+    }
     char program[PATH_MAX];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0)
+    if (length <= 0) {
         return false;
+    }
     program[length] = '\0';
     char *slash = strrchr(program, '/');
-    if (slash)
+    if (slash) {
         *slash = '\0';
+    }
     return snprintf(folder, size, "%s/share/rtlang", program) < (int)size && access(folder, R_OK) == 0;
 }
 
 static rt_status configure(rt_session *session, const Options *options)
 {
     rt_status status = rt_set_size(session, options->width, options->height);
-    for (int i = 0; !status && i < options->include_path_count; i++)
+    for (int i = 0; !status && i < options->include_path_count; i++) {
         status = rt_add_include_path(session, options->include_paths[i]);
+    }
     char data_folder[PATH_MAX];
-    if (!status && find_data_folder(data_folder, sizeof data_folder))
+    if (!status && find_data_folder(data_folder, sizeof data_folder)) {
         status = rt_add_include_path(session, data_folder);
+    }
     for (int i = 0; !status && i < options->declaration_count; i++) {
         status = rt_declare(session, options->declarations[i]);
-        if (status == RT_FAULT_USAGE)
+        if (status == RT_FAULT_USAGE) {
             return fail_usage("option `--declare` wants NAME=NUMBER, with a NAME that is not reserved, found",
                               options->declarations[i]);
+        }
     }
     return status;
 }
@@ -87,8 +94,9 @@ static rt_status dump(rt_session *session, const Options *options)
     rt_status status;
     if (options->action == ACTION_DUMP_SCENE) {
         status = rt_load_file(session, options->scene);
-        if (!status)
+        if (!status) {
             status = rt_dump_scene(session, &text);
+        }
     } else {
         rt_syntax stage = options->action == ACTION_DUMP_TOKENS ? RT_SYNTAX_TOKENS : RT_SYNTAX_AST;
         status = rt_dump_syntax(session, stage, options->scene, &text);
@@ -133,29 +141,35 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
         output = default_name;
     }
     rt_status status = rt_check_output(session, output, &options->encoding);
-    if (!status)
+    if (!status) {
         status = rt_load_file(session, options->scene);
+    }
     if (!status) {
         progress_begin(progress, !options->quiet);
         status = rt_render(session, options->threads);
         progress_end(progress);
     }
-    if (!status)
+    if (!status) {
         status = rt_write(session, output, &options->encoding);
-    if (!status && !options->quiet)
+    }
+    if (!status && !options->quiet) {
         print_summary(session, output);
+    }
     return status;
 }
 
 static rt_status run(rt_session *session, const Options *options, Progress *progress)
 {
     rt_status status = configure(session, options);
-    if (status)
+    if (status) {
         return status;
-    if (options->action == ACTION_RENDER)
+    }
+    if (options->action == ACTION_RENDER) {
         return render(session, options, progress);
-    if (options->action == ACTION_CHECK)
+    }
+    if (options->action == ACTION_CHECK) {
         return rt_load_file(session, options->scene);
+    }
     return dump(session, options);
 }
 

@@ -26,8 +26,9 @@ static bool parse_integer(const char *text, long low, long high, int *value)
 {
     char *end;
     long number = strtol(text, &end, 10);
-    if (end == text || *end || number < low || number > high)
+    if (end == text || *end || number < low || number > high) {
         return false;
+    }
     *value = (int)number;
     return true;
 }
@@ -154,8 +155,9 @@ void options_print_help(FILE *out)
                  rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].argument ? "=" : "",
                  rows[i].argument ? rows[i].argument : "");
         fprintf(out, "  %-28s ", left);
-        for (const char *c = rows[i].help; *c; c++)
+        for (const char *c = rows[i].help; *c; c++) {
             *c == '\n' ? fprintf(out, "\n%31s", "") : fputc(*c, out);
+        }
         fputc('\n', out);
     }
     fprintf(out, "\nExit status: 0 fine, 1 a fault in the scene, 2 usage, 3 input or output, 4 a limit.\n");
@@ -169,12 +171,14 @@ static void make_getopt_tables(struct option *long_options, char *short_options)
 {
     *short_options++ = ':';
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        long_options[i] = (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL,
-                                          FIRST_VAL + (int)i};
-        if (rows[i].letter)
+        long_options[i] =
+            (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL, FIRST_VAL + (int)i};
+        if (rows[i].letter) {
             *short_options++ = rows[i].letter;
-        if (rows[i].letter && rows[i].argument)
+        }
+        if (rows[i].letter && rows[i].argument) {
             *short_options++ = ':';
+        }
     }
     long_options[COUNT_OF(rows)] = (struct option){0};
     *short_options = '\0';
@@ -182,9 +186,11 @@ static void make_getopt_tables(struct option *long_options, char *short_options)
 
 static const OptionRow *find_row(int val)
 {
-    for (size_t i = 0; i < COUNT_OF(rows); i++)
-        if (val == FIRST_VAL + (int)i || (rows[i].letter && val == rows[i].letter))
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        if (val == FIRST_VAL + (int)i || (rows[i].letter && val == rows[i].letter)) {
             return &rows[i];
+        }
+    }
     return NULL;
 }
 
@@ -202,10 +208,12 @@ static OptionsResult complain_getopt(int val, char **argv)
     const OptionRow *row = find_row(optopt);
     const char *word = argv[optind - 1];
     char letter[3] = {'-', (char)optopt, '\0'};
-    if (val == ':')
+    if (val == ':') {
         return complain("option `--%s` wants %s", row ? row->name : word, row ? row->argument : "an argument");
-    if (row)
+    }
+    if (row) {
         return complain("option `--%s` takes no argument%s", row->name, "");
+    }
     return complain("unknown option `%s`%s", optopt && optopt < FIRST_VAL ? letter : word, "");
 }
 
@@ -218,13 +226,15 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
     for (int val; (val = getopt_long(argc, argv, short_options, long_options, NULL)) != -1;) {
         const char *expected = "";
         const OptionRow *row = val == '?' || val == ':' ? NULL : find_row(val);
-        if (!row)
+        if (!row) {
             return complain_getopt(val, argv);
+        }
         if (!row->apply) {
-            if (row->letter == 'h')
+            if (row->letter == 'h') {
                 options_print_help(stdout);
-            else
+            } else {
                 printf("rtlang %s\n", rt_version());
+            }
             return OPTIONS_DONE;
         }
         if (!row->apply(options, optarg, &expected)) {
@@ -242,15 +252,19 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     // No more paths and declarations than arguments.
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);
-    if (!options->include_paths || !options->declarations)
+    if (!options->include_paths || !options->declarations) {
         return complain("out of memory%s%s", "", "");
+    }
     OptionsResult result = read_options(argc, argv, options);
-    if (result != OPTIONS_GO)
+    if (result != OPTIONS_GO) {
         return result;
-    if (optind == argc)
+    }
+    if (optind == argc) {
         return complain("no scene given%s%s", "", "");
-    if (optind + 1 < argc)
+    }
+    if (optind + 1 < argc) {
         return complain("more than one scene given: `%s` and `%s`", argv[optind], argv[optind + 1]);
+    }
     options->scene = argv[optind];
     return OPTIONS_GO;
 }

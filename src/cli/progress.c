@@ -24,8 +24,9 @@ void progress_update(Progress *progress, double done)
 {
     enum { WIDTH = 40 };
     double now = clock_seconds(), elapsed = now - progress->start;
-    if (!progress->enabled || elapsed < 1.0 || now - progress->last < 0.1 || done <= 0.0)
+    if (!progress->enabled || elapsed < 1.0 || now - progress->last < 0.1 || done <= 0.0) {
         return;
+    }
     progress->last = now;
     progress->shown = true;
     char bar[WIDTH + 1];
@@ -38,7 +39,8 @@ void progress_update(Progress *progress, double done)
 
 void progress_end(Progress *progress)
 {
-    if (progress->shown)
+    if (progress->shown) {
         fprintf(stderr, "\r%70s\r", "");
+    }
     progress->shown = false;
 }
