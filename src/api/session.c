@@ -188,6 +188,7 @@ static void forward_message(void *client, EvalStream stream, const char *text, s
         [EVAL_STREAM_STATISTICS] = RT_STREAM_STATISTICS,
     };
     rt_session *session = client;
+    session_deliver(session); // what was told before comes before
     if (session->callbacks.message) {
         session->callbacks.message(session->callbacks.client, streams[stream], text, length);
     }
