@@ -7,6 +7,7 @@ SPDX-License-Identifier: MIT
 """
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -67,19 +68,25 @@ EFFECTS = {
 }
 
 
+def bring(include, folder):
+    """Puts the file beside the scene: folders on the command line come after those of POV-Ray's own settings."""
+    shutil.copy(os.path.join(include, "colors.inc"), folder)
+
+
 def povray_prints(program, folder, include):
+    bring(include, folder)
     with open(os.path.join(folder, "t.scn"), "w", encoding="ascii") as file:
         file.write(program + "sphere { 0, 1 }\n")
-    pictures.run("povray", [pictures.povray(), "+It.scn", f"+L{include}", "-D", "-F", "+W1", "+H1", "+GDdebug.txt"],
-                 folder)
+    pictures.run("povray", [pictures.povray(), "+It.scn", "-D", "-F", "+W1", "+H1", "+GDdebug.txt"], folder)
     with open(os.path.join(folder, "debug.txt"), encoding="latin-1") as file:
         return file.read()
 
 
 def rtlang_prints(program, folder, include):
+    bring(include, folder)
     with open(os.path.join(folder, "t.scn"), "w", encoding="ascii") as file:
         file.write("camera { }\nlight_source { y, 1 }\n" + program + "sphere { 0, 1 }\n")
-    done = subprocess.run([os.path.abspath(os.environ["RTLANG"]), "-q", "--check", f"-I{include}", "t.scn"],
+    done = subprocess.run([os.path.abspath(os.environ["RTLANG"]), "-q", "--check", "t.scn"],
                           cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           timeout=60, check=False)
     text = done.stderr.decode("utf-8", "replace")
@@ -102,8 +109,8 @@ def gamma_pixels(folder, include):
     """The stored codes of a scene whose only #version is in the include."""
     with open(os.path.join(folder, "g.scn"), "w", encoding="ascii") as file:
         file.write(INCLUDE + "background { rgb <0.2, 0.5, 0.02> }\n")
-    pictures.run("povray", [pictures.povray(), "+Ig.scn", "+Og.png", f"+L{include}", "-D", "-A", "+W2", "+H2", "+FN16"],
-                 folder)
+    bring(include, folder)
+    pictures.run("povray", [pictures.povray(), "+Ig.scn", "+Og.png", "-D", "-A", "+W2", "+H2", "+FN16"], folder)
     return pictures.read_png(os.path.join(folder, "g.png"))[2]
 
 
