@@ -226,9 +226,10 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Tra
     const ObjectPart *part = object;
     MaterialIndex index;
     if (ev->scene->shape_count >= ev->options.limits->objects) {
-        ev->stop = true;
-        return eval_fault(ev, DIAG_E0490, part->span, "more than %llu shapes in the scene",
-                          (unsigned long long)ev->options.limits->objects);
+        eval_fault(ev, DIAG_E0490, part->span, "more than %llu shapes in the scene",
+                   (unsigned long long)ev->options.limits->objects);
+        ev->stop = true; // only now: nothing is reported after it
+        return false;
     }
     if (!scene_add_material(ev->scene, material, &index)) {
         return eval_no_memory(ev, part->span);

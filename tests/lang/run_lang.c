@@ -137,6 +137,8 @@ static void set_limit(Limits *limits, const char *setting)
         limits->include_depth = value;
     } else if (strcmp(name, "text_bytes") == 0) {
         limits->text_bytes = value;
+    } else if (strcmp(name, "objects") == 0) {
+        limits->objects = value;
     } else {
         must(strcmp(name, "ast_depth") == 0, setting);
         limits->ast_depth = value;
