@@ -5,6 +5,7 @@ Usage: check_lang.py FILE.test...   Prints TAP; skips where there is no POV-Ray.
 """
 # SPDX-License-Identifier: MIT
 
+import glob
 import os
 import shutil
 import subprocess
@@ -67,7 +68,8 @@ def main():
         print("1..0 # SKIP povray is not installed")
         return 0
     number = failed = 0
-    for path in sys.argv[1:]:
+    top = os.environ.get("top_srcdir", ".")
+    for path in sys.argv[1:] or sorted(glob.glob(f"{top}/tests/lang/*.test")):
         for name, program, files, declared, expected in read_cases(path):
             if expected is None:
                 continue
