@@ -86,7 +86,14 @@ test_scripts = \
 
 TESTS += $(unit_programs) $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
-EXTRA_DIST += $(test_scripts) %D%/fuzz %D%/lang %D%/golden %D%/system %D%/povray %D%/unit
+# Whole folders only where nothing is built; the rest file by file.
+lang_cases = \
+  %D%/lang/arrays.test %D%/lang/camera.test %D%/lang/colours.test %D%/lang/declare.test %D%/lang/default.test \
+  %D%/lang/expressions.test %D%/lang/faults.test %D%/lang/finish.test %D%/lang/includes.test %D%/lang/light.test \
+  %D%/lang/limits.test %D%/lang/loops.test %D%/lang/macros.test %D%/lang/pigment.test %D%/lang/plane.test \
+  %D%/lang/settings.test %D%/lang/sphere.test %D%/lang/strings.test %D%/lang/texture.test \
+  %D%/lang/transforms.test %D%/lang/union.test
+EXTRA_DIST += $(test_scripts) $(lang_cases) %D%/golden %D%/system %D%/povray
 
 # Rewrite what the tests hold as expected; look at the difference before it is committed.
 .PHONY: update-golden update-docs
