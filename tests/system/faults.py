@@ -1,0 +1,87 @@
+# Bad input and bad command lines, case by case: what rtlang is given. What it must answer, word for word, stands in
+# expected/NAME.txt: the exit code on the first line, then standard error.
+#
+# SPDX-License-Identifier: MIT
+
+GOOD = b"""camera { location -5*z look_at 0 }
+light_source { <5, 5, -5>, 1 }
+sphere { 0, 1 pigment { rgb 1 } }
+"""
+
+# Name of the case -> text of its scene, which is NAME.scn.
+SCENES = {
+    "unclosed_brace": b"sphere { 0, 1 pigment { rgb 1 }\n",
+    "unknown_word": b"""camera { location -5*z look_at 0 }
+spere { 0, 1 }
+sphere { 0, 1 pigmant { rgb 1 } }
+#declare Radius = 2;
+sphere { 0, Raduis }
+""",
+    "wrong_type": b"""camera { location "here" }
+sphere { 0, <1, 2, 3> }
+sphere { 0, 1 pigment { rgb "red" } }
+#declare T = 1 + "one";
+""",
+    "missing_camera": b"light_source { <5, 5, -5>, 1 }\nsphere { 5*z, 1 pigment { rgb 1 } }\n",
+    "empty_file": b"",
+    "binary_file": bytes(range(256)) * 4,
+    "picture_as_scene": b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR" + bytes(40),
+    "missing_include": b'#include "nowhere.inc"\nsphere { 0, 1 }\n',
+    "include_loop": b'#include "loop_a.inc"\n',
+    "include_itself": b'#include "include_itself.scn"\n',
+    "endless_recursion": b"#macro Again(N)\n  Again(N + 1)\n#end\nAgain(0)\n",
+    "endless_loop": b"#while (1)\n#end\n",
+}
+
+# Files beside the scenes.
+FILES = {
+    "good.scn": GOOD,
+    "loop_a.inc": b'#include "loop_b.inc"\n',
+    "loop_b.inc": b'#include "loop_a.inc"\n',
+    "plain_file": b"",
+}
+
+# Cases that end with a picture all the same.
+DRAWN = {"missing_camera", "empty_file"}
+
+# Name of the case -> arguments; none of them writes a picture.
+COMMANDS = {
+    "scene_is_a_directory": ["folder.png"],
+    "scene_not_found": ["nowhere.scn"],
+    "scene_read_error": ["/proc/self/mem"],
+    "output_folder_missing": ["-o", "/nonexistent/x.png", "good.scn"],
+    "output_is_a_directory": ["-o", "folder.png", "good.scn"],
+    "output_below_a_file": ["-o", "plain_file/x.png", "good.scn"],
+    "output_link_to_full_device": ["-o", "full.png", "good.scn"],
+    "output_without_ending": ["-o", "picture", "good.scn"],
+    "output_name_empty": ["-o", "", "good.scn"],
+    "unknown_option": ["--wat", "good.scn"],
+    "unknown_letter": ["-x", "good.scn"],
+    "argument_missing": ["good.scn", "-W"],
+    "argument_missing_long": ["good.scn", "--output"],
+    "argument_not_expected": ["--check=1", "good.scn"],
+    "width_zero": ["-W", "0", "good.scn"],
+    "height_not_whole": ["-H", "1.5", "good.scn"],
+    "threads_zero": ["-t", "0", "good.scn"],
+    "depth_unknown": ["--depth", "12", "good.scn"],
+    "file_gamma_zero": ["--file-gamma", "0", "good.scn"],
+    "dump_unknown": ["--dump=trees", "good.scn"],
+    "declare_without_value": ["-D", "Size", "good.scn"],
+    "declare_reserved_word": ["-D", "sphere=1", "good.scn"],
+    "declare_not_a_number": ["-D", "Size=big", "good.scn"],
+    "no_scene": [],
+}
+
+# As COMMANDS, with standard output on a full device.
+COMMANDS_FULL = {
+    "output_full_device": ["-o", "-", "good.scn"],
+    "dump_full_device": ["--dump=ast", "good.scn"],
+}
+
+# As COMMANDS, by a user who may not; skipped where every user may.
+COMMANDS_UNPRIVILEGED = {
+    "scene_unreadable": ["secret.scn"],
+    "include_unreadable": ["include_secret.scn"],
+    "output_read_only": ["-o", "read_only.png", "good.scn"],
+    "output_folder_read_only": ["-o", "closed/x.png", "good.scn"],
+}

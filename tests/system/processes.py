@@ -1,0 +1,124 @@
+# Tests that watch rtlang while it runs: killed, interrupted, at a terminal, and how much memory it takes.
+#
+# SPDX-License-Identifier: MIT
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import sys
+import time
+
+# Far more than a second of work for one thread of any machine.
+SLOW = b"""#version 3.7;
+global_settings { assumed_gamma 1 max_trace_level 30 }
+camera { location -6*z look_at 0 }
+light_source { <5, 5, -10>, 1 }
+#declare S = seed(1);
+#for (I, 1, 400)
+  sphere { <rand(S)*6 - 3, rand(S)*6 - 3, rand(S)*6 - 3>, 0.3 pigment { rgb 1 } finish { reflection 0.9 } }
+#end
+"""
+SLOW_OPTIONS = ["-t", "1", "-W", "8000", "-H", "6000", "-o", "old.png", "slow.scn"]
+QUICK = b"camera { location -5*z look_at 0 }\nlight_source { <5, 5, -5>, 1 }\nsphere { 0, 1 pigment { rgb 1 } }\n"
+OLD_PICTURE = b"an old picture"
+BAR = rb"\r\[#* *\] +\d+ %  \d+ s left"
+PEAK_BYTES = 400 * 1000 * 1000
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def write(path, data):
+    with open(path, "wb") as file:
+        file.write(data)
+
+
+def tests(tap, program):
+    """The tests, for one program."""
+
+    def start_slow(*options, **how):
+        write("old.png", OLD_PICTURE)
+        write("slow.scn", SLOW)
+        return subprocess.Popen([program, *options, *SLOW_OPTIONS], stdin=subprocess.DEVNULL, **how)
+
+    def check_untouched(before, name):
+        tap.equal((read("old.png"), set(os.listdir()) - before), (OLD_PICTURE, set()), name)
+
+    def test_kill():
+        before = {"slow.scn", "old.png"}
+        process = start_slow("-q")
+        time.sleep(0.5)
+        process.kill()
+        tap.equal(process.wait(), -signal.SIGKILL, "killed while it traces")
+        check_untouched(before, "a kill leaves the old picture and nothing else")
+
+    def test_kill_at_any_time():
+        write("quick.scn", QUICK)
+        command = [program, "-q", "-W", "2000", "-H", "1500", "-o"]
+        start = time.monotonic()
+        subprocess.run([*command, "whole.png", "quick.scn"], check=True)
+        seconds = time.monotonic() - start
+        allowed = {OLD_PICTURE, read("whole.png")}
+        broken = []
+        for step in range(1, 13):
+            write("old.png", OLD_PICTURE)
+            process = subprocess.Popen([*command, "old.png", "quick.scn"])
+            time.sleep(seconds * step / 12)
+            process.kill()
+            process.wait()
+            if read("old.png") not in allowed:
+                broken.append(step)
+        tap.equal(broken, [], "killed at twelve moments: the picture is the old one or the whole new one")
+
+    def test_interrupt():
+        before = {"slow.scn", "old.png"}
+        process = start_slow(stderr=subprocess.PIPE)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        message = process.communicate(timeout=60)[1]
+        tap.equal((process.returncode, message), (130, b"rtlang: interrupted; nothing was written\n"), "interrupted")
+        check_untouched(before, "an interrupt leaves the old picture and nothing else")
+
+    def terminal_output(process, master, seconds, wanted):
+        """What comes until `wanted` does, or for so many seconds. Then the process is interrupted."""
+        text, end = b"", time.monotonic() + seconds
+        while time.monotonic() < end and not re.search(wanted, text):
+            if select.select([master], [], [], 0.1)[0]:
+                text += os.read(master, 4096)
+        process.send_signal(signal.SIGINT)
+        process.wait(timeout=60)
+        return text
+
+    def test_progress():
+        master, slave = pty.openpty()
+        process = start_slow(stderr=slave)
+        start = time.monotonic()
+        text = terminal_output(process, master, 60, BAR)
+        tap.ok(re.search(BAR, text), "a bar at a terminal", text)
+        tap.ok(time.monotonic() - start >= 1, "not in the first second")
+        process = start_slow("-q", stderr=slave)
+        tap.ok(b"%" not in terminal_output(process, master, 2, BAR), "no bar with --quiet")
+        os.close(slave)
+        os.close(master)
+        process = start_slow(stderr=subprocess.PIPE)
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        tap.equal(process.communicate(timeout=60)[1], b"rtlang: interrupted; nothing was written\n", "no bar in a pipe")
+
+    def test_million_spheres():
+        generator = os.path.join(os.environ["top_srcdir"], "bench", "generate.py")
+        with open("million.scn", "wb") as scene:
+            subprocess.run([sys.executable, generator, "1000000"], stdout=scene, check=True)
+        tap.ok(os.path.getsize("million.scn") > 150e6, "a million spheres in more than 150 MB of text")
+        process = subprocess.Popen([program, "-q", "-W", "64", "-H", "48", "-o", "million.png", "million.scn"])
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        tap.equal(process.returncode, 0, "a million spheres are drawn")
+        peak = usage.ru_maxrss * 1024
+        tap.ok(peak <= PEAK_BYTES, "in at most 400 MB of memory", "peak %d bytes" % peak)
+
+    return [test_kill, test_kill_at_any_time, test_interrupt, test_progress, test_million_spheres]
