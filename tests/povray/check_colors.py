@@ -36,7 +36,7 @@ def words(folder, directive):
 
 
 def show(value, items):
-    return "".join(f'#debug concat(str({value}.{item}, 0, 12), "\\n")\n' for item in items)
+    return "".join(f'#debug concat(str({value}.{item}, 0, 17), "\\n")\n' for item in items)
 
 
 def keep_and_show(call, items):
@@ -53,7 +53,7 @@ def macro_program():
     calls = [f"{macro}({value})" for macro in ("CRGB2HSL", "CRGB2HSV") for value in COLOURS]
     calls += [f"{macro}({value})" for macro in ("CHSL2RGB", "CHSV2RGB") for value in HUED]
     return ("".join(f"#declare Result = CH2RGB({hue});\n" + show("Result", ITEMS[:3]) for hue in HUES) +
-            "".join(f'#debug concat(str(CRGB2H({three}), 0, 12), "\\n")\n' for three in HUE_OF) +
+            "".join(f'#debug concat(str(CRGB2H({three}), 0, 17), "\\n")\n' for three in HUE_OF) +
             "".join(keep_and_show(call, ITEMS) for call in calls))
 
 
