@@ -31,6 +31,12 @@ sphere { 0, 1 pigment { rgb "red" } }
     "include_itself": b'#include "include_itself.scn"\n',
     "endless_recursion": b"#macro Again(N)\n  Again(N + 1)\n#end\nAgain(0)\n",
     "endless_loop": b"#while (1)\n#end\n",
+    "unclosed_if": b"#if (1)\nsphere { 0, 1 }\n",
+    "not_supported": b"torus { 1, 0.2 }\nsphere { 0, 1 pigment { checker } }\n",
+    "not_finite": b"#declare A = 1e308 * 10;\nsphere { <A, 0, 0>, 1 }\n",
+    "many_faults": b"".join(b"sphere { Name_%d, 1 }\n" % i for i in range(30)),
+    "error_directive": b'#error "stop here"\n',
+    "messages": b'#debug "one\\n"\n#warning "two"\n#debug "three\\n"\n' + GOOD,
 }
 
 # Files beside the scenes.
@@ -42,7 +48,7 @@ FILES = {
 }
 
 # Cases that end with a picture all the same.
-DRAWN = {"missing_camera", "empty_file"}
+DRAWN = {"missing_camera", "empty_file", "messages"}
 
 # Name of the case -> arguments; none of them writes a picture.
 COMMANDS = {
@@ -54,6 +60,8 @@ COMMANDS = {
     "output_below_a_file": ["-o", "plain_file/x.png", "good.scn"],
     "output_link_to_full_device": ["-o", "full.png", "good.scn"],
     "output_without_ending": ["-o", "picture", "good.scn"],
+    "output_unknown_format": ["-o", "x.foo", "good.scn"],
+    "output_depth": ["-o", "x.jpg", "--depth=16", "good.scn"],
     "output_name_empty": ["-o", "", "good.scn"],
     "unknown_option": ["--wat", "good.scn"],
     "unknown_letter": ["-x", "good.scn"],
@@ -71,6 +79,9 @@ COMMANDS = {
     "declare_not_a_number": ["-D", "Size=big", "good.scn"],
     "no_scene": [],
 }
+
+# Cases whose message is another without OpenImageIO.
+WANT_OPENIMAGEIO = {"output_unknown_format", "output_depth"}
 
 # As COMMANDS, with standard output on a full device.
 COMMANDS_FULL = {

@@ -52,7 +52,14 @@ def picture(scene, *arguments):
 
 def check_message(name, result):
     path = os.path.join(HERE, "expected", name + ".txt")
-    found = b"exit %d\n" % result.returncode + result.stderr
+    message = result.stderr
+    if name in faults.WANT_OPENIMAGEIO and b"E0507" in message:
+        tap.skip("message: " + name, "OpenImageIO's module is not there")
+        return
+    # What OpenImageIO says of a format is its own; the folder of the shipped include files is not always there.
+    message = re.sub(rb"(no picture format):.*", rb"\1", message)
+    message = re.sub(rb", `[^`]*share/rtlang`", b"", message)
+    found = b"exit %d\n" % result.returncode + message
     if "--update" in sys.argv:
         write(path, found)
     tap.equal(found, read(path) if os.path.exists(path) else b"", "message: " + name)
@@ -129,9 +136,16 @@ def test_output():
     os.symlink("old.png", "link.png")
     rtlang("-q", "-o", "link.png", "scenes/one.two.scn")
     tap.equal((os.readlink("link.png"), read("old.png")), ("old.png", default), "an old picture behind a link is replaced")
-    for threads in "1", "2", "7":
-        found = rtlang("-q", "-t", threads, "--output=-", "scenes/one.two.scn").stdout
-        tap.equal(found, default, "the same bytes from --threads " + threads)
+
+
+def test_threads():
+    write("good.scn", faults.GOOD)
+    examples = os.path.join(os.environ["top_srcdir"], "examples")
+    scenes = [os.path.join(examples, name) for name in ("05_glass_and_filters.scn", "10_sphere_flake.scn")]
+    for scene in ["good.scn", *scenes]:
+        pictures = [rtlang("-q", "-t", threads, "-o", "-", scene).stdout for threads in ("1", "2", "7")]
+        tap.ok(pictures[0][:4] == b"\x89PNG" and len(set(pictures)) == 1,
+               os.path.basename(scene) + ": the same bytes from 1, 2 and 7 threads")
 
 
 def test_size_and_values():
@@ -157,9 +171,12 @@ def test_size_and_values():
 
 
 def test_names_and_folders():
+    write("size.scn", b'#debug concat(str(image_width, 0, 0), "x", str(image_height, 0, 0), "\\n")\n' + faults.GOOD)
+    tap.equal(rtlang("--check", "-W", "33", "-H", "44", "size.scn").stderr, b"33x44\n", "image_width and image_height")
     literal = picture(faults.GOOD.replace(b"0, 1 ", b"0, 1.5 "))
     named = faults.GOOD.replace(b"0, 1 ", b"0, Size + Shift ")
     tap.equal(picture(named, "-D", "Size=2", "--declare=Shift=-0.5"), literal, "-D and --declare declare numbers")
+    tap.equal(picture(named, "-D", "Size=2", "-DShift=-0.5", "-D", "Size=9"), literal, "of two -D of a name the first holds")
     for folder in "first", "second":
         os.mkdir(folder)
         write(folder + "/both.inc", b'#debug "both from ' + folder.encode() + b'\\n"\n')
@@ -203,8 +220,8 @@ def test_summary():
         tap.ok(re.fullmatch(form % name, found), "one line of summary for -o " + output, found)
 
 
-TESTS = [test_messages, test_permissions, test_output, test_size_and_values, test_names_and_folders, test_actions,
-         test_summary]
+TESTS = [test_messages, test_permissions, test_output, test_threads, test_size_and_values, test_names_and_folders,
+         test_actions, test_summary]
 
 
 def main():
