@@ -101,7 +101,8 @@ def test_messages():
             tap.equal(png_header(read("old.png"))[:2], (320, 240), name + ": a picture all the same")
             write("old.png", OLD_PICTURE)
         else:
-            tap.equal((read("old.png"), set(os.listdir()) - before), (OLD_PICTURE, set()), name + ": old picture untouched")
+            tap.equal((read("old.png"), set(os.listdir()) - before), (OLD_PICTURE, set()),
+                      name + ": old picture untouched")
     before = set(os.listdir())
     for name, arguments in faults.COMMANDS.items():
         check_message(name, rtlang("-q", *arguments))
@@ -109,6 +110,12 @@ def test_messages():
         with open("/dev/full", "wb") as full:
             check_message(name, rtlang("-q", *arguments, stdout=full))
     tap.equal(set(os.listdir()) - before, set(), "commands that fail leave no files")
+
+
+def test_expected():
+    cases = {*faults.SCENES, *faults.COMMANDS, *faults.COMMANDS_FULL, *faults.COMMANDS_UNPRIVILEGED}
+    expected = {name[:-4] for name in os.listdir(os.path.join(HERE, "expected"))}
+    tap.equal(expected, cases, "a case for each expected message")
 
 
 def test_permissions():
@@ -128,14 +135,16 @@ def test_output():
     os.mkdir("scenes")
     write("scenes/one.two.scn", faults.GOOD)
     result = rtlang("-q", "scenes/one.two.scn")
-    tap.ok(result.returncode == 0 and os.path.exists("one.two.png"), "default output: the name with .png, in the current folder")
+    tap.ok(result.returncode == 0 and os.path.exists("one.two.png"),
+           "default output: the name with .png, in the current folder")
     tap.equal((result.stdout, result.stderr), (b"", b""), "--quiet says nothing")
     default = read("one.two.png")
     tap.equal(rtlang("-q", "-o", "-", "scenes/one.two.scn").stdout, default, "-o - writes the bytes of the file")
     write("old.png", OLD_PICTURE)
     os.symlink("old.png", "link.png")
     rtlang("-q", "-o", "link.png", "scenes/one.two.scn")
-    tap.equal((os.readlink("link.png"), read("old.png")), ("old.png", default), "an old picture behind a link is replaced")
+    tap.equal((os.readlink("link.png"), read("old.png")), ("old.png", default),
+              "an old picture behind a link is replaced")
 
 
 def test_threads():
@@ -153,14 +162,16 @@ def test_size_and_values():
     write("grey.scn", grey)
     tap.equal(png_header(rtlang("-o", "-", "grey.scn").stdout), (320, 240, 8), "size and depth by default")
     tap.equal(png_header(rtlang("-W", "7", "-H", "5", "-o", "-", "grey.scn").stdout)[:2], (7, 5), "-W, -H")
-    tap.equal(png_header(rtlang("--width=9", "--height=3", "-o", "-", "grey.scn").stdout)[:2], (9, 3), "--width, --height")
+    tap.equal(png_header(rtlang("--width=9", "--height=3", "-o", "-", "grey.scn").stdout)[:2], (9, 3),
+              "--width, --height")
     # Half of the light: 1/2 by the sRGB curve, by no curve, by the power 1/2.2; times 255 and 65535.
     for gamma, depth, value in [("srgb", 8, 188), ("1", 8, 128), ("2.2", 8, 186),
                                 ("srgb", 16, 48192), ("1", 16, 32768), ("2.2", 16, 47824)]:
         found = rtlang("--file-gamma", gamma, "--depth", str(depth), "-o", "-", "grey.scn").stdout
         tap.equal((png_header(found)[2], png_first_pixel(found)), (depth, (value,) * 3),
                   "--file-gamma %s --depth %d" % (gamma, depth))
-    tap.equal(rtlang("-o", "-", "grey.scn").stdout, rtlang("--file-gamma=srgb", "--depth=8", "-o", "-", "grey.scn").stdout,
+    tap.equal(rtlang("-o", "-", "grey.scn").stdout,
+              rtlang("--file-gamma=srgb", "--depth=8", "-o", "-", "grey.scn").stdout,
               "sRGB in 8 bits is the default")
     result = rtlang("-q", "-o", "grey.exr", "grey.scn")
     if b"E0507" in result.stderr:
@@ -176,7 +187,8 @@ def test_names_and_folders():
     literal = picture(faults.GOOD.replace(b"0, 1 ", b"0, 1.5 "))
     named = faults.GOOD.replace(b"0, 1 ", b"0, Size + Shift ")
     tap.equal(picture(named, "-D", "Size=2", "--declare=Shift=-0.5"), literal, "-D and --declare declare numbers")
-    tap.equal(picture(named, "-D", "Size=2", "-DShift=-0.5", "-D", "Size=9"), literal, "of two -D of a name the first holds")
+    tap.equal(picture(named, "-D", "Size=2", "-DShift=-0.5", "-D", "Size=9"), literal,
+              "of two -D of a name the first holds")
     for folder in "first", "second":
         os.mkdir(folder)
         write(folder + "/both.inc", b'#debug "both from ' + folder.encode() + b'\\n"\n')
@@ -207,7 +219,8 @@ def test_actions():
     tap.ok(version.returncode == 0 and re.fullmatch(rb"rtlang \d+\.\d+\.\d+\n", version.stdout), "--version", version)
     usage = rtlang("--help")
     tap.equal((usage.returncode, usage.stderr), (0, b""), "--help")
-    for option in ("output width height threads include-path declare depth file-gamma check dump quiet version help").split():
+    options = "output width height threads include-path declare depth file-gamma check dump quiet version help"
+    for option in options.split():
         tap.ok(b"--" + option.encode() in usage.stdout, "--help tells of --" + option)
 
 
@@ -220,8 +233,8 @@ def test_summary():
         tap.ok(re.fullmatch(form % name, found), "one line of summary for -o " + output, found)
 
 
-TESTS = [test_messages, test_permissions, test_output, test_threads, test_size_and_values, test_names_and_folders,
-         test_actions, test_summary]
+TESTS = [test_messages, test_expected, test_permissions, test_output, test_threads, test_size_and_values,
+         test_names_and_folders, test_actions, test_summary]
 
 
 def main():
