@@ -22,7 +22,7 @@ SIZE = ("800", "600")
 
 def programs():
     """Name -> command line for a scene and a picture."""
-    found = {"rtlang": lambda scene, picture: [os.environ.get("RTLANG", "./rtlang"), "-q", "-W", SIZE[0], "-H", SIZE[1],
+    found = {"rtlang": lambda scene, picture: [os.path.abspath(os.environ.get("RTLANG", "./rtlang")), "-q", "-W", SIZE[0], "-H", SIZE[1],
                                                "-o", picture, scene]}
     povray = os.environ.get("POVRAY") or shutil.which("povray")
     if povray:

@@ -1,7 +1,7 @@
 // Arena: memory that is handed out piece by piece and given back all at once, or back to a mark.
 //
-// rtlang has three lifetimes, each one arena: parse (the AST of the current statement), scene (what the
-// evaluated scene refers to) and scratch (one call; mark and rewind). There are no reference counts.
+// rtlang has three lifetimes, each one arena: parse (the AST of the current statement), program (what the
+// scene declares) and scratch (temporaries; mark and rewind). There are no reference counts.
 // An arena is used by one thread at a time.
 //
 // SPDX-License-Identifier: MIT

@@ -18,7 +18,6 @@ typedef struct Limits {
     uint64_t objects;       // shapes in the scene
     uint64_t text_bytes;    // bytes of scene text, all files together
     size_t arena_bytes;     // memory of each arena
-    uint64_t pixels;        // width times height
 } Limits;
 
 #define LIMITS_DEFAULT                                                                                                 \
@@ -30,7 +29,6 @@ typedef struct Limits {
         .objects = 1000u * 1000 * 1000,                                                                                \
         .text_bytes = (uint64_t)64 << 30,                                                                              \
         .arena_bytes = (size_t)8 << 30,                                                                                \
-        .pixels = (uint64_t)1 << 30,                                                                                   \
     })
 
 #endif

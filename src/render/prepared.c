@@ -221,9 +221,3 @@ const char *prepared_kernel_name(const Prepared *prepared)
 {
     return prepared->kernel->name;
 }
-
-size_t prepared_bytes(const Prepared *prepared)
-{
-    return sizeof *prepared + geometry_bytes(prepared->geometry) + prepared->light_count * sizeof *prepared->lights +
-           prepared->material_count * sizeof *prepared->materials;
-}

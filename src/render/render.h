@@ -25,7 +25,6 @@ void prepared_free(Prepared *prepared);
 
 // Name of the kernel that was chosen, for example "spheres+shadows".
 const char *prepared_kernel_name(const Prepared *prepared);
-size_t prepared_bytes(const Prepared *prepared);
 
 // A picture in the scene's working space: rows from the top, pixels from the left, red green blue each.
 typedef struct Film {
