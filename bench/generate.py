@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # Writes a scene of N spheres in a cube to standard output: the same text for the same N, on every machine.
-# Every sphere spells out its pigment and finish, in one of sixteen colours, as the exporters of molecule viewers write
-# them. Plain POV-Ray 3.7, so that every peer that reads it is given the same file.
+# Every sphere spells out its pigment and finish, in a colour of its own, as the exporters of viewers write them. Plain POV-Ray 3.7, so that every peer that reads it is given the same file.
 #
 # Usage: generate.py COUNT
 # SPDX-License-Identifier: MIT
@@ -23,11 +22,10 @@ def write_scene(out, count):
     """Centres are uniform in a cube of side 2; radii shrink with the count, so that about as much of it is filled."""
     number = random.Random(1).random  # its sequence is the same in every version of Python
     radius = 0.6 / count ** (1 / 3)
-    colours = [[0.2 + 0.8 * number() for _ in range(3)] for _ in range(16)]
     out.write(HEAD.format(count=count))
     for _ in range(count):
         centre = [0.0] * 3 if count == 1 else [2 * number() - 1 for _ in range(3)]
-        colour = colours[int(16 * number())]
+        colour = [0.2 + 0.8 * number() for _ in range(3)]
         out.write(SPHERE.format(*centre, radius * (0.5 + 0.5 * number()), *colour))
 
 

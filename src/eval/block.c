@@ -83,7 +83,7 @@ void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
     const Settings *settings = &ev->scene->settings;
     memcpy(record, schema->defaults, schema->size);
     switch (kind) {
-    case KIND_TEXTURE: record->texture.material = ev->objects->defaults; break;
+    case KIND_TEXTURE: record->texture.layer = ev->objects->defaults; break;
     case KIND_PIGMENT: record->pigment.colour = ev->objects->defaults.pigment; break;
     case KIND_FINISH: record->finish.finish = ev->objects->defaults.finish; break;
     case KIND_GLOBAL_SETTINGS:
@@ -319,7 +319,7 @@ static void take_name(Block *block, const Value *value, const AstNode *item)
         block_fault(block, DIAG_E0258, item->span, "`%s` cannot begin with %s", block_word(block),
                     value_describe(value));
     } else if (value->block == KIND_PIGMENT && block->kind == KIND_TEXTURE) {
-        block->record->texture.material.pigment = ((const PigmentBlueprint *)value->record)->colour;
+        block->record->texture.layer.pigment = ((const PigmentBlueprint *)value->record)->colour;
     } else {
         block->is = (SchemaKind)value->block;
         memcpy(block->record, value->record, schema_kind(block->is)->size);

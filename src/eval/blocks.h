@@ -13,7 +13,7 @@ struct ObjectState {
     uint8_t properties[KIND_COUNT][WORD_COUNT]; // place in the kind's properties + 1
     uint8_t advice[WORD_COUNT];                 // place among the unsupported words + 1
     bool is_told[WORD_COUNT];                   // that rtlang has not this word
-    Material defaults;                          // of #default
+    TextureLayer defaults;                      // of #default
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring, has_deferred;
     UnsupportedBlueprint deferred;

@@ -157,7 +157,7 @@ bool object_body(Block *block)
 
 typedef struct Placement {
     Transform outer;
-    const Material *inherited; // of the nearest union that has one, else #default's
+    const TextureLayer *inherited; // of the nearest union that has one, else #default's
 } Placement;
 
 static bool flattened(Eval *ev, const ObjectPart *part)
@@ -221,7 +221,7 @@ static bool place_plane(Eval *ev, const PlaneBlueprint *plane, const Transform *
 }
 
 static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Transform *transform,
-                        const Material *material)
+                        const TextureLayer *texture)
 {
     const ObjectPart *part = object;
     MaterialIndex index;
@@ -231,7 +231,7 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Tra
         ev->stop = true; // only now: nothing is reported after it
         return false;
     }
-    if (!scene_add_material(ev->scene, material, &index)) {
+    if (!scene_add_material(ev->scene, texture->pigment, &texture->finish, &index)) {
         return eval_no_memory(ev, part->span);
     }
     return kind == KIND_SPHERE ? place_sphere(ev, object, transform, index) : place_plane(ev, object, transform, index);
@@ -246,7 +246,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
     const ObjectPart *part = object;
     Placement inner = {
         .outer = transform_compose(part->transform, outer->outer),
-        .inherited = part->has_material ? &part->material : outer->inherited,
+        .inherited = part->has_texture ? &part->texture : outer->inherited,
     };
     if (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius == 0.0) {
         eval_warn(ev, DIAG_W0348, part->span, "a sphere of radius 0 is not drawn");
@@ -408,7 +408,7 @@ bool objects_init(Eval *ev)
     }
     memset(objects, 0, sizeof *objects);
     ev->objects = objects;
-    objects->defaults = ((const TextureBlueprint *)schema_kind(KIND_TEXTURE)->defaults)->material;
+    objects->defaults = ((const TextureBlueprint *)schema_kind(KIND_TEXTURE)->defaults)->layer;
     index_words(ev);
     return true;
 }

@@ -1,4 +1,4 @@
-// Textures: pigment, finish and reflection become one Material.
+// Textures: pigment, finish and reflection become one layer.
 //
 // A block inside another one changes only what it says; the rest is the surrounding texture's, or that of #default at
 // the time. Albedo forms are worked out at a finish's closing brace, with the exponents it has by then. Knows nothing
@@ -9,42 +9,42 @@
 
 #include "eval/blocks.h"
 
-static bool read_pigment(Eval *ev, const AstNode *item, Material *material)
+static bool read_pigment(Eval *ev, const AstNode *item, TextureLayer *layer)
 {
     Blueprint record;
     SchemaKind is;
     block_defaults(ev, KIND_PIGMENT, &record);
-    record.pigment.colour = material->pigment;
+    record.pigment.colour = layer->pigment;
     if (!block_read(ev, item, KIND_PIGMENT, &ev->program, &record, &is)) {
         return false;
     }
-    material->pigment = record.pigment.colour;
+    layer->pigment = record.pigment.colour;
     return true;
 }
 
-static bool read_finish(Eval *ev, const AstNode *item, Material *material)
+static bool read_finish(Eval *ev, const AstNode *item, TextureLayer *layer)
 {
     Blueprint record;
     SchemaKind is;
     block_defaults(ev, KIND_FINISH, &record);
-    record.finish.finish = material->finish;
+    record.finish.finish = layer->finish;
     if (!block_read(ev, item, KIND_FINISH, &ev->program, &record, &is)) {
         return false;
     }
-    material->finish = record.finish.finish;
+    layer->finish = record.finish.finish;
     return true;
 }
 
 // A texture over another one hides it if no light gets through; only then is it the only one.
-static void add_layer(Eval *ev, const Material *layer, Span span, bool has_material, Material *material)
+static void add_layer(Eval *ev, const TextureLayer *layer, Span span, bool has_texture, TextureLayer *texture)
 {
-    if (has_material && (layer->pigment.filter != 0.0 || layer->pigment.transmit != 0.0)) {
+    if (has_texture && (layer->pigment.filter != 0.0 || layer->pigment.transmit != 0.0)) {
         block_unsupported(ev, "texture", span, KIND_TEXTURE);
     }
-    *material = *layer;
+    *texture = *layer;
 }
 
-static bool read_texture(Eval *ev, const AstNode *item, bool has_material, Material *material)
+static bool read_texture(Eval *ev, const AstNode *item, bool has_texture, TextureLayer *texture)
 {
     Blueprint record;
     SchemaKind is;
@@ -52,7 +52,7 @@ static bool read_texture(Eval *ev, const AstNode *item, bool has_material, Mater
     if (!block_read(ev, item, KIND_TEXTURE, &ev->program, &record, &is)) {
         return false;
     }
-    add_layer(ev, &record.texture.material, item->span, has_material, material);
+    add_layer(ev, &record.texture.layer, item->span, has_texture, texture);
     return true;
 }
 
@@ -60,19 +60,19 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
 {
     Eval *ev = block->ev;
     if (block->kind == KIND_TEXTURE) {
-        Material *material = &block->record->texture.material;
-        return property->action == ACTION_PIGMENT ? read_pigment(ev, item, material) : read_finish(ev, item, material);
+        TextureLayer *layer = &block->record->texture.layer;
+        return property->action == ACTION_PIGMENT ? read_pigment(ev, item, layer) : read_finish(ev, item, layer);
     }
     ObjectPart *part = &block->record->part;
-    bool had_material = part->has_material;
-    if (!had_material) {
-        part->material = ev->objects->defaults;
-        part->has_material = true;
+    bool had_texture = part->has_texture;
+    if (!had_texture) {
+        part->texture = ev->objects->defaults;
+        part->has_texture = true;
     }
     switch (property->action) {
-    case ACTION_PIGMENT: return read_pigment(ev, item, &part->material);
-    case ACTION_FINISH: return read_finish(ev, item, &part->material);
-    default: return read_texture(ev, item, had_material, &part->material);
+    case ACTION_PIGMENT: return read_pigment(ev, item, &part->texture);
+    case ACTION_FINISH: return read_finish(ev, item, &part->texture);
+    default: return read_texture(ev, item, had_texture, &part->texture);
     }
 }
 
@@ -150,7 +150,7 @@ bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value)
             return true;
         }
         const TextureBlueprint *texture = one.record;
-        bool is_seen_through = texture->material.pigment.filter != 0.0 || texture->material.pigment.transmit != 0.0;
+        bool is_seen_through = texture->layer.pigment.filter != 0.0 || texture->layer.pigment.transmit != 0.0;
         if (layer != first && is_seen_through) {
             UnsupportedBlueprint what = {layer->span, "texture", KIND_TEXTURE};
             void *kept = arena_copy(&ev->program, &what, sizeof what);
@@ -168,7 +168,7 @@ bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value)
 bool eval_default(Eval *ev, const AstNode *directive)
 {
     Cursor cursor;
-    Material *defaults = &ev->objects->defaults;
+    TextureLayer *defaults = &ev->objects->defaults;
     bool is_fine = true;
     const AstNode *item;
     cursor_open(&cursor, ev, directive->a, directive->span);

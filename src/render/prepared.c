@@ -1,4 +1,4 @@
-// Prepares a scene for its kernel: one exact scale, geometry, reduced lights and materials, and the choice of the kernel.
+// Prepares a scene for its kernel: one exact scale, geometry, reduced lights and finishes, and the choice of the kernel.
 //
 // SPDX-License-Identifier: MIT
 #include "render/prepared.h"
@@ -72,7 +72,7 @@ static Vec3 unit(Vec3 a)
     return vec3_normalize(vec3_ldexp(a, -ilogb(greatest)));
 }
 
-// ---- camera, lights, materials
+// ---- camera, lights, finishes
 
 static PreparedCamera prepare_camera(const Camera *camera, int exponent)
 {
@@ -107,18 +107,12 @@ static PreparedLight prepare_light(const Light *light, int exponent)
     return out;
 }
 
-static PreparedMaterial prepare_material(const Material *material, const Settings *settings)
+static PreparedFinish prepare_finish(const Finish *finish, const Settings *settings)
 {
-    const Finish *finish = &material->finish;
-    Rgbft pigment = material->pigment;
-    Rgb colour = rgbft_rgb(pigment);
-    Rgb opaque = rgb_scale(1.0 - pigment.filter - pigment.transmit, colour);
-    PreparedMaterial out = {
-        .glow = rgb_mul(opaque, rgb_add(rgb_mul(finish->ambient, settings->ambient_light), finish->emission)),
-        .diffuse = rgb_scale(fmax(finish->diffuse, 0.0), opaque),
-        .diffuse_back = rgb_scale(fmax(finish->diffuse_back, 0.0), opaque),
-        .through = rgb_add(rgb_scale(pigment.filter, colour), rgb_grey(pigment.transmit)),
-        .pigment = colour,
+    return (PreparedFinish){
+        .glow = rgb_add(rgb_mul(finish->ambient, settings->ambient_light), finish->emission),
+        .diffuse = fmax(finish->diffuse, 0.0),
+        .diffuse_back = fmax(finish->diffuse_back, 0.0),
         .brilliance = finish->brilliance,
         .phong = finish->phong,
         .phong_size = finish->phong_size,
@@ -131,36 +125,41 @@ static PreparedMaterial prepare_material(const Material *material, const Setting
         .reflection_exponent = finish->reflection_exponent,
         .reflection_metallic = finish->reflection_metallic,
         .reflection_weight = fmax(rgb_max(finish->reflection_min), rgb_max(finish->reflection_max)),
+        .shines = finish->phong > 0.0 || finish->specular > 0.0,
+        .reflects = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max),
         .conserves_energy = finish->flags & FINISH_CONSERVE_ENERGY,
     };
-    out.scatters = !rgb_is_black(out.diffuse);
-    out.scatters_back = !rgb_is_black(out.diffuse_back);
-    out.shines = finish->phong > 0.0 || finish->specular > 0.0;
-    out.reflects = !rgb_is_black(out.reflection_min) || !rgb_is_black(out.reflection_max);
-    out.lets_through = !rgb_is_black(out.through);
-    return out;
 }
 
 // ---- features
 
-static unsigned material_features(const PreparedMaterial *material)
+static unsigned finish_features(const PreparedFinish *finish)
 {
-    return (material->shines ? (unsigned)RENDER_HIGHLIGHTS : 0) |
-           (material->scatters_back || (material->scatters && material->brilliance != 1.0) ? (unsigned)RENDER_BRILLIANCE
-                                                                                           : 0) |
-           (material->reflects ? (unsigned)RENDER_REFLECTION : 0) |
-           (material->reflects && material->reflection_exponent != 1.0 ? (unsigned)RENDER_EXPONENT : 0) |
-           (material->lets_through ? (unsigned)RENDER_TRANSPARENCY : 0);
+    bool is_lambertian = finish->diffuse_back == 0.0 && (finish->diffuse == 0.0 || finish->brilliance == 1.0);
+    return (finish->shines ? (unsigned)RENDER_HIGHLIGHTS : 0) | (is_lambertian ? 0 : (unsigned)RENDER_BRILLIANCE) |
+           (finish->reflects ? (unsigned)RENDER_REFLECTION : 0) |
+           (finish->reflects && finish->reflection_exponent != 1.0 ? (unsigned)RENDER_EXPONENT : 0);
 }
 
-static unsigned needed_features(const Prepared *p)
+static unsigned pigments_features(const Scene *scene)
 {
-    unsigned features = geometry_features(p->geometry);
+    for (size_t i = 0; i < scene->materials.count; i++) {
+        const Material *material = &scene->materials.items[i];
+        if (material->filter != 0.0F || material->transmit != 0.0F) {
+            return RENDER_TRANSPARENCY;
+        }
+    }
+    return 0;
+}
+
+static unsigned needed_features(const Prepared *p, const Scene *scene)
+{
+    unsigned features = geometry_features(p->geometry) | pigments_features(scene);
     for (size_t i = 0; i < p->light_count; i++) {
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
     }
-    for (size_t i = 0; i < p->material_count; i++) {
-        features |= material_features(&p->materials[i]);
+    for (size_t i = 0; i < p->finish_count; i++) {
+        features |= finish_features(&p->finishes[i]);
     }
     return features;
 }
@@ -175,9 +174,10 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
             p->lights[p->light_count++] = prepare_light(&scene->lights.items[i], exponent);
         }
     }
-    p->material_count = scene->materials.count;
-    for (size_t i = 0; i < p->material_count; i++) {
-        p->materials[i] = prepare_material(&scene->materials.items[i], &scene->settings);
+    p->materials = scene->materials.items;
+    p->finish_count = scene->finishes.count;
+    for (size_t i = 0; i < p->finish_count; i++) {
+        p->finishes[i] = prepare_finish(&scene->finishes.items[i], &scene->settings);
     }
 }
 
@@ -190,8 +190,8 @@ Prepared *prepared_new(const Scene *scene)
     int exponent = scene_exponent(scene);
     p->geometry = geometry_new(scene, exponent);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
-    p->materials = calloc(scene->materials.count + 1, sizeof *p->materials);
-    if (!p->geometry || !p->lights || !p->materials) {
+    p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
+    if (!p->geometry || !p->lights || !p->finishes) {
         prepared_free(p);
         return NULL;
     }
@@ -201,7 +201,7 @@ Prepared *prepared_new(const Scene *scene)
     p->adc_bailout = scene->settings.adc_bailout;
     p->crossings_max = 2 * (uint64_t)scene->shape_count;
     prepare_lists(p, scene, exponent);
-    p->features = needed_features(p);
+    p->features = needed_features(p, scene);
     p->kernel = kernel_choose(p->features);
     return p;
 }
@@ -213,7 +213,7 @@ void prepared_free(Prepared *prepared)
     }
     geometry_free(prepared->geometry);
     free(prepared->lights);
-    free(prepared->materials);
+    free(prepared->finishes);
     free(prepared);
 }
 

@@ -26,13 +26,10 @@ typedef struct PreparedLight {
     Rgb colour;
 } PreparedLight;
 
-// A material with everything multiplied out that does not depend on the ray. "Opaque share" is 1 - filter - transmit.
-typedef struct PreparedMaterial {
-    Rgb glow;         // opaque share × pigment × (ambient × ambient light + emission)
-    Rgb diffuse;      // opaque share × pigment × diffuse; black when diffuse is not positive
-    Rgb diffuse_back; // the same for light from behind
-    Rgb through;      // filter × pigment + transmit: what a ray that goes through is multiplied with
-    Rgb pigment;
+// A finish with everything worked out that does not depend on pigment and ray.
+typedef struct PreparedFinish {
+    Rgb glow;                     // ambient × ambient light + emission
+    double diffuse, diffuse_back; // >= 0
     double brilliance;
     double phong, phong_size;
     double specular, shininess; // shininess = 1 / roughness
@@ -40,8 +37,8 @@ typedef struct PreparedMaterial {
     Rgb reflection_min, reflection_max;
     double reflection_falloff, reflection_exponent, reflection_metallic;
     double reflection_weight; // the greatest component of both
-    bool scatters, scatters_back, shines, reflects, lets_through, conserves_energy;
-} PreparedMaterial;
+    bool shines, reflects, conserves_energy;
+} PreparedFinish;
 
 struct Prepared {
     Geometry *geometry;
@@ -49,8 +46,9 @@ struct Prepared {
     Rgb background;
     PreparedLight *lights;
     size_t light_count;
-    PreparedMaterial *materials;
-    size_t material_count;
+    const Material *materials; // the scene's
+    PreparedFinish *finishes;
+    size_t finish_count;
     int max_trace_level;
     double adc_bailout;
     uint64_t crossings_max; // no line meets more surfaces

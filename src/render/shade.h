@@ -45,6 +45,32 @@ typedef struct ShadePoint {
     bool inside;
 } ShadePoint;
 
+// What a surface is made of at a point. "Opaque share" is 1 - filter - transmit.
+typedef struct ShadeMaterial {
+    Rgb pigment;
+    Rgb opaque;  // opaque share × pigment
+    Rgb through; // filter × pigment + transmit: what a ray that goes through is multiplied with
+    const PreparedFinish *finish;
+} ShadeMaterial;
+
+RT_ALWAYS_INLINE Rgb shade_through(const Material *material)
+{
+    Rgb pigment = rgb(material->red, material->green, material->blue);
+    return rgb_add(rgb_scale(material->filter, pigment), rgb_grey(material->transmit));
+}
+
+RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned features, MaterialIndex index)
+{
+    const Material *material = &p->materials[index];
+    Rgb pigment = rgb(material->red, material->green, material->blue);
+    ShadeMaterial out = {pigment, pigment, rgb_grey(0.0), &p->finishes[material->finish]};
+    if (features & RENDER_TRANSPARENCY) {
+        out.opaque = rgb_scale(1.0 - (double)material->filter - (double)material->transmit, pigment);
+        out.through = shade_through(material);
+    }
+    return out;
+}
+
 // base^exponent, by multiplications for whole exponents, so that the bits do not depend on a machine's pow.
 RT_ALWAYS_INLINE double shade_power(double base, double exponent)
 {
@@ -71,11 +97,11 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, R
     Hit hit;
     for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
         Surface surface = geometry_surface(p->geometry, features, ray, hit);
-        const PreparedMaterial *material = &p->materials[surface.material];
-        if (!material->lets_through || passed > p->crossings_max) {
+        Rgb through = shade_through(&p->materials[surface.material]);
+        if (rgb_is_black(through) || passed > p->crossings_max) {
             return rgb_grey(0.0);
         }
-        share = rgb_mul(share, material->through);
+        share = rgb_mul(share, through);
         ray.origin = surface.point;
         t_max -= hit.t;
         start = (RayStart){hit.shape, !hit.inside};
@@ -97,20 +123,20 @@ RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, cons
 }
 
 // Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
-RT_ALWAYS_INLINE double shade_highlights(const PreparedMaterial *material, const ShadePoint *at, Vec3 towards)
+RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const ShadePoint *at, Vec3 towards)
 {
     double sum = 0.0;
-    if (material->phong > 0.0) {
+    if (finish->phong > 0.0) {
         double cosine = vec3_dot(vec3_reflect(at->direction, at->normal), towards);
         if (cosine > 0.0) {
-            sum += material->phong * shade_power(cosine, material->phong_size);
+            sum += finish->phong * shade_power(cosine, finish->phong_size);
         }
     }
-    if (material->specular > 0.0) {
+    if (finish->specular > 0.0) {
         Vec3 halfway = vec3_sub(towards, at->direction);
         double cosine = vec3_dot(halfway, at->normal) / vec3_length(halfway);
         if (cosine > 0.0) {
-            sum += material->specular * shade_power(cosine, material->shininess);
+            sum += finish->specular * shade_power(cosine, finish->shininess);
         }
     }
     return sum;
@@ -131,15 +157,16 @@ RT_ALWAYS_INLINE Rgb shade_metallic(double metallic, Rgb pigment, double cosine)
 }
 
 // What one light adds at a point: diffuse on the side it stands on, highlights on the viewer's side only.
-RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const PreparedMaterial *material,
+RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const ShadeMaterial *material,
                                  const PreparedLight *light, const ShadePoint *at, RenderStatistics *statistics)
 {
+    const PreparedFinish *finish = material->finish;
     Vec3 offset = vec3_sub(light->position, at->point);
     double distance = light->parallel ? vec3_dot(offset, light->towards) : vec3_length(offset);
     Vec3 towards = light->parallel ? light->towards : vec3_scale(1.0 / distance, offset);
     double cosine = vec3_dot(at->normal, towards);
     bool front = cosine > 0.0;
-    bool back = (features & RENDER_BRILLIANCE) && cosine < 0.0 && material->scatters_back;
+    bool back = (features & RENDER_BRILLIANCE) && cosine < 0.0 && finish->diffuse_back > 0.0;
     if (!(front || back)) {
         return rgb_grey(0.0);
     }
@@ -152,11 +179,11 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Pre
         }
         arriving = rgb_mul(arriving, share);
     }
-    double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), material->brilliance) : cosine;
-    Rgb sum = rgb_scale(falloff, back ? material->diffuse_back : material->diffuse);
-    if ((features & RENDER_HIGHLIGHTS) && material->shines && front && !light->shadowless) {
-        double shine = shade_highlights(material, at, towards);
-        Rgb tint = material->metallic > 0.0 ? shade_metallic(material->metallic, material->pigment, cosine)
+    double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), finish->brilliance) : cosine;
+    Rgb sum = rgb_scale(falloff, rgb_scale(back ? finish->diffuse_back : finish->diffuse, material->opaque));
+    if ((features & RENDER_HIGHLIGHTS) && finish->shines && front && !light->shadowless) {
+        double shine = shade_highlights(finish, at, towards);
+        Rgb tint = finish->metallic > 0.0 ? shade_metallic(finish->metallic, material->pigment, cosine)
                                             : rgb_grey(1.0);
         sum = rgb_add_scaled(sum, shine, tint);
     }
@@ -164,13 +191,14 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Pre
 }
 
 // The reflected share at an angle with cosine N·V.
-RT_ALWAYS_INLINE Rgb shade_reflectance(const PreparedMaterial *material, double cosine)
+RT_ALWAYS_INLINE Rgb shade_reflectance(const ShadeMaterial *material, double cosine)
 {
-    double grazing = shade_power(fmax(1.0 - cosine, 0.0), material->reflection_falloff);
-    Rgb span = rgb_add_scaled(material->reflection_max, -1.0, material->reflection_min);
-    Rgb share = rgb_add_scaled(material->reflection_min, grazing, span);
-    if (material->reflection_metallic > 0.0) {
-        share = rgb_mul(share, shade_metallic(material->reflection_metallic, material->pigment, cosine));
+    const PreparedFinish *finish = material->finish;
+    double grazing = shade_power(fmax(1.0 - cosine, 0.0), finish->reflection_falloff);
+    Rgb span = rgb_add_scaled(finish->reflection_max, -1.0, finish->reflection_min);
+    Rgb share = rgb_add_scaled(finish->reflection_min, grazing, span);
+    if (finish->reflection_metallic > 0.0) {
+        share = rgb_mul(share, shade_metallic(finish->reflection_metallic, material->pigment, cosine));
     }
     return share;
 }
@@ -182,10 +210,10 @@ RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
 }
 
 // The mirrored ray, unless it is too deep or worth too little. The angle does not enter its weight.
-RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const PreparedMaterial *material,
+RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ShadeMaterial *material,
                                     const ShadePoint *at, const PendingRay *from, Rgb reflectance, Pending *pending)
 {
-    double weight = from->weight * material->reflection_weight;
+    double weight = from->weight * material->finish->reflection_weight;
     if (from->level >= p->max_trace_level || weight < p->adc_bailout) {
         return;
     }
@@ -196,8 +224,8 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
         .weight = weight,
         .level = from->level + 1,
     };
-    if ((features & RENDER_EXPONENT) && material->reflection_exponent != 1.0) {
-        PendingRay end = {.share = ray.share, .exponent = 1.0 / material->reflection_exponent, .closes = true};
+    if ((features & RENDER_EXPONENT) && material->finish->reflection_exponent != 1.0) {
+        PendingRay end = {.share = ray.share, .exponent = 1.0 / material->finish->reflection_exponent, .closes = true};
         pending->rays[pending->count++] = end;
         pending->sums[++pending->open] = rgb_grey(0.0);
         ray.share = rgb_grey(1.0);
@@ -206,11 +234,11 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
 }
 
 // The ray that goes straight on. It stays on its level; what bounds it is that a line meets only so many surfaces.
-RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const PreparedMaterial *material, const ShadePoint *at,
+RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeMaterial *material, const ShadePoint *at,
                                      const PendingRay *from, Rgb reflectance, Pending *pending)
 {
     Rgb through = material->through;
-    if (material->conserves_energy) {
+    if (material->finish->conserves_energy) {
         through = rgb_mul(through, rgb_add_scaled(rgb_grey(1.0), -1.0, reflectance));
     }
     double grey = 0.297 * through.red + 0.589 * through.green + 0.114 * through.blue;
@@ -230,10 +258,10 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const PreparedMaterial *
 }
 
 // What a hit adds by itself: its glow and what the lights make of it.
-RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const PreparedMaterial *material,
+RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const ShadeMaterial *material,
                                  const ShadePoint *at, RenderStatistics *statistics)
 {
-    Rgb light = material->glow;
+    Rgb light = rgb_mul(material->opaque, material->finish->glow);
     for (size_t i = 0; i < p->light_count; i++) {
         light = rgb_add(light, shade_light(p, features, material, &p->lights[i], at, statistics));
     }
@@ -241,21 +269,21 @@ RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const Pre
 }
 
 // The rays that go on from a hit; the reflected one will be traced first.
-RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const PreparedMaterial *material,
+RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeMaterial *material,
                                   const ShadePoint *at, const PendingRay *from, Pending *pending,
                                   RenderStatistics *statistics)
 {
     Rgb reflectance = rgb_grey(0.0);
-    if ((features & RENDER_REFLECTION) && material->reflects) {
+    if ((features & RENDER_REFLECTION) && material->finish->reflects) {
         reflectance = shade_reflectance(material, -vec3_dot(at->normal, at->direction));
     }
     int before = pending->count;
-    if ((features & RENDER_TRANSPARENCY) && material->lets_through) {
+    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(material->through)) {
         shade_transmit(p, material, at, from, reflectance, pending);
         statistics->transmitted_rays += (uint64_t)(pending->count - before);
     }
     before = pending->count;
-    if ((features & RENDER_REFLECTION) && material->reflects) {
+    if ((features & RENDER_REFLECTION) && material->finish->reflects) {
         shade_reflect(p, features, material, at, from, reflectance, pending);
         statistics->reflected_rays += pending->count > before;
     }
@@ -263,7 +291,7 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Pr
 
 // Finds what a ray hits; false when it meets nothing.
 RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, ShadePoint *at,
-                                 const PreparedMaterial **material)
+                                 ShadeMaterial *material)
 {
     Hit hit;
     if (!geometry_closest(p->geometry, features, now->ray, now->start, (double)INFINITY, &hit)) {
@@ -271,7 +299,7 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
     }
     Surface surface = geometry_surface(p->geometry, features, now->ray, hit);
     Vec3 normal = hit.inside ? vec3_neg(surface.normal) : surface.normal;
-    *material = &p->materials[surface.material];
+    *material = shade_material(p, features, surface.material);
     *at = (ShadePoint){surface.point, normal, surface.normal, now->ray.direction, hit.shape, hit.inside};
     return true;
 }
@@ -295,14 +323,14 @@ RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const Pend
     while (pending.count > 0) {
         PendingRay now = pending.rays[--pending.count];
         ShadePoint at;
-        const PreparedMaterial *material;
+        ShadeMaterial material;
         if ((features & RENDER_EXPONENT) && now.closes) {
             Rgb light = shade_rgb_power(pending.sums[pending.open--], now.exponent);
             pending_add(&pending, &now, light);
         } else if (shade_find(p, features, &now, &at, &material)) {
             // Its own light first: a reflected ray may open a sum of its own.
-            pending_add(&pending, &now, shade_local(p, features, material, &at, statistics));
-            shade_go_on(p, features, material, &at, &now, &pending, statistics);
+            pending_add(&pending, &now, shade_local(p, features, &material, &at, statistics));
+            shade_go_on(p, features, &material, &at, &now, &pending, statistics);
         } else {
             pending_add(&pending, &now, p->background);
         }
@@ -318,8 +346,8 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, Re
         return shade_path(p, features, &first, statistics);
     }
     ShadePoint at;
-    const PreparedMaterial *material;
-    return shade_find(p, features, &first, &at, &material) ? shade_local(p, features, material, &at, statistics)
+    ShadeMaterial material;
+    return shade_find(p, features, &first, &at, &material) ? shade_local(p, features, &material, &at, statistics)
                                                            : p->background;
 }
 

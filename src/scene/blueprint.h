@@ -26,12 +26,18 @@ typedef struct CameraBlueprint {
     bool has_right, has_up, has_look_at, has_angle;
 } CameraBlueprint;
 
+// One layer of a texture, with all that is said or taken over.
+typedef struct TextureLayer {
+    Rgbft pigment;
+    Finish finish;
+} TextureLayer;
+
 // Common to everything that may be an object.
 typedef struct ObjectPart {
     Transform transform;
-    bool has_material; // a texture, pigment or finish of its own
+    bool has_texture; // a texture, pigment or finish of its own
     bool hollow, split_union;
-    Material material;
+    TextureLayer texture;
     Span span;
 } ObjectPart;
 
@@ -93,7 +99,7 @@ typedef struct FinishBlueprint {
 
 typedef struct TextureBlueprint {
     Transform transform; // moves nothing, as for pigments
-    Material material;
+    TextureLayer layer;
 } TextureBlueprint;
 
 typedef struct TransformBlueprint {

@@ -85,36 +85,35 @@ static void dump_light(const Light *light, TextBuffer *out)
     text_append(out, light->shadowless ? " shadowless }\n" : " }\n");
 }
 
-static void dump_finish(const Finish *finish, TextBuffer *out)
+static void dump_finish(const Finish *finish, size_t number, TextBuffer *out)
 {
-    dump_rgb(out, "    ambient ", finish->ambient);
+    text_printf(out, "#declare F%zu = finish {\n", number);
+    dump_rgb(out, "  ambient ", finish->ambient);
     dump_rgb(out, " emission ", finish->emission);
-    dump_number(out, "\n    diffuse ", finish->diffuse);
+    dump_number(out, "\n  diffuse ", finish->diffuse);
     // Only where it is used: POV-Ray has a note about the second number.
     if (finish->diffuse_back != 0.0 || signbit(finish->diffuse_back)) {
         dump_number(out, ", ", finish->diffuse_back);
     }
     dump_number(out, " brilliance ", finish->brilliance);
-    dump_number(out, "\n    phong ", finish->phong);
+    dump_number(out, "\n  phong ", finish->phong);
     dump_number(out, " phong_size ", finish->phong_size);
     dump_number(out, " specular ", finish->specular);
     dump_number(out, " roughness ", finish->roughness);
     dump_number(out, " metallic ", finish->metallic);
-    dump_rgb(out, "\n    reflection { ", finish->reflection_min);
+    dump_rgb(out, "\n  reflection { ", finish->reflection_min);
     dump_rgb(out, ", ", finish->reflection_max);
     dump_number(out, " falloff ", finish->reflection_falloff);
     dump_number(out, " exponent ", finish->reflection_exponent);
     dump_number(out, " metallic ", finish->reflection_metallic);
-    text_append(out, finish->flags & FINISH_CONSERVE_ENERGY ? " }\n    conserve_energy\n" : " }\n");
+    text_append(out, finish->flags & FINISH_CONSERVE_ENERGY ? " }\n  conserve_energy\n}\n" : " }\n}\n");
 }
 
 static void dump_material(const Material *material, size_t number, TextBuffer *out)
 {
-    text_printf(out, "#declare M%zu = texture {\n", number);
-    dump_rgbft(out, "  pigment { ", material->pigment);
-    text_append(out, " }\n  finish {\n");
-    dump_finish(&material->finish, out);
-    text_append(out, "  }\n}\n");
+    text_printf(out, "#declare M%zu = texture { ", number);
+    dump_rgbft(out, "pigment { ", material_pigment(material));
+    text_printf(out, " } finish { F%lu } }\n", (unsigned long)material->finish + 1);
 }
 
 static void dump_texture(MaterialIndex material, TextBuffer *out)
@@ -168,6 +167,9 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     text_append(out, " }\n");
     for (size_t i = 0; i < scene->lights.count; i++) {
         dump_light(&scene->lights.items[i], out);
+    }
+    for (size_t i = 0; i < scene->finishes.count; i++) {
+        dump_finish(&scene->finishes.items[i], i + 1, out);
     }
     for (size_t i = 0; i < scene->materials.count; i++) {
         dump_material(&scene->materials.items[i], i + 1, out);

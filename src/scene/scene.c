@@ -1,14 +1,12 @@
 // Scene records: keeps them in order, each different material once.
 //
-// Turns calls of the evaluator into growable arrays. Owns the arrays and the hash table of materials. Knows nothing of
+// Turns calls of the evaluator into growable arrays. Owns the arrays and the indices of what is kept once. Knows nothing of
 // the language, and checks nothing: that is validate.c.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"
 
-#include <string.h>
-
-_Static_assert(sizeof(Material) == 5 * sizeof(double) + sizeof(Finish), "no padding after the pigment");
+_Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
 _Static_assert(sizeof(Finish) == 23 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
 
 void scene_init(Scene *scene)
@@ -36,69 +34,48 @@ void scene_init(Scene *scene)
 void scene_fini(Scene *scene)
 {
     ARRAY_FREE(&scene->lights);
+    ARRAY_FREE(&scene->finishes);
     ARRAY_FREE(&scene->materials);
     ARRAY_FREE(&scene->spheres);
     ARRAY_FREE(&scene->ellipsoids);
     ARRAY_FREE(&scene->planes);
-    ARRAY_FREE(&scene->material_slots);
+    unique_fini(&scene->finish_index);
+    unique_fini(&scene->material_index);
     scene_init(scene);
 }
 
-// Eight bytes at a time, each step a multiplication by an odd constant and a shift that carries high bits down, as in
-// the finalizer of MurmurHash3 (A. Appleby, public domain).
-static uint64_t material_hash(const Material *material)
+// A slot may only be taken when the record is sure to follow, so room is made first.
+static bool add_finish(Scene *scene, const Finish *finish, FinishIndex *index)
 {
-    uint64_t words[sizeof(Material) / sizeof(uint64_t)];
-    memcpy(words, material, sizeof words);
-    uint64_t hash = 0;
-    for (size_t i = 0; i < RT_COUNT_OF(words); i++) {
-        hash = (hash ^ words[i]) * UINT64_C(0xff51afd7ed558ccd);
-        hash ^= hash >> 33;
-    }
-    return hash;
-}
-
-// The slot that holds an equal material, or the empty one where it belongs. The table is never full.
-static uint32_t *material_slot(Scene *scene, const Material *material)
-{
-    size_t mask = scene->material_slots.count - 1;
-    for (size_t at = (size_t)material_hash(material) & mask;; at = (at + 1) & mask) {
-        uint32_t *slot = &scene->material_slots.items[at];
-        if (*slot == 0 || memcmp(&scene->materials.items[*slot - 1], material, sizeof *material) == 0) {
-            return slot;
-        }
-    }
-}
-
-static bool material_slots_grow(Scene *scene)
-{
-    size_t size = scene->material_slots.count ? 2 * scene->material_slots.count : 16;
-    if (!ARRAY_RESERVE(&scene->material_slots, size)) {
+    if (!ARRAY_RESERVE(&scene->finishes, scene->finishes.count + 1) ||
+        !unique_place(&scene->finish_index, scene->finishes.items, scene->finishes.count, sizeof *finish, finish,
+                      index)) {
         return false;
     }
-    scene->material_slots.count = size;
-    memset(scene->material_slots.items, 0, size * sizeof *scene->material_slots.items);
-    for (size_t i = 0; i < scene->materials.count; i++) {
-        *material_slot(scene, &scene->materials.items[i]) = (uint32_t)i + 1;
-    }
-    return true;
+    return *index < scene->finishes.count || ARRAY_PUSH(&scene->finishes, *finish);
 }
 
-bool scene_add_material(Scene *scene, const Material *material, MaterialIndex *index)
+bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index)
 {
-    // At most half full, so that runs of taken slots stay short.
-    if (2 * (scene->materials.count + 1) > scene->material_slots.count && !material_slots_grow(scene)) {
+    Material material = {
+        .red = (float)pigment.red,
+        .green = (float)pigment.green,
+        .blue = (float)pigment.blue,
+        .filter = (float)pigment.filter,
+        .transmit = (float)pigment.transmit,
+    };
+    if (!add_finish(scene, finish, &material.finish) ||
+        !ARRAY_RESERVE(&scene->materials, scene->materials.count + 1) ||
+        !unique_place(&scene->material_index, scene->materials.items, scene->materials.count, sizeof material,
+                      &material, index)) {
         return false;
     }
-    uint32_t *slot = material_slot(scene, material);
-    if (*slot == 0) {
-        if (scene->materials.count == UINT32_MAX - 1 || !ARRAY_PUSH(&scene->materials, *material)) {
-            return false;
-        }
-        *slot = (uint32_t)scene->materials.count;
-    }
-    *index = *slot - 1;
-    return true;
+    return *index < scene->materials.count || ARRAY_PUSH(&scene->materials, material);
+}
+
+Rgbft material_pigment(const Material *material)
+{
+    return (Rgbft){material->red, material->green, material->blue, material->filter, material->transmit};
 }
 
 bool scene_add_light(Scene *scene, const Light *light)

@@ -18,6 +18,7 @@
 #include "math/colour.h"
 #include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/unique.h"
 
 typedef enum CameraType { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraType;
 
@@ -60,10 +61,14 @@ typedef struct Finish {
     uint64_t flags; // FINISH_CONSERVE_ENERGY
 } Finish;
 
-// Without padding: materials are compared and hashed bit by bit.
+// Index into Scene.finishes.
+typedef uint32_t FinishIndex;
+
+// Without padding: materials are compared and hashed bit by bit. A scene may have as many as shapes, so it is small: the
+// language's colours are of single precision anyhow, and one finish serves many pigments.
 typedef struct Material {
-    Rgbft pigment;
-    Finish finish;
+    float red, green, blue, filter, transmit; // the pigment
+    FinishIndex finish;
 } Material;
 
 // Index into Scene.materials.
@@ -118,20 +123,25 @@ typedef struct Scene {
     bool has_camera; // the scene said so; else camera is the language's default
     Camera camera;
     ARRAY(Light) lights;
+    ARRAY(Finish) finishes;    // each different one once
     ARRAY(Material) materials; // each different one once
     ARRAY(Sphere) spheres;
     ARRAY(Ellipsoid) ellipsoids;
     ARRAY(Plane) planes;
     uint32_t shape_count;                 // spheres, ellipsoids and planes
-    ARRAY(uint32_t) material_slots;       // hash table of materials: index + 1, 0 when empty
+    UniqueIndex finish_index, material_index;
 } Scene;
 
 // An empty scene with the language's defaults. Nothing is allocated.
 void scene_init(Scene *scene);
 void scene_fini(Scene *scene);
 
-// The index of an equal material, added if there is none. False when out of memory.
-bool scene_add_material(Scene *scene, const Material *material, MaterialIndex *index) RT_MUST_CHECK;
+// The index of an equal material, added if there is none; the pigment is rounded to single precision. False when out of
+// memory.
+bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index) RT_MUST_CHECK;
+
+// The pigment of a material.
+Rgbft material_pigment(const Material *material);
 
 // Add a record; `order` and shape_count are set here. False when out of memory.
 bool scene_add_light(Scene *scene, const Light *light) RT_MUST_CHECK;

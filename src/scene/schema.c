@@ -181,7 +181,7 @@ static const SchemaProperty reflection_properties[] = {
 
 static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
 static const PigmentBlueprint pigment_defaults = {.transform = IDENTITY};
-static const TextureBlueprint texture_defaults = {.transform = IDENTITY, .material.finish = FINISH_DEFAULTS};
+static const TextureBlueprint texture_defaults = {.transform = IDENTITY, .layer.finish = FINISH_DEFAULTS};
 
 static const SchemaProperty transform_properties[] = {
     {"inverse", TYPE_FLAG, AT(TransformBlueprint, is_inverse), .doc = "the way back, wherever it stands"},

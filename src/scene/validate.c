@@ -57,20 +57,22 @@ static bool finish_is_finite(const Finish *finish)
            isfinite(finish->reflection_exponent) && isfinite(finish->reflection_metallic);
 }
 
-static bool material_is_finite(const Material *material)
+static bool pigment_is_finite(Rgbft pigment)
 {
-    return rgb_is_finite(rgbft_rgb(material->pigment)) && isfinite(material->pigment.filter) &&
-           isfinite(material->pigment.transmit) && finish_is_finite(&material->finish);
+    return rgb_is_finite(rgbft_rgb(pigment)) && isfinite(pigment.filter) && isfinite(pigment.transmit);
 }
 
 static bool materials_are_valid(const Scene *scene, DiagSink *diags)
 {
-    for (size_t i = 0; i < scene->materials.count; i++) {
-        if (!material_is_finite(&scene->materials.items[i])) {
-            return fault(diags, DIAG_E0412, 0, "a texture has a number that is not finite");
-        }
+    bool finite = true;
+    for (size_t i = 0; finite && i < scene->finishes.count; i++) {
+        finite = finish_is_finite(&scene->finishes.items[i]);
     }
-    return true;
+    for (size_t i = 0; finite && i < scene->materials.count; i++) {
+        const Material *material = &scene->materials.items[i];
+        finite = pigment_is_finite(material_pigment(material)) && material->finish < scene->finishes.count;
+    }
+    return finite || fault(diags, DIAG_E0412, 0, "a texture has a number that is not finite");
 }
 
 static bool shapes_are_valid(const Scene *scene, DiagSink *diags)

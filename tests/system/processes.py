@@ -109,8 +109,7 @@ def tests(tap, program):
         process.send_signal(signal.SIGINT)
         tap.equal(process.communicate(timeout=60)[1], b"rtlang: interrupted; nothing was written\n", "no bar in a pipe")
 
-    # In sixteen colours. A million different materials still take about 615 MB, beyond the bar of 400 MB.
-    def test_million_spheres():
+    def test_million_spheres():  # in a million colours
         generator = os.path.join(os.environ["top_srcdir"], "bench", "generate.py")
         with open("million.scn", "wb") as scene:
             subprocess.run([sys.executable, generator, "1000000"], stdout=scene, check=True)

@@ -15,9 +15,8 @@ static const Finish plain_finish = {
 
 static void add_ball(Scene *scene, Vec3 centre, double radius, Rgbft pigment, const Finish *finish)
 {
-    Material material = {pigment, *finish};
     MaterialIndex index;
-    if (!scene_add_material(scene, &material, &index) || !scene_add_sphere(scene, centre, radius, index, 0)) {
+    if (!scene_add_material(scene, pigment, finish, &index) || !scene_add_sphere(scene, centre, radius, index, 0)) {
         abort();
     }
 }

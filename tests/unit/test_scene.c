@@ -8,10 +8,10 @@
 #include "scene/scene.h"
 #include "tap.h"
 
-static Material material_of(double red)
+static bool add_material(Scene *scene, double red, double diffuse, MaterialIndex *index)
 {
-    Material material = {.pigment = {red, 0.5, 0.25, 0.0, 0.0}, .finish.diffuse = 0.6};
-    return material;
+    Finish finish = {.diffuse = diffuse};
+    return scene_add_material(scene, (Rgbft){red, 0.5, 0.25, 0.0, 0.0}, &finish, index);
 }
 
 static void test_materials(void)
@@ -21,29 +21,28 @@ static void test_materials(void)
     scene_init(&scene);
     for (int round = 0; round < 2; round++) {
         for (int i = 0; i < 1000; i++) {
-            Material material = material_of(i);
             MaterialIndex index = UINT32_MAX;
-            is_fine = scene_add_material(&scene, &material, &index) && index == (uint32_t)i && is_fine;
+            is_fine = add_material(&scene, i, 1.0 / (1 + i % 3), &index) && index == (uint32_t)i && is_fine;
         }
     }
     tap_ok(is_fine && scene.materials.count == 1000, "a thousand materials, given twice, are kept once and in order");
-    Material zero = material_of(0.0);
-    Material minus_zero = material_of(-0.0);
-    MaterialIndex first, second;
-    is_fine = scene_add_material(&scene, &zero, &first) && scene_add_material(&scene, &minus_zero, &second);
-    tap_ok(is_fine && first != second, "materials are compared bit by bit");
+    tap_ok(scene.finishes.count == 3 && scene.materials.items[4].finish == 1, "and the three finishes they share");
+    MaterialIndex first, second, third;
+    is_fine = add_material(&scene, 0.0, 1.0, &first) && add_material(&scene, -0.0, 1.0, &second) &&
+              add_material(&scene, 0.0, 0.5, &third);
+    tap_ok(is_fine && first == 0 && second != first && third != first && third != second,
+           "materials are compared bit by bit, finish and all");
     scene_fini(&scene);
-    tap_ok(scene.materials.count == 0 && scene.material_slots.items == NULL, "scene_fini leaves an empty scene");
+    tap_ok(scene.materials.count == 0 && scene.material_index.slots.items == NULL, "scene_fini leaves an empty scene");
 }
 
 static bool build_scene(Scene *scene)
 {
-    Material material = material_of((double)0.1f);
     Transform stretch = transform_scale(vec3(1.0, 2.0, 3.0));
     Transform back;
     MaterialIndex index;
     scene_init(scene);
-    return transform_invert(&stretch, &back) && scene_add_material(scene, &material, &index) &&
+    return transform_invert(&stretch, &back) && add_material(scene, 0.1, 0.6, &index) &&
            scene_add_sphere(scene, vec3(0.0, 1.0, -0.1), 0.5, index, 7) &&
            scene_add_plane(scene, vec3(0.0, 1.0, 0.0), -1.0, index, 8) &&
            scene_add_ellipsoid(scene, &stretch, &back, index, 9) &&
@@ -64,7 +63,7 @@ static void test_order_and_dump(void)
     const char *text = text_get(&out);
     const char *wanted[] = {
         "#version 3.7;\nglobal_settings {\n  assumed_gamma 2.2\n",
-        "#declare M1 = texture {\n  pigment { rgbft <0.10000000149011612, 0.5, 0.25, 0, 0> }\n",
+        "#declare M1 = texture { pigment { rgbft <0.10000000149011612, 0.5, 0.25, 0, 0> } finish { F1 } }\n",
         "sphere { <0, 1, -0.1>, 0.5 texture { M1 } }\nplane { <0, 1, 0>, -1 texture { M1 } }\n"
         "sphere { 0, 1 matrix <1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0> texture { M1 } }\n"
         "sphere { <1e300, 1, 0.3333333333333333>, 1e-9 texture { M1 } }\n",
@@ -147,7 +146,7 @@ static void spoil_inverse(Scene *scene)
 
 static void spoil_finish(Scene *scene)
 {
-    scene->materials.items[0].finish.roughness = NAN;
+    scene->finishes.items[0].roughness = NAN;
 }
 
 static void test_validation(void)

@@ -1,0 +1,73 @@
+// Open addressing with linear probing, at most half full, so that runs of taken slots stay short.
+//
+// Turns a record's bytes into a place; owns the slots only.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/unique.h"
+
+#include <string.h>
+
+enum { SLOTS_LEAST = 16 };
+
+// Four bytes at a time, each step a multiplication by an odd constant and a shift that carries high bits down, as in
+// the finalizer of MurmurHash3 (A. Appleby, public domain).
+static uint64_t hash_bytes(const void *record, size_t size)
+{
+    const unsigned char *bytes = record;
+    uint64_t hash = 0;
+    for (size_t i = 0; i + sizeof(uint32_t) <= size; i += sizeof(uint32_t)) {
+        uint32_t word;
+        memcpy(&word, bytes + i, sizeof word);
+        hash = (hash ^ word) * UINT64_C(0xff51afd7ed558ccd);
+        hash ^= hash >> 33;
+    }
+    return hash;
+}
+
+// The slot that holds an equal record, or the empty one where it belongs. The table is never full.
+static uint32_t *find_slot(const UniqueIndex *index, const void *records, size_t size, const void *record)
+{
+    size_t mask = index->slots.count - 1;
+    for (size_t at = (size_t)hash_bytes(record, size) & mask;; at = (at + 1) & mask) {
+        uint32_t *slot = &index->slots.items[at];
+        if (*slot == 0 || memcmp((const char *)records + (*slot - 1) * size, record, size) == 0) {
+            return slot;
+        }
+    }
+}
+
+static bool grow(UniqueIndex *index, const void *records, size_t count, size_t size)
+{
+    size_t slots = index->slots.count ? 2 * index->slots.count : SLOTS_LEAST;
+    if (!ARRAY_RESERVE(&index->slots, slots)) {
+        return false;
+    }
+    index->slots.count = slots;
+    memset(index->slots.items, 0, slots * sizeof *index->slots.items);
+    for (size_t i = 0; i < count; i++) {
+        *find_slot(index, records, size, (const char *)records + i * size) = (uint32_t)i + 1;
+    }
+    return true;
+}
+
+bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
+                  uint32_t *place)
+{
+    if (2 * (count + 1) > index->slots.count && !grow(index, records, count, size)) {
+        return false;
+    }
+    uint32_t *slot = find_slot(index, records, size, record);
+    if (*slot == 0) {
+        if (count >= UINT32_MAX - 1) {
+            return false;
+        }
+        *slot = (uint32_t)count + 1;
+    }
+    *place = *slot - 1;
+    return true;
+}
+
+void unique_fini(UniqueIndex *index)
+{
+    ARRAY_FREE(&index->slots);
+}

@@ -1,0 +1,28 @@
+// Finds the equal of a record in an array that keeps each different record once.
+//
+// A hash table of places in the array; the array belongs to the caller. Records are compared and hashed bit by bit, so
+// they must have no padding.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_UNIQUE_H
+#define SCENE_UNIQUE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/array.h"
+#include "base/attributes.h"
+
+typedef struct UniqueIndex {
+    ARRAY(uint32_t) slots; // place in the array + 1, 0 when empty; a power of two of them
+} UniqueIndex;
+
+// The place of an equal record among `count` ones of `size` bytes (a multiple of 4). When there is none, *place is
+// `count`, where the caller must then append it. False when out of memory or beyond 2^32 - 2 records.
+bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
+                  uint32_t *place) RT_MUST_CHECK;
+
+void unique_fini(UniqueIndex *index);
+
+#endif
