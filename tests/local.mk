@@ -26,6 +26,7 @@ UNIT_GRAMMAR = libgrammar.la libast.la libbase.la
 unit_programs = \
   tests/unit/test_base_arena tests/unit/test_base_diag tests/unit/test_base_intern tests/unit/test_base_source \
   tests/unit/test_base_suggest tests/unit/test_base_text tests/unit/test_math tests/unit/test_trace_sphere \
+  tests/unit/test_trace_certified \
   tests/unit/test_trace_geometry tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
   tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_values \
   tests/unit/test_render
@@ -46,8 +47,14 @@ tests_unit_test_base_text_SOURCES = %D%/unit/test_base_text.c
 tests_unit_test_base_text_LDADD = $(UNIT_BASE)
 tests_unit_test_math_SOURCES = %D%/unit/test_math.c
 tests_unit_test_math_LDADD = libmath.la libbase.la
-tests_unit_test_trace_sphere_SOURCES = %D%/unit/test_trace_sphere.c
+tests_unit_test_trace_sphere_SOURCES = %D%/unit/test_trace_sphere.c %D%/unit/sphere_cases.h
 tests_unit_test_trace_sphere_LDADD = $(UNIT_TRACE)
+tests_unit_test_trace_certified_SOURCES = %D%/unit/test_trace_certified.c %D%/unit/sphere_cases.h $(unit_headers)
+tests_unit_test_trace_certified_LDADD = $(UNIT_TRACE)
+if WITH_MPFR
+tests_unit_test_trace_certified_CPPFLAGS = $(AM_CPPFLAGS) -DWITH_MPFR
+tests_unit_test_trace_certified_LDADD += -lmpfr -lgmp
+endif
 tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
 tests_unit_test_scene_SOURCES = %D%/unit/test_scene.c
@@ -101,3 +108,8 @@ update-golden: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_golden.py
 update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py
+
+# What takes too long for every day.
+.PHONY: check-long
+check-long: tests/unit/test_trace_certified$(EXEEXT)
+	tests/unit/test_trace_certified$(EXEEXT) 1000000 "$$(date +%s)"

@@ -430,12 +430,13 @@ RT_ALWAYS_INLINE bool bvh_walk(const Bvh *bvh, const BallTable *table, const Sph
     uint32_t at = 0;
     for (;;) {
         const BvhNode *node = &bvh->nodes[at];
-        Double2 enter = slab_enter(&slab, node, nearest->hit.t);
+        double t_max = nearest->hit.t + SPHERE_ROOT_SLACK * nearest->hit.t;
+        Double2 enter = slab_enter(&slab, node, t_max);
         int first = enter[1] < enter[0];
         uint32_t next = UINT32_MAX;
         for (int turn = 0; turn < 2; turn++) {
             int child = turn ^ first;
-            if (!(enter[child] <= nearest->hit.t)) {
+            if (!(enter[child] <= t_max)) {
                 continue;
             }
             if (node->count[child] == 0) {
@@ -456,7 +457,7 @@ RT_ALWAYS_INLINE bool bvh_walk(const Bvh *bvh, const BallTable *table, const Sph
         }
         while (next == UINT32_MAX && waiting > 0) {
             Waiting from = stack[--waiting];
-            next = from.enter <= nearest->hit.t ? from.node : UINT32_MAX;
+            next = from.enter <= nearest->hit.t + SPHERE_ROOT_SLACK * nearest->hit.t ? from.node : UINT32_MAX;
         }
         if (next == UINT32_MAX) {
             return false;
@@ -472,6 +473,6 @@ void bvh_closest(const Bvh *bvh, const BallTable *table, const SphereRay *ray, c
 
 bool bvh_occluded(const Bvh *bvh, const BallTable *table, const SphereRay *ray, const Ball *start, double t_max)
 {
-    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0};
+    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false};
     return bvh_walk(bvh, table, ray, start, true, &nearest);
 }

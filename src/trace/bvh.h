@@ -52,10 +52,12 @@ typedef struct BallTable {
     uint32_t count;
 } BallTable;
 
-// The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE.
+// The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_rough`, hit.t is a
+// sphere's root as sphere_test gives it; nearest_settle makes it right.
 typedef struct Nearest {
     Hit hit;
     uint32_t order; // of hit.shape
+    bool is_rough;
 } Nearest;
 
 // Builds the tree of `count` > BVH_LEAF_MOST usable spheres and puts their new order into `order`: sphere order[i]
@@ -69,39 +71,73 @@ void bvh_closest(const Bvh *bvh, const BallTable *table, const SphereRay *ray, c
 // True when a sphere of the tree, other than `start`, is met at 0 < t < t_max.
 bool bvh_occluded(const Bvh *bvh, const BallTable *table, const SphereRay *ray, const Ball *start, double t_max);
 
-// Equal distances: the shape that was declared first is seen.
+// Equal distances: the shape that was declared first is seen. Both roots are exact to the last rounding.
 RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, bool inside, uint32_t order)
 {
     if (t > 0.0 && (t < nearest->hit.t ||
                     (t == nearest->hit.t && nearest->hit.shape != SHAPE_NONE && order < nearest->order))) {
-        *nearest = (Nearest){{t, shape, inside}, order};
+        *nearest = (Nearest){{t, shape, inside}, order, false};
     }
 }
 
-// One sphere against the ray, for the nearest hit.
+// Refines a rough root.
+RT_ALWAYS_INLINE void nearest_settle(const BallTable *table, const SphereRay *ray, Nearest *nearest)
+{
+    if (nearest->is_rough) {
+        nearest->hit.t = sphere_refine(ray, &table->balls[shape_index(nearest->hit.shape)], nearest->hit.t);
+        nearest->is_rough = false;
+    }
+}
+
+// One sphere against the ray, for the nearest hit. Roots are refined only where rough ones could be taken in the wrong
+// order, so in the end the same sphere is nearest as if all had been.
 RT_ALWAYS_INLINE void ball_closest(const BallTable *table, uint32_t index, const SphereRay *ray, const Ball *start,
                                    Nearest *nearest)
 {
-    SphereRoots roots;
-    if (!sphere_solve(ray, &table->balls[index], &roots)) {
+    const Ball *ball = &table->balls[index];
+    double t;
+    bool inside;
+    SphereVerdict verdict = sphere_test(ray, ball, &t, &inside);
+    if (verdict == SPHERE_MISS || ball_equal(ball, start)) {
         return;
     }
-    double t = sphere_root(ray, &roots);
-    if (t <= nearest->hit.t && !ball_equal(&table->balls[index], start)) {
-        nearest_offer(nearest, t, shape_id(SHAPE_SPHERE, index), !(roots.c > 0.0), table->info[index].order);
+    bool is_rough = verdict == SPHERE_MET;
+    if (!is_rough) {
+        t = sphere_exact(ray, ball, &inside);
     }
+    double slack = SPHERE_ROOT_SLACK * nearest->hit.t;
+    if (!(t > 0.0) || t > nearest->hit.t + slack) {
+        return;
+    }
+    uint32_t order = table->info[index].order;
+    if (t < nearest->hit.t - slack || isinf(nearest->hit.t)) {
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, index), inside}, order, is_rough};
+        return;
+    }
+    nearest_settle(table, ray, nearest);
+    nearest_offer(nearest, is_rough ? sphere_refine(ray, ball, t) : t, shape_id(SHAPE_SPHERE, index), inside, order);
 }
 
 // One sphere against the ray, for any hit.
 RT_ALWAYS_INLINE bool ball_occludes(const BallTable *table, uint32_t index, const SphereRay *ray, const Ball *start,
                                     double t_max)
 {
-    SphereRoots roots;
-    if (!sphere_solve(ray, &table->balls[index], &roots)) {
+    const Ball *ball = &table->balls[index];
+    double t;
+    bool inside;
+    SphereVerdict verdict = sphere_test(ray, ball, &t, &inside);
+    if (verdict == SPHERE_MISS || ball_equal(ball, start)) {
         return false;
     }
-    double t = sphere_root(ray, &roots);
-    return t > 0.0 && t < t_max && !ball_equal(&table->balls[index], start);
+    double slack = SPHERE_ROOT_SLACK * t_max;
+    if (verdict == SPHERE_DOUBTFUL) {
+        t = sphere_exact(ray, ball, &inside);
+    } else if (t < t_max - slack || isinf(t_max)) {
+        return true;
+    } else if (t <= t_max + slack) {
+        t = sphere_refine(ray, ball, t);
+    }
+    return t > 0.0 && t < t_max;
 }
 
 #endif

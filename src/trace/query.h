@@ -33,6 +33,7 @@ RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features
     if ((features & TRACE_SPHERE_BVH) && g->bvh.nodes) {
         bvh_closest(&g->bvh, &g->spheres, ray, &start_ball, nearest);
     }
+    nearest_settle(&g->spheres, ray, nearest);
 }
 
 RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned features, const SphereRay *ray,
@@ -70,12 +71,7 @@ RT_ALWAYS_INLINE double query_ellipsoid_root(const Geometry *g, uint32_t index, 
         return sphere_root_inward(&object, &unit);
     }
     SphereRay object = ellipsoid_ray(shape, ray);
-    SphereRoots roots;
-    if (!sphere_solve(&object, &unit, &roots)) {
-        return 0.0;
-    }
-    *inside = !(roots.c > 0.0);
-    return sphere_root(&object, &roots);
+    return sphere_hit(&object, &unit, inside);
 }
 
 // The parameter at which a plane is met; not positive when it is not.
@@ -97,7 +93,10 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
-    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0};
+    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false};
+    if (features & TRACE_ANY_SPHERES) {
+        query_spheres_closest(g, features, &sphere_ray, start, &nearest);
+    }
     if (features & TRACE_PLANES) {
         for (uint32_t i = 0; i < g->plane_count; i++) {
             bool inside = vec3_dot(g->planes[i].shape.normal, ray.direction) > 0.0;
@@ -111,9 +110,6 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
             double t = query_ellipsoid_root(g, i, &sphere_ray, start, &inside);
             nearest_offer(&nearest, t, shape_id(SHAPE_ELLIPSOID, i), inside, g->ellipsoids[i].info.order);
         }
-    }
-    if (features & TRACE_ANY_SPHERES) {
-        query_spheres_closest(g, features, &sphere_ray, start, &nearest);
     }
     *hit = nearest.hit;
     return nearest.hit.shape != SHAPE_NONE;

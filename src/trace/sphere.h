@@ -3,8 +3,9 @@
 // The class (miss, near root, far root) comes from the distance between ray and centre, not from b² - ac: the
 // discriminant is r² - |l|², l being the remainder of f = origin - centre after its part along the ray is taken away
 // (Haines, Günther, Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, ch. 7), and
-// the roots are sums of terms of one sign. Backward error <= 4 u (tests/unit/test_trace_sphere.c). Two steps, so that a
-// certified filter can stand between them: sphere_solve decides, sphere_root says where.
+// the roots are sums of terms of one sign. sphere_test adds a filter with a proven bound: what rounding could decide
+// wrongly goes to double-word arithmetic (trace/sphere_exact.c), so no class is wrong; sphere_refine makes the root of
+// an accepted hit right to an ulp. docs/numerics.md has the derivations.
 //
 // Knows one sphere and one ray; nothing of scenes, materials or trees.
 //
@@ -18,6 +19,7 @@
 #include "base/attributes.h"
 #include "math/ray.h"
 #include "math/vec3.h"
+#include "trace/double_word.h"
 
 // A sphere as the test wants it. sqrt(radius_squared) is the radius again, bit for bit.
 typedef struct Ball {
@@ -33,18 +35,12 @@ typedef struct SphereRay {
     double inverse_square; // 1 / |direction|²
 } SphereRay;
 
-// The two roots are t_middle ± sqrt(half_squared); their product is c / |direction|².
-typedef struct SphereRoots {
-    double t_middle;     // where the ray is nearest to the centre
-    double half_squared; // >= 0; 0 when the ray touches the sphere
-    double c;            // |f|² - r²; the ray starts inside when it is negative
-} SphereRoots;
-
-// A radius that is not positive, or whose square is not a positive number, gives a sphere that is never met.
+// A radius that is not positive, or outside 2^-480..2^511, gives a sphere that is never met. Below, the squares would
+// underflow where the filter's bound does not say so; prepared scenes are scaled to the middle of that range.
 RT_ALWAYS_INLINE Ball ball_make(Vec3 centre, double radius)
 {
     double square = radius * radius;
-    return (Ball){centre, radius > 0.0 && square > 0.0 && square < (double)INFINITY ? square : (double)NAN};
+    return (Ball){centre, radius > 0.0 && square >= 0x1p-960 && square < (double)INFINITY ? square : (double)NAN};
 }
 
 RT_ALWAYS_INLINE bool ball_is_usable(const Ball *ball)
@@ -69,33 +65,96 @@ RT_ALWAYS_INLINE bool sphere_ray_is_usable(const SphereRay *ray)
     return ray->inverse_square > 0.0 && ray->inverse_square < (double)INFINITY;
 }
 
-// Decides whether the ray meets the sphere at some t > 0. A ray that only touches does; one that starts exactly on
-// the surface (c = 0) does when it goes in. Comparisons are written so that a NaN is a miss.
-RT_ALWAYS_INLINE bool sphere_solve(const SphereRay *ray, const Ball *ball, SphereRoots *roots)
+// What rounding can do to r² - |l|² and to |f|² - r² is below SPHERE_ROUNDING (|f|² + r²). Where they are beyond
+// SPHERE_DOUBT (|f|² + r²) = 2^14 times that, they also have 14 bits, and the root has 13.
+#define SPHERE_ROUNDING 0x1p-49
+#define SPHERE_DOUBT    0x1p-35
+
+// Two roots that differ by more than this share of the greater are in the right order before they are refined.
+#define SPHERE_ROOT_SLACK 0x1p-11
+
+typedef enum SphereVerdict {
+    SPHERE_MISS,
+    SPHERE_MET,     // with a root that has 13 bits
+    SPHERE_DOUBTFUL // ask sphere_exact
+} SphereVerdict;
+
+// Decides class and root in doubles alone, or says that it cannot. `t` > 0 and `inside` are set when the sphere is met.
+RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *ball, double *t, bool *inside)
 {
     Vec3 f = vec3_sub(ray->origin, ball->centre);
     double t_middle = -vec3_dot(f, ray->dual);
     Vec3 l = vec3_add_scaled(f, t_middle, ray->direction);
     double discriminant = ball->radius_squared - vec3_length_squared(l);
-    if (!(discriminant >= 0.0)) {
-        return false;
+    double f_squared = vec3_length_squared(f);
+    double sum = f_squared + ball->radius_squared;
+    if (!(discriminant >= -SPHERE_ROUNDING * sum)) {
+        return SPHERE_MISS;
     }
-    double c = vec3_length_squared(f) - ball->radius_squared;
-    *roots = (SphereRoots){t_middle, discriminant * ray->inverse_square, c};
-    return t_middle > 0.0 || c < 0.0;
+    double c = f_squared - ball->radius_squared;
+    double doubt = SPHERE_DOUBT * sum;
+    if (c > doubt && t_middle < 0.0) {
+        return SPHERE_MISS;
+    }
+    if (!(discriminant > doubt && fabs(c) > doubt)) {
+        return SPHERE_DOUBTFUL;
+    }
+    double far_side = fabs(t_middle) + sqrt(discriminant * ray->inverse_square);
+    *inside = c < 0.0;
+    *t = c > 0.0 || t_middle < 0.0 ? fabs(c) * ray->inverse_square / far_side : far_side;
+    return SPHERE_MET;
 }
 
-// The nearest positive root; call only after sphere_solve said yes. 0, infinite or NaN when the numbers left the range
-// of double, so the caller still compares it with its interval.
-RT_ALWAYS_INLINE double sphere_root(const SphereRay *ray, const SphereRoots *roots)
+// The same in double-word arithmetic, for any finite numbers: the nearest positive root, off by less than an ulp, and
+// from which side; 0 for a miss.
+double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside) __attribute__((cold));
+
+// One Newton step from a root of sphere_test, with the residual |f + t d|² - r² in double-word arithmetic. What the step
+// leaves is e² / (distance of the two roots), and the residual is known to 12 u² (|f|² + r²): the two checks make both
+// less than a quarter of an ulp. When they do not hold, the whole is done in double words.
+RT_ALWAYS_INLINE double sphere_refine(const SphereRay *ray, const Ball *ball, double t)
 {
-    double half = sqrt(roots->half_squared);
-    double far_side = fabs(roots->t_middle) + half;
-    bool is_outer = roots->c > 0.0;
-    if (is_outer || roots->t_middle < 0.0) {
-        return fabs(roots->c) * ray->inverse_square / far_side;
+    const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
+    const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
+    const double centre[3] = {ball->centre.x, ball->centre.y, ball->centre.z};
+    double f_squared = 0.0;
+    double slope = 0.0;
+    double low = 0.0;
+    DoubleWord square[3];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; i++) {
+        DoubleWord f = two_sum(o[i], -centre[i]);
+        DoubleWord along = two_product(t, d[i]);
+        DoubleWord p = two_sum(f.hi, along.hi);
+        square[i] = two_product(p.hi, p.hi);
+        low += square[i].lo + 2.0 * p.hi * (p.lo + (f.lo + along.lo));
+        slope += p.hi * d[i];
+        f_squared += f.hi * f.hi;
     }
-    return far_side;
+    double radius = sqrt(ball->radius_squared);
+    DoubleWord r = two_product(radius, radius);
+    DoubleWord xy = two_sum(square[0].hi, square[1].hi);
+    DoubleWord xyz = two_sum(xy.hi, square[2].hi);
+    DoubleWord all = two_sum(xyz.hi, -r.hi);
+    double residual = all.hi + (all.lo + (xyz.lo + (xy.lo + (low - r.lo))));
+    double step = residual / (2.0 * slope);
+    double reach = 2.0 * t * fabs(slope);
+    double sum = f_squared + ball->radius_squared;
+    bool is_certain = sum < 0x1p900 && sum > 0x1p-900 && 0x1p-46 * sum <= reach &&
+                      step * step * 0x1p56 <= reach * ray->inverse_square;
+    bool inside;
+    return RT_LIKELY(is_certain) ? t - step : sphere_exact(ray, ball, &inside);
+}
+
+// The nearest positive root, as right as it gets; 0 for a miss. What the queries below agree with, bit for bit.
+RT_ALWAYS_INLINE double sphere_hit(const SphereRay *ray, const Ball *ball, bool *inside)
+{
+    double t;
+    switch (sphere_test(ray, ball, &t, inside)) {
+    case SPHERE_MISS: return 0.0;
+    case SPHERE_MET: return sphere_refine(ray, ball, t);
+    default: return sphere_exact(ray, ball, inside);
+    }
 }
 
 // Where a ray that starts on the sphere and goes in meets it again: with c = 0 the other root is -2 (f·d) / (d·d),

@@ -154,13 +154,9 @@ static double brute_force(const Scene *scene, const SphereRay *ray, const Ball *
     *order = UINT32_MAX;
     for (size_t i = 0; i < scene->spheres.count; i++) {
         Ball ball = ball_make(scene->spheres.items[i].centre, scene->spheres.items[i].radius);
-        SphereRoots roots;
-        double t = NAN;
-        if (ball_equal(&ball, start)) {
-            t = inward ? sphere_root_inward(ray, &ball) : (double)NAN;
-        } else if (sphere_solve(ray, &ball, &roots)) {
-            t = sphere_root(ray, &roots);
-        }
+        bool inside;
+        double t = ball_equal(&ball, start) ? (inward ? sphere_root_inward(ray, &ball) : (double)NAN)
+                                            : sphere_hit(ray, &ball, &inside);
         if (t > 0.0 && t < t_best) {
             t_best = t;
             *order = scene->spheres.items[i].order;

@@ -1,0 +1,89 @@
+// The ray against the sphere in double-word arithmetic, for what doubles cannot decide.
+//
+// Discriminant |d|² r² - |f × d|² and c = |f|² - r² from the exact f, so that their errors are some u² of their terms;
+// everything is scaled by powers of two first, so no finite input leaves the range.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/sphere.h"
+
+// a b - c d
+static DoubleWord cross_term(DoubleWord a, double b, DoubleWord c, double d)
+{
+    return double_word_sub(double_word_scale(a, b), double_word_scale(c, d));
+}
+
+static DoubleWord sum_of_squares(const DoubleWord v[3])
+{
+    DoubleWord sum = double_word_mul(v[0], v[0]);
+    sum = double_word_add(sum, double_word_mul(v[1], v[1]));
+    return double_word_add(sum, double_word_mul(v[2], v[2]));
+}
+
+static int exponent_of(double x)
+{
+    return x > 0.0 ? ilogb(x) : 0;
+}
+
+// Ray and sphere about the centre, lengths over 2^length_exponent and directions over 2^direction_exponent.
+typedef struct ScaledCase {
+    DoubleWord f[3];
+    double d[3], radius;
+    int length_exponent, direction_exponent;
+} ScaledCase;
+
+static bool case_init(ScaledCase *out, const SphereRay *ray, const Ball *ball)
+{
+    const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
+    const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
+    const double centre[3] = {ball->centre.x, ball->centre.y, ball->centre.z};
+    double radius = sqrt(ball->radius_squared);
+    double length = radius;
+    for (int i = 0; i < 3; i++) {
+        out->f[i] = two_sum(o[i], -centre[i]);
+        length = fmax(length, fabs(out->f[i].hi));
+    }
+    double greatest = vec3_max_abs(ray->direction);
+    if (!(length < (double)INFINITY && greatest > 0.0 && greatest < (double)INFINITY && radius > 0.0)) {
+        return false;
+    }
+    out->length_exponent = exponent_of(length);
+    out->direction_exponent = exponent_of(greatest);
+    for (int i = 0; i < 3; i++) {
+        out->f[i].hi = ldexp(out->f[i].hi, -out->length_exponent);
+        out->f[i].lo = ldexp(out->f[i].lo, -out->length_exponent);
+        out->d[i] = ldexp(d[i], -out->direction_exponent);
+    }
+    out->radius = ldexp(radius, -out->length_exponent);
+    return vec3_is_finite(ray->origin) && vec3_is_finite(ray->direction) && vec3_is_finite(ball->centre);
+}
+
+double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside)
+{
+    ScaledCase s;
+    if (!case_init(&s, ray, ball)) {
+        return 0.0;
+    }
+    DoubleWord cross[3];
+    DoubleWord b = {0.0, 0.0}; // -f·d
+    DoubleWord a = {0.0, 0.0}; // d·d
+    for (int i = 0; i < 3; i++) {
+        int next = (i + 1) % 3;
+        cross[i] = cross_term(s.f[i], s.d[next], s.f[next], s.d[i]);
+        b = double_word_sub(b, double_word_scale(s.f[i], s.d[i]));
+        a = double_word_add(a, two_product(s.d[i], s.d[i]));
+    }
+    DoubleWord r_squared = two_product(s.radius, s.radius);
+    DoubleWord discriminant = double_word_sub(double_word_mul(a, r_squared), sum_of_squares(cross));
+    DoubleWord c = double_word_sub(sum_of_squares(s.f), r_squared);
+    if (discriminant.hi < 0.0 || (c.hi >= 0.0 && !(b.hi > 0.0))) {
+        return 0.0;
+    }
+    *inside = !(c.hi > 0.0);
+    DoubleWord size = b.hi < 0.0 ? double_word_neg(b) : b;
+    DoubleWord far_side = double_word_add(size, double_word_sqrt(discriminant));
+    bool over_sum = c.hi > 0.0 || b.hi < 0.0;
+    double t = over_sum ? double_word_quotient(c.hi < 0.0 ? double_word_neg(c) : c, far_side)
+                        : double_word_quotient(far_side, a);
+    t = ldexp(t, s.length_exponent - s.direction_exponent);
+    return t < (double)INFINITY ? t : 0.0;
+}
