@@ -124,6 +124,7 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
     }
     if (state->context->diags->count > kept) {
         diag_suggest(state->context->diags, "did you mean `#%s`?", suggest.best);
+        diag_replace(state->context->diags, span, "#%s", suggest.best);
     }
     int meant = grammar_directive_token(state, suggest.best, strlen(suggest.best), span);
     DirectiveRole role = grammar_role(meant);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks that what the documents say is so.
 
-Options of the manual pages against --help; relative links; every fenced block marked `scn` through rtlang --check; the tables
-of docs/language.md against the schema (PRINT_SCHEMA is the program that prints it; with UPDATE_DOCS=1 they are written anew).
+Options of the manual pages against --help; relative links; every fenced block marked `scn` through rtlang --check; the parts
+that are made from tables in C against the programs that print them (with UPDATE_DOCS=1 they are written anew).
 Prints TAP. SPDX-License-Identifier: MIT
 """
 import glob
@@ -13,7 +13,6 @@ import sys
 import tempfile
 
 TOP = os.environ.get("top_srcdir", ".")
-BEGIN, END = "<!-- schema:begin -->\n", "<!-- schema:end -->"
 
 
 def read(name):
@@ -64,19 +63,21 @@ def check_scenes(name):
             yield f"the block at line {line}: " + done.stdout.replace(folder, "").strip().replace("\n", " | ")
 
 
-def check_schema():
-    printer = os.environ.get("PRINT_SCHEMA") or "tests/unit/print_schema"
-    want, text = output_of(printer).strip() + "\n", read("docs/language.md")
-    head, rest = text.split(BEGIN)
-    found, tail = rest.split(END)
+def check_generated(document, mark, variable):
+    begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->"
+    printer = os.environ.get(variable) or "tests/unit/" + variable.lower()
+    want, text = output_of(printer).strip() + "\n", read(document)
+    head, rest = text.split(begin)
+    found, tail = rest.split(end)
     if found == want:
         return
     if os.environ.get("UPDATE_DOCS"):
-        with open(os.path.join(TOP, "docs/language.md"), "w", encoding="utf-8") as out:
-            out.write(head + BEGIN + want + END + tail)
+        with open(os.path.join(TOP, document), "w", encoding="utf-8") as out:
+            out.write(head + begin + want + end + tail)
         return
     lines = zip(found.splitlines() + [""], want.splitlines() + [""])
-    yield next((f"{a!r} should be {b!r}" for a, b in lines if a != b), "there are lines too many or too few")
+    told = next((f"{a!r} should be {b!r}" for a, b in lines if a != b), "there are lines too many or too few")
+    yield told + "; `make update-docs` writes it anew"
 
 
 def checks():
@@ -88,7 +89,9 @@ def checks():
     for name in pages:
         if "```scn\n" in read(name):
             yield f"{name}: rtlang accepts its scenes", check_scenes(name)
-    yield "docs/language.md: the tables are the schema's", check_schema()
+    yield "docs/language.md: the tables are the schema's", check_generated("docs/language.md", "schema", "PRINT_SCHEMA")
+    yield ("docs/diagnostics.md: the codes are those of the table",
+           check_generated("docs/diagnostics.md", "codes", "PRINT_DIAGNOSTICS"))
 
 
 def main():

@@ -12,6 +12,7 @@ AM_TESTS_ENVIRONMENT = \
   RTLANG='$(abs_top_builddir)/rtlang$(EXEEXT)'; export RTLANG; \
   RTCHECK='$(abs_top_builddir)/rtcheck$(EXEEXT)'; export RTCHECK; \
   PRINT_SCHEMA='$(abs_top_builddir)/tests/unit/print_schema'; export PRINT_SCHEMA; \
+  PRINT_DIAGNOSTICS='$(abs_top_builddir)/tests/unit/print_diagnostics'; export PRINT_DIAGNOSTICS; \
   POVRAY='$(POVRAY)'; export POVRAY; \
   CC='$(CC)'; export CC; \
   RTLANG_MODULE_DIR='$(abs_top_builddir)/.libs'; export RTLANG_MODULE_DIR; \
@@ -30,7 +31,7 @@ unit_programs = \
   tests/unit/test_trace_geometry tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
   tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_values \
   tests/unit/test_render
-check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema
+check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
 
 unit_headers = %D%/unit/tap.h %D%/unit/random.h
 tests_unit_test_base_arena_SOURCES = %D%/unit/test_base_arena.c $(unit_headers)
@@ -63,6 +64,8 @@ tests_unit_test_schema_SOURCES = %D%/unit/test_schema.c
 tests_unit_test_schema_LDADD = libscene.la libast.la libmath.la libbase.la
 tests_unit_print_schema_SOURCES = %D%/unit/print_schema.c
 tests_unit_print_schema_LDADD = libscene.la libmath.la libbase.la
+tests_unit_print_diagnostics_SOURCES = %D%/unit/print_diagnostics.c
+tests_unit_print_diagnostics_LDADD = $(UNIT_BASE)
 tests_unit_test_ast_SOURCES = %D%/unit/test_ast.c
 tests_unit_test_ast_LDADD = libast.la libbase.la
 tests_unit_test_grammar_SOURCES = %D%/unit/test_grammar.c
@@ -87,7 +90,7 @@ tests_fuzz_fuzz_scene_LDADD = libapi.la
 test_scripts = \
   %D%/fuzz/replay.sh %D%/lang/check_cases.sh \
   %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.py %D%/check-docs.py \
-  %D%/golden/check_golden.py %D%/system/run_system.py %D%/system/check_rtcheck.sh \
+  %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py %D%/system/check_rtcheck.sh \
   %D%/povray/check_pictures.py %D%/povray/check_lang.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py
 
@@ -106,7 +109,7 @@ EXTRA_DIST += $(test_scripts) $(lang_cases) %D%/golden %D%/system %D%/povray
 .PHONY: update-golden update-docs
 update-golden: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_golden.py
-update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT)
+update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_diagnostics$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py
 
 # What takes too long for every day.

@@ -32,17 +32,19 @@ typedef enum rt_status {
     RT_CANCELLED = 5    /* rt_cancel was called */
 } rt_status;
 
-typedef enum rt_severity { RT_WARNING, RT_ERROR } rt_severity;
+/* A note tells of messages that were only counted. */
+typedef enum rt_severity { RT_WARNING, RT_ERROR, RT_NOTE } rt_severity;
 
 /* One message about the scene or the run. All pointers are valid during the callback only. */
 typedef struct rt_diagnostic {
     rt_severity severity;
-    const char *code;    /* "E0201" */
+    const char *code;    /* "E0201"; "" for a note without one */
     const char *message; /* one line */
     const char *file;    /* NULL when the message belongs to no place */
     uint64_t line;       /* from 1; 0 when unknown */
     uint64_t column;     /* from 1, in characters */
-    const char *text;    /* the whole printable form: location, source line, caret, notes, help; ends with a newline */
+    const char *text;    /* the whole printable form: location, source line, caret, notes, help; ends with a newline.
+                          * With RT_FORMAT_JSON one JSON object on one line */
 } rt_diagnostic;
 
 /* What the scene itself says with #debug, #warning, #error, #render and #statistics. */
@@ -75,6 +77,13 @@ RT_API void rt_session_free(rt_session *session);
 RT_API rt_status rt_add_include_path(rt_session *session, const char *folder);
 /* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
 RT_API rt_status rt_declare(rt_session *session, const char *name_value);
+/* Which warnings are told, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with "no-"
+ * before it. */
+RT_API rt_status rt_set_warning(rt_session *session, const char *what);
+/* The form of the messages' text. With RT_FORMAT_JSON also what the scene itself says is handed over as one JSON object a
+ * line. docs/diagnostics.md lists the members. */
+typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON } rt_format;
+RT_API void rt_set_format(rt_session *session, rt_format format);
 /* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height.
  * Default 320 x 240. */
 RT_API rt_status rt_set_size(rt_session *session, int width, int height);
@@ -89,6 +98,14 @@ RT_API rt_status rt_load_text(rt_session *session, const char *name, const char 
 typedef enum rt_syntax { RT_SYNTAX_TOKENS, RT_SYNTAX_AST } rt_syntax;
 RT_API rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path, const char **text);
 RT_API rt_status rt_dump_scene(rt_session *session, const char **text);
+
+/* What a message's code means, at length: "E0201". *text is valid until the next call on the session. RT_FAULT_USAGE when
+ * there is no such code. */
+RT_API rt_status rt_explain(rt_session *session, const char *code, const char **text);
+
+/* Hands the client a fault of its own in the form of all others, with a code of this library, a message and a suggestion
+ * (or NULL). Returns the status that the code means. */
+RT_API rt_status rt_report(rt_session *session, const char *code, const char *message, const char *suggestion);
 
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);

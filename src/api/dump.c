@@ -33,6 +33,7 @@ rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path,
                                           : grammar_parse(&context, source, print_item, &dump);
     source_close(source);
     arena_fini(&arena);
+    diag_finish(&session->diags);
     *text = text_get(&session->dump);
     return session_status(session, fine && !session->dump.failed);
 }

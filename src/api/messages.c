@@ -3,20 +3,26 @@
 // SPDX-License-Identifier: MIT
 #include "api/session.h"
 
+#include "base/explain.h"
+
 static void deliver_one(rt_session *session, const Diag *diag, TextBuffer *text)
 {
     SourceLocation location = {0};
     bool found = span_exists(diag->span) && source_locate(session->sources, diag->span, &location);
     rt_diagnostic out = {
-        .severity = diag->severity == DIAG_ERROR ? RT_ERROR : RT_WARNING,
-        .code = diag_code_name(diag->code),
+        .severity = diag->severity == DIAG_ERROR ? RT_ERROR : diag->severity == DIAG_NOTE ? RT_NOTE : RT_WARNING,
+        .code = diag->code < DIAG_CODE_COUNT ? diag_code_name(diag->code) : "",
         .message = diag->message,
         .file = location.name,
         .line = found ? location.line : 0,
         .column = found ? location.column : 0,
     };
     text_clear(text);
-    diag_print(&session->diags, diag, text);
+    if (session->is_json) {
+        diag_json(&session->diags, diag, text);
+    } else {
+        diag_print(&session->diags, diag, text);
+    }
     out.text = text_get(text);
     session->callbacks.diagnostic(session->callbacks.client, &out);
 }
@@ -35,6 +41,40 @@ void session_deliver(rt_session *session)
     text_fini(&text);
 }
 
+static void say_json(rt_session *session, rt_stream stream)
+{
+    static const char *const names[] = {[RT_STREAM_DEBUG] = "debug",
+                                        [RT_STREAM_WARNING] = "warning",
+                                        [RT_STREAM_ERROR] = "error",
+                                        [RT_STREAM_RENDER] = "render",
+                                        [RT_STREAM_STATISTICS] = "statistics"};
+    TextBuffer line;
+    text_init(&line);
+    text_printf(&line, "{\"type\":\"message\",\"stream\":\"%s\",\"text\":", names[stream]);
+    diag_json_string(&line, text_get(&session->said), session->said.length);
+    text_append(&line, "}\n");
+    session->callbacks.message(session->callbacks.client, stream, text_get(&line), line.length);
+    text_fini(&line);
+    text_clear(&session->said);
+}
+
+void session_say(rt_session *session, rt_stream stream, const char *text, size_t length)
+{
+    if (!session->callbacks.message) {
+        return;
+    }
+    if (!session->is_json) {
+        session->callbacks.message(session->callbacks.client, stream, text, length);
+        return;
+    }
+    // Lines come in parts, the last of which is their newline.
+    bool is_ended = length > 0 && text[length - 1] == '\n';
+    text_append_n(&session->said, text, is_ended ? length - 1 : length);
+    if (is_ended) {
+        say_json(session, stream);
+    }
+}
+
 rt_status session_status(rt_session *session, bool fine)
 {
     session_deliver(session);
@@ -43,4 +83,40 @@ rt_status session_status(rt_session *session, bool fine)
     }
     // Without a recorded class there was no memory even for the record.
     return session->diags.class == CLASS_NONE ? RT_FAULT_LIMIT : (rt_status)session->diags.class;
+}
+
+rt_status rt_set_warning(rt_session *session, const char *what)
+{
+    return diag_set_warning(&session->diags, what) ? RT_OK : RT_FAULT_USAGE;
+}
+
+void rt_set_format(rt_session *session, rt_format format)
+{
+    session->is_json = format == RT_FORMAT_JSON;
+}
+
+rt_status rt_explain(rt_session *session, const char *code, const char **text)
+{
+    DiagCode found;
+    text_clear(&session->dump);
+    *text = text_get(&session->dump);
+    if (!explain_find(code, &found)) {
+        return RT_FAULT_USAGE;
+    }
+    explain_write(found, &session->dump);
+    *text = text_get(&session->dump);
+    return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;
+}
+
+rt_status rt_report(rt_session *session, const char *code, const char *message, const char *suggestion)
+{
+    DiagCode found;
+    if (!explain_find(code, &found)) {
+        return RT_FAULT_USAGE;
+    }
+    if (diag_report(&session->diags, found, SPAN_NONE, "%s", message) && suggestion) {
+        diag_suggest(&session->diags, "%s", suggestion);
+    }
+    session_deliver(session);
+    return (rt_status)diag_code_class(found);
 }

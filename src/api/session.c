@@ -50,6 +50,7 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     session->kernel = "";
     scene_init(&session->scene);
     text_init(&session->dump);
+    text_init(&session->said);
     session->sources = source_map_new();
     session->names = intern_new(session->limits.arena_bytes);
     diag_init(&session->diags, session->sources);
@@ -77,6 +78,7 @@ void rt_session_free(rt_session *session)
     scene_fini(&session->scene);
     diag_fini(&session->diags);
     text_fini(&session->dump);
+    text_fini(&session->said);
     intern_free(session->names);
     source_map_free(session->sources);
     free(session);
@@ -189,9 +191,7 @@ static void forward_message(void *client, EvalStream stream, const char *text, s
     };
     rt_session *session = client;
     session_deliver(session); // what was told before comes before
-    if (session->callbacks.message) {
-        session->callbacks.message(session->callbacks.client, streams[stream], text, length);
-    }
+    session_say(session, streams[stream], text, length);
 }
 
 static rt_status load(rt_session *session, Source *source, double start)
@@ -210,8 +210,11 @@ static rt_status load(rt_session *session, Source *source, double start)
         .message = forward_message,
         .client = session,
     };
-    bool fine = eval_source(&options, source, &session->scene) && scene_validate(&session->scene, &session->diags);
+    session->scene.whole = SPAN_WHOLE(source_base(source));
+    bool fine = eval_source(&options, source, &session->scene) && scene_validate(&session->scene, &session->diags) &&
+                session->diags.error_count == 0;
     source_close(source);
+    diag_finish(&session->diags);
     session->loaded = fine;
     session->parse_seconds = session_clock() - start;
     return session_status(session, fine);

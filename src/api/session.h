@@ -25,6 +25,8 @@ struct rt_session {
     InternTable *names;
     DiagSink diags;
     size_t diags_delivered; // records already handed to the client
+    bool is_json;           // the form of messages
+    TextBuffer said;        // in JSON: the scene's own line, not ended yet
     ARRAY(char *) include_paths;
     ARRAY(EvalDeclaration) declarations; // names are owned
     int width, height;
@@ -44,6 +46,9 @@ double session_clock(void);
 
 // Hands new diagnostics to the client.
 void session_deliver(rt_session *session);
+
+// The same for what the scene itself says.
+void session_say(rt_session *session, rt_stream stream, const char *text, size_t length);
 
 // Delivers, and turns what was reported into a status: RT_OK when `fine`, else the class of the first error.
 rt_status session_status(rt_session *session, bool fine);

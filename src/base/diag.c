@@ -1,23 +1,18 @@
-// Diagnostics: keeps what was reported, up to a number, and writes a record as text with its source line.
+// Diagnostics: keeps what was reported, up to a number, and counts the rest.
 //
-// Owns the records and all text in them. Knows nothing of where the text form goes.
+// Owns the records and all text in them, and the table of codes. Knows nothing of how a record is written.
 //
 // SPDX-License-Identifier: MIT
 #include "base/diag.h"
 
-#include <inttypes.h>
 #include <stdarg.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/array.h"
 
-enum { KEEP_ERRORS = 20, KEEP_WARNINGS = 100, FRAMES_SHOWN = 8 };
-
-#define PROGRAM "rtlang"
-#define GUTTER  "     " // as wide as the line number and the blank behind it
+enum { KEEP_ERRORS = 20, KEEP_WARNINGS = 100, KEEP_ALIKE = 5, FRAMES_SHOWN = 8 };
 
 typedef struct CodeInfo {
     const char *name, *summary;
@@ -41,9 +36,33 @@ const char *diag_code_summary(DiagCode code)
     return codes[code].summary;
 }
 
+DiagSeverity diag_code_severity(DiagCode code)
+{
+    return codes[code].severity == DIAG_ERROR ? DIAG_ERROR : DIAG_WARNING;
+}
+
+DiagClass diag_code_class(DiagCode code)
+{
+    return codes[code].class;
+}
+
+bool diag_code_is_extra(DiagCode code)
+{
+    return codes[code].severity == DIAG_EXTRA;
+}
+
+const char *diag_severity_name(DiagSeverity severity)
+{
+    return severity == DIAG_ERROR ? "error" : severity == DIAG_NOTE ? "note" : "warning";
+}
+
 void diag_init(DiagSink *sink, SourceMap *sources)
 {
-    *sink = (DiagSink){.sources = sources, .keep_errors = KEEP_ERRORS, .keep_warnings = KEEP_WARNINGS};
+    *sink = (DiagSink){
+        .sources = sources, .keep_errors = KEEP_ERRORS, .keep_warnings = KEEP_WARNINGS, .keep_alike = KEEP_ALIKE};
+    for (size_t code = 0; code < DIAG_CODE_COUNT; code++) {
+        sink->levels[code] = codes[code].severity == DIAG_EXTRA ? 0 : DIAG_ON;
+    }
 }
 
 void diag_fini(DiagSink *sink)
@@ -52,10 +71,12 @@ void diag_fini(DiagSink *sink)
         Diag *diag = &sink->items[i];
         for (size_t k = 0; k < diag->note_count; k++) {
             free(diag->notes[k].message);
+            free(diag->notes[k].name);
         }
         free(diag->notes);
         free(diag->message);
         free(diag->suggestion);
+        free(diag->replacement);
     }
     ARRAY_FREE(sink);
     diag_init(sink, sink->sources);
@@ -75,91 +96,175 @@ static char *text_new(DiagSink *sink, const char *format, va_list arguments)
     return buffer.text;
 }
 
-// Puts a note before the last `behind` ones. Takes the message, which may be NULL when memory ran out.
-static void note_insert(DiagSink *sink, Diag *diag, Span span, char *message, size_t behind)
+// Puts a note before the last `behind` ones. Takes the note's texts; without a message memory ran out.
+static void note_insert(DiagSink *sink, Diag *diag, DiagNote note, size_t behind)
 {
     size_t count = diag->note_count;
-    DiagNote *notes = message ? realloc(diag->notes, (count + 1) * sizeof(*notes)) : NULL;
+    DiagNote *notes = note.message ? realloc(diag->notes, (count + 1) * sizeof(*notes)) : NULL;
     if (!notes) {
         sink->out_of_memory = true;
-        free(message);
+        free(note.message);
+        free(note.name);
         return;
     }
     DiagNote *place = notes + (count - behind);
     memmove(place + 1, place, behind * sizeof(*notes));
-    *place = (DiagNote){span, message};
+    *place = note;
     diag->notes = notes;
     diag->note_count = count + 1;
 }
 
-static void frame_note(DiagSink *sink, Diag *diag, Span span, const char *format, ...) RT_PRINTF(4, 5);
-static void frame_note(DiagSink *sink, Diag *diag, Span span, const char *format, ...)
+static char *text_format(DiagSink *sink, const char *format, ...) RT_PRINTF(2, 3);
+static char *text_format(DiagSink *sink, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    note_insert(sink, diag, span, text_new(sink, format, arguments), 0);
+    char *text = text_new(sink, format, arguments);
     va_end(arguments);
+    return text;
+}
+
+static void frame_note(DiagSink *sink, Diag *diag, const DiagFrame *frame)
+{
+    DiagNote note = {.span = frame->span, .what = frame->what};
+    if (frame->name) {
+        const char *here = strcmp(frame->what, "in macro") == 0 ? ", called here" : " here";
+        note.name = text_format(sink, "%s", frame->name);
+        note.message = text_format(sink, "%s `%s`%s", frame->what, frame->name, here);
+    } else {
+        note.message = text_format(sink, "%s here", frame->what);
+    }
+    note_insert(sink, diag, note, 0);
 }
 
 static void frames_copy(DiagSink *sink, Diag *diag)
 {
     const DiagFrame *frame = sink->frame;
     for (int shown = 0; frame && shown < FRAMES_SHOWN; shown++, frame = frame->outer) {
-        const char *here = strcmp(frame->what, "in macro") == 0 ? ", called here" : " here";
-        if (frame->name) {
-            frame_note(sink, diag, frame->span, "%s `%s`%s", frame->what, frame->name, here);
-        } else {
-            frame_note(sink, diag, frame->span, "%s%s", frame->what, here);
-        }
+        frame_note(sink, diag, frame);
     }
     size_t more = 0;
     for (; frame; frame = frame->outer) {
         more++;
     }
     if (more > 0) {
-        frame_note(sink, diag, SPAN_NONE, "and %zu more", more);
+        note_insert(sink, diag, (DiagNote){.message = text_format(sink, "and %zu more", more), .what = "more"}, 0);
     }
     sink->frame_note_count = diag->note_count;
 }
 
-// Counts a report; true when its record is to be kept.
-static bool report_count(DiagSink *sink, const CodeInfo *info)
+// ---- which warnings count
+
+// The part of a text after a beginning, or NULL.
+static const char *after(const char *text, const char *beginning)
 {
-    if (info->severity == DIAG_WARNING) {
-        return sink->warning_count++ < sink->keep_warnings;
+    size_t length = strlen(beginning);
+    return strncmp(text, beginning, length) == 0 ? text + length : NULL;
+}
+
+bool diag_set_warning(DiagSink *sink, const char *what)
+{
+    const char *taken_back = after(what, "no-");
+    what = taken_back ? taken_back : what;
+    const char *fatal = after(what, "error");
+    const char *name = fatal && *fatal == '=' ? fatal + 1 : what;
+    bool means_all = strcmp(what, "error") == 0 || strcmp(what, "all") == 0, is_known = means_all;
+    uint8_t level = fatal ? DIAG_FATAL : DIAG_ON;
+    for (size_t code = 0; code < DIAG_CODE_COUNT; code++) {
+        bool is_warning = codes[code].severity != DIAG_ERROR;
+        bool is_extra = codes[code].severity == DIAG_EXTRA;
+        bool is_meant = means_all ? fatal || is_extra : strcasecmp(codes[code].name, name) == 0;
+        if (is_warning && is_meant) {
+            uint8_t levels = sink->levels[code];
+            uint8_t added = fatal && !means_all ? DIAG_FATAL | DIAG_ON : level;
+            sink->levels[code] = (uint8_t)(taken_back ? levels & ~level : levels | added);
+            is_known = true;
+        }
+    }
+    return is_known;
+}
+
+bool diag_is_on(const DiagSink *sink, DiagCode code)
+{
+    return (sink->levels[code] & DIAG_ON) != 0;
+}
+
+// Whether a warning is one too many of those that say the same.
+static bool is_repeated(const DiagSink *sink, DiagCode code, const char *message)
+{
+    size_t alike = 0;
+    for (size_t i = 0; i < sink->count; i++) {
+        const Diag *kept = &sink->items[i];
+        alike += kept->code == code && kept->severity == DIAG_WARNING && strcmp(kept->message, message) == 0;
+    }
+    return alike >= sink->keep_alike;
+}
+
+// Counts a report; true when there is room for its record.
+static bool report_count(DiagSink *sink, const Diag *diag)
+{
+    if (diag->severity == DIAG_WARNING) {
+        sink->warning_count++;
+        return sink->kept_warnings < sink->keep_warnings;
     }
     if (sink->error_count == 0) {
-        sink->class = info->class;
+        sink->class = diag->class;
     }
     return sink->error_count++ < sink->keep_errors;
+}
+
+// Keeps a record. Takes its message.
+static bool record_keep(DiagSink *sink, Diag diag)
+{
+    if (!diag.message || !ARRAY_PUSH(sink, diag)) {
+        free(diag.message);
+        sink->out_of_memory = true;
+        return false;
+    }
+    sink->kept_warnings += diag.severity == DIAG_WARNING;
+    return true;
 }
 
 bool diag_report(DiagSink *sink, DiagCode code, Span span, const char *format, ...)
 {
     const CodeInfo *info = &codes[code];
-    if (!report_count(sink, info)) {
+    Diag diag = {.code = code, .severity = diag_code_severity(code), .class = info->class, .span = span};
+    if (!diag_is_on(sink, code)) {
+        return false;
+    }
+    if (sink->levels[code] & DIAG_FATAL) {
+        diag.severity = DIAG_ERROR;
+        diag.class = CLASS_SCENE;
+    }
+    if (!report_count(sink, &diag)) {
+        sink->dropped[code]++;
         return false;
     }
     va_list arguments;
     va_start(arguments, format);
-    char *message = text_new(sink, format, arguments);
+    diag.message = text_new(sink, format, arguments);
     va_end(arguments);
-    Diag diag = {.code = code, .severity = info->severity, .class = info->class, .span = span, .message = message};
-    if (!message || !ARRAY_PUSH(sink, diag)) {
-        free(message);
-        sink->out_of_memory = true;
+    if (diag.severity == DIAG_WARNING && diag.message && is_repeated(sink, code, diag.message)) {
+        free(diag.message);
+        sink->dropped[code]++;
+        return false;
+    }
+    if (!record_keep(sink, diag)) {
         return false;
     }
     frames_copy(sink, &sink->items[sink->count - 1]);
     return true;
 }
 
+// ---- additions to the last record
+
 void diag_note(DiagSink *sink, Span span, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
     char *message = text_new(sink, format, arguments);
-    note_insert(sink, &sink->items[sink->count - 1], span, message, sink->frame_note_count);
+    note_insert(sink, &sink->items[sink->count - 1], (DiagNote){.span = span, .message = message},
+                sink->frame_note_count);
     va_end(arguments);
 }
 
@@ -176,117 +281,51 @@ void diag_suggest(DiagSink *sink, const char *format, ...)
     }
 }
 
+void diag_replace(DiagSink *sink, Span replaced, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char *replacement = text_new(sink, format, arguments);
+    va_end(arguments);
+    if (replacement) {
+        Diag *diag = &sink->items[sink->count - 1];
+        free(diag->replacement);
+        diag->replacement = replacement;
+        diag->replaced = replaced;
+    }
+}
+
+void diag_did_you_mean(DiagSink *sink, Span replaced, const char *word)
+{
+    diag_suggest(sink, "did you mean `%s`?", word);
+    diag_replace(sink, replaced, "%s", word);
+}
+
+// ---- the end
+
+void diag_finish(DiagSink *sink)
+{
+    bool has_dropped_error = false;
+    for (int code = 0; code < DIAG_CODE_COUNT; code++) {
+        size_t count = sink->dropped[code];
+        bool is_error = codes[code].severity == DIAG_ERROR || sink->levels[code] & DIAG_FATAL;
+        sink->dropped[code] = 0;
+        has_dropped_error = has_dropped_error || (count > 0 && is_error);
+        if (count > 0 && !is_error) {
+            record_keep(sink, (Diag){.code = (DiagCode)code, .severity = DIAG_NOTE,
+                                     .message = text_format(sink, "%zu more of this warning %s not shown: %s", count,
+                                                            count == 1 ? "is" : "are", codes[code].summary)});
+        }
+    }
+    if (has_dropped_error) {
+        record_keep(sink, (Diag){.code = DIAG_CODE_COUNT, .severity = DIAG_NOTE,
+                                 .message = text_format(sink, "stopped after %zu errors; there may be more",
+                                                        sink->keep_errors)});
+    }
+}
+
 bool diag_is_full(const DiagSink *sink)
 {
     return sink->error_count > sink->keep_errors;
 }
 
-// The length of the well-formed, visible UTF-8 character (Unicode 15, table 3-7) at `text`; 0 for all else.
-static size_t visible_length(const char *text, const char *end)
-{
-    const unsigned char *at = (const unsigned char *)text;
-    size_t room = (size_t)(end - text);
-    if (at[0] < 0x80) {
-        return at[0] >= 0x20 && at[0] != 0x7F ? 1 : 0;
-    }
-    size_t length = at[0] < 0xC2 || at[0] > 0xF4 ? 0 : at[0] < 0xE0 ? 2 : at[0] < 0xF0 ? 3 : 4;
-    if (length == 0 || length > room) {
-        return 0;
-    }
-    unsigned low = at[0] == 0xC2 ? 0xA0 : at[0] == 0xE0 ? 0xA0 : at[0] == 0xF0 ? 0x90 : 0x80; // C2 80..9F are controls
-    unsigned high = at[0] == 0xED ? 0x9F : at[0] == 0xF4 ? 0x8F : 0xBF;
-    if (at[1] < low || at[1] > high) {
-        return 0;
-    }
-    for (size_t i = 2; i < length; i++) {
-        if ((at[i] & 0xC0) != 0x80) {
-            return 0;
-        }
-    }
-    return length;
-}
-
-// Nothing in a scene or a file name may steer the terminal.
-static void append_visible(TextBuffer *out, const char *text, size_t length, bool keeps_tabs)
-{
-    const char *end = text + length;
-    while (text < end) {
-        size_t visible = visible_length(text, end);
-        if (visible > 0) {
-            text_append_n(out, text, visible);
-        } else {
-            text_append_char(out, keeps_tabs && *text == '\t' ? '\t' : '?');
-        }
-        text += visible > 0 ? visible : 1;
-    }
-}
-
-// Blanks as wide as the text up to the caret, then the caret and a tilde for each further character of the span.
-static void append_caret(TextBuffer *out, const SourceLocation *location)
-{
-    const char *at = location->text, *end = at + location->text_length;
-    const char *begin = at + location->caret_begin, *stop = location->text + location->caret_end;
-    while (at < begin) {
-        size_t visible = visible_length(at, end);
-        text_append_char(out, *at == '\t' ? '\t' : ' ');
-        at += visible > 0 ? visible : 1;
-    }
-    text_append_char(out, '^');
-    for (bool is_first = true; at < stop; is_first = false) {
-        size_t visible = visible_length(at, end);
-        if (!is_first) {
-            text_append_char(out, '~');
-        }
-        at += visible > 0 ? visible : 1;
-    }
-    text_append_char(out, '\n');
-}
-
-// Writes `place: label: message`, then the source line and the caret if the span can be found.
-static void append_entry(DiagSink *sink, Span span, const char *label, const char *message, TextBuffer *out)
-{
-    SourceLocation location = {0};
-    bool is_located = span_exists(span) && sink->sources && source_locate(sink->sources, span, &location);
-    const char *name = location.name ? location.name : PROGRAM;
-    append_visible(out, name, strlen(name), false);
-    if (is_located) {
-        text_printf(out, ":%" PRIu64 ":%" PRIu64, location.line, location.column);
-    }
-    text_printf(out, ": %s: ", label);
-    append_visible(out, message, strlen(message), false);
-    text_append_char(out, '\n');
-    if (is_located) {
-        size_t before = out->length;
-        text_printf(out, "%4" PRIu64 " | ", location.line);
-        int gutter = (int)(out->length - before) - 2;
-        append_visible(out, location.text, location.text_length, true);
-        text_printf(out, "\n%*s| ", gutter, "");
-        append_caret(out, &location);
-    }
-}
-
-static void append_help(TextBuffer *out, const char *label, const char *message)
-{
-    text_printf(out, GUTTER "= %s: ", label);
-    append_visible(out, message, strlen(message), false);
-    text_append_char(out, '\n');
-}
-
-void diag_print(DiagSink *sink, const Diag *diag, TextBuffer *out)
-{
-    char label[32];
-    snprintf(label, sizeof(label), "%s[%s]", diag->severity == DIAG_ERROR ? "error" : "warning",
-             diag_code_name(diag->code));
-    append_entry(sink, diag->span, label, diag->message, out);
-    if (diag->suggestion) {
-        append_help(out, "help", diag->suggestion);
-    }
-    for (size_t i = 0; i < diag->note_count; i++) {
-        const DiagNote *note = &diag->notes[i];
-        if (span_exists(note->span)) {
-            append_entry(sink, note->span, "note", note->message, out);
-        } else {
-            append_help(out, "note", note->message);
-        }
-    }
-}

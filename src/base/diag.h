@@ -1,7 +1,7 @@
 // Diagnostics: what is to be told about a scene or a run, recorded as plain data where the fact is known.
 //
-// Nothing here prints. A sink counts and keeps the records; diag_print turns one into the text form.
-// The codes stand in base/diag_codes.def; each is described in docs/diagnostics.md.
+// Nothing here prints. A sink counts and keeps the records; diag_print turns one into the text form, diag_json into the
+// form for programs. The codes stand in base/diag_codes.def; base/diag_texts.def explains each.
 //
 // SPDX-License-Identifier: MIT
 #ifndef BASE_DIAG_H
@@ -14,7 +14,12 @@
 #include "base/source.h"
 #include "base/text.h"
 
-typedef enum DiagSeverity { DIAG_WARNING, DIAG_ERROR } DiagSeverity;
+typedef enum DiagSeverity {
+    DIAG_WARNING,
+    DIAG_ERROR,
+    DIAG_EXTRA, // in the table of codes only: a warning that must be asked for
+    DIAG_NOTE,  // what diag_finish adds
+} DiagSeverity;
 
 // What kind of fault it is; also the program's exit code.
 typedef enum DiagClass { CLASS_NONE = 0, CLASS_SCENE = 1, CLASS_USAGE = 2, CLASS_IO = 3, CLASS_LIMIT = 4 } DiagClass;
@@ -37,17 +42,21 @@ typedef struct DiagFrame {
 } DiagFrame;
 
 typedef struct DiagNote {
-    Span span;     // may be SPAN_NONE
-    char *message; // owned by the record
+    Span span;        // may be SPAN_NONE
+    char *message;    // owned by the record
+    const char *what; // of a note of the call stack, as in DiagFrame, or "more"; NULL for all others
+    char *name;       // owned; the frame's name, or NULL
 } DiagNote;
 
 typedef struct Diag {
-    DiagCode code;
+    DiagCode code; // DIAG_CODE_COUNT: none
     DiagSeverity severity;
     DiagClass class;
-    Span span;        // may be SPAN_NONE
-    char *message;    // owned, one line, no full stop
-    char *suggestion; // owned; NULL, or what to write instead, for example "did you mean `radius`?"
+    Span span;         // may be SPAN_NONE
+    char *message;     // owned, one line, no full stop
+    char *suggestion;  // owned; NULL, or what to write instead, for example "did you mean `radius`?"
+    char *replacement; // owned; NULL, or the text that the suggestion would put in the place of `replaced`
+    Span replaced;     // empty where text is only put in
     DiagNote *notes;  // owned; the call stack stands at the end, innermost first
     size_t note_count;
 } Diag;
@@ -59,14 +68,27 @@ typedef struct DiagSink {
     size_t count, capacity;
     size_t error_count, warning_count; // all that were reported, kept or not
     size_t keep_errors, keep_warnings; // records beyond these are only counted
+    size_t keep_alike;                 // so are warnings beyond this number of one code and message
+    size_t kept_warnings;
+    size_t dropped[DIAG_CODE_COUNT];   // reported and only counted, by code, since the last diag_finish
+    uint8_t levels[DIAG_CODE_COUNT];   // DIAG_ON, DIAG_FATAL
     DiagClass class;                   // of the first error; CLASS_NONE while there is none
     bool out_of_memory;                // a record, or a part of one, could not be kept
     size_t frame_note_count;           // of the record kept last: the notes at its end that are its call stack
 } DiagSink;
 
-// Keeps at most 20 errors and 100 warnings, unless the caller sets keep_errors and keep_warnings.
+// Of a code: whether it is reported, and whether as an error.
+enum { DIAG_ON = 1, DIAG_FATAL = 2 };
+
+// Keeps at most 20 errors, 100 warnings and 5 warnings that say the same, unless the caller sets keep_errors,
+// keep_warnings and keep_alike. All codes but the extra ones are on.
 void diag_init(DiagSink *sink, SourceMap *sources);
 void diag_fini(DiagSink *sink);
+
+// What warnings are reported, in the words of a command line: "all" adds the extra ones, "error" makes errors of all,
+// "W0201" and "error=W0201" say the same of one, each with "no-" before it takes that back. False when it is none of these.
+bool diag_set_warning(DiagSink *sink, const char *what) RT_MUST_CHECK;
+bool diag_is_on(const DiagSink *sink, DiagCode code);
 
 // Records a fault or a warning. True when the record was kept, so that notes and a suggestion may be added.
 bool diag_report(DiagSink *sink, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
@@ -74,12 +96,24 @@ bool diag_report(DiagSink *sink, DiagCode code, Span span, const char *format, .
 // Add to the record that was kept last. Call only after diag_report returned true.
 void diag_note(DiagSink *sink, Span span, const char *format, ...) RT_PRINTF(3, 4);
 void diag_suggest(DiagSink *sink, const char *format, ...) RT_PRINTF(2, 3);
+// What the suggestion would put in the place of a span.
+void diag_replace(DiagSink *sink, Span replaced, const char *format, ...) RT_PRINTF(3, 4);
+// Both, for a mistyped word: "did you mean `word`?".
+void diag_did_you_mean(DiagSink *sink, Span replaced, const char *word);
+
+// Adds a record for all that was only counted since the last call, so that nothing is lost without a word. Call when a
+// scene is done.
+void diag_finish(DiagSink *sink);
 
 // True when enough errors were reported to stop work (more than keep_errors).
 bool diag_is_full(const DiagSink *sink);
 
 const char *diag_code_name(DiagCode code);    // "E0203"
 const char *diag_code_summary(DiagCode code); // "unknown word"
+DiagSeverity diag_code_severity(DiagCode code); // DIAG_WARNING for the extra ones
+DiagClass diag_code_class(DiagCode code);
+bool diag_code_is_extra(DiagCode code);
+const char *diag_severity_name(DiagSeverity severity); // "error", "warning", "note"
 
 // The text form, each line ended by LF:
 //
@@ -96,5 +130,11 @@ const char *diag_code_summary(DiagCode code); // "unknown word"
 // `?`. Where the line cannot be read, the head is `name: error[...]: ...`; without a span, `rtlang: error[...]: ...`;
 // a note without a span is `     = note: ...`.
 void diag_print(DiagSink *sink, const Diag *diag, TextBuffer *out);
+
+// The form for programs: one JSON object (RFC 8259) on one line, ended by LF; its members are listed in
+// docs/diagnostics.md. Bytes that are not UTF-8 become U+FFFD.
+void diag_json(DiagSink *sink, const Diag *diag, TextBuffer *out);
+// A text as a JSON string, quotes included.
+void diag_json_string(TextBuffer *out, const char *text, size_t length);
 
 #endif

@@ -494,7 +494,11 @@ bool source_locate(SourceMap *map, Span span, SourceLocation *location)
         return false;
     }
     location->name = source->name;
+    if (span.end == 0) {
+        return false;
+    }
     uint64_t offset = span.begin - source->base;
+    location->offset = offset;
     if (!source_index(map, source, offset)) {
         return false;
     }

@@ -21,6 +21,9 @@ typedef struct Span {
 
 #define SPAN_NONE ((Span){0, 0})
 
+// The text in which an offset lies, as a whole: a message about it has a file and no line.
+#define SPAN_WHOLE(offset) ((Span){(offset), 0})
+
 static inline bool span_exists(Span span)
 {
     return span.begin != 0;
@@ -49,6 +52,7 @@ typedef struct SourceLocation {
     const char *name;   // as it was opened
     uint64_t line;      // from 1
     uint64_t column;    // from 1, in characters (UTF-8 code points; a stray byte counts as one)
+    uint64_t offset;    // of the span's first byte in its text
     const char *text;   // the line without its end (LF or CRLF), valid until the next call on the map
     size_t text_length; // in bytes
     size_t caret_begin; // byte offsets of the span in `text`, clipped to this line
@@ -75,7 +79,7 @@ uint64_t source_base(const Source *source); // the global offset of its first by
 const char *source_name(const Source *source);
 
 // Finds file, line, column and the text of the line in which the span begins. False when the span is in no text or its
-// file cannot be read any more (name is then still set if it is known, and line is 0).
+// file cannot be read any more, or when it is a text as a whole (name is then still set if it is known, and line is 0).
 bool source_locate(SourceMap *map, Span span, SourceLocation *location) RT_MUST_CHECK;
 
 // Bytes read from all sources so far.

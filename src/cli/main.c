@@ -1,6 +1,7 @@
 // rtlang: reads a scene, traces it and writes a picture. A client of include/rtlang/rtlang.h and nothing else.
 //
 // SPDX-License-Identifier: MIT
+#include <errno.h>
 #include <limits.h>
 #include <signal.h>
 #include <stdio.h>
@@ -41,10 +42,16 @@ static void on_progress(void *client, double done)
     progress_update(client, done);
 }
 
-static rt_status fail_usage(const char *message, const char *what)
+static rt_status fail_usage(rt_session *session, const char *message)
 {
-    fprintf(stderr, "rtlang: error[E0703]: %s `%s`\n     = help: rtlang --help lists the options\n", message, what);
-    return RT_FAULT_USAGE;
+    return rt_report(session, "E0703", message, "rtlang --help lists the options");
+}
+
+static rt_status fail_argument(rt_session *session, const char *expected, const char *found)
+{
+    char message[COMPLAINT_SIZE];
+    snprintf(message, sizeof message, "option %s `%.80s`", expected, found);
+    return fail_usage(session, message);
 }
 
 // Where the shipped include files are: installed, or beside a program that runs in its build folder.
@@ -80,9 +87,26 @@ static rt_status configure(rt_session *session, const Options *options)
     for (int i = 0; !status && i < options->declaration_count; i++) {
         status = rt_declare(session, options->declarations[i]);
         if (status == RT_FAULT_USAGE) {
-            return fail_usage("option `--declare` wants NAME=NUMBER, with a NAME that is not reserved, found",
-                              options->declarations[i]);
+            return fail_argument(session, "`--declare` wants NAME=NUMBER, with a NAME that is not reserved, found",
+                                 options->declarations[i]);
         }
+    }
+    for (int i = 0; !status && i < options->warning_count; i++) {
+        status = rt_set_warning(session, options->warnings[i]);
+        if (status) {
+            return fail_argument(session, "`--warnings` wants all, error or the code of a warning, found",
+                                 options->warnings[i]);
+        }
+    }
+    return status;
+}
+
+static rt_status print(rt_session *session, const char *text, rt_status status)
+{
+    if (fputs(text, stdout) == EOF || fflush(stdout) != 0) {
+        char message[COMPLAINT_SIZE];
+        snprintf(message, sizeof message, "cannot write to standard output: %s", strerror(errno));
+        return rt_report(session, "E0505", message, NULL);
     }
     return status;
 }
@@ -101,11 +125,17 @@ static rt_status dump(rt_session *session, const Options *options)
         rt_syntax stage = options->action == ACTION_DUMP_TOKENS ? RT_SYNTAX_TOKENS : RT_SYNTAX_AST;
         status = rt_dump_syntax(session, stage, options->scene, &text);
     }
-    if (fputs(text, stdout) == EOF || fflush(stdout) != 0) {
-        perror("rtlang: error[E0505]: cannot write to standard output");
-        return RT_FAULT_IO;
+    return print(session, text, status);
+}
+
+static rt_status explain(rt_session *session, const Options *options)
+{
+    const char *text;
+    rt_status status = rt_explain(session, options->code, &text);
+    if (status == RT_FAULT_USAGE) {
+        return fail_argument(session, "`--explain`: no message has the code", options->code);
     }
-    return status;
+    return print(session, text, status);
 }
 
 // The scene's name without folder and ending, with .png.
@@ -145,14 +175,14 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
         status = rt_load_file(session, options->scene);
     }
     if (!status) {
-        progress_begin(progress, !options->quiet);
+        progress_begin(progress, !options->quiet && options->format == RT_FORMAT_TEXT);
         status = rt_render(session, options->threads);
         progress_end(progress);
     }
     if (!status) {
         status = rt_write(session, output, &options->encoding);
     }
-    if (!status && !options->quiet) {
+    if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
         print_summary(session, output);
     }
     return status;
@@ -163,6 +193,9 @@ static rt_status run(rt_session *session, const Options *options, Progress *prog
     rt_status status = configure(session, options);
     if (status) {
         return status;
+    }
+    if (options->action == ACTION_EXPLAIN) {
+        return explain(session, options);
     }
     if (options->action == ACTION_RENDER) {
         return render(session, options, progress);
@@ -177,27 +210,29 @@ int main(int argc, char **argv)
 {
     Options options;
     OptionsResult parsed = options_parse(argc, argv, &options);
-    if (parsed != OPTIONS_GO) {
+    if (parsed == OPTIONS_DONE) {
         options_fini(&options);
-        return parsed == OPTIONS_DONE ? RT_OK : RT_FAULT_USAGE;
+        return RT_OK;
     }
     Progress progress = {0};
     rt_callbacks callbacks = {&progress, on_diagnostic, on_message, on_progress};
     rt_session *session = rt_session_new(&callbacks);
     rt_status status = RT_FAULT_LIMIT;
     if (session) {
+        rt_set_format(session, options.format);
         interrupted_session = session;
         signal(SIGINT, on_interrupt);
         signal(SIGTERM, on_interrupt);
-        status = run(session, &options, &progress);
+        status = parsed == OPTIONS_WRONG ? fail_usage(session, options.complaint) : run(session, &options, &progress);
         interrupted_session = NULL;
         rt_session_free(session);
     } else {
         fputs("rtlang: error[E0602]: out of memory\n", stderr);
     }
+    bool tells = options.format == RT_FORMAT_TEXT;
     options_fini(&options);
     if (status == RT_CANCELLED) {
-        fputs("rtlang: interrupted; nothing was written\n", stderr);
+        fputs(tells ? "rtlang: interrupted; nothing was written\n" : "", stderr);
         return 128 + SIGINT;
     }
     return status;

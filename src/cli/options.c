@@ -3,8 +3,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/options.h"
 
+#include <ctype.h>
 #include <getopt.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +19,7 @@ typedef bool (*OptionApply)(Options *options, const char *argument, const char *
 typedef struct OptionRow {
     char letter; // 0: no short form
     const char *name;
-    const char *argument; // NULL: takes none
+    const char *argument; // NULL: takes none; may be left out when it begins with `[`
     OptionApply apply;    // NULL: handled by options_parse itself
     const char *help;
 } OptionRow;
@@ -40,8 +42,19 @@ static bool apply_output(Options *options, const char *argument, const char **ex
     return argument[0] != '\0';
 }
 
+static bool apply_warnings(Options *options, const char *argument, const char **expected)
+{
+    *expected = "all, error or the code of a warning";
+    options->warnings[options->warning_count++] = argument;
+    return argument[0] != '\0';
+}
+
+// `-Wall` and the like begin with the same letter.
 static bool apply_width(Options *options, const char *argument, const char **expected)
 {
+    if (isalpha((unsigned char)argument[0])) {
+        return apply_warnings(options, argument, expected);
+    }
     *expected = "a whole number from 1 to 65535";
     return parse_integer(argument, 1, 65535, &options->width);
 }
@@ -111,6 +124,27 @@ static bool apply_check(Options *options, const char *argument, const char **exp
     return true;
 }
 
+static bool apply_diagnostics(Options *options, const char *argument, const char **expected)
+{
+    *expected = "text or json";
+    options->format = strcmp(argument, "json") == 0 ? RT_FORMAT_JSON : RT_FORMAT_TEXT;
+    return options->format == RT_FORMAT_JSON || strcmp(argument, "text") == 0;
+}
+
+// A letter and four digits; everything else is the name of a scene.
+static bool is_code(const char *text)
+{
+    return strlen(text) == 5 && strchr("EeWw", text[0]) && strspn(text + 1, "0123456789") == 4;
+}
+
+static bool apply_explain(Options *options, const char *argument, const char **expected)
+{
+    *expected = "the code of a message, such as E0201";
+    options->action = ACTION_EXPLAIN;
+    options->code = argument;
+    return !argument || is_code(argument);
+}
+
 static bool apply_dump(Options *options, const char *argument, const char **expected)
 {
     static const struct {
@@ -139,11 +173,21 @@ static const OptionRow rows[] = {
     {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
     {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
+    {0, "warnings", "WHAT", apply_warnings,
+     "all: warn of more; error: take warnings for errors; a code, or no- and a code:\n"
+     "turn one on or off; may repeat. -Wall, -Werror and -Wno-CODE are short for it"},
+    {0, "diagnostics", "text|json", apply_diagnostics, "form of the messages (default text; json: an object a line)"},
+    {0, "explain", "[CODE]", apply_explain, "print what the code of a message means, and stop"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
     {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},
     {'V', "version", NULL, NULL, "print the version and stop"},
     {'h', "help", NULL, NULL, "print this and stop"},
 };
+
+static bool is_optional(const OptionRow *row)
+{
+    return row->argument && row->argument[0] == '[';
+}
 
 void options_print_help(FILE *out)
 {
@@ -151,9 +195,10 @@ void options_print_help(FILE *out)
                  "Reads SCENE, traces it and writes a picture.\n\n");
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         char left[64];
+        bool may_lack = is_optional(&rows[i]);
         snprintf(left, sizeof left, rows[i].letter ? "-%c, --%s%s%s" : "%c   --%s%s%s",
-                 rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].argument ? "=" : "",
-                 rows[i].argument ? rows[i].argument : "");
+                 rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].argument ? may_lack ? "[=" : "=" : "",
+                 rows[i].argument ? rows[i].argument + may_lack : "");
         fprintf(out, "  %-28s ", left);
         for (const char *c = rows[i].help; *c; c++) {
             *c == '\n' ? fprintf(out, "\n%31s", "") : fputc(*c, out);
@@ -172,7 +217,11 @@ static void make_getopt_tables(struct option *long_options, char *short_options)
     *short_options++ = ':';
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         long_options[i] =
-            (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL, FIRST_VAL + (int)i};
+            (struct option){rows[i].name,
+                            is_optional(&rows[i]) ? optional_argument
+                            : rows[i].argument    ? required_argument
+                                                  : no_argument,
+                            NULL, FIRST_VAL + (int)i};
         if (rows[i].letter) {
             *short_options++ = rows[i].letter;
         }
@@ -194,27 +243,28 @@ static const OptionRow *find_row(int val)
     return NULL;
 }
 
-static OptionsResult complain(const char *format, const char *what, const char *more)
+__attribute__((format(printf, 2, 3))) static OptionsResult complain(Options *options, const char *format, ...)
 {
-    fputs("rtlang: error[E0703]: ", stderr);
-    fprintf(stderr, format, what, more);
-    fputs("\n     = help: rtlang --help lists the options\n", stderr);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(options->complaint, sizeof options->complaint, format, arguments);
+    va_end(arguments);
     return OPTIONS_WRONG;
 }
 
 // What getopt could not make sense of.
-static OptionsResult complain_getopt(int val, char **argv)
+static OptionsResult complain_getopt(Options *options, int val, char **argv)
 {
     const OptionRow *row = find_row(optopt);
     const char *word = argv[optind - 1];
     char letter[3] = {'-', (char)optopt, '\0'};
     if (val == ':') {
-        return complain("option `--%s` wants %s", row ? row->name : word, row ? row->argument : "an argument");
+        return complain(options, "option `--%s` wants %s", row ? row->name : word, row ? row->argument : "an argument");
     }
     if (row) {
-        return complain("option `--%s` takes no argument%s", row->name, "");
+        return complain(options, "option `--%s` takes no argument", row->name);
     }
-    return complain("unknown option `%s`%s", optopt && optopt < FIRST_VAL ? letter : word, "");
+    return complain(options, "unknown option `%s`", optopt && optopt < FIRST_VAL ? letter : word);
 }
 
 static OptionsResult read_options(int argc, char **argv, Options *options)
@@ -227,7 +277,7 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
         const char *expected = "";
         const OptionRow *row = val == '?' || val == ':' ? NULL : find_row(val);
         if (!row) {
-            return complain_getopt(val, argv);
+            return complain_getopt(options, val, argv);
         }
         if (!row->apply) {
             if (row->letter == 'h') {
@@ -240,10 +290,30 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
         if (!row->apply(options, optarg, &expected)) {
             char found[96];
             snprintf(found, sizeof found, "%s, found `%.40s`", expected, optarg ? optarg : "");
-            return complain("option `--%s` wants %s", row->name, found);
+            return complain(options, "option `--%s` wants %s", row->name, found);
         }
     }
     return OPTIONS_GO;
+}
+
+// The code may stand behind a `=` or as the only word that is left.
+static OptionsResult settle_explain(int argc, char **argv, Options *options)
+{
+    const char *code = options->code ? options->code : optind < argc ? argv[optind++] : "";
+    const char *wrong = optind < argc ? argv[optind] : is_code(code) ? NULL : code;
+    options->code = code;
+    return wrong ? complain(options, "option `--explain` wants one code of a message, such as E0201, found `%.80s`", wrong)
+                 : OPTIONS_GO;
+}
+
+// So that a complaint has its form even when it stands before the option.
+static void find_format(int argc, char **argv, Options *options)
+{
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--diagnostics=json") == 0) {
+            options->format = RT_FORMAT_JSON;
+        }
+    }
 }
 
 OptionsResult options_parse(int argc, char **argv, Options *options)
@@ -252,18 +322,23 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     // No more paths and declarations than arguments.
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);
-    if (!options->include_paths || !options->declarations) {
-        return complain("out of memory%s%s", "", "");
+    options->warnings = calloc((size_t)argc + 1, sizeof *options->warnings);
+    if (!options->include_paths || !options->declarations || !options->warnings) {
+        return complain(options, "out of memory");
     }
+    find_format(argc, argv, options);
     OptionsResult result = read_options(argc, argv, options);
     if (result != OPTIONS_GO) {
         return result;
     }
+    if (options->action == ACTION_EXPLAIN) {
+        return settle_explain(argc, argv, options);
+    }
     if (optind == argc) {
-        return complain("no scene given%s%s", "", "");
+        return complain(options, "no scene given");
     }
     if (optind + 1 < argc) {
-        return complain("more than one scene given: `%s` and `%s`", argv[optind], argv[optind + 1]);
+        return complain(options, "more than one scene given: `%s` and `%s`", argv[optind], argv[optind + 1]);
     }
     options->scene = argv[optind];
     return OPTIONS_GO;
@@ -273,4 +348,5 @@ void options_fini(Options *options)
 {
     free(options->include_paths);
     free(options->declarations);
+    free(options->warnings);
 }

@@ -9,12 +9,22 @@
 
 #include "rtlang/rtlang.h"
 
-typedef enum Action { ACTION_RENDER, ACTION_CHECK, ACTION_DUMP_TOKENS, ACTION_DUMP_AST, ACTION_DUMP_SCENE } Action;
+typedef enum Action {
+    ACTION_RENDER,
+    ACTION_CHECK,
+    ACTION_DUMP_TOKENS,
+    ACTION_DUMP_AST,
+    ACTION_DUMP_SCENE,
+    ACTION_EXPLAIN,
+} Action;
+
+enum { COMPLAINT_SIZE = 512 };
 
 // Pointers refer to argv.
 typedef struct Options {
     Action action;
     const char *scene;
+    const char *code; // ACTION_EXPLAIN
     const char *output; // NULL: the scene's name with .png in the current folder
     int width, height;
     int threads; // 0: as many as the machine has
@@ -23,13 +33,17 @@ typedef struct Options {
     int include_path_count;
     const char **declarations; // owned list
     int declaration_count;
+    const char **warnings; // owned list, as rt_set_warning takes them
+    int warning_count;
+    rt_format format; // of messages
     bool quiet;
+    char complaint[COMPLAINT_SIZE]; // OPTIONS_WRONG: what is wrong
 } Options;
 
 typedef enum OptionsResult {
     OPTIONS_GO,    // run
     OPTIONS_DONE,  // --help or --version was printed
-    OPTIONS_WRONG, // a message was printed to stderr
+    OPTIONS_WRONG, // see complaint
 } OptionsResult;
 
 OptionsResult options_parse(int argc, char **argv, Options *options);

@@ -435,8 +435,9 @@ void block_unknown(Eval *ev, const AstNode *item)
     for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         suggest_offer(&suggest, schema_kind((SchemaKind)kind)->word);
     }
-    if (eval_report(ev, DIAG_E0250, item->span, "unknown kind of block `%s`", word) && suggest.best) {
-        diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
+    Span word_span = eval_word_span(ev, item);
+    if (eval_report(ev, DIAG_E0250, word_span, "unknown kind of block `%s`", word) && suggest.best) {
+        diag_did_you_mean(ev->options.diags, word_span, suggest.best);
     }
 }
 
@@ -450,10 +451,11 @@ static void unknown_property(Block *block, const AstNode *item)
         suggest_offer(&suggest, property->word);
     }
     block->has_fault = true;
-    if (eval_report(block->ev, DIAG_E0250, item->span, "unknown property `%s` in %s", word,
+    Span word_span = eval_word_span(block->ev, item);
+    if (eval_report(block->ev, DIAG_E0250, word_span, "unknown property `%s` in %s", word,
                     block_word(block)) &&
         suggest.best) {
-        diag_suggest(block->ev->options.diags, "did you mean `%s`?", suggest.best);
+        diag_did_you_mean(block->ev->options.diags, word_span, suggest.best);
     }
 }
 

@@ -22,6 +22,7 @@ static void check_end(Eval *ev, const AstNode *node, const Value *value)
     Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
     if (eval_report(ev, DIAG_E0205, end, "a `;` is missing after the declaration of %s", value_describe(value))) {
         diag_suggest(ev->options.diags, "write `;` after it");
+        diag_replace(ev->options.diags, (Span){end.end, end.end}, ";");
     }
 }
 

@@ -83,7 +83,7 @@ static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
         return false;
     }
     if (eval_report(ev, DIAG_E0201, node->span, "%s `%s` is not declared", what, eval_text(ev, node->symbol))) {
-        scope_suggest(ev, node->symbol);
+        scope_suggest(ev, node->symbol, eval_word_span(ev, node));
     }
     return false;
 }

@@ -123,6 +123,8 @@ bool eval_is_first(Eval *ev, DiagCode code, Symbol symbol);
 // Reports exhausted memory once and sets `stop`; returns false.
 bool eval_no_memory(Eval *ev, Span span);
 const char *eval_text(const Eval *ev, Symbol symbol);
+// Of a node that begins with its symbol, the symbol alone: `sphere` of a whole block.
+Span eval_word_span(const Eval *ev, const AstNode *node);
 
 // Enter and leave what is on the call stack of messages. The frame must live until it is left.
 void eval_frame_enter(Eval *ev, DiagFrame *frame, const char *what, const char *name, Span span);
@@ -202,7 +204,7 @@ bool scope_is_reference(const Eval *ev, Symbol name);
 
 bool scope_define_macro(Eval *ev, const Macro *macro) RT_MUST_CHECK;
 bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
-void scope_suggest(const Eval *ev, Symbol name); // adds "did you mean" to the record that was kept last
+void scope_suggest(const Eval *ev, Symbol name, Span span); // adds "did you mean" to the record that was kept last
 
 // ---- arrays
 

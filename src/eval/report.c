@@ -17,6 +17,11 @@ const char *eval_text(const Eval *ev, Symbol symbol)
     return intern_get(ev->options.names, symbol);
 }
 
+Span eval_word_span(const Eval *ev, const AstNode *node)
+{
+    return (Span){node->span.begin, node->span.begin + intern_length(ev->options.names, node->symbol)};
+}
+
 static uint64_t place_of(DiagCode code, Span span)
 {
     uint64_t key = (span.begin * 0x9e3779b97f4a7c15u) ^ ((uint64_t)code << 48) ^ span.end;

@@ -218,7 +218,7 @@ bool scope_undef(Eval *ev, Symbol name)
     return true;
 }
 
-void scope_suggest(const Eval *ev, Symbol name)
+void scope_suggest(const Eval *ev, Symbol name, Span span)
 {
     Suggest suggest;
     suggest_begin(&suggest, eval_text(ev, name));
@@ -233,6 +233,6 @@ void scope_suggest(const Eval *ev, Symbol name)
         }
     }
     if (suggest.best != NULL) {
-        diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
+        diag_did_you_mean(ev->options.diags, span, suggest.best);
     }
 }

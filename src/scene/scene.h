@@ -118,6 +118,7 @@ typedef struct Settings {
 } Settings;
 
 typedef struct Scene {
+    Span whole; // the text it was made from, for messages about the scene as a whole
     Settings settings;
     Rgbft background;
     bool has_camera; // the scene said so; else camera is the language's default

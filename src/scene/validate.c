@@ -105,13 +105,13 @@ static bool shapes_are_valid(const Scene *scene, DiagSink *diags)
 static void warn_of_what_is_missing(const Scene *scene, DiagSink *diags)
 {
     if (!scene->has_camera) {
-        diag_report(diags, DIAG_W0401, SPAN_NONE,
+        diag_report(diags, DIAG_W0401, scene->whole,
                     "no camera: the default one at <0, 0, 0> looks along z with right <1.33, 0, 0>");
     }
     if (scene->shape_count == 0) {
-        diag_report(diags, DIAG_W0403, SPAN_NONE, "no objects: only the background is drawn");
+        diag_report(diags, DIAG_W0403, scene->whole, "no objects: only the background is drawn");
     } else if (scene->lights.count == 0) {
-        diag_report(diags, DIAG_W0402, SPAN_NONE, "no lights: only ambient and emission are seen");
+        diag_report(diags, DIAG_W0402, scene->whole, "no lights: only ambient and emission are seen");
     }
 }
 

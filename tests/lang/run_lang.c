@@ -211,6 +211,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     if (!eval_source(&options, source, &scene) && diags.error_count == 0) {
         text_append(&outcome->diagnostics, "evaluation failed without a message\n");
     }
+    diag_finish(&diags);
     for (size_t i = 0; i < diags.count; i++) {
         diag_print(&diags, &diags.items[i], &outcome->diagnostics);
     }

@@ -156,6 +156,7 @@ static void test_locate_table(void)
                (uintmax_t)cases[k].column);
     }
     SourceLocation at;
+    tap_ok(!source_locate(map, SPAN_WHOLE(1), &at) && at.name && at.line == 0, "a text as a whole has a name only");
     tap_ok(!source_locate(map, SPAN_NONE, &at) && !at.name && at.line == 0, "no span, no place");
     tap_ok(!source_locate(map, (Span){45, 45}, &at) && !at.name, "beyond all texts there is no place");
     source_map_free(map);
@@ -312,7 +313,7 @@ static void test_cuts(void)
     Source *source = source_open_text(map, "<text>", line, LENGTH);
     for (uint64_t offset = 0; offset <= LENGTH; offset += 3) {
         SourceLocation at;
-        bool is_found = source_locate(map, (Span){source_base(source) + offset, 0}, &at);
+        bool is_found = source_locate(map, (Span){source_base(source) + offset, source_base(source) + offset}, &at);
         const char *first = at.text, *end = at.text + at.text_length;
         first += is_found && *first == '.' ? 3 : 0;
         end -= is_found && end[-1] == '.' ? 3 : 0;

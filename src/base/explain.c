@@ -1,0 +1,99 @@
+// Explanations: the texts of base/diag_texts.def, laid out for a terminal or as Markdown.
+//
+// Turns a code into text. Owns the table of texts, which is constant. Knows nothing of single messages.
+//
+// SPDX-License-Identifier: MIT
+#include "base/explain.h"
+
+#include <string.h>
+#include <strings.h>
+
+enum { COLUMNS = 80 };
+
+typedef struct Explanation {
+    const char *wrong; // a scene, or in words
+    const char *right; // the scene corrected; NULL when `wrong` is no scene
+    const char *text;
+} Explanation;
+
+static const Explanation explanations[DIAG_CODE_COUNT] = {
+#define TEXT(code, wrong, right, text) [DIAG_##code] = {wrong, right, text},
+#define TOLD(code, example, text)      [DIAG_##code] = {example, NULL, text},
+#include "base/diag_texts.def"
+#undef TEXT
+#undef TOLD
+};
+
+bool explain_find(const char *name, DiagCode *code)
+{
+    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
+        if (strcasecmp(name, diag_code_name((DiagCode)i)) == 0) {
+            *code = (DiagCode)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+// Breaks between words, so that no line is longer than COLUMNS if its words are not.
+static void append_wrapped(TextBuffer *out, const char *text)
+{
+    size_t column = 0;
+    while (*text != '\0') {
+        size_t length = strcspn(text, " ");
+        if (column > 0) {
+            bool fits = column + 1 + length <= COLUMNS;
+            text_append_char(out, fits ? ' ' : '\n');
+            column = fits ? column + 1 : 0;
+        }
+        text_append_n(out, text, length);
+        column += length;
+        text += length + strspn(text + length, " ");
+    }
+    text_append_char(out, '\n');
+}
+
+static const char *severity_name(DiagCode code)
+{
+    return diag_code_severity(code) == DIAG_ERROR ? "error" : "warning";
+}
+
+void explain_write(DiagCode code, TextBuffer *out)
+{
+    const Explanation *explanation = &explanations[code];
+    text_printf(out, "%s: %s (%s, exit code %d%s)\n\n", diag_code_name(code), diag_code_summary(code),
+                severity_name(code), (int)diag_code_class(code), diag_code_is_extra(code) ? ", with -Wall only" : "");
+    if (explanation->right != NULL) {
+        text_printf(out, "    wrong: %s\n    right: %s\n\n", explanation->wrong, explanation->right);
+    } else {
+        text_printf(out, "    for example: %s\n\n", explanation->wrong);
+    }
+    append_wrapped(out, explanation->text);
+}
+
+static void append_section(TextBuffer *out, DiagCode code)
+{
+    const Explanation *explanation = &explanations[code];
+    text_printf(out, "### %s: %s\n\n*%s, exit code %d%s.* %s\n\n", diag_code_name(code), diag_code_summary(code),
+                severity_name(code), (int)diag_code_class(code), diag_code_is_extra(code) ? ", with `-Wall` only" : "",
+                explanation->text);
+    if (explanation->right != NULL) {
+        text_printf(out, "```\nwrong: %s\nright: %s\n```\n\n", explanation->wrong, explanation->right);
+    } else {
+        text_printf(out, "For example: %s.\n\n", explanation->wrong);
+    }
+}
+
+void explain_write_reference(TextBuffer *out)
+{
+    static const char *const groups[] = {"Text and syntax", "Names and types",     "Values",
+                                         "The scene as a whole", "Files", "Limits", "Command line"};
+    for (size_t group = 0; group < RT_COUNT_OF(groups); group++) {
+        text_printf(out, "## %s\n\n", groups[group]);
+        for (int code = 0; code < DIAG_CODE_COUNT; code++) {
+            if (diag_code_name((DiagCode)code)[2] == (char)('1' + group)) {
+                append_section(out, (DiagCode)code);
+            }
+        }
+    }
+}
