@@ -355,8 +355,6 @@ bounds:
 | sum[from] comma sum[to] ','       { $$ = ast_append(ONE($from), $to); }
 | sum[from] comma sum[to] comma sum[step]
     %prec JUXTAPOSED { $$ = ast_append(ast_append(ONE($from), $to), $step); }
-| sum[from] comma sum[to] comma sum[step] ','
-    { $$ = ast_append(ast_append(ONE($from), $to), $step); }
 ;
 
 names:

@@ -178,3 +178,13 @@ bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **a
     *element = &place.array->elements[place.offset];
     return true;
 }
+
+bool name_is_declared(Eval *ev, const AstNode *target)
+{
+    if (target->kind == AST_NAME) {
+        return scope_find(ev, target->symbol) != NULL;
+    }
+    Value *element;
+    ValueArray *array;
+    return target->kind == AST_INDEX && array_locate(ev, target, &element, &array) && element->kind != VALUE_NONE;
+}

@@ -54,7 +54,8 @@ static bool fault_domain(Eval *ev, const AstNode *node, double argument)
 // A C conversion to int as x86 does it: what does not fit is the least int.
 static double to_int(double number)
 {
-    return number > -2147483649.0 && number < 2147483648.0 ? trunc(number) : -2147483648.0;
+    // A whole number has no negative zero.
+    return number > -2147483649.0 && number < 2147483648.0 ? trunc(number) + 0.0 : -2147483648.0;
 }
 
 // ---- functions of numbers
@@ -232,8 +233,7 @@ static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
 
 static bool is_defined(Eval *ev, const AstNode *node, Value *value)
 {
-    const AstNode *name = node->a;
-    return give_number(value, name->kind == AST_NAME && scope_find(ev, name->symbol) != NULL ? 1.0 : 0.0);
+    return give_number(value, name_is_declared(ev, node->a) ? 1.0 : 0.0);
 }
 
 static bool array_dimensions(Eval *ev, const AstNode *node, Value *value)

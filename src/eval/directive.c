@@ -125,22 +125,12 @@ static void run_if(Cursor *cursor, const AstNode *node)
     }
 }
 
-static bool is_declared(Eval *ev, const AstNode *target)
-{
-    if (target->kind == AST_NAME) {
-        return scope_find(ev, target->symbol) != NULL;
-    }
-    Value *element;
-    ValueArray *array;
-    return array_locate(ev, target, &element, &array) && element->kind != VALUE_NONE;
-}
-
 static void run_ifdef(Cursor *cursor, const AstNode *node)
 {
     if (node->a == NULL) {
         return; // its condition was not readable
     }
-    bool is_wanted = is_declared(cursor->ev, node->a) == (node->op == AST_OP_IFDEF);
+    bool is_wanted = name_is_declared(cursor->ev, node->a) == (node->op == AST_OP_IFDEF);
     push_branch(cursor, is_wanted ? node->b : node->c);
 }
 

@@ -211,6 +211,8 @@ void scope_suggest(const Eval *ev, Symbol name, Span span); // adds "did you mea
 bool array_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // The element that an INDEX node means, set or not, and its array.
 bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **array) RT_MUST_CHECK;
+// Whether a NAME stands for something, or an INDEX node for an element that is set; false for any other node.
+bool name_is_declared(Eval *ev, const AstNode *target);
 bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span) RT_MUST_CHECK;
 
 // ---- expressions

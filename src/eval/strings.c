@@ -13,7 +13,8 @@
 #include "base/number.h"
 #include "eval/internal.h"
 
-enum { FORMAT_MAX = 1000 }; // the greatest width and precision
+// The greatest width, precision and length of a number as text: POV-Ray writes longer ones in a different form.
+enum { FORMAT_MAX = 254 };
 
 static bool give_string(Eval *ev, const AstNode *node, Value *value, const char *text, size_t length)
 {
@@ -48,16 +49,18 @@ static void use_point(char *text)
 }
 
 // Appends a number as printf's %f does: width < 0 fills with zeros, precision < 0 is six decimals.
-static void append_number(TextBuffer *out, double number, int width, int precision)
+static bool append_number(Eval *ev, Span span, TextBuffer *out, double number, int width, int precision)
 {
     char text[2 * FORMAT_MAX + 400];
-    if (width < 0) {
-        snprintf(text, sizeof text, "%0*.*f", -width, precision, number);
-    } else {
-        snprintf(text, sizeof text, "%*.*f", width, precision, number);
+    int length = width < 0 ? snprintf(text, sizeof text, "%0*.*f", -width, precision, number)
+                           : snprintf(text, sizeof text, "%*.*f", width, precision, number);
+    if (length > FORMAT_MAX) {
+        return eval_fault(ev, DIAG_E0304, span, "this number takes %d characters, and at most %d can be written", length,
+                          FORMAT_MAX);
     }
     use_point(text);
     text_append(out, text);
+    return true;
 }
 
 static bool format_argument(Eval *ev, const AstNode *node, const char *what, int *out)
@@ -91,8 +94,7 @@ bool builtin_str(Eval *ev, const AstNode *node, Value *value)
     }
     TextBuffer out;
     text_init(&out);
-    append_number(&out, number, width, precision);
-    return give_buffer(ev, node, value, &out);
+    return append_number(ev, node->span, &out, number, width, precision) && give_buffer(ev, node, value, &out);
 }
 
 bool builtin_vstr(Eval *ev, const AstNode *node, Value *value)
@@ -119,7 +121,10 @@ bool builtin_vstr(Eval *ev, const AstNode *node, Value *value)
         if (i > 0) {
             text_append_n(&out, separator.text, separator.length);
         }
-        append_number(&out, v[i], width, precision);
+        if (!append_number(ev, node->span, &out, v[i], width, precision)) {
+            text_fini(&out);
+            return false;
+        }
     }
     return give_buffer(ev, node, value, &out);
 }
@@ -227,8 +232,12 @@ bool builtin_strcmp(Eval *ev, const AstNode *node, Value *value)
     if (!eval_string(ev, node->a->next, &other) || !fine) {
         return false;
     }
-    int order = strcmp(one.text, other.text);
-    *value = value_of_number((order > 0) - (order < 0));
+    size_t at = 0;
+    while (one.text[at] != '\0' && one.text[at] == other.text[at]) {
+        at++;
+    }
+    // As POV-Ray: how far the first bytes that differ are apart.
+    *value = value_of_number((unsigned char)one.text[at] - (unsigned char)other.text[at]);
     return true;
 }
 

@@ -95,7 +95,7 @@ static const struct {
     {"#ifdef(A[1]) #end #ifndef(x) 1, #else ,2 #end", "#ifdef (A[1])\n#end\n#ifndef (x)\n  1,\n#else\n  , 2\n#end\n"},
     {"#switch(A) #debug \"a\" #case(1) #break #range(1 2) B #else C #end",
      "#switch (A)\n  #debug \"a\"\n#case (1)\n  #break\n#range (1, 2)\n  B\n#else\n  C\n#end\n"},
-    {"#while(A<1) #for(I 0 10) M(I) #end #for(J,0,1,.5,) #end #end",
+    {"#while(A<1) #for(I 0 10) M(I) #end #for(J,0,1,.5) #end #end",
      "#while (A < 1)\n  #for (I, 0, 10)\n    M(I)\n  #end\n  #for (J, 0, 1, 0.5)\n  #end\n#end\n"},
     {"#macro M(a b,c,) rgb a*2 #end #macro N() 5; #end M(1 x, rgb 1,) N()",
      "#macro M (a, b, c)\n  rgb a*2\n#end\n#macro N ()\n  5;\n#end\nM(1, x, rgb 1)\nN()\n"},
