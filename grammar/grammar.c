@@ -73,6 +73,45 @@ bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *i
     return run(&state);
 }
 
+static GrammarToken plain_token(const Token *token)
+{
+    GrammarToken plain = {.kind = GRAMMAR_TOKEN_MARK, .span = token->span};
+    if (grammar_is_directive(token->kind)) {
+        plain.kind = GRAMMAR_TOKEN_DIRECTIVE;
+        plain.symbol = grammar_directive_word(token->kind);
+    } else if (grammar_is_reserved(token->kind) || token->kind == TOKEN_NAME) {
+        plain.kind = GRAMMAR_TOKEN_WORD;
+        plain.symbol = token->symbol;
+    } else if (token->kind == TOKEN_NUMBER || token->kind == TOKEN_STRING || token->kind == TOKEN_END_OF_FILE) {
+        plain.kind = token->kind == TOKEN_NUMBER   ? GRAMMAR_TOKEN_NUMBER
+                     : token->kind == TOKEN_STRING ? GRAMMAR_TOKEN_STRING
+                                                   : GRAMMAR_TOKEN_END;
+    }
+    return plain;
+}
+
+static void hand_over_tokens(GrammarState *state, GrammarTokenFn token, void *client)
+{
+    do {
+        grammar_next_token(state);
+        GrammarToken plain = plain_token(&state->current);
+        state->client_ended = !token(client, &plain);
+    } while (!state->client_ended && state->current.kind != TOKEN_END_OF_FILE);
+}
+
+bool grammar_scan_all(const GrammarContext *context, Source *source, GrammarTokenFn token, void *client)
+{
+    GrammarState state;
+    begin(&state, context, source);
+    if (setjmp(state.escape) != 0 || !grammar_scan_begin(&state)) {
+        report_no_memory(&state);
+    } else {
+        hand_over_tokens(&state, token, client);
+    }
+    grammar_scan_end(&state);
+    return !state.faulty && !state.client_ended;
+}
+
 static void dump_token(const GrammarState *state, SourceMap *sources, TextBuffer *out)
 {
     SourceLocation at;

@@ -34,6 +34,28 @@ bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn 
 // The same, but keeps all items in the arena as one list, for an #include inside a block.
 bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *items) RT_MUST_CHECK;
 
+// What a token is, for those who want tokens and no syntax.
+typedef enum GrammarTokenKind {
+    GRAMMAR_TOKEN_END, // after the last one; empty
+    GRAMMAR_TOKEN_MARK,
+    GRAMMAR_TOKEN_NUMBER,
+    GRAMMAR_TOKEN_STRING,
+    GRAMMAR_TOKEN_WORD,      // a name or a reserved word, `symbol`
+    GRAMMAR_TOKEN_DIRECTIVE, // from `#` to the end of the word, `symbol`; what stands between them is in the span
+} GrammarTokenKind;
+
+typedef struct GrammarToken {
+    GrammarTokenKind kind;
+    Symbol symbol; // SYMBOL_NONE where the kind has none
+    Span span;
+} GrammarToken;
+
+typedef bool (*GrammarTokenFn)(void *client, const GrammarToken *token);
+
+// Hands over every token of the source, whatever its syntax is. True when no fault was found and the client never
+// returned false, which stops the reading.
+bool grammar_scan_all(const GrammarContext *context, Source *source, GrammarTokenFn token, void *client) RT_MUST_CHECK;
+
 // Writes one token a line, `line:column kind text`, for --dump=tokens.
 bool grammar_dump_tokens(const GrammarContext *context, Source *source, SourceMap *sources,
                          TextBuffer *out) RT_MUST_CHECK;

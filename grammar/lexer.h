@@ -60,6 +60,7 @@ typedef struct GrammarState {
     bool block_checked; // the first block was looked at for bytes that no text has
     bool file_name;     // the next string is the file name of an #include: backslashes stand for themselves
     uint64_t begin;     // of the string or comment being read
+    uint64_t hash;      // of the directive being read; a comment may stand in it
     unsigned comment_depth;
     int comment_return; // start condition
     TextBuffer string;

@@ -90,7 +90,8 @@ tests_fuzz_fuzz_scene_LDADD = libapi.la
 test_scripts = \
   %D%/fuzz/replay.sh %D%/lang/check_cases.sh \
   %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.py %D%/check-docs.py \
-  %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py %D%/system/check_rtcheck.sh \
+  %D%/format/check_format.py %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py \
+  %D%/system/check_rtcheck.sh \
   %D%/povray/check_pictures.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py
 
@@ -103,7 +104,7 @@ lang_cases = \
   %D%/lang/limits.test %D%/lang/loops.test %D%/lang/macros.test %D%/lang/pigment.test %D%/lang/plane.test \
   %D%/lang/settings.test %D%/lang/sphere.test %D%/lang/strings.test %D%/lang/texture.test \
   %D%/lang/transforms.test %D%/lang/union.test
-EXTRA_DIST += $(test_scripts) $(lang_cases) %D%/golden %D%/system %D%/povray
+EXTRA_DIST += $(test_scripts) $(lang_cases) %D%/format/layout.scn %D%/format/layout.expected %D%/golden %D%/system %D%/povray
 
 # Rewrite what the tests hold as expected; look at the difference before it is committed.
 .PHONY: update-golden update-docs

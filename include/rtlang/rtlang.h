@@ -107,6 +107,15 @@ RT_API rt_status rt_explain(rt_session *session, const char *code, const char **
  * (or NULL). Returns the status that the code means. */
 RT_API rt_status rt_report(rt_session *session, const char *code, const char *message, const char *suggestion);
 
+/* The text of a file in the canonical layout (docs/language.md, "Layout"), with its comments. The file need not be a whole
+ * scene: any text whose tokens can be read has a layout. *text is "" when there were faults, else valid until the next
+ * call on the session. */
+RT_API rt_status rt_format_file(rt_session *session, const char *path, const char **text);
+/* Whether the file is in the canonical layout: RT_FAULT_SCENE, and a diagnostic at the first place where it is not. */
+RT_API rt_status rt_check_format(rt_session *session, const char *path);
+/* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard output. */
+RT_API rt_status rt_write_text(rt_session *session, const char *path);
+
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* Makes a running rt_render stop soon. The only call that may be made from another thread or a signal handler. */

@@ -307,8 +307,7 @@ void rt_cancel(rt_session *session)
     atomic_store(&session->cancel, true);
 }
 
-// `detail` of an image error names the path itself where the system was asked.
-static rt_status image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
+rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
 {
     static const struct {
         DiagCode code;
@@ -325,7 +324,7 @@ static rt_status image_fault(rt_session *session, ImageStatus status, const char
     if (status == IMAGE_OK) {
         return session_status(session, true);
     }
-    // The path again in front of the system's words would say nothing new.
+    // The system's words begin with the path where the system was asked; again it would say nothing new.
     const char *detail = error->detail;
     size_t length = strlen(path);
     if (strncmp(detail, path, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
@@ -360,7 +359,7 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
     if (!is_output(output)) {
         return RT_FAULT_USAGE;
     }
-    return image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
+    return session_image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
 }
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
@@ -379,7 +378,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
     };
     ImageStatus status = image_write(&image, &encoding, path, &error);
     session->write_seconds = session_clock() - start;
-    return image_fault(session, status, path, &error);
+    return session_image_fault(session, status, path, &error);
 }
 
 const float *rt_pixels(const rt_session *session, int *width, int *height)

@@ -14,6 +14,7 @@
 #include "base/source.h"
 #include "base/text.h"
 #include "eval/eval.h"
+#include "image/image.h"
 #include "render/render.h"
 #include "rtlang/rtlang.h"
 #include "scene/scene.h"
@@ -52,6 +53,9 @@ void session_say(rt_session *session, rt_stream stream, const char *text, size_t
 
 // Delivers, and turns what was reported into a status: RT_OK when `fine`, else the class of the first error.
 rt_status session_status(rt_session *session, bool fine);
+
+// Reports what became of writing `path`, and turns it into a status.
+rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error);
 
 // Opens a scene file; reports why not.
 bool session_open(rt_session *session, const char *path, Source **source);

@@ -138,6 +138,13 @@ static rt_status explain(rt_session *session, const Options *options)
     return print(session, text, status);
 }
 
+static rt_status format(rt_session *session, const Options *options)
+{
+    const char *text;
+    rt_status status = rt_format_file(session, options->scene, &text);
+    return status ? status : rt_write_text(session, options->output ? options->output : "-");
+}
+
 // The scene's name without folder and ending, with .png.
 static void default_output(const char *scene, char *output, size_t size)
 {
@@ -202,6 +209,12 @@ static rt_status run(rt_session *session, const Options *options, Progress *prog
     }
     if (options->action == ACTION_CHECK) {
         return rt_load_file(session, options->scene);
+    }
+    if (options->action == ACTION_FORMAT) {
+        return format(session, options);
+    }
+    if (options->action == ACTION_FORMAT_CHECK) {
+        return rt_check_format(session, options->scene);
     }
     return dump(session, options);
 }

@@ -120,7 +120,14 @@ static bool apply_quiet(Options *options, const char *argument, const char **exp
 static bool apply_check(Options *options, const char *argument, const char **expected)
 {
     (void)argument, (void)expected;
-    options->action = ACTION_CHECK;
+    options->action = options->action == ACTION_FORMAT ? ACTION_FORMAT_CHECK : ACTION_CHECK;
+    return true;
+}
+
+static bool apply_format(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->action = options->action == ACTION_CHECK ? ACTION_FORMAT_CHECK : ACTION_FORMAT;
     return true;
 }
 
@@ -178,6 +185,9 @@ static const OptionRow rows[] = {
      "turn one on or off; may repeat. -Wall, -Werror and -Wno-CODE are short for it"},
     {0, "diagnostics", "text|json", apply_diagnostics, "form of the messages (default text; json: an object a line)"},
     {0, "explain", "[CODE]", apply_explain, "print what the code of a message means, and stop"},
+    {0, "format", NULL, apply_format,
+     "print the scene's text in the canonical layout, or write it to -o FILE;\n"
+     "with --check tell whether it is in that layout"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
     {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},
     {'V', "version", NULL, NULL, "print the version and stop"},

@@ -16,6 +16,8 @@ typedef enum Action {
     ACTION_DUMP_AST,
     ACTION_DUMP_SCENE,
     ACTION_EXPLAIN,
+    ACTION_FORMAT,
+    ACTION_FORMAT_CHECK,
 } Action;
 
 enum { COMPLAINT_SIZE = 512 };

@@ -52,6 +52,7 @@ DRAWN = {"missing_camera", "empty_file", "messages"}
 
 # Name of the case -> arguments; none of them writes a picture.
 COMMANDS = {
+    "not_laid_out": ["--format", "--check", "good.scn"],
     "scene_is_a_directory": ["folder.png"],
     "scene_not_found": ["nowhere.scn"],
     "scene_read_error": ["/proc/self/mem"],
