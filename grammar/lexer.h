@@ -70,6 +70,7 @@ typedef struct GrammarState {
     Token held[2];           // read while skipping, to be delivered again: the last one first
     unsigned held_count;
     bool skips;          // a fault was reported: skip before the next token
+    unsigned unknown_directives; // not guessed; an #end may belong to each
     bool past_directive; // the fault is a directive inside an expression: skip all of it
     ARRAY(Opener) openers;
 } GrammarState;

@@ -304,6 +304,10 @@ static bool report_misplaced_directive(GrammarState *state, const Expected *expe
     if (role == ROLE_NONE || expected->seen[EXPECT_ITEM] == (role == ROLE_SIMPLE || role == ROLE_OPENS)) {
         return false;
     }
+    if (opener == NULL && state->unknown_directives > 0 && role != ROLE_SIMPLE && role != ROLE_OPENS) {
+        state->unknown_directives -= role == ROLE_END;
+        return true; // it belongs to a directive that has been reported
+    }
     text_init(&text);
     grammar_describe(state, &state->current, &text);
     if (role == ROLE_SIMPLE || role == ROLE_OPENS) {

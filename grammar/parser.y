@@ -73,7 +73,7 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token HASH_FOPEN "#fopen" HASH_FCLOSE "#fclose" HASH_READ "#read" HASH_WRITE "#write"
 
 %type <node> item block layer entry array function directive declare assignment conditional message file case
-%type <node> value initialiser
+%type <node> value initialiser unreadable
 %type <node> full logic relation sum indexed inline include target subject condition
 %type <list> items entry_items body block_body components arguments operands colour colour_open layers sizes rows
 %type <list> parameters names bounds written cases else_part function_body
@@ -290,7 +290,14 @@ assignment:
     { $$ = NODE(DECLARE, DECLARE, SYMBOL_NONE, @$, $target, $value, NULL); }
 | HASH_LOCAL deprecation target '=' value
     { $$ = NODE(DECLARE, LOCAL, SYMBOL_NONE, @$, $target, $value, NULL); }
+| HASH_DECLARE deprecation target '=' unreadable
+    { $$ = ast_flag(NODE(DECLARE, DECLARE, SYMBOL_NONE, @$, $target, $unreadable, NULL), AST_UNREADABLE); }
+| HASH_LOCAL deprecation target '=' unreadable
+    { $$ = ast_flag(NODE(DECLARE, LOCAL, SYMBOL_NONE, @$, $target, $unreadable, NULL), AST_UNREADABLE); }
 ;
+
+// The name is declared all the same, so that its uses are not reported as well.
+unreadable: error RESYNC            { $$ = ast_number(&state->builder, 0, @$); yyerrok; };
 
 // `deprecated "why"` warns those who use the name; rtlang does not.
 deprecation:

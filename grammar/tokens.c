@@ -12,6 +12,8 @@
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
 
+enum { GUESS_COST = 3, GUESS_LENGTH = 3 };
+
 typedef struct Directive {
     Word word;
     int token;
@@ -120,11 +122,17 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
     size_t kept = state->context->diags->count;
     grammar_fault(state, DIAG_E0105, span, "`#%.40s` is not a directive", word);
     if (suggest.best == NULL) {
+        state->unknown_directives++;
         return TOKEN_INVALID;
     }
     if (state->context->diags->count > kept) {
         diag_suggest(state->context->diags, "did you mean `#%s`?", suggest.best);
         diag_replace(state->context->diags, span, "#%s", suggest.best);
+    }
+    // Reading goes on as if the suggestion stood there, unless it is far for such a short word.
+    if (suggest.best_cost > GUESS_COST && length <= GUESS_LENGTH) {
+        state->unknown_directives++;
+        return TOKEN_INVALID;
     }
     int meant = grammar_directive_token(state, suggest.best, strlen(suggest.best), span);
     DirectiveRole role = grammar_role(meant);
@@ -296,6 +304,16 @@ static bool ends_skipping(const GrammarState *state, size_t level, const Token *
            !grammar_is_directive(openers[count - 1].kind);
 }
 
+// A `;` right after what was skipped ends the same statement.
+static void skip_semicolon(GrammarState *state)
+{
+    Token token;
+    next_token(state, &token);
+    if (token.kind != ';') {
+        hold_token(state, token);
+    }
+}
+
 // Among items: to the `}` that ends the block, up to a directive, or past a `;` or a whole block.
 static void skip_items(GrammarState *state, size_t level, Token token)
 {
@@ -312,8 +330,11 @@ static void skip_items(GrammarState *state, size_t level, Token token)
         passes = false;
         bool among_items = state->openers.count <= level;
         track(state, &token);
-        if ((token.kind == ';' && among_items && --semicolons == 0) ||
-            (token.kind == '}' && state->openers.count <= level)) {
+        if (token.kind == ';' && among_items && --semicolons == 0) {
+            return;
+        }
+        if (token.kind == '}' && state->openers.count <= level) {
+            skip_semicolon(state);
             return;
         }
         next_token(state, &token);

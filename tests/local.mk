@@ -83,6 +83,10 @@ tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
 tests_lang_run_lang_LDADD = libeval.la libscene.la libgrammar.la libast.la libmath.la libbase.la
 
+check_PROGRAMS += tests/lang/typos
+tests_lang_typos_SOURCES = %D%/lang/typos.c
+tests_lang_typos_LDADD = $(tests_lang_run_lang_LDADD)
+
 check_PROGRAMS += tests/fuzz/fuzz_scene
 tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
 tests_fuzz_fuzz_scene_LDADD = libapi.la
@@ -95,14 +99,14 @@ test_scripts = \
   %D%/povray/check_pictures.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py
 
-TESTS += $(unit_programs) $(test_scripts)
+TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
 lang_cases = \
   %D%/lang/arrays.test %D%/lang/camera.test %D%/lang/colours.test %D%/lang/declare.test %D%/lang/default.test \
   %D%/lang/expressions.test %D%/lang/faults.test %D%/lang/finish.test %D%/lang/includes.test %D%/lang/light.test \
   %D%/lang/limits.test %D%/lang/loops.test %D%/lang/macros.test %D%/lang/pigment.test %D%/lang/plane.test \
-  %D%/lang/settings.test %D%/lang/sphere.test %D%/lang/strings.test %D%/lang/texture.test \
+  %D%/lang/seeded_faults.test %D%/lang/settings.test %D%/lang/sphere.test %D%/lang/strings.test %D%/lang/suggestions.test %D%/lang/texture.test \
   %D%/lang/transforms.test %D%/lang/union.test
 EXTRA_DIST += $(test_scripts) $(lang_cases) %D%/format/layout.scn %D%/format/layout.expected %D%/golden %D%/system %D%/povray
 

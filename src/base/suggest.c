@@ -4,12 +4,15 @@
 #include "base/suggest.h"
 
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "base/attributes.h"
 
 // Costs in quarters of an edit.
 enum {
     EDIT = 4,
-    SWAP = 3, // of two neighbours
+    SLIP = 3, // a swap of two neighbours, a letter doubled or a double one halved, a key beside the right one
     CASE = 2, // the whole name, however many letters
     BAND = 3, // the most edits that are ever accepted, and so the farthest from the diagonal
     ROW = 2 * BAND + 1,
@@ -26,16 +29,56 @@ static bool same(char a, char b, bool is_folded)
     return a == b || (is_folded && fold(a) == fold(b));
 }
 
+// Keys that touch on the keyboard that most have, QWERTY.
+static bool is_beside(char a, char b)
+{
+    static const char *const rows[] = {"1234567890", "qwertyuiop", "asdfghjkl", "zxcvbnm"};
+    int row_a = -1, row_b = -1, column_a = 0, column_b = 0;
+    for (int row = 0; row < (int)RT_COUNT_OF(rows); row++) {
+        const char *at_a = strchr(rows[row], fold(a)), *at_b = strchr(rows[row], fold(b));
+        row_a = at_a ? row : row_a;
+        column_a = at_a ? (int)(at_a - rows[row]) : column_a;
+        row_b = at_b ? row : row_b;
+        column_b = at_b ? (int)(at_b - rows[row]) : column_b;
+    }
+    if (row_a < 0 || row_b < 0) {
+        return false;
+    }
+    // A row stands half a key to the right of the one above it.
+    int down = row_b - row_a, right = column_b - column_a;
+    return down == 0 ? abs(right) == 1 : down == 1 ? right == 0 || right == -1 : down == -1 && (right == 0 || right == 1);
+}
+
 static unsigned least(unsigned a, unsigned b)
 {
     return a < b ? a : b;
 }
 
+// A name, and whether capitals count in it.
+typedef struct Name {
+    const char *text;
+    size_t length;
+    bool is_folded;
+} Name;
+
+// What it costs that character i of a name is there and not in the other one.
+static unsigned extra_cost(const Name *name, size_t i)
+{
+    return i > 0 && same(name->text[i], name->text[i - 1], name->is_folded) ? SLIP : EDIT;
+}
+
+static unsigned other_cost(char a, char b, bool is_folded)
+{
+    return same(a, b, is_folded) ? 0 : is_beside(a, b) ? SLIP : EDIT;
+}
+
 // The restricted Damerau-Levenshtein distance (F. Damerau, CACM 7(3), 1964; V. Levenshtein, 1966) of two texts, or more
 // than `bound` if it is more. Row i holds the cells |i - j| <= BAND at column j - i + BAND.
-static unsigned edit_distance(const char *a, size_t a_length, const char *b, size_t b_length, bool is_folded,
-                              unsigned bound)
+static unsigned edit_distance(const Name *one, const Name *other, unsigned bound)
 {
+    const char *a = one->text, *b = other->text;
+    size_t a_length = one->length, b_length = other->length;
+    bool is_folded = one->is_folded;
     unsigned rows[3][ROW];
     unsigned row_least_before = 0;
     for (size_t i = 0; i <= a_length; i++) {
@@ -49,20 +92,22 @@ static unsigned edit_distance(const char *a, size_t a_length, const char *b, siz
                 row[k] = FAR;
                 continue;
             }
-            if (i == 0) {
-                cost = (unsigned)j * EDIT;
+            if (i == 0 && j == 0) {
+                cost = 0;
+            } else if (i == 0) {
+                cost = row[k - 1] + extra_cost(other, j - 1);
             } else {
-                cost = k + 1 < ROW ? least(cost, up[k + 1] + EDIT) : cost;
-                cost = k > 0 ? least(cost, row[k - 1] + EDIT) : cost;
-                cost = j > 0 ? least(cost, up[k] + (same(a[i - 1], b[j - 1], is_folded) ? 0 : EDIT)) : cost;
+                cost = k + 1 < ROW ? least(cost, up[k + 1] + extra_cost(one, i - 1)) : cost;
+                cost = k > 0 && j > 0 ? least(cost, row[k - 1] + extra_cost(other, j - 1)) : cost;
+                cost = j > 0 ? least(cost, up[k] + other_cost(a[i - 1], b[j - 1], is_folded)) : cost;
                 if (i > 1 && j > 1 && same(a[i - 1], b[j - 2], is_folded) && same(a[i - 2], b[j - 1], is_folded)) {
-                    cost = least(cost, upper[k] + SWAP);
+                    cost = least(cost, upper[k] + SLIP);
                 }
             }
             row[k] = cost;
             row_least = least(row_least, cost);
         }
-        if (row_least > bound && row_least_before + SWAP > bound) {
+        if (row_least > bound && row_least_before + SLIP > bound) {
             return bound + 1;
         }
         row_least_before = row_least;
@@ -86,16 +131,17 @@ void suggest_offer(Suggest *suggest, const char *candidate)
 {
     size_t wanted_length = suggest->wanted_length;
     unsigned bound = suggest->best_cost - 1;
-    size_t reach = bound / EDIT;
+    size_t reach = bound / SLIP < BAND ? bound / SLIP : BAND;
     size_t length = strnlen(candidate, wanted_length + reach + 1);
     if (length > wanted_length + reach || length + reach < wanted_length || length == 0) {
         return;
     }
-    unsigned folded = edit_distance(suggest->wanted, wanted_length, candidate, length, true, bound);
+    unsigned folded = edit_distance(&(Name){suggest->wanted, wanted_length, true}, &(Name){candidate, length, true}, bound);
     if (folded > bound) {
         return;
     }
-    unsigned exact = edit_distance(suggest->wanted, wanted_length, candidate, length, false, folded);
+    unsigned exact =
+        edit_distance(&(Name){suggest->wanted, wanted_length, false}, &(Name){candidate, length, false}, folded);
     unsigned cost = exact > folded ? folded + CASE : folded;
     if (exact != 0 && cost <= bound) {
         suggest->best = candidate;

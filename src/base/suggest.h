@@ -11,13 +11,16 @@ typedef struct Suggest {
     const char *wanted;
     size_t wanted_length;
     const char *best;   // NULL while nothing is near enough; not owned
-    unsigned best_cost; // in quarters of an edit: a swap of neighbours is 3, a difference in case 2 for the whole name
+    unsigned best_cost; // in quarters of an edit, see below
 } Suggest;
 
 void suggest_begin(Suggest *suggest, const char *wanted);
 
 // Offers a candidate, which must outlive the Suggest. Equal costs keep the first one offered. Near enough is one edit
-// for a wanted name of 2 to 4 bytes, two up to 8, three beyond; the name itself is not a suggestion.
+// for a wanted name of 2 to 4 bytes, two up to 8, three beyond (and no more than three
+// bytes in length); the name itself is not a suggestion. What fingers do by
+// themselves costs three quarters of an edit: neighbours swapped, a letter doubled or a double one halved, a key beside
+// the right one. Capitals cost half an edit for the whole name.
 void suggest_offer(Suggest *suggest, const char *candidate);
 
 #endif

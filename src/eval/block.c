@@ -37,6 +37,21 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
 };
 
+// What is missing or misplaced in a block of which a part was not understood may have been in that part.
+static bool follows_from_syntax(const Block *block, DiagCode code)
+{
+    const DiagSink *diags = block->ev->options.diags;
+    Span whole = block->node->span;
+    for (size_t i = 0; i < diags->count; i++) {
+        const Diag *diag = &diags->items[i];
+        bool is_inside = diag->span.begin >= whole.begin && diag->span.begin < whole.end;
+        if (is_inside && diag->code >= DIAG_E0101 && diag->code <= DIAG_E0109) {
+            return code == DIAG_E0253 || code == DIAG_E0254 || code == DIAG_E0256;
+        }
+    }
+    return false;
+}
+
 bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...)
 {
     char message[256];
@@ -45,7 +60,7 @@ bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     block->has_fault = true;
-    return eval_fault(block->ev, code, span, "%s", message);
+    return follows_from_syntax(block, code) ? false : eval_fault(block->ev, code, span, "%s", message);
 }
 
 SchemaKind block_kind(const Eval *ev, const AstNode *node)
@@ -57,6 +72,26 @@ SchemaKind block_kind(const Eval *ev, const AstNode *node)
 bool block_is_name(const AstNode *item)
 {
     return item->kind == AST_NAME || item->kind == AST_INDEX;
+}
+
+static Suggest nearest_property(const Block *block, const AstNode *item)
+{
+    Suggest suggest;
+    const SchemaProperty *property;
+    suggest_begin(&suggest, eval_text(block->ev, item->symbol));
+    for (size_t i = 0; (property = schema_property(block->kind, i)); i++) {
+        suggest_offer(&suggest, property->word);
+    }
+    return suggest;
+}
+
+bool block_is_misspelt(const Block *block, const AstNode *item)
+{
+    if (item->kind != AST_NAME || scope_find(block->ev, item->symbol)) {
+        return false;
+    }
+    Suggest property = nearest_property(block, item), name = scope_nearest(block->ev, item);
+    return property.best && (!name.best || property.best_cost <= name.best_cost);
 }
 
 static const char *block_word(const Block *block)
@@ -334,9 +369,12 @@ static void read_name(Block *block)
     if (!item || !block_is_name(item)) {
         return;
     }
-    // A misspelt property rather than an identifier, where nothing but a block's name may stand.
-    bool takes_values = schema_kind(block->kind)->arguments.count > 0 || bodies[block->kind];
-    if (item->kind == AST_NAME && !takes_values && !scope_find(block->ev, item->symbol)) {
+    // A misspelt property rather than an identifier: where nothing but a block's name may stand, or where it is near.
+    const SchemaList *arguments = &schema_kind(block->kind)->arguments;
+    bool takes_values = arguments->count > 0 || bodies[block->kind];
+    bool may_lack_values = arguments->count == 0 || arguments->items[0].is_optional;
+    if ((item->kind == AST_NAME && !takes_values && !scope_find(block->ev, item->symbol)) ||
+        (may_lack_values && block_is_misspelt(block, item))) {
         return;
     }
     if (!eval_expression(block->ev, item, &value)) {
@@ -374,6 +412,9 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
                            schema_type_need(argument->type), argument->word);
     }
     const AstNode *item = cursor_peek(&block->cursor);
+    if (argument->is_optional && block_is_misspelt(block, item)) {
+        return true;
+    }
     if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA)) {
         block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
     }
@@ -418,9 +459,33 @@ static const SchemaProperty *find_property(const Block *block, const AstNode *it
 static void skip_values(Block *block)
 {
     const AstNode *item;
-    while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item)) {
+    while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item) &&
+           !block_is_misspelt(block, item)) {
         cursor_skip(&block->cursor);
     }
+}
+
+static Suggest nearest_kind(const Eval *ev, const AstNode *item, SchemaKind *nearest)
+{
+    Suggest suggest;
+    suggest_begin(&suggest, eval_text(ev, item->symbol));
+    *nearest = KIND_NONE;
+    for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
+        const char *best = suggest.best;
+        suggest_offer(&suggest, schema_kind((SchemaKind)kind)->word);
+        *nearest = suggest.best != best ? (SchemaKind)kind : *nearest;
+    }
+    return suggest;
+}
+
+bool block_is_misspelt_object(const Eval *ev, const AstNode *item)
+{
+    SchemaKind kind;
+    if (item->kind != AST_BLOCK || item->symbol < WORD_COUNT) {
+        return false;
+    }
+    nearest_kind(ev, item, &kind);
+    return schema_kind(kind)->is_object;
 }
 
 void block_unknown(Eval *ev, const AstNode *item)
@@ -430,11 +495,8 @@ void block_unknown(Eval *ev, const AstNode *item)
         block_unsupported(ev, word, item->span, KIND_NONE);
         return;
     }
-    Suggest suggest;
-    suggest_begin(&suggest, word);
-    for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
-        suggest_offer(&suggest, schema_kind((SchemaKind)kind)->word);
-    }
+    SchemaKind kind;
+    Suggest suggest = nearest_kind(ev, item, &kind);
     Span word_span = eval_word_span(ev, item);
     if (eval_report(ev, DIAG_E0250, word_span, "unknown kind of block `%s`", word) && suggest.best) {
         diag_did_you_mean(ev->options.diags, word_span, suggest.best);
@@ -444,12 +506,7 @@ void block_unknown(Eval *ev, const AstNode *item)
 static void unknown_property(Block *block, const AstNode *item)
 {
     const char *word = eval_text(block->ev, item->symbol);
-    Suggest suggest;
-    suggest_begin(&suggest, word);
-    const SchemaProperty *property;
-    for (size_t i = 0; (property = schema_property(block->kind, i)); i++) {
-        suggest_offer(&suggest, property->word);
-    }
+    Suggest suggest = nearest_property(block, item);
     block->has_fault = true;
     Span word_span = eval_word_span(block->ev, item);
     if (eval_report(block->ev, DIAG_E0250, word_span, "unknown property `%s` in %s", word,
@@ -467,6 +524,12 @@ static bool is_property_elsewhere(const Block *block, Symbol symbol)
         }
     }
     return false;
+}
+
+// POV-Ray has the word in many blocks, and rtlang in other ones than this.
+static bool is_advised_against(const Block *block, Symbol symbol)
+{
+    return block->ev->objects->advice[symbol] != 0;
 }
 
 // The type of a camera or light changes what its other words mean, so nothing more is said about those.
@@ -495,7 +558,8 @@ static void refuse_word(Block *block, const AstNode *item)
     } else if (item->kind == AST_BLOCK && item->symbol >= WORD_COUNT && block->kind == KIND_UNION) {
         block->has_fault = true;
         block_unknown(block->ev, item);
-    } else if (item->symbol >= WORD_COUNT || is_property_elsewhere(block, item->symbol)) {
+    } else if (item->symbol >= WORD_COUNT ||
+               (is_property_elsewhere(block, item->symbol) && !is_advised_against(block, item->symbol))) {
         unknown_property(block, item);
     } else {
         refuse_unsupported(block, item);
@@ -507,13 +571,18 @@ static void refuse_word(Block *block, const AstNode *item)
 // An expression where a property should stand; a name that was never declared is a misspelt one.
 static void refuse_value(Block *block, const AstNode *item)
 {
-    if (item->kind == AST_NAME && !scope_find(block->ev, item->symbol)) {
+    Value value;
+    bool is_undeclared = item->kind == AST_NAME && !scope_find(block->ev, item->symbol);
+    if (is_undeclared && bodies[block->kind] && !block_is_misspelt(block, item)) {
+        block->has_fault = !eval_expression(block->ev, item, &value); // where objects stand it is more likely one of them
+    } else if (is_undeclared) {
         unknown_property(block, item);
+    } else if (block->has_fault) {
+        // It may be a value that would have had its place.
     } else if (item->kind == AST_NAME) {
         block_fault(block, DIAG_E0254, item->span, "`%s` cannot stand here in %s", eval_text(block->ev, item->symbol),
                     block_word(block));
-    } else if (!block->has_fault) {
-        // After a fault it may be a value that would have had its place.
+    } else {
         block_fault(block, DIAG_E0254, item->span, "one value too many in %s", block_word(block));
     }
     cursor_skip(&block->cursor);

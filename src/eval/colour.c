@@ -84,6 +84,8 @@ static bool read_model(Cursor *cursor, const ColourModel *model, Span span, doub
 {
     Eval *ev = cursor->ev;
     Value value;
+    const AstNode *item = cursor_peek(cursor);
+    Span value_span = item != NULL ? item->span : span;
     if (!cursor_value(cursor, &value)) {
         return false;
     }
@@ -96,7 +98,7 @@ static bool read_model(Cursor *cursor, const ColourModel *model, Span span, doub
         return !model->is_srgb || decode(ev, span, v);
     }
     if (!value_is_tuple(&value)) {
-        return eval_fault(ev, DIAG_E0202, span, "`%s` needs a number or a vector, found %s",
+        return eval_fault(ev, DIAG_E0202, value_span, "`%s` needs a number or a vector, found %s",
                           eval_text(ev, model->word), value_describe(&value));
     }
     if (value.components > model->width) {
@@ -115,7 +117,12 @@ static bool read_plain(Cursor *cursor, Span span, double v[COMPONENTS])
 {
     Value value;
     Rgbft colour;
-    if (!cursor_value(cursor, &value) || !value_colour(cursor->ev, &value, span, &colour)) {
+    const AstNode *item = cursor_peek(cursor);
+    span = item != NULL ? item->span : span;
+    cursor->ev->at_colour = true;
+    bool fine = cursor_value(cursor, &value);
+    cursor->ev->at_colour = false;
+    if (!fine || !value_colour(cursor->ev, &value, span, &colour)) {
         return false;
     }
     memcpy(v, (double[]){colour.red, colour.green, colour.blue, colour.filter, colour.transmit},

@@ -180,8 +180,9 @@ static bool take(Cursor *cursor, Value *value, Span *span)
 {
     const AstNode *item = cursor_peek(cursor);
     if (item == NULL) {
-        *span = cursor->span;
-        return !cursor->ev->stop && eval_fault(cursor->ev, DIAG_E0213, cursor->span, "a value is missing at the end");
+        // Behind the last item, where it would stand.
+        *span = cursor->span.end > cursor->span.begin ? (Span){cursor->span.end - 1, cursor->span.end} : cursor->span;
+        return !cursor->ev->stop && eval_fault(cursor->ev, DIAG_E0213, *span, "a value is missing at the end");
     }
     *span = item->span;
     cursor->item = NULL;

@@ -53,7 +53,7 @@ static void run_declare(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     Value value;
-    if (!eval_open_rvalue(ev, node->b, &value)) {
+    if ((node->flags & AST_UNREADABLE) || !eval_open_rvalue(ev, node->b, &value)) {
         forget_value(ev, node->a, node->op == AST_OP_LOCAL);
         return;
     }

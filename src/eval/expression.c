@@ -83,7 +83,10 @@ static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
         return false;
     }
     if (eval_report(ev, DIAG_E0201, node->span, "%s `%s` is not declared", what, eval_text(ev, node->symbol))) {
-        scope_suggest(ev, node->symbol, eval_word_span(ev, node));
+        Suggest suggest = scope_nearest(ev, node);
+        if (suggest.best != NULL) {
+            diag_did_you_mean(ev->options.diags, eval_word_span(ev, node), suggest.best);
+        }
     }
     return false;
 }

@@ -84,7 +84,8 @@ static void offer_folder(Eval *ev, Suggest *suggest, const char *folder)
     closedir(directory);
 }
 
-static void suggest_near_name(Eval *ev, const char *name)
+// The name stands in the text as it is when it is one string.
+static void suggest_near_name(Eval *ev, const char *name, const AstNode *node)
 {
     Suggest suggest;
     ArenaMark mark = arena_mark(&ev->scratch);
@@ -95,6 +96,9 @@ static void suggest_near_name(Eval *ev, const char *name)
     }
     if (suggest.best != NULL) {
         diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
+        if (node->kind == AST_STRING) {
+            diag_replace(ev->options.diags, node->span, "\"%s\"", suggest.best);
+        }
     }
     arena_rewind(&ev->scratch, mark);
 }
@@ -131,13 +135,14 @@ static bool suggest_own_folder(Eval *ev, Search *search, Span span)
     return is_there;
 }
 
-static void report_missing(Eval *ev, Search *search, Span span)
+static void report_missing(Eval *ev, Search *search, const AstNode *node)
 {
+    Span span = node->span;
     ev->include_is_missing = true;
     if (eval_report(ev, DIAG_E0501, span, "include file `%s` not found", search->name)) {
         note_folders(ev);
         if (!suggest_own_folder(ev, search, span)) {
-            suggest_near_name(ev, search->name);
+            suggest_near_name(ev, search->name, node);
         }
     }
 }
@@ -185,7 +190,7 @@ static bool open_named(Eval *ev, const AstNode *node, Source **source)
     if (search.path.failed) {
         eval_no_memory(ev, node->a->span);
     } else if (!is_found) {
-        report_missing(ev, &search, node->a->span);
+        report_missing(ev, &search, node->a);
     } else {
         is_found = open_found(ev, text_get(&search.path), node->a->span, source);
     }

@@ -22,6 +22,7 @@
 #include "ast/words.h"
 #include "base/arena.h"
 #include "base/array.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "eval/eval.h"
 #include "grammar/grammar.h"
@@ -109,6 +110,7 @@ typedef struct Eval {
     bool has_stray_word; // at the top level, reported: its values are not reported as well
     bool faulty;         // something was reported, if only before
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
+    bool at_colour;      // the value that is being worked out stands where a colour word could
     bool stop;           // a limit is exhausted, #error was met or there are too many faults: unwind
 } Eval;
 
@@ -204,7 +206,8 @@ bool scope_is_reference(const Eval *ev, Symbol name);
 
 bool scope_define_macro(Eval *ev, const Macro *macro) RT_MUST_CHECK;
 bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
-void scope_suggest(const Eval *ev, Symbol name, Span span); // adds "did you mean" to the record that was kept last
+// Of the names in scope and the reserved words that could stand in the place of a NAME or CALL, the nearest.
+Suggest scope_nearest(const Eval *ev, const AstNode *node);
 
 // ---- arrays
 

@@ -11,7 +11,7 @@ bool light_point_at_action(Block *block, const SchemaProperty *property, const A
     static const SchemaProperty vector = {"point_at", TYPE_VECTOR, ACTION_NONE,
                                           .at = offsetof(LightBlueprint, point_at)};
     (void)property;
-    if (!block->record->light.parallel) {
+    if (!block->record->light.parallel && !block->has_fault) {
         return block_fault(block, DIAG_E0256, item->span, "`point_at` needs `parallel` before it");
     }
     return block_value(block, &vector, item->span);

@@ -86,7 +86,10 @@ static bool is_foreign_kind(const Eval *ev, const AstNode *item)
 // One member; *is_member turns false at the first item that is none.
 static bool read_member(Block *block, MemberList *list, const AstNode *item, bool *is_member)
 {
-    *is_member = true;
+    *is_member = !block_is_misspelt(block, item);
+    if (!*is_member) {
+        return true;
+    }
     if (block_is_name(item)) {
         return add_named_member(block, list, item);
     }
@@ -94,6 +97,10 @@ static bool read_member(Block *block, MemberList *list, const AstNode *item, boo
         block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, KIND_NONE);
         block->has_unsupported = true;
         return true;
+    }
+    if (block_is_misspelt_object(block->ev, item)) {
+        block_unknown(block->ev, item);
+        return false;
     }
     *is_member = schema_kind(block_kind(block->ev, item))->is_object;
     return !*is_member || add_block_member(block, list, item);

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/suggest.h"
 #include "eval/internal.h"
 
 typedef struct Binding Binding;
@@ -218,21 +217,20 @@ bool scope_undef(Eval *ev, Symbol name)
     return true;
 }
 
-void scope_suggest(const Eval *ev, Symbol name, Span span)
+Suggest scope_nearest(const Eval *ev, const AstNode *node)
 {
     Suggest suggest;
-    suggest_begin(&suggest, eval_text(ev, name));
+    suggest_begin(&suggest, eval_text(ev, node->symbol));
     for (Symbol symbol = 1; symbol < ev->scope->innermost.count; symbol++) {
         if (ev->scope->innermost.items[symbol] != NULL) {
             suggest_offer(&suggest, eval_text(ev, symbol));
         }
     }
     for (Symbol word = 1; word < WORD_COUNT; word++) {
-        if (word_class(word) != WORD_DIRECTIVE) {
+        WordClass class = word_class(word);
+        if (class == (node->kind == AST_CALL ? WORD_BUILTIN : WORD_CONSTANT) || (class == WORD_COLOUR && ev->at_colour)) {
             suggest_offer(&suggest, eval_text(ev, word));
         }
     }
-    if (suggest.best != NULL) {
-        diag_did_you_mean(ev->options.diags, span, suggest.best);
-    }
+    return suggest;
 }

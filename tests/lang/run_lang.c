@@ -8,6 +8,7 @@
 //     -- debug                 the lines that #debug gives, as POV-Ray shows them
 //     -- scene                 the scene's dump
 //     -- diagnostics           all messages
+//     -- faults                place and code of each message, `line:column code`, without what stands in notes
 //
 // `run_lang --update FILE` writes the file to standard output with the expectations replaced by what came out.
 //
@@ -36,7 +37,7 @@ typedef struct Case {
 } Case;
 
 typedef struct Outcome {
-    TextBuffer debug, scene, diagnostics;
+    TextBuffer debug, scene, diagnostics, faults;
 } Outcome;
 
 static void must(bool condition, const char *what)
@@ -189,6 +190,17 @@ static size_t read_declarations(const Case *test, char names[][32], EvalDeclarat
     return count;
 }
 
+static void list_fault(DiagSink *diags, const Diag *diag, TextBuffer *out)
+{
+    SourceLocation at;
+    if (source_locate(diags->sources, diag->span, &at)) {
+        text_printf(out, "%s%s%llu:%llu ", strcmp(at.name, "test.scn") == 0 ? "" : at.name,
+                    strcmp(at.name, "test.scn") == 0 ? "" : ":", (unsigned long long)at.line,
+                    (unsigned long long)at.column);
+    }
+    text_printf(out, "%s\n", diag->code < DIAG_CODE_COUNT ? diag_code_name(diag->code) : diag->message);
+}
+
 static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
 {
     char declared_names[SECTIONS_MAX][32];
@@ -214,6 +226,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     diag_finish(&diags);
     for (size_t i = 0; i < diags.count; i++) {
         diag_print(&diags, &diags.items[i], &outcome->diagnostics);
+        list_fault(&diags, &diags.items[i], &outcome->faults);
     }
     scene_dump(&scene, &outcome->scene);
     source_close(source);
@@ -229,6 +242,7 @@ static void run(const Case *test, Outcome *outcome)
     text_init(&outcome->debug);
     text_init(&outcome->scene);
     text_init(&outcome->diagnostics);
+    text_init(&outcome->faults);
     prepare(test, &limits, false);
     evaluate(test, &limits, outcome);
     prepare(test, &limits, true);
@@ -239,6 +253,7 @@ static void outcome_fini(Outcome *outcome)
     text_fini(&outcome->debug);
     text_fini(&outcome->scene);
     text_fini(&outcome->diagnostics);
+    text_fini(&outcome->faults);
 }
 
 static const TextBuffer *outcome_of(const Outcome *outcome, const char *header)
@@ -246,6 +261,7 @@ static const TextBuffer *outcome_of(const Outcome *outcome, const char *header)
     return strcmp(header, "debug") == 0         ? &outcome->debug
            : strcmp(header, "scene") == 0       ? &outcome->scene
            : strcmp(header, "diagnostics") == 0 ? &outcome->diagnostics
+           : strcmp(header, "faults") == 0      ? &outcome->faults
                                                 : NULL;
 }
 
@@ -280,7 +296,7 @@ static void check_case(const Case *test, const char *file)
     run(test, &outcome);
     for (size_t i = 1; i < test->count; i++) {
         const TextBuffer *got = outcome_of(&outcome, test->sections[i].header);
-        expects_messages = expects_messages || got == &outcome.diagnostics;
+        expects_messages = expects_messages || got == &outcome.diagnostics || got == &outcome.faults;
         if (got != NULL) {
             check_section(&test->sections[i], got, file, test->sections[0].header);
         }
