@@ -7,6 +7,7 @@ Usage: check_debug.py [FILE.scn...]   Prints TAP; skips where there is no POV-Ra
 import concurrent.futures
 import glob
 import itertools
+import json
 import os
 import re
 import shutil
@@ -19,8 +20,6 @@ sys.dont_write_bytecode = True  # the folder is distributed as it is
 import pictures  # noqa: E402
 
 LINES_LEAST = 600  # what the whole folder must print at least
-# Both programs print their messages between the lines of #debug; these are lines of rtlang's.
-MESSAGE = re.compile(r"\S+:\d+:\d+: (warning\[|note: )|rtlang: warning\[| *\d+ \| | +\| +[\^~]")
 
 
 def run(arguments, folder):
@@ -40,9 +39,11 @@ def of_povray(name, folder):
 
 
 def of_rtlang(name, folder):
-    status, text = run([os.environ["RTLANG"], "--check", "-q", name], folder)
-    lines = [line for line in text.split("\n") if not MESSAGE.match(line)]
-    return lines, None if status == 0 else f"rtlang ended with {status}"
+    status, text = run([os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", name], folder)
+    records = [json.loads(line) for line in text.splitlines()]
+    lines = [record["text"] for record in records if record.get("stream") == "debug"]
+    faults = [f"line {record['line']}: {record['message']}" for record in records if record.get("severity") == "error"]
+    return lines + [""], None if status == 0 else f"rtlang ended with {status}: " + "; ".join(faults[:3])
 
 
 def groups(lines):
