@@ -97,7 +97,7 @@ test_scripts = \
   %D%/format/check_format.py %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py \
   %D%/system/check_rtcheck.sh \
   %D%/povray/check_pictures.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
-  %D%/povray/check_colors.py %D%/povray/check_exporters.py
+  %D%/povray/check_colors.py %D%/povray/check_exporters.py %D%/povray/check_survey.py
 
 TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""The survey itself, over three scenes: one accepted, one refused, and one packed that lacks two things.
+
+Prints TAP. SPDX-License-Identifier: MIT
+"""
+import gzip
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # the folder is distributed as it is
+SURVEY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "survey.py")
+SCENES = {
+    "accepted.pov": '#version 3.7; global_settings { assumed_gamma 1 }\n#include "part.inc"\n',
+    "refused.pov": '#version 3.7;\n/* prism */ #declare Word = "lathe"; // blob\njulia_fractal { <0, 0, 0, 0> }\n',
+    "packed.pov.gz": '#version 3.7;\nsphere { 0, 1 }\njulia_fractal { <0, 0, 0, 0> }\nheight_field { tga "no.tga" }\n',
+    "part.inc": "sphere { 0, 1 pigment { rgb 1 } finish { ambient 1 } }\n",
+}
+FRACTAL, FIELD = "E0252 julia_fractal", "E0252 height_field"
+EXPECTED = [
+    ("accepted.pov", "accepted", [], None),
+    ("packed.pov.gz", "refused", [FRACTAL, FIELD], "packed.pov:3"),
+    ("refused.pov", "refused", [FRACTAL], "refused.pov:3"),
+]
+PLAN = [["fractals", 1, 2], ["height_field", 1, 1]]
+
+
+def write_scenes(folder):
+    for name, text in SCENES.items():
+        with (gzip.open if name.endswith(".gz") else open)(os.path.join(folder, name), "wt") as file:
+            file.write(text)
+    return [os.path.join(folder, name) for name, *_ in EXPECTED]
+
+
+def main():
+    number = failed = 0
+
+    def tell(fine, words):
+        nonlocal number, failed
+        number += 1
+        failed += not fine
+        print(f"{'ok' if fine else 'not ok'} {number} - {words}")
+
+    with tempfile.TemporaryDirectory() as folder:
+        results = os.path.join(folder, "survey.json")
+        done = subprocess.run([sys.executable, SURVEY, "--json", results, *write_scenes(folder)],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120, check=False, text=True)
+        tell(done.returncode == 0, f"it ends with {done.returncode}")
+        if done.returncode:
+            print("# " + done.stdout.replace("\n", "\n# "))
+            return 1
+        with open(results, encoding="utf-8") as file:
+            found = json.load(file)
+        for (name, outcome, blockers, where), record in zip(EXPECTED, found["scenes"]):
+            got = (os.path.basename(record["scene"]), record["outcome"], record["blockers"], record["where"])
+            tell(got == (name, outcome, blockers, where), f"{name} is {outcome}, blockers {blockers}")
+            if got != (name, outcome, blockers, where):
+                print(f"# {got}")
+        tell(found["plan"] == PLAN, f"the plan is {found['plan']}")
+        tell("3 scenes: 2 refused, 1 accepted" in done.stdout, "the totals are printed")
+    print(f"1..{number}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,261 @@
+#!/usr/bin/env python3
+"""How much of POV-Ray's own example scenes rtlang accepts, and what stands in the way of the others.
+
+Each scene is read by `rtlang --check` in a copy of its folder, with POV-Ray's include files. Printed are a line a
+scene, the blockers by how many scenes they are the first or any of, and a plan: what to add next to unlock most scenes.
+With --render what is accepted is rendered by both programs (rtcheck) and the differences are summed up.
+Exit status: 0, or 77 when the scenes are not installed. SPDX-License-Identifier: MIT
+"""
+import argparse
+import collections
+import concurrent.futures
+import glob
+import gzip
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True  # the folder is distributed as it is
+import pictures  # noqa: E402
+
+EXAMPLES = "/usr/share/doc/povray/examples"  # of Debian's package povray-examples
+SKIPPED = 77
+NAMED = {4: "a limit", 3: "a file", 2: "usage"}
+# Faults that follow from another one: what was refused before them is not there.
+FOLLOWERS = {"E0201", "E0253", "E0254", "E0256"}
+# Words of the language that come together. A scene needs a group when rtlang refuses one of its words there, or when
+# the scene's own text holds one: after a fault the rest of a declaration is not looked at.
+GROUPS = {
+    "solids": "box cylinder cone torus disc triangle",
+    "csg": "difference intersection merge clipped_by bounded_by inverse cutaway_textures",
+    "colour patterns": "agate average bozo brick checker color_map colour_map crackle gradient granite leopard "
+                       "marble onion pigment_map quilted radial spherical cylindrical planar boxed spiral1 spiral2 "
+                       "spotted wood hexagon wrinkles square triangular tiling pavement cells turbulence warp "
+                       "texture_map pigment_pattern mandel julia magnet tiles texture_list facets dents waves ripples bumps slope aoi density_file",
+    "normals": "normal normal_map slope_map bump_map bump_size no_bump_scale",
+    "pictures": "image_map material_map image_pattern uv_mapping",
+    "sky and fog": "sky_sphere fog rainbow",
+    "lights": "spotlight area_light fade_distance fade_power looks_like projected_through light_group jitter "
+              "media_interaction media_attenuation area_illumination",
+    "interior": "interior refraction caustics dispersion fade_color fade_colour material interior_texture fresnel ior",
+    "object flags": "no_shadow no_image no_reflection double_illuminate hollow",
+    "media": "media density scattering absorption density_map",
+    "photons": "photons",
+    "radiosity": "radiosity",
+    "subsurface": "subsurface translucency",
+    "mesh": "mesh mesh2 smooth_triangle",
+    "text": "text",
+    "height_field": "height_field",
+    "isosurface": "isosurface parametric",
+    "blob": "blob",
+    "patches and sweeps": "bicubic_patch lathe prism sor sphere_sweep ovus polygon",
+    "polynomials": "quadric cubic quartic poly polynomial",
+    "fractals": "julia_fractal",
+    "superellipsoid": "superellipsoid",
+    "cameras": "fisheye omnimax panoramic ultra_wide_angle mesh_camera focal_point aperture blur_samples",
+    "functions and splines": "function spline",
+    "tracing": "trace inside min_extent max_extent",
+    "old finish words": "crand irid",
+    "written files": "#fopen #write #read #fclose",
+}
+GROUP_OF = {word: group for group, words in GROUPS.items() for word in words.split()}
+TOKEN = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\])*\"|#\s*\w+|\w+", re.DOTALL)
+# The greatest difference of a pixel, in steps of 1/65535, up to which scenes are counted together.
+STEPS = [2, 16, 256, 4096, 65535]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("scenes", nargs="*", help="scene files, instead of all of the package")
+    parser.add_argument("--json", metavar="FILE", help="write all results to FILE")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scenes at a time (default: all processors)")
+    parser.add_argument("--timeout", type=float, default=30.0, help="seconds a scene and program may take (default 30)")
+    parser.add_argument("--render", action="store_true", help="render what is accepted with both programs and compare")
+    return parser.parse_args()
+
+
+def installed():
+    """The package's scenes."""
+    found = glob.glob(os.path.join(EXAMPLES, "**", "*.pov"), recursive=True)
+    return sorted(found + glob.glob(os.path.join(EXAMPLES, "**", "*.pov.gz"), recursive=True))
+
+
+def unpacked(folder, copies):
+    """A copy of the folder with everything in it unpacked; made once."""
+    if folder not in copies:
+        copy = os.path.join(copies["top"], str(len(copies)))
+        shutil.copytree(folder, copy)
+        for path in glob.glob(os.path.join(copy, "**", "*.gz"), recursive=True):
+            with gzip.open(path) as packed, open(path[:-3], "wb") as plain:
+                shutil.copyfileobj(packed, plain)
+        copies[folder] = copy
+    return copies[folder]
+
+
+def construct(fault):
+    """What a fault is about, in a word or two: `cylinder`, `light_source: media_interaction`."""
+    words = re.findall(r"`([^`]*)`", fault["message"])
+    within = re.search(r" in ([a-z_]+) by rtlang", fault["message"])
+    word = words[0] if words else fault["message"]
+    return f"{within.group(1)}: {word}" if within else word
+
+
+def need(blocker):
+    """The group that a fault belongs to, or its own words."""
+    code, words = blocker.split(" ", 1)
+    word = words.split(": ")[-1]
+    return GROUP_OF.get(word, "directives that tear items apart" if code == "E0109" else blocker)
+
+
+def needs_of_text(path, seen):
+    """The groups whose words stand in a file and in the files beside it that it includes."""
+    seen.add(path)
+    with open(path, encoding="latin-1") as file:
+        tokens = [token for token in TOKEN.findall(file.read()) if not token.startswith(("//", "/*"))]
+    needs = set()
+    for token, following in zip(tokens, tokens[1:] + [""]):
+        word = "".join(token.split())
+        included = os.path.join(os.path.dirname(path), following.strip('"'))
+        if word == "#include" and included not in seen and os.path.isfile(included):
+            needs |= needs_of_text(included, seen)
+        elif word in GROUP_OF:
+            needs.add(GROUP_OF[word])
+    return needs
+
+
+def read(scene, options, folders):
+    """One scene's record: name, outcome, blockers in the order in which they were met."""
+    name, folder, path = scene
+    command = [os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", *(f"-I{place}" for place in folders)]
+    record = {"scene": name, "path": path, "outcome": "accepted", "blockers": [], "needs": [], "where": None}
+    try:
+        done = subprocess.run(command + [os.path.basename(path)], cwd=folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=options.timeout, check=False)
+    except subprocess.TimeoutExpired:
+        record["outcome"] = "time limit"
+        return record
+    if done.returncode < 0:
+        record["outcome"] = f"killed by signal {-done.returncode}"
+    elif done.returncode > 0:
+        record["outcome"] = NAMED.get(done.returncode, "refused")
+    for line in done.stderr.decode("latin-1").splitlines():
+        fault = json.loads(line) if line.startswith("{") else {}
+        if fault.get("severity") == "error":
+            blocker = f"{fault['code']} {construct(fault)}"
+            if record["where"] is None:
+                record["where"] = f"{fault['file']}:{fault['line']}"
+                record["message"] = fault["message"]
+            if blocker not in record["blockers"] and (fault["code"] not in FOLLOWERS or not record["blockers"]):
+                record["blockers"].append(blocker)
+    if record["outcome"] != "accepted":
+        record["needs"] = sorted(needs_of_text(path, set()) | {need(blocker) for blocker in record["blockers"]})
+    return record
+
+
+def render(record, options, folders):
+    """Adds what rtcheck says of an accepted scene."""
+    command = [os.environ["RTCHECK"], "--json", "-j1", "-W160", "-H120", *(f"-I{place}" for place in folders)]
+    try:
+        done = subprocess.run(command + [os.path.basename(record["path"])], cwd=os.path.dirname(record["path"]),
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              timeout=options.timeout, check=False)
+        lines = done.stdout.decode("utf-8", "replace").splitlines()
+        record["picture"] = json.loads(lines[0]) if lines else {"failed": done.stderr.decode("utf-8", "replace")[-300:]}
+    except subprocess.TimeoutExpired:
+        record["picture"] = {"failed": "time limit"}
+    return record
+
+
+def plan(records):
+    """[(what, scenes it unlocks, scenes that it still stands in)]: the greedy order of giving scenes what they need.
+
+    A scene weighs 1 / n^2 where it needs n more: what is taken unlocks scenes, or else brings many close to it."""
+    waiting = [set(record["needs"]) for record in records if record["needs"]]
+    order = []
+    while waiting:
+        alone, weight = collections.Counter(), collections.Counter()
+        for needs in waiting:
+            for each in needs:
+                alone[each] += len(needs) == 1
+                weight[each] += 1.0 / len(needs) ** 2
+        best = max(weight, key=lambda each: (weight[each], each))
+        order.append((best, alone[best], sum(best in needs for needs in waiting)))
+        waiting = [needs - {best} for needs in waiting if needs != {best}]
+    return order
+
+
+def print_tables(records):
+    outcomes = collections.Counter(record["outcome"] for record in records)
+    first = collections.Counter(record["blockers"][0] for record in records if record["blockers"])
+    every = collections.Counter(blocker for record in records for blocker in record["blockers"])
+    print(f"\n{len(records)} scenes: " + ", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common()))
+    print("\nblockers: scenes in which it is the first, is any, is the only one")
+    only = collections.Counter(record["blockers"][0] for record in records if len(record["blockers"]) == 1)
+    for blocker, count in sorted(every.items(), key=lambda entry: (-entry[1], entry[0])):
+        print(f"{first[blocker]:6} {count:6} {only[blocker]:6}  {blocker}")
+    accepted = outcomes["accepted"]
+    print("\nplan: scenes accepted once it is there, unlocked by it, still in need of it")
+    for what, unlocked, stood in plan(records):
+        accepted += unlocked
+        print(f"{accepted:6} {unlocked:6} {stood:6}  {what}")
+
+
+def print_pictures(records):
+    drawn = [record for record in records if "picture" in record]
+    failed = [record for record in drawn if "max" not in record["picture"]]
+    print(f"\n{len(drawn)} scenes rendered by both, {len(failed)} of them failed")
+    below = 0
+    for step in STEPS:
+        count = sum(below <= record["picture"]["max"] <= step for record in drawn if record not in failed)
+        print(f"{count:6}  greatest difference {below} to {step} of 65535")
+        below = step + 1
+    for record in drawn:
+        picture = record["picture"]
+        words = picture.get("failed") or picture.get("error") or json.dumps(picture)
+        print(f"{record['scene']}: " + " ".join(words.split()))
+
+
+def survey(options, paths, copies):
+    folders = pictures.include_folders()
+    scenes = []
+    for path in paths:
+        copy = unpacked(os.path.dirname(os.path.abspath(path)), copies)
+        name = os.path.relpath(path, EXAMPLES) if path.startswith(EXAMPLES) else path
+        scenes.append((name, copy, os.path.join(copy, os.path.basename(path).removesuffix(".gz"))))
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        records = list(pool.map(lambda scene: read(scene, options, folders), scenes))
+        if options.render:
+            accepted = [record for record in records if record["outcome"] == "accepted"]
+            list(pool.map(lambda record: render(record, options, folders), accepted))
+    return records
+
+
+def main():
+    options = arguments()
+    paths = options.scenes or installed()
+    if not paths:
+        print(f"no scenes in {EXAMPLES}: install povray-examples")
+        return SKIPPED
+    with tempfile.TemporaryDirectory() as top:
+        records = survey(options, paths, {"top": top})
+    for record in records:
+        record.pop("path")
+        detail = f" {record['where']}: {record['blockers'][0]}" if record["blockers"] else ""
+        print(f"{record['scene']}: {record['outcome']}{detail}")
+    print_tables(records)
+    if options.render:
+        print_pictures(records)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as out:
+            json.dump({"scenes": records, "plan": plan(records)}, out, indent=1)
+            out.write("\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
