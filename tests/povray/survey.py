@@ -15,6 +15,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -36,7 +37,8 @@ GROUPS = {
     "colour patterns": "agate average bozo brick checker color_map colour_map crackle gradient granite leopard "
                        "marble onion pigment_map quilted radial spherical cylindrical planar boxed spiral1 spiral2 "
                        "spotted wood hexagon wrinkles square triangular tiling pavement cells turbulence warp "
-                       "texture_map pigment_pattern mandel julia magnet tiles texture_list facets dents waves ripples bumps slope aoi density_file",
+                       "texture_map pigment_pattern mandel julia magnet tiles texture_list facets dents waves "
+                       "ripples bumps slope aoi density_file",
     "normals": "normal normal_map slope_map bump_map bump_size no_bump_scale",
     "pictures": "image_map material_map image_pattern uv_mapping",
     "sky and fog": "sky_sphere fog rainbow",
@@ -105,6 +107,18 @@ def construct(fault):
     return f"{within.group(1)}: {word}" if within else word
 
 
+def call(command, scene, seconds):
+    """(status, output, messages) of a program run in the scene's folder; None at the time limit, with all it started."""
+    with subprocess.Popen([*command, os.path.basename(scene)], cwd=os.path.dirname(scene), stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
+        try:
+            output, messages = process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            return None
+    return process.returncode, output.decode("utf-8", "replace"), messages.decode("latin-1")
+
+
 def need(blocker):
     """The group that a fault belongs to, or its own words."""
     code, words = blocker.split(" ", 1)
@@ -130,20 +144,18 @@ def needs_of_text(path, seen):
 
 def read(scene, options, folders):
     """One scene's record: name, outcome, blockers in the order in which they were met."""
-    name, folder, path = scene
+    name, path = scene
     command = [os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", *(f"-I{place}" for place in folders)]
     record = {"scene": name, "path": path, "outcome": "accepted", "blockers": [], "needs": [], "where": None}
-    try:
-        done = subprocess.run(command + [os.path.basename(path)], cwd=folder, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=options.timeout, check=False)
-    except subprocess.TimeoutExpired:
+    done = call(command, path, options.timeout)
+    status, _, messages = done or (0, "", "")
+    if not done:
         record["outcome"] = "time limit"
-        return record
-    if done.returncode < 0:
-        record["outcome"] = f"killed by signal {-done.returncode}"
-    elif done.returncode > 0:
-        record["outcome"] = NAMED.get(done.returncode, "refused")
-    for line in done.stderr.decode("latin-1").splitlines():
+    elif status < 0:
+        record["outcome"] = f"killed by signal {-status}"
+    elif status > 0:
+        record["outcome"] = NAMED.get(status, "refused")
+    for line in messages.splitlines():
         fault = json.loads(line) if line.startswith("{") else {}
         if fault.get("severity") == "error":
             blocker = f"{fault['code']} {construct(fault)}"
@@ -160,14 +172,12 @@ def read(scene, options, folders):
 def render(record, options, folders):
     """Adds what rtcheck says of an accepted scene."""
     command = [os.environ["RTCHECK"], "--json", "-j1", "-W160", "-H120", *(f"-I{place}" for place in folders)]
-    try:
-        done = subprocess.run(command + [os.path.basename(record["path"])], cwd=os.path.dirname(record["path"]),
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              timeout=options.timeout, check=False)
-        lines = done.stdout.decode("utf-8", "replace").splitlines()
-        record["picture"] = json.loads(lines[0]) if lines else {"failed": done.stderr.decode("utf-8", "replace")[-300:]}
-    except subprocess.TimeoutExpired:
+    done = call(command, record["path"], options.timeout)
+    if not done:
         record["picture"] = {"failed": "time limit"}
+    else:
+        _, output, messages = done
+        record["picture"] = json.loads(output) if output.startswith("{") else {"failed": messages[-300:]}
     return record
 
 
@@ -226,7 +236,7 @@ def survey(options, paths, copies):
     for path in paths:
         copy = unpacked(os.path.dirname(os.path.abspath(path)), copies)
         name = os.path.relpath(path, EXAMPLES) if path.startswith(EXAMPLES) else path
-        scenes.append((name, copy, os.path.join(copy, os.path.basename(path).removesuffix(".gz"))))
+        scenes.append((name, os.path.join(copy, os.path.basename(path).removesuffix(".gz"))))
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         records = list(pool.map(lambda scene: read(scene, options, folders), scenes))
         if options.render:
