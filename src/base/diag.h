@@ -86,7 +86,8 @@ void diag_init(DiagSink *sink, SourceMap *sources);
 void diag_fini(DiagSink *sink);
 
 // What warnings are reported, in the words of a command line: "all" adds the extra ones, "error" makes errors of all,
-// "W0201" and "error=W0201" say the same of one, each with "no-" before it takes that back. False when it is none of these.
+// "W0201" and "error=W0201" say the same of one, each with "no-" before it takes that back. False when it is none of
+// these.
 bool diag_set_warning(DiagSink *sink, const char *what) RT_MUST_CHECK;
 bool diag_is_on(const DiagSink *sink, DiagCode code);
 

@@ -46,7 +46,7 @@ static bool is_beside(char a, char b)
     }
     // A row stands half a key to the right of the one above it.
     int down = row_b - row_a, right = column_b - column_a;
-    return down == 0 ? abs(right) == 1 : down == 1 ? right == 0 || right == -1 : down == -1 && (right == 0 || right == 1);
+    return down == 0 ? abs(right) == 1 : abs(down) == 1 && (right == 0 || right == -down);
 }
 
 static unsigned least(unsigned a, unsigned b)
@@ -136,12 +136,13 @@ void suggest_offer(Suggest *suggest, const char *candidate)
     if (length > wanted_length + reach || length + reach < wanted_length || length == 0) {
         return;
     }
-    unsigned folded = edit_distance(&(Name){suggest->wanted, wanted_length, true}, &(Name){candidate, length, true}, bound);
+    Name wanted = {suggest->wanted, wanted_length, true}, offered = {candidate, length, true};
+    unsigned folded = edit_distance(&wanted, &offered, bound);
     if (folded > bound) {
         return;
     }
-    unsigned exact =
-        edit_distance(&(Name){suggest->wanted, wanted_length, false}, &(Name){candidate, length, false}, folded);
+    wanted.is_folded = offered.is_folded = false;
+    unsigned exact = edit_distance(&wanted, &offered, folded);
     unsigned cost = exact > folded ? folded + CASE : folded;
     if (exact != 0 && cost <= bound) {
         suggest->best = candidate;

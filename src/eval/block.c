@@ -37,32 +37,6 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
 };
 
-// What is missing or misplaced in a block of which a part was not understood may have been in that part.
-static bool follows_from_syntax(const Block *block, DiagCode code)
-{
-    const DiagSink *diags = block->ev->options.diags;
-    Span whole = block->node->span;
-    for (size_t i = 0; i < diags->count; i++) {
-        const Diag *diag = &diags->items[i];
-        bool is_inside = diag->span.begin >= whole.begin && diag->span.begin < whole.end;
-        if (is_inside && diag->code >= DIAG_E0101 && diag->code <= DIAG_E0109) {
-            return code == DIAG_E0253 || code == DIAG_E0254 || code == DIAG_E0256;
-        }
-    }
-    return false;
-}
-
-bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...)
-{
-    char message[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    block->has_fault = true;
-    return follows_from_syntax(block, code) ? false : eval_fault(block->ev, code, span, "%s", message);
-}
-
 SchemaKind block_kind(const Eval *ev, const AstNode *node)
 {
     return node->kind == AST_BLOCK && node->symbol < WORD_COUNT ? (SchemaKind)ev->objects->kinds[node->symbol]
@@ -72,31 +46,6 @@ SchemaKind block_kind(const Eval *ev, const AstNode *node)
 bool block_is_name(const AstNode *item)
 {
     return item->kind == AST_NAME || item->kind == AST_INDEX;
-}
-
-static Suggest nearest_property(const Block *block, const AstNode *item)
-{
-    Suggest suggest;
-    const SchemaProperty *property;
-    suggest_begin(&suggest, eval_text(block->ev, item->symbol));
-    for (size_t i = 0; (property = schema_property(block->kind, i)); i++) {
-        suggest_offer(&suggest, property->word);
-    }
-    return suggest;
-}
-
-bool block_is_misspelt(const Block *block, const AstNode *item)
-{
-    if (item->kind != AST_NAME || scope_find(block->ev, item->symbol)) {
-        return false;
-    }
-    Suggest property = nearest_property(block, item), name = scope_nearest(block->ev, item);
-    return property.best && (!name.best || property.best_cost <= name.best_cost);
-}
-
-static const char *block_word(const Block *block)
-{
-    return schema_kind(block->kind)->word;
 }
 
 // The last character of the block, where something is missing.
@@ -128,58 +77,6 @@ void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
         break;
     default: break;
     }
-}
-
-// ---- what rtlang has not
-
-static void tell_unsupported(Eval *ev, const UnsupportedBlueprint *what, Span use)
-{
-    ObjectState *objects = ev->objects;
-    Symbol symbol = intern_find(ev->options.names, what->word, strlen(what->word));
-    if (symbol < WORD_COUNT) {
-        if (objects->is_told[symbol]) {
-            return;
-        }
-        objects->is_told[symbol] = true;
-    }
-    bool is_kept;
-    if (what->owner == KIND_NONE) {
-        is_kept = eval_report(ev, DIAG_E0252, use, "`%s` is not supported", what->word);
-    } else if (what->owner == KIND_TEXTURE && symbol == W_texture) {
-        is_kept = eval_report(ev, DIAG_E0251, use,
-                              "a texture over another one is not supported by rtlang if it lets light through");
-    } else {
-        is_kept = eval_report(ev, DIAG_E0251, use, "`%s` is not supported in %s by rtlang", what->word,
-                              schema_kind(what->owner)->word);
-    }
-    if (!is_kept) {
-        return;
-    }
-    if (use.begin != what->span.begin) {
-        diag_note(ev->options.diags, what->span, "it stands here");
-    }
-    const SchemaUnsupported *entry =
-        symbol < WORD_COUNT && objects->advice[symbol] ? schema_unsupported(objects->advice[symbol] - 1u) : NULL;
-    if (entry && entry->instead) {
-        diag_suggest(ev->options.diags, "%s", entry->instead);
-    }
-}
-
-void block_unsupported_name(Eval *ev, const UnsupportedBlueprint *what, Span use)
-{
-    ObjectState *objects = ev->objects;
-    if (!objects->is_deferring) {
-        tell_unsupported(ev, what, use);
-    } else if (!objects->has_deferred) {
-        objects->has_deferred = true;
-        objects->deferred = *what;
-    }
-}
-
-void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner)
-{
-    UnsupportedBlueprint what = {span, word, owner};
-    block_unsupported_name(ev, &what, span);
 }
 
 // ---- values
@@ -465,57 +362,6 @@ static void skip_values(Block *block)
     }
 }
 
-static Suggest nearest_kind(const Eval *ev, const AstNode *item, SchemaKind *nearest)
-{
-    Suggest suggest;
-    suggest_begin(&suggest, eval_text(ev, item->symbol));
-    *nearest = KIND_NONE;
-    for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
-        const char *best = suggest.best;
-        suggest_offer(&suggest, schema_kind((SchemaKind)kind)->word);
-        *nearest = suggest.best != best ? (SchemaKind)kind : *nearest;
-    }
-    return suggest;
-}
-
-bool block_is_misspelt_object(const Eval *ev, const AstNode *item)
-{
-    SchemaKind kind;
-    if (item->kind != AST_BLOCK || item->symbol < WORD_COUNT) {
-        return false;
-    }
-    nearest_kind(ev, item, &kind);
-    return schema_kind(kind)->is_object;
-}
-
-void block_unknown(Eval *ev, const AstNode *item)
-{
-    const char *word = eval_text(ev, item->symbol);
-    if (item->symbol < WORD_COUNT) {
-        block_unsupported(ev, word, item->span, KIND_NONE);
-        return;
-    }
-    SchemaKind kind;
-    Suggest suggest = nearest_kind(ev, item, &kind);
-    Span word_span = eval_word_span(ev, item);
-    if (eval_report(ev, DIAG_E0250, word_span, "unknown kind of block `%s`", word) && suggest.best) {
-        diag_did_you_mean(ev->options.diags, word_span, suggest.best);
-    }
-}
-
-static void unknown_property(Block *block, const AstNode *item)
-{
-    const char *word = eval_text(block->ev, item->symbol);
-    Suggest suggest = nearest_property(block, item);
-    block->has_fault = true;
-    Span word_span = eval_word_span(block->ev, item);
-    if (eval_report(block->ev, DIAG_E0250, word_span, "unknown property `%s` in %s", word,
-                    block_word(block)) &&
-        suggest.best) {
-        diag_did_you_mean(block->ev->options.diags, word_span, suggest.best);
-    }
-}
-
 static bool is_property_elsewhere(const Block *block, Symbol symbol)
 {
     for (size_t kind = 0; kind < KIND_COUNT; kind++) {
@@ -560,7 +406,7 @@ static void refuse_word(Block *block, const AstNode *item)
         block_unknown(block->ev, item);
     } else if (item->symbol >= WORD_COUNT ||
                (is_property_elsewhere(block, item->symbol) && !is_advised_against(block, item->symbol))) {
-        unknown_property(block, item);
+        block_unknown_property(block, item);
     } else {
         refuse_unsupported(block, item);
     }
@@ -574,9 +420,10 @@ static void refuse_value(Block *block, const AstNode *item)
     Value value;
     bool is_undeclared = item->kind == AST_NAME && !scope_find(block->ev, item->symbol);
     if (is_undeclared && bodies[block->kind] && !block_is_misspelt(block, item)) {
-        block->has_fault = !eval_expression(block->ev, item, &value); // where objects stand it is more likely one of them
+        // Where objects stand it is more likely one of them.
+        block->has_fault = !eval_expression(block->ev, item, &value);
     } else if (is_undeclared) {
-        unknown_property(block, item);
+        block_unknown_property(block, item);
     } else if (block->has_fault) {
         // It may be a value that would have had its place.
     } else if (item->kind == AST_NAME) {

@@ -49,11 +49,19 @@ SchemaKind block_kind(const Eval *ev, const AstNode *node);
 
 // True for a NAME or an element of an array, which may stand for a block.
 bool block_is_name(const AstNode *item);
-// An undeclared name that is nearer to one of the block's properties than to any name in scope.
-bool block_is_misspelt_object(const Eval *ev, const AstNode *item); // a block whose word is near to that of an object
-bool block_is_misspelt(const Block *block, const AstNode *item);
 
-// Marks the block as faulty and reports; returns false.
+// misfit.c
+
+// The kind as it is written: "sphere".
+const char *block_word(const Block *block);
+// An undeclared name that is nearer to one of the block's properties than to any name in scope.
+bool block_is_misspelt(const Block *block, const AstNode *item);
+// A block whose word is unknown and near to that of an object.
+bool block_is_misspelt_object(const Eval *ev, const AstNode *item);
+// Reports a word that is no property of the block, with the nearest that is.
+void block_unknown_property(Block *block, const AstNode *item);
+
+// Marks the block as faulty and reports, unless it follows from a syntax fault inside the block; returns false.
 bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 
 // Reads what a property of a simple type takes into its place.

@@ -7,6 +7,7 @@
 //   colour.c     colour phrases                     macro.c     definitions, calls and their values
 //   directive.c  what each directive does           include.c   finding and reading scene text
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
+//   misfit.c     what is said of items that do not fit into a block
 //   block.c      a block's properties into a struct, driven by scene/schema.h
 //   transforms.c, object.c, texture.c, camera.c, light.c, settings.c: what each kind of block means
 //   eval.c       the top level

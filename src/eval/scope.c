@@ -10,6 +10,9 @@
 
 #include "eval/internal.h"
 
+// So many names are looked at for suggestions in a run: a scene of a million names and faults gets no more.
+enum { LOOKED_AT_MOST = 1 << 28 };
+
 typedef struct Binding Binding;
 struct Binding {
     Value own;
@@ -30,6 +33,7 @@ struct Scope {
     Arena arena; // of locals
     ARRAY(Binding *) innermost;
     ARRAY(Level) levels; // level n is items[n - 1]
+    uint64_t looked_at;  // names, for suggestions
 };
 
 bool scope_init(Eval *ev)
@@ -220,15 +224,19 @@ bool scope_undef(Eval *ev, Symbol name)
 Suggest scope_nearest(const Eval *ev, const AstNode *node)
 {
     Suggest suggest;
+    Scope *scope = ev->scope;
+    WordClass wanted = node->kind == AST_CALL ? WORD_BUILTIN : WORD_CONSTANT;
     suggest_begin(&suggest, eval_text(ev, node->symbol));
-    for (Symbol symbol = 1; symbol < ev->scope->innermost.count; symbol++) {
+    bool has_budget = scope->looked_at < LOOKED_AT_MOST;
+    scope->looked_at += has_budget ? scope->innermost.count : 0;
+    for (Symbol symbol = 1; has_budget && symbol < scope->innermost.count; symbol++) {
         if (ev->scope->innermost.items[symbol] != NULL) {
             suggest_offer(&suggest, eval_text(ev, symbol));
         }
     }
     for (Symbol word = 1; word < WORD_COUNT; word++) {
         WordClass class = word_class(word);
-        if (class == (node->kind == AST_CALL ? WORD_BUILTIN : WORD_CONSTANT) || (class == WORD_COLOUR && ev->at_colour)) {
+        if (class == wanted || (class == WORD_COLOUR && ev->at_colour)) {
             suggest_offer(&suggest, eval_text(ev, word));
         }
     }

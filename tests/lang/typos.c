@@ -77,7 +77,8 @@ static bool is_suggested(const char *before, const char *wrong, const char *afte
 static bool is_typo(const InternTable *names, const char *wrong, const char *word)
 {
     bool is_name = strspn(wrong, "abcdefghijklmnopqrstuvwxyz_0123456789") == strlen(wrong) && wrong[0] > '9';
-    return is_name && strcmp(wrong, word) != 0 && word_class(intern_find(names, wrong, strlen(wrong))) == WORD_IDENTIFIER;
+    Symbol known = intern_find(names, wrong, strlen(wrong));
+    return is_name && strcmp(wrong, word) != 0 && word_class(known) == WORD_IDENTIFIER;
 }
 
 typedef struct Place {
