@@ -1,9 +1,10 @@
-// A tree of boxes over many spheres.
+// A tree of boxes over anything that has bounds.
 //
 // Built once by binned surface-area heuristic (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
-// 2007), then const. Nodes lie in one array and hold the boxes of their two children in float, in the tree's own
-// coordinates: the root box lies around 0, within -1..1, so that neither an offset of the scene nor its size
-// costs digits. The tree orders the spheres; leaves are runs of that order. Knows nothing of scenes or other shapes.
+// 2007) straight into nodes of eight children, then const. Boxes are kept in float, rounded outward, in the tree's own
+// coordinates: the root box lies around 0, within -1..1, so that neither an offset of the scene nor its size costs
+// digits. The tree orders its things; a leaf is a run of that order. trace/bvh_walk.h finds the leaves along a ray.
+// Knows nothing of shapes.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_BVH_H
@@ -14,130 +15,70 @@
 #include <stdint.h>
 
 #include "base/attributes.h"
-#include "trace/sphere.h"
-#include "trace/trace.h"
+#include "math/vec3.h"
 
 enum {
-    BVH_LEAF_MOST = 4, // spheres in a leaf
-    // Below this depth ranges are simply halved, so that 2^30 spheres make at most 30 more levels.
+    BVH_WIDTH = 8,
+    BVH_LEAF_MOST = 8, // things in a leaf
+    // Below this depth of binary splits ranges are simply halved, so that 2^28 things make at most 28 more.
     BVH_SAH_DEPTH_MOST = 32,
-    BVH_DEPTH_MOST = 64,
+    BVH_DEPTH_MOST = 64, // levels of nodes
 };
 
-// A leaf child has its first sphere in `first` and count > 0; an inner child has its node there and count 0.
+// A child is a node's number, a leaf, or none (with an empty box).
+typedef uint32_t BvhChild;
+#define BVH_LEAF       0x80000000u
+#define BVH_CHILD_NONE 0x7fffffffu
+
+// The leaf of the things first <= i < first + count, 1 <= count <= BVH_LEAF_MOST, first < 2^28.
+static inline BvhChild bvh_leaf(uint32_t first, uint32_t count)
+{
+    return BVH_LEAF | (count - 1) << 28 | first;
+}
+
+static inline uint32_t bvh_leaf_first(BvhChild leaf)
+{
+    return leaf & 0x0fffffffu;
+}
+
+static inline uint32_t bvh_leaf_count(BvhChild leaf)
+{
+    return (leaf >> 28 & 7) + 1;
+}
+
 typedef struct BvhNode {
-    float box[3][2][2]; // axis; low, high; child
-    uint32_t first[2];
-    uint32_t count[2];
+    _Alignas(64) float box[3][2][BVH_WIDTH]; // axis; low, high; child
+    BvhChild child[BVH_WIDTH];
+    uint32_t unused[BVH_WIDTH]; // 0; so that a node is four lines of cache
 } BvhNode;
 
 typedef struct Bvh {
-    BvhNode *nodes; // the root first; owned
-    size_t node_count;
+    BvhNode *nodes; // the root first, parents before children; owned; NULL in a tree of nothing
+    uint32_t node_count;
     Vec3 centre;  // tree coordinates are (p - centre) * scale
     double scale; // a power of two
     Vec3 half;    // half the size of the root box, in tree coordinates
 } Bvh;
 
-// What a hit leads to.
-typedef struct ShapeInfo {
-    MaterialIndex material;
-    uint32_t order; // place in the order of declaration
-} ShapeInfo;
+// A thing while the tree is built: its box in tree coordinates, and its number for whoever builds.
+typedef struct BvhRef {
+    float low[3];
+    uint32_t index;
+    float high[3];
+    uint32_t unused;
+} BvhRef;
 
-// The spheres of a Geometry, in its own order.
-typedef struct BallTable {
-    Ball *balls;
-    ShapeInfo *info;
-    uint32_t count;
-} BallTable;
+// Chooses the coordinates of a tree whose things all lie within low..high, which are finite.
+void bvh_place(Bvh *bvh, Vec3 low, Vec3 high);
 
-// The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_rough`, hit.t is a
-// sphere's root as sphere_test gives it; nearest_settle makes it right.
-typedef struct Nearest {
-    Hit hit;
-    uint32_t order; // of hit.shape
-    bool is_rough;
-} Nearest;
+// The ref of a thing within low..high. A box of centre ± radius may be given as rounded; see bvh_walk.h for what is
+// added to make up for that.
+BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index);
 
-// Builds the tree of `count` > BVH_LEAF_MOST usable spheres and puts their new order into `order`: sphere order[i]
-// becomes number first + i of the table. False when out of memory; *bvh is then empty.
-bool bvh_init(Bvh *bvh, const Ball *balls, uint32_t count, uint32_t first, uint32_t *order) RT_MUST_CHECK;
+// Builds the tree of a placed *bvh over 1 <= count < 2^28 refs and puts them into its order, in which leaves are runs and
+// follow each other as their nodes do. The result does not depend on the number of threads. False when out of memory; *bvh
+// is then empty.
+bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads) RT_MUST_CHECK;
 void bvh_fini(Bvh *bvh);
-
-// Brings `nearest` up to date with the spheres of the tree. Spheres equal to `start` are passed over.
-void bvh_closest(const Bvh *bvh, const BallTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest);
-
-// True when a sphere of the tree, other than `start`, is met at 0 < t < t_max.
-bool bvh_occluded(const Bvh *bvh, const BallTable *table, const SphereRay *ray, const Ball *start, double t_max);
-
-// Equal distances: the shape that was declared first is seen. Both roots are exact to the last rounding.
-RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, bool inside, uint32_t order)
-{
-    if (t > 0.0 && (t < nearest->hit.t ||
-                    (t == nearest->hit.t && nearest->hit.shape != SHAPE_NONE && order < nearest->order))) {
-        *nearest = (Nearest){{t, shape, inside}, order, false};
-    }
-}
-
-// Refines a rough root.
-RT_ALWAYS_INLINE void nearest_settle(const BallTable *table, const SphereRay *ray, Nearest *nearest)
-{
-    if (nearest->is_rough) {
-        nearest->hit.t = sphere_refine(ray, &table->balls[shape_index(nearest->hit.shape)], nearest->hit.t);
-        nearest->is_rough = false;
-    }
-}
-
-// One sphere against the ray, for the nearest hit. Roots are refined only where rough ones could be taken in the wrong
-// order, so in the end the same sphere is nearest as if all had been.
-RT_ALWAYS_INLINE void ball_closest(const BallTable *table, uint32_t index, const SphereRay *ray, const Ball *start,
-                                   Nearest *nearest)
-{
-    const Ball *ball = &table->balls[index];
-    double t;
-    bool inside;
-    SphereVerdict verdict = sphere_test(ray, ball, &t, &inside);
-    if (verdict == SPHERE_MISS || ball_equal(ball, start)) {
-        return;
-    }
-    bool is_rough = verdict == SPHERE_MET;
-    if (!is_rough) {
-        t = sphere_exact(ray, ball, &inside);
-    }
-    double slack = SPHERE_ROOT_SLACK * nearest->hit.t;
-    if (!(t > 0.0) || t > nearest->hit.t + slack) {
-        return;
-    }
-    uint32_t order = table->info[index].order;
-    if (t < nearest->hit.t - slack || isinf(nearest->hit.t)) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, index), inside}, order, is_rough};
-        return;
-    }
-    nearest_settle(table, ray, nearest);
-    nearest_offer(nearest, is_rough ? sphere_refine(ray, ball, t) : t, shape_id(SHAPE_SPHERE, index), inside, order);
-}
-
-// One sphere against the ray, for any hit.
-RT_ALWAYS_INLINE bool ball_occludes(const BallTable *table, uint32_t index, const SphereRay *ray, const Ball *start,
-                                    double t_max)
-{
-    const Ball *ball = &table->balls[index];
-    double t;
-    bool inside;
-    SphereVerdict verdict = sphere_test(ray, ball, &t, &inside);
-    if (verdict == SPHERE_MISS || ball_equal(ball, start)) {
-        return false;
-    }
-    double slack = SPHERE_ROOT_SLACK * t_max;
-    if (verdict == SPHERE_DOUBTFUL) {
-        t = sphere_exact(ray, ball, &inside);
-    } else if (t < t_max - slack || isinf(t_max)) {
-        return true;
-    } else if (t <= t_max + slack) {
-        t = sphere_refine(ray, ball, t);
-    }
-    return t > 0.0 && t < t_max;
-}
 
 #endif

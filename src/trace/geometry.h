@@ -1,7 +1,6 @@
 // The inside of a Geometry, for trace/ and the inline queries only.
 //
-// Arrays of prepared shapes, one for each kind; a ShapeId is an index into one of them. Spheres come in two runs: loose
-// ones first, which are tested one after the other, then those of the tree, in the tree's order.
+// Arrays of prepared shapes, one for each kind; a ShapeId is an index into one of them, a slot of the table for spheres.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_GEOMETRY_H
@@ -9,15 +8,10 @@
 
 #include <stdint.h>
 
-#include "trace/bvh.h"
 #include "trace/ellipsoid.h"
 #include "trace/plane.h"
-#include "trace/sphere.h"
+#include "trace/spheres.h"
 #include "trace/trace.h"
-
-enum {
-    LOOSE_SPHERES_MOST = 8, // a scene with no more than these has no tree
-};
 
 typedef struct EllipsoidEntry {
     EllipsoidShape shape;
@@ -31,9 +25,8 @@ typedef struct PlaneEntry {
 
 struct Geometry {
     unsigned features;
-    BallTable spheres;
-    uint32_t loose_count;
-    Bvh bvh; // of the spheres from loose_count on; empty when there are none
+    const SphereKernels *kernels; // for this processor, or as told
+    SphereTable spheres;
     EllipsoidEntry *ellipsoids;
     uint32_t ellipsoid_count;
     PlaneEntry *planes;

@@ -16,7 +16,7 @@ enum { TRACE_ANY_SPHERES = TRACE_SPHERES | TRACE_SPHERE_BVH };
 RT_ALWAYS_INLINE Ball query_start_ball(const Geometry *g, RayStart start)
 {
     bool on_sphere = start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_SPHERE;
-    return on_sphere ? g->spheres.balls[shape_index(start.shape)] : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
+    return on_sphere ? sphere_table_ball(&g->spheres, shape_index(start.shape)) : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
 }
 
 RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
@@ -27,11 +27,11 @@ RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features
         nearest_offer(nearest, sphere_root_inward(ray, &start_ball), start.shape, true,
                       g->spheres.info[shape_index(start.shape)].order);
     }
-    for (uint32_t i = 0; i < g->loose_count; i++) {
-        ball_closest(&g->spheres, i, ray, &start_ball, nearest);
+    for (uint32_t i = 0; i < g->spheres.loose_count; i++) {
+        sphere_slot_closest(&g->spheres, i, ray, &start_ball, nearest);
     }
-    if ((features & TRACE_SPHERE_BVH) && g->bvh.nodes) {
-        bvh_closest(&g->bvh, &g->spheres, ray, &start_ball, nearest);
+    if (features & TRACE_SPHERE_BVH) {
+        g->kernels->closest(&g->spheres, ray, &start_ball, nearest);
     }
     nearest_settle(&g->spheres, ray, nearest);
 }
@@ -46,13 +46,12 @@ RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned feature
             return true;
         }
     }
-    for (uint32_t i = 0; i < g->loose_count; i++) {
-        if (ball_occludes(&g->spheres, i, ray, &start_ball, t_max)) {
+    for (uint32_t i = 0; i < g->spheres.loose_count; i++) {
+        if (sphere_slot_occludes(&g->spheres, i, ray, &start_ball, t_max)) {
             return true;
         }
     }
-    return (features & TRACE_SPHERE_BVH) && g->bvh.nodes &&
-           bvh_occluded(&g->bvh, &g->spheres, ray, &start_ball, t_max);
+    return (features & TRACE_SPHERE_BVH) && g->kernels->occluded(&g->spheres, ray, &start_ball, t_max);
 }
 
 // The parameter at which an ellipsoid is met, by the rules for spheres; not positive when it is not.
@@ -157,9 +156,9 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
         ellipsoid_surface(&ellipsoid->shape, ray, hit.t, &surface.point, &surface.normal);
         return surface;
     }
-    const Ball *ball = &g->spheres.balls[index];
-    Vec3 normal = sphere_normal(ray, ball, hit.t);
-    Vec3 point = vec3_add_scaled(ball->centre, sqrt(ball->radius_squared), normal);
+    Ball ball = sphere_table_ball(&g->spheres, index);
+    Vec3 normal = sphere_normal(ray, &ball, hit.t);
+    Vec3 point = vec3_add_scaled(ball.centre, sqrt(ball.radius_squared), normal);
     return (Surface){point, normal, g->spheres.info[index].material};
 }
 

@@ -79,7 +79,7 @@ typedef enum SphereVerdict {
     SPHERE_DOUBTFUL // ask sphere_exact
 } SphereVerdict;
 
-// Decides class and root in doubles alone, or says that it cannot. `t` > 0 and `inside` are set when the sphere is met.
+// Decides class and root in doubles alone (src/trace/spheres_kernel.c does the same to eight spheres at once), or says that it cannot. `t` > 0 and `inside` are set when the sphere is met.
 RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *ball, double *t, bool *inside)
 {
     Vec3 f = vec3_sub(ray->origin, ball->centre);
@@ -93,10 +93,10 @@ RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *bal
     }
     double c = f_squared - ball->radius_squared;
     double doubt = SPHERE_DOUBT * sum;
-    if (c > doubt && t_middle < 0.0) {
+    if (c >= doubt && !(t_middle >= 0.0)) {
         return SPHERE_MISS;
     }
-    if (!(discriminant > doubt && fabs(c) > doubt)) {
+    if (!(discriminant >= doubt && fabs(c) >= doubt)) {
         return SPHERE_DOUBTFUL;
     }
     double far_side = fabs(t_middle) + sqrt(discriminant * ray->inverse_square);
@@ -164,10 +164,18 @@ RT_ALWAYS_INLINE double sphere_root_inward(const SphereRay *ray, const Ball *bal
     return -2.0 * vec3_dot(vec3_sub(ray->origin, ball->centre), ray->dual);
 }
 
-// The outward unit normal at p(t).
+// p(t) - centre in double words, for spheres so far away that nothing of it is left in doubles.
+Vec3 sphere_exact_offset(Ray ray, const Ball *ball, double t) __attribute__((cold));
+
+// The outward unit normal at p(t), t being refined.
 RT_ALWAYS_INLINE Vec3 sphere_normal(Ray ray, const Ball *ball, double t)
 {
-    return vec3_normalize(vec3_add_scaled(vec3_sub(ray.origin, ball->centre), t, ray.direction));
+    Vec3 offset = vec3_add_scaled(vec3_sub(ray.origin, ball->centre), t, ray.direction);
+    double error = fabs(vec3_length_squared(offset) - ball->radius_squared);
+    if (RT_UNLIKELY(!(error <= 0x1p-20 * ball->radius_squared))) {
+        offset = sphere_exact_offset(ray, ball, t);
+    }
+    return vec3_normalize(offset);
 }
 
 #endif

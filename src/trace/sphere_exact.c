@@ -87,3 +87,15 @@ double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside)
     t = ldexp(t, s.length_exponent - s.direction_exponent);
     return t < (double)INFINITY ? t : 0.0;
 }
+
+Vec3 sphere_exact_offset(Ray ray, const Ball *ball, double t)
+{
+    const double o[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
+    const double d[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
+    const double centre[3] = {ball->centre.x, ball->centre.y, ball->centre.z};
+    double offset[3];
+    for (int i = 0; i < 3; i++) {
+        offset[i] = double_word_add(two_sum(o[i], -centre[i]), two_product(t, d[i])).hi;
+    }
+    return vec3(offset[0], offset[1], offset[2]);
+}

@@ -73,8 +73,19 @@ typedef struct Surface {
 
 typedef struct Geometry Geometry;
 
+typedef struct GeometryOptions {
+    int threads;     // >= 1, for building; the result does not depend on it
+    const char *isa; // name of the instruction set to use; NULL for the best that this processor has
+} GeometryOptions;
+
+// Names of the instruction sets that this processor has and that were built, from plain to best; NULL past the end.
+const char *geometry_isa(size_t i);
+
 // Builds the geometry of a valid scene with every length multiplied by 2^-exponent, which is exact. Spheres are kept in
-// an order of the tree's own. NULL when out of memory.
+// an order of the tree's own. NULL when out of memory (or when options->isa is none of geometry_isa).
+Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOptions *options) RT_MUST_CHECK;
+
+// The same on one thread with the best instruction set.
 Geometry *geometry_new(const Scene *scene, int exponent) RT_MUST_CHECK;
 void geometry_free(Geometry *geometry);
 

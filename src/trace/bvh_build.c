@@ -1,0 +1,493 @@
+// Builds the tree of boxes, on several threads when it is large.
+//
+// Every step is bounded: the depth (ranges are halved when the heuristic has gone deep enough or cannot separate its
+// things), and the time, n log n for any input, a million coincident boxes among them. Threads take whole ranges from a
+// common stack and make nodes in pools of their own; in the end the nodes are numbered in depth-first order, so that the
+// tree does not show who built what.
+//
+// SPDX-License-Identifier: MIT
+#include <float.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "trace/bvh.h"
+
+enum {
+    BIN_MOST = 16,
+    POOL_CHUNK_NODES = 256,
+    // A range this small is built by one thread; a whole tree this small on one alone.
+    TASK_REFS_LEAST = 4096,
+    TASKS_MOST = 4096, // ranges that wait; what does not fit is built at once
+};
+
+// Four floats at a time; x, y and z are used.
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int32_t Int4 __attribute__((vector_size(16)));
+
+typedef struct Box {
+    Float4 low, high;
+} Box;
+
+static const Box EMPTY_BOX = {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}};
+
+#ifdef __SSE__
+static inline Float4 float4_min(Float4 a, Float4 b)
+{
+    return __builtin_ia32_minps(a, b);
+}
+
+static inline Float4 float4_max(Float4 a, Float4 b)
+{
+    return __builtin_ia32_maxps(a, b);
+}
+#else
+static inline Float4 float4_min(Float4 a, Float4 b)
+{
+    Int4 mask = a < b;
+    return (Float4)((mask & (Int4)a) | (~mask & (Int4)b));
+}
+
+static inline Float4 float4_max(Float4 a, Float4 b)
+{
+    Int4 mask = a > b;
+    return (Float4)((mask & (Int4)a) | (~mask & (Int4)b));
+}
+#endif
+
+static inline void box_join(Box *box, const Box *other)
+{
+    box->low = float4_min(other->low, box->low);
+    box->high = float4_max(other->high, box->high);
+}
+
+static inline float box_half_area(const Box *box)
+{
+    Float4 size = box->high - box->low;
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+}
+
+// The box of a ref; its fourth components are those of an empty box's, so that they cannot be NaN.
+static inline Box ref_box(const BvhRef *ref)
+{
+    Box box;
+    memcpy(&box.low, ref->low, sizeof box.low);
+    memcpy(&box.high, ref->high, sizeof box.high);
+    const Int4 used = {-1, -1, -1, 0};
+    box.low = (Float4)((Int4)box.low & used);
+    box.high = (Float4)((Int4)box.high & used);
+    return box;
+}
+
+// A range of refs to become a node or a leaf. Centres are twice the middles of the boxes.
+typedef struct Range {
+    Box box, centres;
+    uint32_t begin, end;
+    unsigned depth;
+} Range;
+
+typedef struct Task {
+    Range range;
+    BvhChild *place; // where the number of its node goes
+} Task;
+
+typedef struct Pool {
+    BvhNode **chunks;
+    uint32_t count, room; // nodes made; chunks there is room for
+} Pool;
+
+typedef struct Builder {
+    BvhRef *refs;
+    Pool pools[PARALLEL_THREADS_MAX];
+    pthread_mutex_t lock; // of all below
+    pthread_cond_t changed;
+    Task tasks[TASKS_MOST];
+    unsigned waiting, busy; // tasks; threads that have one
+    bool failed;
+} Builder;
+
+// ---- coordinates
+
+void bvh_place(Bvh *bvh, Vec3 low, Vec3 high)
+{
+    Vec3 half = vec3_sub(vec3_scale(0.5, high), vec3_scale(0.5, low));
+    int exponent;
+    frexp(vec3_max_abs(half), &exponent);
+    exponent = exponent < DBL_MIN_EXP ? DBL_MIN_EXP : exponent; // so that the scale is finite
+    *bvh = (Bvh){.centre = vec3_add(vec3_scale(0.5, high), vec3_scale(0.5, low)), .scale = ldexp(1.0, -exponent)};
+    bvh->half = vec3_scale(bvh->scale, half);
+}
+
+// Rounded outward: a conversion to float is off by at most 2^-24 of the value.
+static inline float float_below(double x)
+{
+    return (float)(x - fabs(x) * 0x1p-23);
+}
+
+static inline float float_above(double x)
+{
+    return (float)(x + fabs(x) * 0x1p-23);
+}
+
+BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index)
+{
+    Vec3 a = vec3_scale(bvh->scale, vec3_sub(low, bvh->centre));
+    Vec3 b = vec3_scale(bvh->scale, vec3_sub(high, bvh->centre));
+    return (BvhRef){.low = {float_below(a.x), float_below(a.y), float_below(a.z)},
+                    .index = index,
+                    .high = {float_above(b.x), float_above(b.y), float_above(b.z)}};
+}
+
+// ---- one split
+
+// Maps box centres to bins along each axis.
+typedef struct Binning {
+    Float4 low, bins_per_unit; // 0 for an axis along which the centres do not differ
+    Int4 last;
+} Binning;
+
+typedef struct Bin {
+    Box box;
+    uint32_t count;
+} Bin;
+
+typedef struct Split {
+    float cost; // of both sides: blocks times half the area
+    int axis;
+    int bin;    // the first bin of the right side
+} Split;
+
+static inline Int4 binning_bins(const Binning *binning, const Box *box)
+{
+    Int4 bins =
+        __builtin_convertvector((box->low + box->high - binning->low) * binning->bins_per_unit, Int4);
+    Int4 within = bins < binning->last;
+    return (within & bins) | (~within & binning->last);
+}
+
+// False when all centres are the same.
+static bool binning_init(Binning *binning, const Range *range)
+{
+    // Half of all ranges are short; for them the bins themselves would be most of the work.
+    uint32_t refs = range->end - range->begin;
+    int count = refs >= 64 ? BIN_MOST : refs >= 16 ? BIN_MOST / 2 : BIN_MOST / 4;
+    *binning = (Binning){.low = range->centres.low, .last = {count - 1, count - 1, count - 1, 0}};
+    bool differ = false;
+    for (int axis = 0; axis < 3; axis++) {
+        float bins_per_unit = (float)count / (range->centres.high[axis] - range->centres.low[axis]);
+        if (bins_per_unit < INFINITY) {
+            binning->bins_per_unit[axis] = bins_per_unit;
+            differ = true;
+        }
+    }
+    return differ;
+}
+
+// A leaf is tested whole, so cost counts leaves, not things.
+static inline float side_cost(const Box *box, uint32_t count)
+{
+    return count ? (float)((count + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST) * box_half_area(box) : INFINITY;
+}
+
+// The cheapest place to cut along one axis, if it is cheaper than *best.
+static void split_axis(const Bin *bins, int bin_count, int axis, Split *best)
+{
+    float right_cost[BIN_MOST];
+    Box box = EMPTY_BOX;
+    uint32_t count = 0;
+    for (int i = bin_count - 1; i > 0; i--) {
+        box_join(&box, &bins[i].box);
+        count += bins[i].count;
+        right_cost[i] = side_cost(&box, count);
+    }
+    box = EMPTY_BOX;
+    count = 0;
+    for (int i = 1; i < bin_count; i++) {
+        box_join(&box, &bins[i - 1].box);
+        count += bins[i - 1].count;
+        float cost = side_cost(&box, count) + right_cost[i];
+        if (cost < best->cost) {
+            *best = (Split){cost, axis, i};
+        }
+    }
+}
+
+static void bins_fill(Bin bins[3][BIN_MOST], const BvhRef *refs, const Range *range, const Binning *binning)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i <= binning->last[0]; i++) {
+            bins[axis][i] = (Bin){EMPTY_BOX, 0};
+        }
+    }
+    for (uint32_t i = range->begin; i < range->end; i++) {
+        Box box = ref_box(&refs[i]);
+        Int4 places = binning_bins(binning, &box);
+        for (int axis = 0; axis < 3; axis++) {
+            Bin *bin = &bins[axis][places[axis]];
+            box_join(&bin->box, &box);
+            bin->count++;
+        }
+    }
+}
+
+// Puts the refs left of the split first, and notes the extent of the centres on both sides.
+static uint32_t split_apply(BvhRef *refs, const Range *range, const Binning *binning, const Split *split,
+                            Box *left_centres, Box *right_centres)
+{
+    uint32_t left = range->begin;
+    uint32_t right = range->end;
+    *left_centres = *right_centres = EMPTY_BOX;
+    while (left < right) {
+        Box box = ref_box(&refs[left]);
+        Float4 centre = box.low + box.high;
+        if (binning_bins(binning, &box)[split->axis] < split->bin) {
+            box_join(left_centres, &(Box){centre, centre});
+            left++;
+        } else {
+            box_join(right_centres, &(Box){centre, centre});
+            BvhRef moved = refs[left];
+            refs[left] = refs[--right];
+            refs[right] = moved;
+        }
+    }
+    return left;
+}
+
+// The box and centres of a range, from its refs.
+static Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth)
+{
+    Range range = {EMPTY_BOX, EMPTY_BOX, begin, end, depth};
+    for (uint32_t i = begin; i < end; i++) {
+        Box box = ref_box(&refs[i]);
+        Float4 centre = box.low + box.high;
+        box_join(&range.box, &box);
+        box_join(&range.centres, &(Box){centre, centre});
+    }
+    return range;
+}
+
+// Cuts a range of more than a leaf in two.
+static void range_split(BvhRef *refs, const Range *range, Range *left, Range *right)
+{
+    unsigned depth = range->depth + 1;
+    Binning binning;
+    Split best = {INFINITY, 0, 0};
+    if (range->depth < BVH_SAH_DEPTH_MOST && binning_init(&binning, range)) {
+        Bin bins[3][BIN_MOST];
+        bins_fill(bins, refs, range, &binning);
+        for (int axis = 0; axis < 3; axis++) {
+            split_axis(bins[axis], binning.last[0] + 1, axis, &best);
+        }
+        if (best.cost < INFINITY) {
+            *left = (Range){EMPTY_BOX, EMPTY_BOX, range->begin, 0, depth};
+            *right = (Range){EMPTY_BOX, EMPTY_BOX, 0, range->end, depth};
+            for (int i = 0; i <= binning.last[0]; i++) {
+                box_join(i < best.bin ? &left->box : &right->box, &bins[best.axis][i].box);
+            }
+            left->end = right->begin =
+                split_apply(refs, range, &binning, &best, &left->centres, &right->centres);
+            return;
+        }
+    }
+    // In half by full leaves.
+    uint32_t leaves = (range->end - range->begin + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST;
+    uint32_t middle = range->begin + leaves / 2 * BVH_LEAF_MOST;
+    *left = range_measure(refs, range->begin, middle, depth);
+    *right = range_measure(refs, middle, range->end, depth);
+}
+
+// ---- nodes
+
+// A new node of the pool and its number for now, thread and place; NULL when out of memory.
+static BvhNode *pool_node(Pool *pool, int thread, BvhChild *number)
+{
+    uint32_t chunk = pool->count / POOL_CHUNK_NODES;
+    if (chunk == pool->room) {
+        uint32_t room = pool->room ? 2 * pool->room : 16;
+        BvhNode **chunks = realloc(pool->chunks, room * sizeof(*chunks));
+        if (!chunks) {
+            return NULL;
+        }
+        pool->chunks = chunks;
+        pool->room = room;
+    }
+    if (pool->count % POOL_CHUNK_NODES == 0) {
+        pool->chunks[chunk] = aligned_alloc(_Alignof(BvhNode), POOL_CHUNK_NODES * sizeof(BvhNode));
+        if (!pool->chunks[chunk]) {
+            return NULL;
+        }
+    }
+    *number = (uint32_t)thread << 26 | pool->count;
+    return &pool->chunks[chunk][pool->count++ % POOL_CHUNK_NODES];
+}
+
+static const BvhNode *builder_node(const Builder *builder, BvhChild number)
+{
+    uint32_t place = number & ((1u << 26) - 1);
+    return &builder->pools[number >> 26].chunks[place / POOL_CHUNK_NODES][place % POOL_CHUNK_NODES];
+}
+
+static void node_clear(BvhNode *node)
+{
+    for (int child = 0; child < BVH_WIDTH; child++) {
+        for (int axis = 0; axis < 3; axis++) {
+            node->box[axis][0][child] = INFINITY;
+            node->box[axis][1][child] = -INFINITY;
+        }
+        node->child[child] = BVH_CHILD_NONE;
+        node->unused[child] = 0;
+    }
+}
+
+static uint32_t range_count(const Range *range)
+{
+    return range->end - range->begin;
+}
+
+// Splits the child of the largest box, again and again, until there are eight or all are leaves.
+static int node_split(BvhRef *refs, const Range *range, Range children[BVH_WIDTH])
+{
+    int count = 1;
+    children[0] = *range;
+    while (count < BVH_WIDTH) {
+        int largest = -1;
+        float largest_area = -1.0f;
+        for (int i = 0; i < count; i++) {
+            float area = box_half_area(&children[i].box);
+            if (range_count(&children[i]) > BVH_LEAF_MOST && !(area <= largest_area)) {
+                largest = i;
+                largest_area = area;
+            }
+        }
+        if (largest < 0) {
+            break;
+        }
+        Range parent = children[largest];
+        range_split(refs, &parent, &children[largest], &children[count++]);
+    }
+    return count;
+}
+
+// Leaves a range for whichever thread is free; false when too many wait already.
+static bool builder_push(Builder *builder, const Task *task)
+{
+    pthread_mutex_lock(&builder->lock);
+    bool fits = builder->waiting < TASKS_MOST;
+    if (fits) {
+        builder->tasks[builder->waiting++] = *task;
+        pthread_cond_signal(&builder->changed);
+    }
+    pthread_mutex_unlock(&builder->lock);
+    return fits;
+}
+
+// Makes the node of a range and all below it; large ranges are left for whichever thread is free. The recursion is no
+// deeper than the tree.
+static bool builder_make(Builder *builder, int thread, const Task *task)
+{
+    BvhNode *node = pool_node(&builder->pools[thread], thread, task->place);
+    if (!node) {
+        return false;
+    }
+    node_clear(node);
+    Range children[BVH_WIDTH];
+    int count = node_split(builder->refs, &task->range, children);
+    bool done = true;
+    for (int i = 0; i < count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            node->box[axis][0][i] = children[i].box.low[axis];
+            node->box[axis][1][i] = children[i].box.high[axis];
+        }
+        uint32_t refs = range_count(&children[i]);
+        Task below = {children[i], &node->child[i]};
+        if (refs <= BVH_LEAF_MOST) {
+            node->child[i] = bvh_leaf(children[i].begin, refs);
+        } else if (refs <= TASK_REFS_LEAST || !builder_push(builder, &below)) {
+            done = done && builder_make(builder, thread, &below);
+        }
+    }
+    return done;
+}
+
+static void builder_work(void *client, int thread)
+{
+    Builder *builder = client;
+    pthread_mutex_lock(&builder->lock);
+    while (!builder->failed && (builder->waiting > 0 || builder->busy > 0)) {
+        if (builder->waiting == 0) {
+            pthread_cond_wait(&builder->changed, &builder->lock);
+            continue;
+        }
+        Task task = builder->tasks[--builder->waiting];
+        builder->busy++;
+        pthread_mutex_unlock(&builder->lock);
+        bool done = builder_make(builder, thread, &task);
+        pthread_mutex_lock(&builder->lock);
+        builder->busy--;
+        builder->failed = builder->failed || !done;
+    }
+    pthread_cond_broadcast(&builder->changed);
+    pthread_mutex_unlock(&builder->lock);
+}
+
+// Copies a node and all below it, depth first.
+static void builder_copy(const Builder *builder, Bvh *bvh, BvhChild from)
+{
+    BvhNode *node = &bvh->nodes[bvh->node_count++];
+    *node = *builder_node(builder, from);
+    for (int i = 0; i < BVH_WIDTH; i++) {
+        BvhChild child = node->child[i];
+        if (!(child & BVH_LEAF) && child != BVH_CHILD_NONE) {
+            node->child[i] = bvh->node_count;
+            builder_copy(builder, bvh, child);
+        }
+    }
+}
+
+static void builder_fini(Builder *builder)
+{
+    for (int i = 0; i < PARALLEL_THREADS_MAX; i++) {
+        Pool *pool = &builder->pools[i];
+        for (uint32_t chunk = 0; chunk * POOL_CHUNK_NODES < pool->count; chunk++) {
+            free(pool->chunks[chunk]);
+        }
+        free(pool->chunks);
+    }
+    pthread_cond_destroy(&builder->changed);
+    pthread_mutex_destroy(&builder->lock);
+    free(builder);
+}
+
+bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads)
+{
+    Builder *builder = calloc(1, sizeof(*builder));
+    if (!builder) {
+        return false;
+    }
+    builder->refs = refs;
+    pthread_mutex_init(&builder->lock, NULL);
+    pthread_cond_init(&builder->changed, NULL);
+    BvhChild root = 0;
+    builder->tasks[builder->waiting++] = (Task){range_measure(refs, 0, count, 0), &root};
+    parallel_run(count > 4 * TASK_REFS_LEAST ? threads : 1, builder_work, builder);
+    size_t node_count = 0;
+    for (int i = 0; i < PARALLEL_THREADS_MAX; i++) {
+        node_count += builder->pools[i].count;
+    }
+    BvhNode *nodes = builder->failed ? NULL : aligned_alloc(_Alignof(BvhNode), node_count * sizeof(BvhNode));
+    if (nodes) {
+        bvh->nodes = nodes;
+        bvh->node_count = 0;
+        builder_copy(builder, bvh, root);
+    }
+    builder_fini(builder);
+    return nodes != NULL;
+}
+
+void bvh_fini(Bvh *bvh)
+{
+    free(bvh->nodes);
+    *bvh = (Bvh){0};
+}

@@ -1,0 +1,159 @@
+// Vectors of the native width, and the dozen things that GCC's vector types cannot say.
+//
+// A file that includes this is compiled once for each instruction set; what it computes must not depend on the width.
+// The shims for x86-64 are single instructions, the others plain C that compilers make into such.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SIMD_H
+#define TRACE_SIMD_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "base/attributes.h"
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+#if defined(__AVX__)
+enum { FLOATS = 8 };
+#else
+enum { FLOATS = 4 };
+#endif
+
+#if defined(__AVX512F__)
+enum { DOUBLES = 8 };
+#elif defined(__AVX__)
+enum { DOUBLES = 4 };
+#else
+enum { DOUBLES = 2 };
+#endif
+
+typedef float Floats __attribute__((vector_size(4 * FLOATS)));
+typedef double Doubles __attribute__((vector_size(8 * DOUBLES)));
+typedef int32_t FloatsMask __attribute__((vector_size(4 * FLOATS)));
+typedef int64_t DoublesMask __attribute__((vector_size(8 * DOUBLES)));
+
+// Aligned to the vector's size.
+RT_ALWAYS_INLINE Floats floats_load(const float *from)
+{
+    return *(const Floats *)from;
+}
+
+RT_ALWAYS_INLINE void floats_store(float *to, Floats a)
+{
+    *(Floats *)to = a;
+}
+
+RT_ALWAYS_INLINE Doubles doubles_load(const double *from)
+{
+    return *(const Doubles *)from;
+}
+
+RT_ALWAYS_INLINE void doubles_store(double *to, Doubles a)
+{
+    *(Doubles *)to = a;
+}
+
+RT_ALWAYS_INLINE Floats floats_splat(float a)
+{
+    return a - (Floats){0};
+}
+
+RT_ALWAYS_INLINE Doubles doubles_splat(double a)
+{
+    return a - (Doubles){0};
+}
+
+// No component is NaN.
+RT_ALWAYS_INLINE Floats floats_min(Floats a, Floats b)
+{
+#if defined(__AVX__)
+    return _mm256_min_ps(a, b);
+#elif defined(__SSE2__)
+    return _mm_min_ps(a, b);
+#else
+    FloatsMask less = a < b;
+    return (Floats)((less & (FloatsMask)a) | (~less & (FloatsMask)b));
+#endif
+}
+
+RT_ALWAYS_INLINE Floats floats_max(Floats a, Floats b)
+{
+#if defined(__AVX__)
+    return _mm256_max_ps(a, b);
+#elif defined(__SSE2__)
+    return _mm_max_ps(a, b);
+#else
+    FloatsMask more = a > b;
+    return (Floats)((more & (FloatsMask)a) | (~more & (FloatsMask)b));
+#endif
+}
+
+// Bit i is set where a[i] <= b[i].
+RT_ALWAYS_INLINE unsigned floats_le(Floats a, Floats b)
+{
+#if defined(__AVX512VL__)
+    return _mm256_cmp_ps_mask(a, b, _CMP_LE_OQ);
+#elif defined(__AVX__)
+    return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
+#elif defined(__SSE2__)
+    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(a, b));
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < FLOATS; i++) {
+        bits |= (unsigned)(a[i] <= b[i]) << i;
+    }
+    return bits;
+#endif
+}
+
+// Bit i is set where a[i] >= b[i]; a NaN is not.
+RT_ALWAYS_INLINE unsigned doubles_ge(Doubles a, Doubles b)
+{
+#if defined(__AVX512F__)
+    return _mm512_cmp_pd_mask(a, b, _CMP_GE_OQ);
+#elif defined(__AVX__)
+    return (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GE_OQ));
+#elif defined(__SSE2__)
+    return (unsigned)_mm_movemask_pd(_mm_cmpge_pd(a, b));
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < DOUBLES; i++) {
+        bits |= (unsigned)(a[i] >= b[i]) << i;
+    }
+    return bits;
+#endif
+}
+
+RT_ALWAYS_INLINE Doubles doubles_sqrt(Doubles a)
+{
+#if defined(__AVX512F__)
+    return _mm512_sqrt_pd(a);
+#elif defined(__AVX__)
+    return _mm256_sqrt_pd(a);
+#elif defined(__SSE2__)
+    return _mm_sqrt_pd(a);
+#else
+    for (int i = 0; i < DOUBLES; i++) {
+        a[i] = sqrt(a[i]);
+    }
+    return a;
+#endif
+}
+
+RT_ALWAYS_INLINE Doubles doubles_abs(Doubles a)
+{
+    return (Doubles)((DoublesMask)a & INT64_MAX);
+}
+
+// a where x < 0 or NaN with its sign bit set, else b.
+RT_ALWAYS_INLINE Doubles doubles_if_negative(Doubles x, Doubles a, Doubles b)
+{
+    DoublesMask negative = (DoublesMask)x >> 63;
+    return (Doubles)((negative & (DoublesMask)a) | (~negative & (DoublesMask)b));
+}
+
+#endif

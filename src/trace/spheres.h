@@ -1,0 +1,162 @@
+// The spheres of a Geometry: in blocks of eight, as the vector kernels want them, and the nearest of them to a ray.
+//
+// A slot is a place in a block; slot / 8 is the block. Loose spheres, in the first block, are tested one by one here, inline;
+// those of the tree by SphereKernels, of which there is one set for each instruction set. All give the same bits.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SPHERES_H
+#define TRACE_SPHERES_H
+
+#include "base/attributes.h"
+#include "scene/scene.h"
+#include "trace/bvh.h"
+#include "trace/sphere.h"
+#include "trace/trace.h"
+
+enum { SPHERE_BLOCK = BVH_LEAF_MOST };
+
+// Empty slots have the radius NaN.
+typedef struct SphereBlock {
+    _Alignas(64) double x[SPHERE_BLOCK];
+    double y[SPHERE_BLOCK], z[SPHERE_BLOCK], radius_squared[SPHERE_BLOCK];
+} SphereBlock;
+
+// What a hit leads to.
+typedef struct ShapeInfo {
+    MaterialIndex material;
+    uint32_t order; // place in the order of declaration
+} ShapeInfo;
+
+typedef struct SphereTable {
+    SphereBlock *blocks; // owned
+    ShapeInfo *info;     // of each slot; owned
+    uint32_t block_count;
+    uint32_t count;       // spheres
+    uint32_t loose_count; // of them not in the tree; slots 0 <= i < loose_count
+    Bvh bvh;              // of the others; its leaves are BVH_LEAF | block
+} SphereTable;
+
+// The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_rough`, hit.t is a
+// sphere's root as sphere_test gives it; nearest_settle makes it right.
+typedef struct Nearest {
+    Hit hit;
+    uint32_t order; // of hit.shape
+    bool is_rough;
+} Nearest;
+
+// Brings `nearest` up to date with the spheres of the tree; tells whether one is met at 0 < t < t_max. Spheres equal to
+// `start` are passed over.
+typedef struct SphereKernels {
+    const char *name;
+    bool (*is_supported)(void);
+    void (*closest)(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest);
+    bool (*occluded)(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max);
+} SphereKernels;
+
+// The kernels of an instruction set by name, or, for NULL, the best that this processor has. NULL when it has not.
+const SphereKernels *sphere_kernels_choose(const char *name);
+
+// The kernels in their order from plain to best, whether this processor has them or not; NULL past the end.
+const SphereKernels *sphere_kernels_at(size_t i);
+
+// All usable spheres of the scene, lengths times 2^-exponent. False when out of memory; fini is to be called anyway.
+bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads) RT_MUST_CHECK;
+void sphere_table_fini(SphereTable *table);
+
+RT_ALWAYS_INLINE Ball sphere_table_ball(const SphereTable *table, uint32_t slot)
+{
+    const SphereBlock *block = &table->blocks[slot / SPHERE_BLOCK];
+    uint32_t at = slot % SPHERE_BLOCK;
+    return (Ball){{block->x[at], block->y[at], block->z[at]}, block->radius_squared[at]};
+}
+
+// Equal distances: the shape that was declared first is seen. Both roots are right to the last rounding.
+RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, bool inside, uint32_t order)
+{
+    if (t > 0.0 && (t < nearest->hit.t ||
+                    (t == nearest->hit.t && nearest->hit.shape != SHAPE_NONE && order < nearest->order))) {
+        *nearest = (Nearest){{t, shape, inside}, order, false};
+    }
+}
+
+// Refines a rough root.
+RT_ALWAYS_INLINE void nearest_settle(const SphereTable *table, const SphereRay *ray, Nearest *nearest)
+{
+    if (nearest->is_rough) {
+        Ball ball = sphere_table_ball(table, shape_index(nearest->hit.shape));
+        nearest->hit.t = sphere_refine(ray, &ball, nearest->hit.t);
+        nearest->is_rough = false;
+    }
+}
+
+// Up to here a root of sphere_test may yet turn out to be the nearest.
+RT_ALWAYS_INLINE double nearest_limit(double t_max)
+{
+    return t_max + SPHERE_ROOT_SLACK * t_max;
+}
+
+// A sphere that is met, by sphere_test (t is rough) or by sphere_exact. Roots are refined only where rough ones could be
+// taken in the wrong order, so in the end the same sphere is nearest as if all had been.
+RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, uint32_t slot,
+                                           const Ball *ball, double t, bool inside, bool is_rough, Nearest *nearest)
+{
+    ShapeId shape = shape_id(SHAPE_SPHERE, slot);
+    double slack = SPHERE_ROOT_SLACK * nearest->hit.t;
+    if (!(t > 0.0) || t > nearest->hit.t + slack) {
+        return;
+    }
+    uint32_t order = table->info[slot].order;
+    if (t < nearest->hit.t - slack || isinf(nearest->hit.t)) {
+        *nearest = (Nearest){{t, shape, inside}, order, is_rough};
+        return;
+    }
+    nearest_settle(table, ray, nearest);
+    nearest_offer(nearest, is_rough ? sphere_refine(ray, ball, t) : t, shape, inside, order);
+}
+
+// One sphere against the ray, for the nearest hit.
+RT_ALWAYS_INLINE void sphere_slot_closest(const SphereTable *table, uint32_t slot, const SphereRay *ray,
+                                          const Ball *start, Nearest *nearest)
+{
+    Ball ball = sphere_table_ball(table, slot);
+    double t;
+    bool inside;
+    SphereVerdict verdict = sphere_test(ray, &ball, &t, &inside);
+    if (verdict == SPHERE_MISS || ball_equal(&ball, start)) {
+        return;
+    }
+    if (verdict == SPHERE_DOUBTFUL) {
+        t = sphere_exact(ray, &ball, &inside);
+    }
+    nearest_offer_sphere(table, ray, slot, &ball, t, inside, verdict == SPHERE_MET, nearest);
+}
+
+// Whether a rough root is before t_max once it is refined.
+RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const Ball *ball, double t, double t_max)
+{
+    double slack = SPHERE_ROOT_SLACK * t_max;
+    if (t < t_max - slack || isinf(t_max)) {
+        return true;
+    }
+    return t <= t_max + slack && sphere_refine(ray, ball, t) < t_max;
+}
+
+// One sphere against the ray, for any hit.
+RT_ALWAYS_INLINE bool sphere_slot_occludes(const SphereTable *table, uint32_t slot, const SphereRay *ray,
+                                           const Ball *start, double t_max)
+{
+    Ball ball = sphere_table_ball(table, slot);
+    double t;
+    bool inside;
+    SphereVerdict verdict = sphere_test(ray, &ball, &t, &inside);
+    if (verdict == SPHERE_MISS || ball_equal(&ball, start)) {
+        return false;
+    }
+    if (verdict == SPHERE_DOUBTFUL) {
+        t = sphere_exact(ray, &ball, &inside);
+        return t > 0.0 && t < t_max;
+    }
+    return sphere_root_is_before(ray, &ball, t, t_max);
+}
+
+#endif

@@ -1,0 +1,151 @@
+// Rays against the tree of spheres: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+//
+// A leaf is a block of eight spheres, tested at once in doubles. Operations and their order are those of sphere_test, so
+// that verdicts and roots are the same bits in vectors of any width.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/bvh_walk.h"
+#include "trace/simd.h"
+#include "trace/spheres.h"
+
+enum { HALVES = SPHERE_BLOCK / DOUBLES };
+
+// What the test of a block tells of its eight spheres.
+typedef struct BlockHits {
+    _Alignas(64) double t[SPHERE_BLOCK]; // rough roots
+    unsigned met;                        // by a root no later than the limit, or doubtful
+    unsigned doubtful;
+    unsigned inside;
+} BlockHits;
+
+// sphere_test eight times over. False when all are missed.
+RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray, double limit, BlockHits *hits)
+{
+    Doubles discriminant[HALVES], t_middle[HALVES], f_squared[HALVES], sum[HALVES];
+    unsigned possible = 0;
+#pragma GCC unroll 4
+    for (int i = 0; i < HALVES; i++) {
+        Doubles fx = ray->origin.x - doubles_load(&block->x[i * DOUBLES]);
+        Doubles fy = ray->origin.y - doubles_load(&block->y[i * DOUBLES]);
+        Doubles fz = ray->origin.z - doubles_load(&block->z[i * DOUBLES]);
+        Doubles radius_squared = doubles_load(&block->radius_squared[i * DOUBLES]);
+        t_middle[i] = -(fx * ray->dual.x + fy * ray->dual.y + fz * ray->dual.z);
+        Doubles lx = fx + t_middle[i] * ray->direction.x;
+        Doubles ly = fy + t_middle[i] * ray->direction.y;
+        Doubles lz = fz + t_middle[i] * ray->direction.z;
+        discriminant[i] = radius_squared - (lx * lx + ly * ly + lz * lz);
+        f_squared[i] = fx * fx + fy * fy + fz * fz;
+        sum[i] = f_squared[i] + radius_squared;
+        possible |= doubles_ge(discriminant[i], -SPHERE_ROUNDING * sum[i]) << (i * DOUBLES);
+    }
+    if (!possible) {
+        return false;
+    }
+    unsigned certain = 0, in_time = 0, ahead = 0, outer = 0;
+#pragma GCC unroll 4
+    for (int i = 0; i < HALVES; i++) {
+        Doubles c = f_squared[i] - doubles_load(&block->radius_squared[i * DOUBLES]);
+        Doubles doubt = SPHERE_DOUBT * sum[i];
+        Doubles far_side = doubles_abs(t_middle[i]) + doubles_sqrt(discriminant[i] * ray->inverse_square);
+        Doubles near_side = doubles_abs(c) * ray->inverse_square / far_side;
+        Doubles t = doubles_if_negative(t_middle[i], near_side, doubles_if_negative(-c, near_side, far_side));
+        doubles_store(&hits->t[i * DOUBLES], t);
+        certain |= (doubles_ge(discriminant[i], doubt) & doubles_ge(doubles_abs(c), doubt)) << (i * DOUBLES);
+        outer |= doubles_ge(c, doubt) << (i * DOUBLES);
+        ahead |= doubles_ge(t_middle[i], doubles_splat(0.0)) << (i * DOUBLES);
+        in_time |= doubles_ge(doubles_splat(limit), t) << (i * DOUBLES);
+    }
+    possible &= ahead | ~outer;
+    hits->doubtful = possible & ~certain;
+    hits->met = possible & (in_time | ~certain);
+    hits->inside = ~outer;
+    return hits->met != 0;
+}
+
+static void tree_closest(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest)
+{
+    BvhWalk walk;
+    BvhChild leaf;
+    if (!bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
+        return;
+    }
+    Nearest best = *nearest;
+    while (bvh_walk_next(&walk, nearest_limit(best.hit.t), &leaf)) {
+        uint32_t block = leaf & ~BVH_LEAF;
+        BlockHits hits;
+        if (!block_test(&table->blocks[block], ray, nearest_limit(best.hit.t), &hits)) {
+            continue;
+        }
+        do {
+            unsigned at = (unsigned)__builtin_ctz(hits.met);
+            hits.met &= hits.met - 1;
+            uint32_t slot = block * SPHERE_BLOCK + at;
+            Ball ball = sphere_table_ball(table, slot);
+            bool inside = hits.inside >> at & 1;
+            double t = hits.t[at];
+            bool is_rough = !(hits.doubtful >> at & 1);
+            if (ball_equal(&ball, start)) {
+                continue;
+            }
+            if (RT_UNLIKELY(!is_rough)) {
+                t = sphere_exact(ray, &ball, &inside);
+            }
+            nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, &best);
+        } while (hits.met);
+    }
+    *nearest = best;
+}
+
+static bool tree_occluded(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max)
+{
+    BvhWalk walk;
+    BvhChild leaf;
+    if (!bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
+        return false;
+    }
+    double limit = nearest_limit(t_max);
+    while (bvh_walk_next(&walk, limit, &leaf)) {
+        uint32_t block = leaf & ~BVH_LEAF;
+        BlockHits hits;
+        if (!block_test(&table->blocks[block], ray, limit, &hits)) {
+            continue;
+        }
+        do {
+            unsigned at = (unsigned)__builtin_ctz(hits.met);
+            hits.met &= hits.met - 1;
+            Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + at);
+            bool inside;
+            if (ball_equal(&ball, start)) {
+                continue;
+            }
+            if (RT_UNLIKELY(hits.doubtful >> at & 1)) {
+                double t = sphere_exact(ray, &ball, &inside);
+                if (t > 0.0 && t < t_max) {
+                    return true;
+                }
+            } else if (sphere_root_is_before(ray, &ball, hits.t[at], t_max)) {
+                return true;
+            }
+        } while (hits.met);
+    }
+    return false;
+}
+
+static bool is_supported(void)
+{
+#ifdef SPHERE_KERNELS_CPU
+    return __builtin_cpu_supports(SPHERE_KERNELS_CPU);
+#else
+    return true;
+#endif
+}
+
+#define TEXT_OF(name)  TEXT_OF_(name)
+#define TEXT_OF_(name) #name
+#define JOINED(a, b)   JOINED_(a, b)
+#define JOINED_(a, b)  a##b
+
+extern const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS);
+const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS) = {
+    TEXT_OF(SPHERE_KERNELS), is_supported, tree_closest, tree_occluded,
+};
