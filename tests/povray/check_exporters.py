@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Molecules written by Open Babel and PyMOL on this machine, given unchanged to rtlang and to POV-Ray.
+"""Molecules written by Open Babel, PyMOL, Jmol and ASE on this machine, given unchanged to rtlang and to POV-Ray.
 
-Either the pictures agree, or rtlang refuses the file with a located message that names what it lacks; the line says which.
+Each case stands in one table with what is expected of it: DRAWN, where the pictures agree and both programs count the
+same objects and lights, or the first thing that rtlang says it lacks. A case that got better fails: tighten the table.
 Prints TAP. SPDX-License-Identifier: MIT
 """
+import concurrent.futures
 import glob
+import json
 import os
 import re
 import shutil
@@ -15,17 +18,35 @@ import tempfile
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
 import pictures  # noqa: E402
+import survey  # noqa: E402
 
-# Codes that say: this is of the language, but rtlang has it not.
-LACKS = re.compile(r"^[^\s:]+:\d+:\d+: error\[(E0109|E0210|E0251|E0252)\]: (.*)$", re.MULTILINE)
 PHENOL, ETHANE = "c1ccccc1O", "CC"
-# PyMOL's launcher takes the first python3 it finds, and only Debian's own has its modules.
+# PyMOL's launcher takes the first python3 it finds, and only Debian's own has its modules and ASE's.
 SYSTEM_FIRST = dict(os.environ, PATH="/usr/bin:/bin:" + os.environ.get("PATH", ""))
+JMOL = "/usr/share/java/JmolData.jar"  # Jmol without its windows
+ETHANOL = """9
+ethanol
+C -0.748 0.015 0.024
+C 0.558 0.420 -0.278
+O 1.293 -0.202 -0.901
+H -1.263 0.754 0.600
+H -0.699 -0.934 0.609
+H -1.197 -0.130 -0.931
+H 1.117 0.500 0.642
+H 0.500 1.380 -0.760
+H 2.150 0.100 -1.000
+"""
+DRAWN = "drawn"
 
 
 def call(arguments, folder):
     subprocess.run(arguments, cwd=folder, env=SYSTEM_FIRST, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                    stderr=subprocess.STDOUT, timeout=120, check=True)
+
+
+def write(folder, name, text):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as out:
+        out.write(text)
 
 
 def from_openbabel(smiles, model):
@@ -38,66 +59,145 @@ def from_openbabel_atoms(smiles):
     """The same file, cut before the first block that a directive tears apart, with its atoms placed one by one."""
     def make(folder):
         from_openbabel(smiles, "SPF")(folder)
-        path = os.path.join(folder, "molecule.pov")
-        head = open(path, encoding="utf-8").read().split("//Povray-description of bonds")[0]
+        head = open(os.path.join(folder, "molecule.pov"), encoding="utf-8").read()
+        head = head.split("//Povray-description of bonds")[0]
         atoms = re.findall(r"#declare (mol_0_atom\d+) =", head)
-        with open(path, "w", encoding="utf-8") as out:
-            out.write(head + "".join(f"object {{ {atom} }}\n" for atom in atoms))
+        write(folder, "molecule.pov", head + "".join(f"object {{ {atom} }}\n" for atom in atoms))
     return make
 
 
-def from_pymol(commands):
+def from_pymol(*commands):
     def make(folder):
-        with open(os.path.join(folder, "make.pml"), "w", encoding="utf-8") as script:
-            script.write("\n".join([*commands, "save molecule.pov", ""]))
+        write(folder, "make.pml", "\n".join([*commands, "save molecule.pov", ""]))
         call(["pymol", "-cq", "make.pml"], folder)
     return make
 
 
-# name, the program that it needs, how it is made, whether rtlang must draw it
+def from_jmol(*commands):
+    def make(folder):
+        write(folder, "ethanol.xyz", ETHANOL)
+        write(folder, "make.spt", "\n".join(["load ethanol.xyz;", *commands, 'write POVRAY "molecule.pov";', ""]))
+        call(["java", "-Djava.awt.headless=true", "-Xmx512m", "-cp", JMOL, "org.openscience.jmol.app.JmolData",
+              "-o", "-x", "-g320x240", "-s", "make.spt"], folder)
+    return make
+
+
+def from_ase(atoms, settings, more=""):
+    def make(folder):
+        write(folder, "make.py", f"""from ase.build import bulk, molecule
+from ase.io import write
+atoms = {atoms}
+write("molecule.pov", atoms, {more} povray_settings=dict({settings}))
+""")
+        call(["/usr/bin/python3", "make.py"], folder)
+    return make
+
+
+def lacks(program):
+    """What is missing for a case, or None."""
+    if not pictures.povray():
+        return "povray"
+    if program == "jmol":
+        return None if os.path.exists(JMOL) and shutil.which("java") else "jmol"
+    if program == "python3-ase":
+        there = glob.glob("/usr/lib/python3/dist-packages/ase") and os.path.exists("/usr/bin/python3")
+        return None if there else "python3-ase"
+    return None if shutil.which(program) else program
+
+
+POINT_LIGHT = "area_light=None, point_lights=[[(2.0, 3.0, 40.0), 'White']]"
+# name, the program that it needs, how it is made, what is expected
 CASES = [
-    ("Open Babel, phenol, space-filling", "obabel", from_openbabel(PHENOL, "SPF"), False),
-    ("Open Babel, ethane, ball and stick", "obabel", from_openbabel(ETHANE, "BAS"), False),
-    ("Open Babel, phenol, its atoms placed one by one", "obabel", from_openbabel_atoms(PHENOL), True),
-    ("PyMOL, benzene, spheres", "pymol", from_pymol(["fragment benzene", "hide everything", "show spheres"]), True),
+    ("Open Babel, phenol, space-filling", "obabel", from_openbabel(PHENOL, "SPF"), "E0109 #else"),
+    ("Open Babel, ethane, ball and stick", "obabel", from_openbabel(ETHANE, "BAS"), "E0109 #else"),
+    ("Open Babel, phenol, its atoms placed one by one", "obabel", from_openbabel_atoms(PHENOL), DRAWN),
+    ("PyMOL, benzene, spheres", "pymol", from_pymol("fragment benzene", "hide everything", "show spheres"), DRAWN),
     ("PyMOL, peptide of five residues, spheres", "pymol",
-     from_pymol(["fab AWGKF", "hide everything", "show spheres", "orient"]), True),
+     from_pymol("fab AWGKF", "hide everything", "show spheres", "orient"), DRAWN),
     ("PyMOL, benzene, half transparent spheres", "pymol",
-     from_pymol(["fragment benzene", "hide everything", "show spheres", "set sphere_transparency, 0.5"]), False),
-    ("PyMOL, benzene, sticks", "pymol", from_pymol(["fragment benzene", "hide everything", "show sticks"]), False),
+     from_pymol("fragment benzene", "hide everything", "show spheres", "set sphere_transparency, 0.5"), DRAWN),
+    ("PyMOL, benzene, sticks", "pymol",
+     from_pymol("fragment benzene", "hide everything", "show sticks"), "E0252 cylinder"),
+    ("Jmol, ethanol, space-filling", "jmol", from_jmol("spacefill on; wireframe off;"), "E0251 sphere: clipped_by"),
+    ("Jmol, ethanol, ball and stick", "jmol", from_jmol(), "E0251 sphere: clipped_by"),
+    ("ASE, benzene, a point light", "python3-ase",
+     from_ase("molecule('C6H6')", POINT_LIGHT, "show_unit_cell=0, rotation='30x,20y',"), DRAWN),
+    ("ASE, salt, perspective, transparent ions, a finish each", "python3-ase",
+     from_ase("bulk('NaCl', 'rocksalt', a=5.64, cubic=True) * (2, 2, 2)", POINT_LIGHT +
+              ", camera_type='perspective', textures=['ase3', 'glass', 'jmol', 'simple'] * 16,"
+              " transmittances=[0.0, 0.3] * 32", "show_unit_cell=0,"), DRAWN),
+    ("ASE, benzene, its own area light", "python3-ase",
+     from_ase("molecule('C6H6')", "", "show_unit_cell=0,"), "E0251 light_source: area_light"),
+    ("ASE, copper and its cell", "python3-ase", from_ase("bulk('Cu') * (3, 3, 3)", POINT_LIGHT, "show_unit_cell=2,"),
+     "E0252 cylinder"),
 ]
 
 
-def check(make, must_draw, folders):
+def refusal(scene, folders):
+    """`CODE construct` of rtlang's first fault in the scene, with its place; None when it is accepted."""
+    done = subprocess.run([os.environ["RTLANG"], "--check", "-q", "--diagnostics=json",
+                           *(f"-I{folder}" for folder in folders), os.path.basename(scene)], cwd=os.path.dirname(scene),
+                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=300,
+                          check=False)
+    for line in done.stderr.decode("utf-8", "replace").splitlines():
+        record = json.loads(line)
+        if record.get("severity") == "error":
+            return f"{record['code']} {survey.construct(record)}", f"{record['line']}:{record['column']}"
+    return (None, None) if done.returncode == 0 else (f"exit code {done.returncode}", "")
+
+
+def counts(scene, folders):
+    """((objects, lights) as rtlang counts them, as POV-Ray does)."""
+    folder = os.path.dirname(scene)
+    small = {"cwd": folder, "stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE,
+             "timeout": 300, "check": True}
+    ours = subprocess.run([os.environ["RTLANG"], "-W4", "-H4", "-oours.png", *(f"-I{place}" for place in folders),
+                           scene], **small).stderr.decode("utf-8", "replace")
+    theirs = subprocess.run([pictures.povray(), f"+I{scene}", "-F", "+W4", "+H4", "-D",
+                             *(f"+L{place}" for place in folders)], **small).stderr.decode("utf-8", "replace")
+    summary = re.search(r"(\d+) objects?, (\d+) lights?", ours)
+    told = {name: int(number) for name, number in
+            re.findall(r"^(Finite Objects|Infinite Objects|Light Sources): +(\d+)", theirs, re.MULTILINE)}
+    return ((int(summary.group(1)), int(summary.group(2))),
+            (told["Finite Objects"] + told["Infinite Objects"], told["Light Sources"]))
+
+
+def check(make, expected, folders):
     """(passed, what happened, more lines)."""
     with tempfile.TemporaryDirectory() as folder:
-        make(folder)
-        scene = os.path.join(folder, "molecule.pov")
         try:
+            make(folder)
+            scene = os.path.join(folder, "molecule.pov")
+            blocker, place = refusal(scene, folders)
+            if blocker:
+                return blocker == expected, f"refused at {place}: {blocker}; expected: {expected}", []
             met, words = pictures.verdict(*pictures.compare_programs(scene, folder, folders))
-            return met, "drawn, " + words, []
+            ours, theirs = counts(scene, folders)
+            told = f"drawn, {words}, {ours[0]} objects and {ours[1]} lights, POV-Ray {theirs[0]} and {theirs[1]}"
+            return met and ours == theirs and expected == DRAWN, f"{told}; expected: {expected}", []
         except pictures.RunFailed as failure:
-            lacking = LACKS.search(failure.text.replace(folder + "/", ""))
-            if failure.status == 1 and lacking and not must_draw:
-                return True, f"refused, {lacking.group(0).split(': error')[0]}: {lacking.group(2)}", []
             return False, str(failure), failure.text.splitlines()
+        except subprocess.CalledProcessError as failure:
+            text = (failure.stdout or b"") + (failure.stderr or b"")
+            return False, str(failure), text.decode("utf-8", "replace").splitlines()[-10:]
 
 
 def main():
     print(f"1..{len(CASES)}")
     folders = pictures.include_folders() + glob.glob("/usr/share/openbabel/*/")
     failed = 0
-    for number, (name, program, make, must_draw) in enumerate(CASES, 1):
-        missing = program if not shutil.which(program) else None if pictures.povray() else "povray"
-        if missing:
-            print(f"ok {number} - {name} # SKIP no {missing} here")
-            continue
-        passed, words, more = check(make, must_draw, folders)
-        failed += not passed
-        # A bare `#` would begin a directive of TAP.
-        print(f"{'ok' if passed else 'not ok'} {number} - {name}: {words}".replace("#", "\\#"))
-        for line in more:
-            print("# " + line)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = pool.map(lambda case: None if lacks(case[1]) else check(*case[2:], folders), CASES)
+        for number, ((name, program, *_), result) in enumerate(zip(CASES, results), 1):
+            if result is None:
+                print(f"ok {number} - {name} # SKIP no {lacks(program)} here")
+                continue
+            passed, words, more = result
+            failed += not passed
+            # A bare `#` would begin a directive of TAP.
+            print(f"{'ok' if passed else 'not ok'} {number} - {name}: {words}".replace("#", "\\#"), flush=True)
+            for line in more:
+                print("# " + line)
     return 1 if failed else 0
 
 

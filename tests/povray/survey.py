@@ -108,7 +108,7 @@ def construct(fault):
 
 
 def call(command, scene, seconds):
-    """(status, output, messages) of a program run in the scene's folder; None at the time limit, with all it started."""
+    """(status, output, messages) of a program run in the scene's folder; None at the time limit, and all is ended."""
     with subprocess.Popen([*command, os.path.basename(scene)], cwd=os.path.dirname(scene), stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
         try:
