@@ -39,7 +39,7 @@ def of_povray(name, folder):
 
 
 def of_rtlang(name, folder):
-    status, text = run([os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", name], folder)
+    status, text = run([os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", "-W4", "-H4", name], folder)
     records = [json.loads(line) for line in text.splitlines()]
     lines = [record["text"] for record in records if record.get("stream") == "debug"]
     faults = [f"line {record['line']}: {record['message']}" for record in records if record.get("severity") == "error"]
