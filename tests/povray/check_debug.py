@@ -39,9 +39,10 @@ def of_povray(name, folder):
 
 
 def of_rtlang(name, folder):
+    # POV-Ray's stream holds what #render and #statistics say, too.
     status, text = run([os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", "-W4", "-H4", name], folder)
     records = [json.loads(line) for line in text.splitlines()]
-    lines = [record["text"] for record in records if record.get("stream") == "debug"]
+    lines = [record["text"] for record in records if record["type"] == "message"]
     faults = [f"line {record['line']}: {record['message']}" for record in records if record.get("severity") == "error"]
     return lines + [""], None if status == 0 else f"rtlang ended with {status}: " + "; ".join(faults[:3])
 
