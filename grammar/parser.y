@@ -180,7 +180,7 @@ value:
 
 arguments:
   value                             { $$ = ONE($value); }
-| arguments value                   { $$ = ast_append($1, $value); }
+| arguments value                   { $$ = ast_append($1, ast_flag($value, AST_WITHOUT_COMMA)); }
 | arguments ',' value               { $$ = ast_append($1, $value); }
 ;
 
@@ -223,7 +223,7 @@ rows:
 function:
   FUNCTION '{' function_body '}'
     { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$, EMPTY, $function_body, EMPTY); }
-| FUNCTION '(' parameters comma ')' '{' function_body '}'
+| FUNCTION '(' parameters ')' '{' function_body '}'
     { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$, $parameters, $function_body, EMPTY); }
 | FUNCTION NUMBER[w] ',' NUMBER[h] '{' function_body '}'
     { $$ = LISTS(FUNCTION, NONE, SYMBOL_NONE, @$,
@@ -233,6 +233,7 @@ function:
 
 function_body:
   logic                             { $$ = ONE($logic); }
+| inline                            { $$ = ONE($inline); }
 | block                             { $$ = ONE($block); }
 | error RESYNC                      { $$ = EMPTY; yyerrok; }
 ;
@@ -434,8 +435,15 @@ sum:
 | '<' components comma '>'          { $$ = LIST(VECTOR, SYMBOL_NONE, @$, $components); }
 | '(' full ')'                      { $$ = ast_flag($full, AST_IN_PARENTHESES); }
 | '(' inline ')'                    { $$ = ast_flag($inline, AST_IN_PARENTHESES); }
-| NAME '(' arguments comma ')'      { $$ = LIST(CALL, $NAME, @$, $arguments); }
+| NAME '(' arguments ')'            { $$ = LIST(CALL, $NAME, @$, $arguments); }
+| NAME '(' arguments ',' ')'        { $$ = LIST(CALL, $NAME, @$, ast_flag_last($arguments, AST_BEFORE_COMMA)); }
+| NAME '(' arguments ',' WORD ')'
+    { $$ = LIST(CALL, $NAME, @$, ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD))); }
 | NAME '(' ')'                      { $$ = LIST(CALL, $NAME, @$, EMPTY); }
+| indexed '(' arguments ')'         { $$ = LISTS(CALL, NONE, SYMBOL_NONE, @$, $arguments, ONE($indexed), EMPTY); }
+| indexed '(' arguments ',' WORD ')'
+    { $$ = LISTS(CALL, NONE, SYMBOL_NONE, @$,
+                 ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD)), ONE($indexed), EMPTY); }
 | BUILTIN '(' operands ')'          { $$ = LIST(BUILTIN, $BUILTIN, @$, $operands); }
 | BUILTIN '(' ')'                   { $$ = LIST(BUILTIN, $BUILTIN, @$, EMPTY); }
 | sum '.' member                    { $$ = NODE(MEMBER, NONE, $member, @$, $1, NULL, NULL); }
@@ -457,7 +465,7 @@ inline:
 // The parentheses of a function of one number are parentheses: `abs(a < b)`.
 operands:
   full                              %prec JUXTAPOSED { $$ = ONE($full); }
-| operands sum                      %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
+| operands sum                      %prec JUXTAPOSED { $$ = ast_append($1, ast_flag($sum, AST_WITHOUT_COMMA)); }
 | operands ',' sum                  %prec JUXTAPOSED { $$ = ast_append($1, $sum); }
 ;
 

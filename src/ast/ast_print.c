@@ -108,6 +108,14 @@ static void print_list(Printer *printer, const AstNode *list, int indent)
     }
 }
 
+static bool ends_in_comma(const AstNode *list)
+{
+    while (list != NULL && list->next != NULL) {
+        list = list->next;
+    }
+    return list != NULL && (list->flags & AST_BEFORE_COMMA);
+}
+
 // The parentheses of a function hold one relation without parentheses of its own.
 static void print_builtin(Printer *printer, const AstNode *node)
 {
@@ -161,10 +169,14 @@ static void print_expression(Printer *printer, const AstNode *node)
         put(printer, ">");
         break;
     case AST_CALL:
-        put_symbol(printer, node->symbol);
+        if (node->b != NULL) {
+            print_expression(printer, node->b);
+        } else {
+            put_symbol(printer, node->symbol);
+        }
         put(printer, "(");
         print_list(printer, node->a, printer->indent);
-        put(printer, ")");
+        put(printer, ends_in_comma(node->a) ? ",)" : ")");
         break;
     case AST_BUILTIN:
         print_builtin(printer, node);

@@ -18,6 +18,9 @@ bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *valu
 {
     Value kept;
     const Value *other = array->example;
+    if (element->kind == VALUE_FUNCTION) {
+        return eval_fault(ev, DIAG_E0262, span, "this element is a function, which cannot be declared again");
+    }
     if (!value_store(ev, value, &ev->program, span, &kept)) {
         return false;
     }

@@ -18,6 +18,15 @@ static bool give_number(Value *value, double number)
     return true;
 }
 
+// `is_checked`: the arguments are finite, so the result should be.
+static bool give_result(Eval *ev, const AstNode *node, Value *value, double number, bool is_checked)
+{
+    if (is_checked) {
+        number_check(ev, number, node->span);
+    }
+    return give_number(value, number);
+}
+
 static bool give_vector(Value *value, Vec3 vector)
 {
     *value = (Value){.kind = VALUE_VECTOR, .components = 3, .v = {vector.x, vector.y, vector.z}};
@@ -52,7 +61,7 @@ static bool fault_domain(Eval *ev, const AstNode *node, double argument)
 }
 
 // A C conversion to int as x86 does it: what does not fit is the least int.
-static double to_int(double number)
+double number_to_int(double number)
 {
     // A whole number has no negative zero.
     return number > -2147483649.0 && number < 2147483648.0 ? trunc(number) + 0.0 : -2147483648.0;
@@ -60,12 +69,12 @@ static double to_int(double number)
 
 // ---- functions of numbers
 
-static double degrees_of(double radians)
+double number_degrees(double radians)
 {
     return radians * (180.0 / pi);
 }
 
-static double radians_of(double degrees)
+double number_radians(double degrees)
 {
     return degrees * (pi / 180.0);
 }
@@ -102,13 +111,15 @@ static bool two_numbers(Eval *ev, const AstNode *node, Value *value)
     if (!numbers(ev, node, a, 2)) {
         return false;
     }
+    bool is_finite = isfinite(a[0]) && isfinite(a[1]);
     switch (node->symbol) {
     case W_atan2:
         return a[0] == 0.0 && a[1] == 0.0 ? fault_domain(ev, node, 0.0) : give_number(value, atan2(a[0], a[1]));
     case W_pow:
-        return a[0] == 0.0 && a[1] == 0.0 ? fault_domain(ev, node, 0.0) : give_number(value, pow(a[0], a[1]));
-    case W_mod: return give_number(value, fmod(a[0], a[1]));
-    default: return give_number(value, to_int(a[0] / a[1])); // div
+        return a[0] == 0.0 && a[1] == 0.0 ? fault_domain(ev, node, 0.0)
+                                            : give_result(ev, node, value, pow(a[0], a[1]), is_finite);
+    case W_mod: return give_result(ev, node, value, fmod(a[0], a[1]), is_finite);
+    default: return give_number(value, number_to_int(a[0] / a[1])); // div
     }
 }
 
@@ -132,7 +143,7 @@ static bool bitwise(Eval *ev, const AstNode *node, Value *value)
     for (const AstNode *argument = node->a; argument != NULL; argument = argument->next) {
         double number = 0.0;
         fine = eval_number(ev, argument, &number) && fine;
-        int32_t next = (int32_t)to_int(number);
+        int32_t next = (int32_t)number_to_int(number);
         bits = argument == node->a ? next
                : node->symbol == W_bitwise_and ? bits & next
                : node->symbol == W_bitwise_or  ? bits | next
@@ -159,7 +170,7 @@ static bool new_stream(Eval *ev, const AstNode *node, Value *value)
     if (!numbers(ev, node, &seed, 1)) {
         return false;
     }
-    if (!ARRAY_PUSH(&ev->streams, (uint32_t)(int32_t)to_int(seed))) {
+    if (!ARRAY_PUSH(&ev->streams, (uint32_t)(int32_t)number_to_int(seed))) {
         return eval_no_memory(ev, node->span);
     }
     return give_number(value, (double)(ev->streams.count - 1));
@@ -223,7 +234,7 @@ static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
     }
     double length = vec3_length(a[1]);
     Vec3 axis = vec3(a[1].x / length, a[1].y / length, a[1].z / length);
-    double sine = sin(radians_of(angle)), cosine = cos(radians_of(angle));
+    double sine = sin(number_radians(angle)), cosine = cos(number_radians(angle));
     Vec3 turned = vec3_scale(cosine, a[0]);
     turned = vec3_add_scaled(turned, sine, vec3_cross(axis, a[0]));
     return give_vector(value, vec3_add_scaled(turned, (1.0 - cosine) * vec3_dot(axis, a[0]), axis));
@@ -286,8 +297,8 @@ static const Builtin builtins[WORD_COUNT] = {
     [W_tan] = OF_NUMBER(tan),        [W_atan] = OF_NUMBER(atan),     [W_sinh] = OF_NUMBER(sinh),
     [W_cosh] = OF_NUMBER(cosh),      [W_tanh] = OF_NUMBER(tanh),     [W_asinh] = OF_NUMBER(asinh),
     [W_acosh] = OF_NUMBER(acosh),    [W_atanh] = OF_NUMBER(atanh),   [W_exp] = OF_NUMBER(exp),
-    [W_floor] = OF_NUMBER(floor),    [W_ceil] = OF_NUMBER(ceil),     [W_int] = OF_NUMBER(to_int),
-    [W_degrees] = OF_NUMBER(degrees_of), [W_radians] = OF_NUMBER(radians_of),
+    [W_floor] = OF_NUMBER(floor),    [W_ceil] = OF_NUMBER(ceil),     [W_int] = OF_NUMBER(number_to_int),
+    [W_degrees] = OF_NUMBER(number_degrees), [W_radians] = OF_NUMBER(number_radians),
     [W_sqrt] = {positive_only, NULL, 1, 1},
     [W_ln] = {positive_only, NULL, 1, 1},
     [W_log] = {positive_only, NULL, 1, 1},
@@ -357,7 +368,8 @@ bool builtin_call(Eval *ev, const AstNode *node, Value *value)
     ev->inner++;
     if (builtin->of_number != NULL) {
         double argument;
-        fine = eval_number(ev, node->a, &argument) && give_number(value, builtin->of_number(argument));
+        fine = eval_number(ev, node->a, &argument) &&
+               give_result(ev, node, value, builtin->of_number(argument), isfinite(argument));
     } else {
         fine = builtin->evaluate != NULL ? builtin->evaluate(ev, node, value) : not_supported(ev, node, value);
     }

@@ -148,7 +148,7 @@ const AstNode *cursor_peek(Cursor *cursor)
             continue;
         }
         cursor->frame->next = item->next;
-        if (item->kind == AST_CALL) {
+        if (item->kind == AST_CALL && !call_is_value(ev, item)) {
             expand(cursor, item);
         } else if (!directive_run(cursor, item)) {
             cursor->item = item;

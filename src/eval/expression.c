@@ -22,6 +22,15 @@ bool number_is_true(double number)
     return !(fabs(number) <= comparison_tolerance);
 }
 
+void number_fault(Eval *ev, double number, Span span)
+{
+    if (isnan(number)) {
+        eval_warn(ev, DIAG_W0304, span, "the result is not a number");
+    } else {
+        eval_warn(ev, DIAG_W0305, span, "the result is infinite");
+    }
+}
+
 static void set_number(Value *value, double number)
 {
     value->kind = VALUE_NUMBER;
@@ -136,13 +145,6 @@ bool macro_find(Eval *ev, const AstNode *call, const Macro **macro)
         *macro = found->macro;
         return true;
     }
-    if (found->kind == VALUE_BLOCK && found->block == KIND_UNSUPPORTED) {
-        const UnsupportedBlueprint *what = found->record;
-        if (eval_report(ev, DIAG_E0210, call->span, "`%s` is a %s, which is not supported", name, what->word)) {
-            diag_note(ev->options.diags, what->span, "it stands here");
-        }
-        return false;
-    }
     return found->kind != VALUE_NONE &&
            eval_fault(ev, DIAG_E0208, call->span, "`%s` is %s and cannot be called", name, value_describe(found));
 }
@@ -204,17 +206,26 @@ static double divide(Eval *ev, const AstNode *node, double one, double other)
         eval_warn(ev, DIAG_W0301, node->b->span, "division by zero gives infinity");
         return HUGE_VAL;
     }
-    return one / other;
+    double result = one / other;
+    if (RT_UNLIKELY(!isfinite(result)) && isfinite(one) && isfinite(other)) {
+        number_fault(ev, result, node->span);
+    }
+    return result;
 }
 
 static double arithmetic(Eval *ev, const AstNode *node, double one, double other)
 {
+    double result;
     switch (node->op) {
-    case AST_OP_ADD: return one + other;
-    case AST_OP_SUB: return one - other;
-    case AST_OP_MUL: return one * other;
+    case AST_OP_ADD: result = one + other; break;
+    case AST_OP_SUB: result = one - other; break;
+    case AST_OP_MUL: result = one * other; break;
     default: return divide(ev, node, one, other);
     }
+    if (RT_UNLIKELY(!isfinite(result)) && isfinite(one) && isfinite(other)) {
+        number_fault(ev, result, node->span);
+    }
+    return result;
 }
 
 static bool relation(AstOp op, double one, double other)
@@ -291,6 +302,17 @@ static bool fault_operand(Eval *ev, const AstNode *node, const Value *left, cons
                       value_describe(left_fits ? right : left));
 }
 
+// Almost but not quite equal: the tolerance decides, and whoever wrote it may not think of that.
+static void check_nearness(Eval *ev, const AstNode *node, double one, double other)
+{
+    static const double nearness = 1e-9;
+    double difference = fabs(one - other);
+    if (RT_UNLIKELY(difference > 0.0 && difference < nearness)) {
+        eval_warn(ev, DIAG_W0306, node->span, "the numbers differ by %g, which `%s` takes as %s", difference,
+                  spelling(node), numbers_equal(one, other) ? "equal" : "different");
+    }
+}
+
 static bool eval_binary(Eval *ev, const AstNode *node, Value *value)
 {
     Value right;
@@ -300,6 +322,9 @@ static bool eval_binary(Eval *ev, const AstNode *node, Value *value)
     }
     value->name = SYMBOL_NONE;
     if (value->kind == VALUE_NUMBER && right.kind == VALUE_NUMBER) {
+        if (node->op == AST_OP_EQ || node->op == AST_OP_NE) {
+            check_nearness(ev, node, value->number, right.number);
+        }
         value->number = is_arithmetic(node) ? arithmetic(ev, node, value->number, right.number)
                                             : relation((AstOp)node->op, value->number, right.number);
         return true;
@@ -391,31 +416,42 @@ static const struct {
     {W_red, 0}, {W_green, 1}, {W_blue, 2}, {W_filter, 3}, {W_transmit, 4},
 };
 
-static bool eval_member(Eval *ev, const AstNode *node, Value *value)
+double number_gray(const double v[3])
 {
-    if (!eval_operand(ev, node, node->a, value)) {
-        return false;
-    }
-    const char *name = eval_text(ev, node->symbol);
-    if (value->kind == VALUE_NUMBER && (node->symbol == W_x || node->symbol == W_u || node->symbol == W_red)) {
-        value->name = SYMBOL_NONE;
-        return true;
-    }
-    if (!value_is_tuple(value)) {
-        return eval_fault(ev, DIAG_E0204, node->span, "%s has no component `%s`", value_describe(value), name);
-    }
-    if (node->symbol == W_gray && value->components >= 3) {
-        // The weights of POV-Ray's manual, 2.2.1.4.4 "Vector Expressions".
-        set_number(value, 0.297 * value->v[0] + 0.589 * value->v[1] + 0.114 * value->v[2]);
+    // The weights of POV-Ray's manual, 2.2.1.4.4 "Vector Expressions".
+    return 0.297 * v[0] + 0.589 * v[1] + 0.114 * v[2];
+}
+
+bool value_component(Symbol name, unsigned width, unsigned *component)
+{
+    if (name == W_gray && width >= 3) {
+        *component = COMPONENT_GRAY;
         return true;
     }
     for (size_t i = 0; i < RT_COUNT_OF(members); i++) {
-        if (members[i].word == (Word)node->symbol && members[i].component < value->components) {
-            set_number(value, value->v[members[i].component]);
+        if (members[i].word == (Word)name && members[i].component < width) {
+            *component = members[i].component;
             return true;
         }
     }
-    return eval_fault(ev, DIAG_E0204, node->span, "%s has no component `%s`", value_describe(value), name);
+    return false;
+}
+
+static bool eval_member(Eval *ev, const AstNode *node, Value *value)
+{
+    unsigned component;
+    if (!eval_operand(ev, node, node->a, value)) {
+        return false;
+    }
+    bool is_number = value->kind == VALUE_NUMBER;
+    if ((!is_number && !value_is_tuple(value)) ||
+        !value_component(node->symbol, is_number ? 1 : value->components, &component)) {
+        return eval_fault(ev, DIAG_E0204, node->span, "%s has no component `%s`", value_describe(value),
+                          eval_text(ev, node->symbol));
+    }
+    double number = is_number ? value->number : component == COMPONENT_GRAY ? number_gray(value->v) : value->v[component];
+    set_number(value, number);
+    return true;
 }
 
 // ---- the table
@@ -486,22 +522,10 @@ static bool eval_sequence(Eval *ev, const AstNode *node, Value *value)
     return fine;
 }
 
-// Functions are not supported yet: that is a fault where one is called, not where it is declared.
-static bool eval_function(Eval *ev, const AstNode *node, Value *value)
-{
-    UnsupportedBlueprint *what = arena_alloc(&ev->program, sizeof *what);
-    if (what == NULL) {
-        return eval_no_memory(ev, node->span);
-    }
-    *what = (UnsupportedBlueprint){.span = node->span, .word = "function", .owner = KIND_NONE};
-    *value = (Value){.kind = VALUE_BLOCK, .block = KIND_UNSUPPORTED, .record = what};
-    return true;
-}
-
 static bool eval_braces(Eval *ev, const AstNode *node, Value *value)
 {
     ev->inner++;
-    bool fine = eval_block(ev, node, value);
+    bool fine = node->symbol == W_spline ? spline_create(ev, node, value) : eval_block(ev, node, value);
     ev->inner--;
     return fine;
 }
@@ -512,7 +536,7 @@ bool eval_rvalue(Eval *ev, const AstNode *node, Value *value)
     case AST_SEQUENCE: return eval_sequence(ev, node, value);
     case AST_BLOCK: return eval_braces(ev, node, value);
     case AST_ARRAY: return array_create(ev, node, value);
-    case AST_FUNCTION: return eval_function(ev, node, value);
+    case AST_FUNCTION: return function_create(ev, node, value);
     case AST_CALL:
         if (!(node->flags & AST_IN_PARENTHESES)) {
             return macro_value(ev, node, NULL, true, value);

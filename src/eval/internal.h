@@ -5,6 +5,7 @@
 //   array.c      arrays and their elements          strings.c   the built-in functions of strings
 //   cursor.c     items of a block, with directives run and macro calls expanded on the way
 //   colour.c     colour phrases                     macro.c     definitions, calls and their values
+//   function.c and the others of callable.h: functions and splines
 //   directive.c  what each directive does           include.c   finding and reading scene text
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
 //   misfit.c     what is said of items that do not fit into a block
@@ -41,11 +42,15 @@ typedef enum ValueKind {
     VALUE_STRING,
     VALUE_ARRAY,
     VALUE_MACRO,
+    VALUE_FUNCTION,
+    VALUE_SPLINE,
     VALUE_BLOCK, // a declared texture, sphere, camera, …: an immutable struct of its kind
 } ValueKind;
 
 typedef struct ValueArray ValueArray; // below
 typedef struct Macro Macro;           // below
+typedef struct Function Function;     // callable.h
+typedef struct Spline Spline;
 
 typedef struct Value {
     uint8_t kind;       // ValueKind
@@ -61,6 +66,8 @@ typedef struct Value {
         };
         ValueArray *array;
         const Macro *macro;
+        const Function *function;
+        const Spline *spline;
         const void *record; // of schema_kind(block)->size bytes, in the scene arena
     };
 } Value;
@@ -236,6 +243,32 @@ bool eval_condition(Eval *ev, const AstNode *node, bool *holds) RT_MUST_CHECK;
 bool numbers_equal(double one, double other);
 bool number_is_true(double number);
 
+// Warns when a result is not finite; called where all that it is made of is.
+void number_fault(Eval *ev, double number, Span span);
+static inline void number_check(Eval *ev, double number, Span span)
+{
+    if (RT_UNLIKELY(!(number - number == 0.0))) {
+        number_fault(ev, number, span);
+    }
+}
+
+double number_to_int(double number); // as a C conversion to int does it on x86: what does not fit is the least int
+double number_degrees(double radians);
+double number_radians(double degrees);
+double number_gray(const double v[3]);
+
+// The place of a component in a tuple of `width` components, COMPONENT_GRAY for `gray`; false when it has none.
+enum { COMPONENT_GRAY = 5 };
+bool value_component(Symbol name, unsigned width, unsigned *component);
+
+// ---- functions and splines
+
+// True when a CALL is one of a function, a spline or an element of an array, and not of a macro.
+bool call_is_value(const Eval *ev, const AstNode *call);
+bool call_value(Eval *ev, const AstNode *call, Value *value) RT_MUST_CHECK;
+bool function_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool spline_create(Eval *ev, const AstNode *block, Value *value) RT_MUST_CHECK;
+
 bool builtin_call(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool builtin_constant(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // Functions of strings, entries of the table in builtins.c.
@@ -318,6 +351,10 @@ bool macro_find(Eval *ev, const AstNode *call, const Macro **macro) RT_MUST_CHEC
 bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value) RT_MUST_CHECK;
 // The value that a directive in the place of an expression gives.
 bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MUST_CHECK;
+// The same walks, with what is found handed to `take` in the place of being worked out.
+typedef bool (*MacroItemFn)(void *client, const AstNode *item);
+bool macro_expand(Eval *ev, const AstNode *call, const AstNode *parent, MacroItemFn take, void *client) RT_MUST_CHECK;
+bool inline_expand(Eval *ev, const AstNode *node, MacroItemFn take, void *client) RT_MUST_CHECK;
 
 // ---- blocks
 

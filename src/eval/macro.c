@@ -256,7 +256,10 @@ static bool finish(Cursor *cursor)
     return rest == NULL || eval_fault(cursor->ev, DIAG_E0213, rest->span, "the value has ended before this");
 }
 
-bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value)
+// What is to be done with the first item of a body.
+typedef bool (*TakeFn)(Cursor *cursor, const Wanted *wanted, void *client);
+
+static bool walk_macro(Eval *ev, const AstNode *call, const AstNode *parent, TakeFn take, void *client)
 {
     const Macro *macro;
     DiagFrame frame;
@@ -272,9 +275,9 @@ bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whol
         if (item != NULL && !holds_together(item, parent, call)) {
             fine = fault_torn_apart(ev, item, &wanted);
         } else {
-            fine = whole ? take_whole(&cursor, &wanted, value) : take_expression(&cursor, &wanted, value);
+            fine = take(&cursor, &wanted, client);
         }
-        fine = fine && keep(ev, value, call->span) && finish(&cursor);
+        fine = fine && finish(&cursor);
         cursor_close(&cursor);
         macro_leave(ev);
     }
@@ -282,13 +285,63 @@ bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whol
     return fine && !ev->stop;
 }
 
-bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value)
+static bool walk_inline(Eval *ev, const AstNode *node, TakeFn take, void *client)
 {
     Cursor cursor;
     Wanted wanted = {node->span, NULL};
     cursor_open(&cursor, ev, node->a, node->span);
-    bool fine = whole ? take_whole(&cursor, &wanted, value) : take_expression(&cursor, &wanted, value);
-    fine = fine && keep(ev, value, node->span) && finish(&cursor);
+    bool fine = take(&cursor, &wanted, client) && finish(&cursor);
     cursor_close(&cursor);
     return fine && !ev->stop;
+}
+
+typedef struct ValueTaker {
+    Value *value;
+    bool whole;
+} ValueTaker;
+
+static bool take_value(Cursor *cursor, const Wanted *wanted, void *client)
+{
+    const ValueTaker *taker = client;
+    bool fine = taker->whole ? take_whole(cursor, wanted, taker->value) : take_expression(cursor, wanted, taker->value);
+    return fine && keep(cursor->ev, taker->value, wanted->span);
+}
+
+bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value)
+{
+    if (call_is_value(ev, call)) {
+        return call_value(ev, call, value);
+    }
+    return walk_macro(ev, call, parent, take_value, &(ValueTaker){value, whole});
+}
+
+bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value)
+{
+    return walk_inline(ev, node, take_value, &(ValueTaker){value, whole});
+}
+
+typedef struct ItemTaker {
+    MacroItemFn take;
+    void *client;
+} ItemTaker;
+
+static bool take_item(Cursor *cursor, const Wanted *wanted, void *client)
+{
+    const ItemTaker *taker = client;
+    const AstNode *item = cursor_peek(cursor);
+    if (item == NULL) {
+        return fault_no_value(cursor->ev, wanted);
+    }
+    cursor_skip(cursor);
+    return taker->take(taker->client, item);
+}
+
+bool macro_expand(Eval *ev, const AstNode *call, const AstNode *parent, MacroItemFn take, void *client)
+{
+    return walk_macro(ev, call, parent, take_item, &(ItemTaker){take, client});
+}
+
+bool inline_expand(Eval *ev, const AstNode *node, MacroItemFn take, void *client)
+{
+    return walk_inline(ev, node, take_item, &(ItemTaker){take, client});
 }

@@ -156,6 +156,22 @@ static Binding *find_or_make(Eval *ev, Symbol name, bool local, Span span)
     return binding;
 }
 
+// A function keeps its name, and no other value's name becomes a function's, until #undef.
+static bool may_replace(Eval *ev, const Value *known, const Value *value, Symbol name, Span span)
+{
+    bool was_function = known->kind == VALUE_FUNCTION;
+    bool is_new = known->kind == VALUE_NONE || value->kind == VALUE_NONE;
+    if (is_new || (!was_function && value->kind != VALUE_FUNCTION)) {
+        return true;
+    }
+    if (eval_report(ev, DIAG_E0262, span, "`%s` is %s and cannot become %s%s", eval_text(ev, name),
+                    value_describe(known), was_function && value->kind == VALUE_FUNCTION ? "another " : "",
+                    was_function && value->kind == VALUE_FUNCTION ? "function" : value_describe(value))) {
+        diag_suggest(ev->options.diags, "write `#undef %s` before it", eval_text(ev, name));
+    }
+    return false;
+}
+
 bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span)
 {
     Binding *binding = find_or_make(ev, name, local, span);
@@ -165,6 +181,9 @@ bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span s
     if (binding->variable->kind == VALUE_MACRO) {
         return eval_fault(ev, DIAG_E0206, span, "`%s` is a macro and cannot become %s", eval_text(ev, name),
                           value_describe(value));
+    }
+    if (!may_replace(ev, binding->variable, value, name, span)) {
+        return false;
     }
     if (binding->array != NULL) {
         return array_assign(ev, binding->array, binding->variable, value, span);

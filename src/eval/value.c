@@ -37,6 +37,8 @@ const char *value_describe(const Value *value)
     case VALUE_STRING: return "a string";
     case VALUE_ARRAY: return "an array";
     case VALUE_MACRO: return "a macro";
+    case VALUE_FUNCTION: return "a function";
+    case VALUE_SPLINE: return "a spline";
     case VALUE_BLOCK: return block_descriptions[value->block];
     }
     return "nothing";

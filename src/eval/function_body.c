@@ -1,0 +1,466 @@
+// The body of a function becomes a tree of nodes that compute.
+//
+// Names that are no parameters are taken at the declaration, as POV-Ray takes them; macros and directives are walked
+// once, here. A body that holds what rtlang has not makes a function that is a fault where it is called.
+//
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "base/suggest.h"
+#include "eval/blocks.h"
+#include "eval/callable.h"
+
+enum { CALL_HEIGHT = 8 }; // of native recursion, see eval_deepen
+
+typedef FunctionBody Compiler;
+
+// Macros are walked in callbacks, with this.
+typedef struct Place {
+    Compiler *compiler;
+    FunctionNode *node; // the result
+} Place;
+
+typedef FunctionNode *(*CompileFn)(Compiler *compiler, const AstNode *node);
+
+static FunctionNode *compile(Compiler *compiler, const AstNode *node);
+static FunctionNode *compile_operand(Compiler *compiler, const AstNode *node, const AstNode *parent);
+
+// ---- nodes
+
+static FunctionNode *new_node(Compiler *compiler, const AstNode *at, FunctionNodeFn run)
+{
+    FunctionNode *node = arena_alloc(&compiler->ev->program, sizeof *node);
+    if (node == NULL) {
+        eval_no_memory(compiler->ev, at->span);
+        return NULL;
+    }
+    *node = (FunctionNode){.run = run, .height = 1};
+    return node;
+}
+
+static FunctionNode *number_node(Compiler *compiler, const AstNode *at, double number)
+{
+    FunctionNode *node = new_node(compiler, at, function_run_number);
+    if (node != NULL) {
+        node->number = number;
+    }
+    return node;
+}
+
+// Arguments are linked by `next`. NULL in, NULL out.
+static FunctionNode *with_arguments(FunctionNode *node, FunctionNode *first)
+{
+    if (node == NULL) {
+        return NULL;
+    }
+    node->arguments = first;
+    for (const FunctionNode *argument = first; argument != NULL; argument = argument->next) {
+        node->height = argument->height >= node->height ? argument->height + 1 : node->height;
+        node->count++;
+    }
+    return node;
+}
+
+static FunctionNode *fault_body(Compiler *compiler, const AstNode *node, const char *what, const char *advice)
+{
+    Eval *ev = compiler->ev;
+    if (eval_report(ev, DIAG_E0261, node->span, "%s cannot stand in the body of a function", what) && advice != NULL) {
+        diag_suggest(ev->options.diags, "%s", advice);
+    }
+    return NULL;
+}
+
+static FunctionNode *fault_word(Compiler *compiler, const AstNode *node, const char *advice)
+{
+    Eval *ev = compiler->ev;
+    if (eval_report(ev, DIAG_E0261, node->span, "`%s` cannot stand in the body of a function",
+                    eval_text(ev, node->symbol)) &&
+        advice != NULL) {
+        diag_suggest(ev->options.diags, "%s", advice);
+    }
+    return NULL;
+}
+
+// ---- names
+
+// u is another name of x, and v of y.
+Symbol function_slot_name(Symbol symbol)
+{
+    return symbol == W_u ? W_x : symbol == W_v ? W_y : symbol;
+}
+
+static bool find_slot(const Compiler *compiler, Symbol symbol, unsigned *slot)
+{
+    for (unsigned i = compiler->count; i-- > 0;) {
+        if (compiler->names[i] == function_slot_name(symbol)) {
+            *slot = i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static FunctionNode *slot_node(Compiler *compiler, const AstNode *at, unsigned slot)
+{
+    FunctionNode *node = new_node(compiler, at, function_run_slot);
+    if (node != NULL) {
+        node->slot = slot;
+    }
+    return node;
+}
+
+// The parameters are offered before all else.
+static void fault_undeclared(Compiler *compiler, const AstNode *node)
+{
+    Eval *ev = compiler->ev;
+    Suggest suggest;
+    suggest_begin(&suggest, eval_text(ev, node->symbol));
+    for (unsigned i = 0; i < compiler->count; i++) {
+        suggest_offer(&suggest, eval_text(ev, compiler->names[i]));
+    }
+    if (!eval_report(ev, DIAG_E0201, node->span, "`%s` is neither a parameter nor declared",
+                     eval_text(ev, node->symbol))) {
+        return;
+    }
+    if (suggest.best != NULL) {
+        diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
+    } else {
+        scope_suggest(ev, node->symbol);
+    }
+}
+
+static FunctionNode *constant_value(Compiler *compiler, const AstNode *node, const Value *value)
+{
+    if (value->kind == VALUE_NONE) {
+        return NULL;
+    }
+    if (value->kind != VALUE_NUMBER) {
+        return fault_body(compiler, node, value_describe(value),
+                          value_is_tuple(value) ? "declare the component that is needed as a number first" : NULL);
+    }
+    return number_node(compiler, node, value->number);
+}
+
+static FunctionNode *compile_name(Compiler *compiler, const AstNode *node)
+{
+    unsigned slot;
+    if (find_slot(compiler, node->symbol, &slot)) {
+        return slot_node(compiler, node, slot);
+    }
+    const Value *found = scope_find(compiler->ev, node->symbol);
+    if (found == NULL) {
+        fault_undeclared(compiler, node);
+        return NULL;
+    }
+    return constant_value(compiler, node, found);
+}
+
+static FunctionNode *compile_constant(Compiler *compiler, const AstNode *node)
+{
+    unsigned slot;
+    Value value;
+    if (find_slot(compiler, node->symbol, &slot)) {
+        return slot_node(compiler, node, slot);
+    }
+    if (node->symbol == W_pi || node->symbol == W_clock) {
+        return builtin_constant(compiler->ev, node, &value) ? constant_value(compiler, node, &value) : NULL;
+    }
+    bool is_coordinate = function_slot_name(node->symbol) == W_x || function_slot_name(node->symbol) == W_y || node->symbol == W_z;
+    if (is_coordinate) {
+        eval_fault(compiler->ev, DIAG_E0201, node->span, "`%s` is not a parameter of this function",
+                   eval_text(compiler->ev, node->symbol));
+        return NULL;
+    }
+    return fault_word(compiler, node, "write its number, or declare it under another name");
+}
+
+static FunctionNode *compile_element(Compiler *compiler, const AstNode *node)
+{
+    Value value;
+    return eval_expression(compiler->ev, node, &value) ? constant_value(compiler, node, &value) : NULL;
+}
+
+// ---- operators
+
+static FunctionNode *compile_number(Compiler *compiler, const AstNode *node)
+{
+    return number_node(compiler, node, node->number);
+}
+
+static FunctionNode *compile_unary(Compiler *compiler, const AstNode *node)
+{
+    if (node->op == AST_OP_NOT) {
+        return fault_body(compiler, node, "`!`", "write `(… = 0)`");
+    }
+    if (node->a->kind == AST_UNARY && !(node->a->flags & AST_IN_PARENTHESES)) {
+        return fault_body(compiler, node, "a second sign", "put the value with its sign in parentheses");
+    }
+    FunctionNode *operand = compile_operand(compiler, node->a, node);
+    return operand == NULL ? NULL
+                           : with_arguments(new_node(compiler, node, function_operator((AstOp)node->op)), operand);
+}
+
+static FunctionNode *join(Compiler *compiler, const AstNode *at, AstOp op, FunctionNode *left, FunctionNode *right)
+{
+    if (left == NULL || right == NULL) {
+        return NULL;
+    }
+    if (op == AST_OP_DIV && right->run == function_run_number && right->number == 0.0) {
+        eval_fault(compiler->ev, DIAG_E0350, at->b->span, "a function cannot divide by 0");
+        return NULL;
+    }
+    left->next = right;
+    return with_arguments(new_node(compiler, at, function_operator(op)), left);
+}
+
+static bool is_logic(const AstNode *node)
+{
+    return node->kind == AST_BINARY && (node->op == AST_OP_AND || node->op == AST_OP_OR);
+}
+
+// Elsewhere `&` and `|` are of one rank and taken from the left; here `&` comes first. *sum is what `|` has joined so
+// far, or NULL, *last what `&` has joined since.
+static bool split_logic(Compiler *compiler, const AstNode *node, FunctionNode **sum, FunctionNode **last)
+{
+    if (is_logic(node->a) && !(node->a->flags & AST_IN_PARENTHESES)) {
+        if (!split_logic(compiler, node->a, sum, last)) {
+            return false;
+        }
+    } else {
+        *sum = NULL;
+        *last = compile_operand(compiler, node->a, node);
+    }
+    FunctionNode *right = compile_operand(compiler, node->b, node);
+    if (*last == NULL || right == NULL) {
+        return false;
+    }
+    if (node->op == AST_OP_AND) {
+        *last = join(compiler, node, AST_OP_AND, *last, right);
+        return *last != NULL;
+    }
+    *sum = *sum == NULL ? *last : join(compiler, node, AST_OP_OR, *sum, *last);
+    *last = right;
+    return *sum != NULL;
+}
+
+static FunctionNode *compile_binary(Compiler *compiler, const AstNode *node)
+{
+    if (is_logic(node)) {
+        FunctionNode *sum = NULL, *last = NULL;
+        if (!split_logic(compiler, node, &sum, &last)) {
+            return NULL;
+        }
+        return sum == NULL ? last : join(compiler, node, AST_OP_OR, sum, last);
+    }
+    FunctionNode *left = compile_operand(compiler, node->a, node);
+    FunctionNode *right = compile_operand(compiler, node->b, node);
+    return join(compiler, node, (AstOp)node->op, left, right);
+}
+
+static FunctionNode *compile_conditional(Compiler *compiler, const AstNode *node)
+{
+    return fault_body(compiler, node, "`? :`", "use `select(A, B, C)`: B for A < 0, else C");
+}
+
+// ---- arguments and calls
+
+static bool has_commas(Compiler *compiler, const AstNode *arguments)
+{
+    for (const AstNode *argument = arguments; argument != NULL; argument = argument->next) {
+        if (argument->flags & AST_WITHOUT_COMMA) {
+            return eval_fault(compiler->ev, DIAG_E0261, argument->span,
+                              "in the body of a function a comma must stand before this argument");
+        }
+    }
+    return true;
+}
+
+static FunctionNode *compile_arguments(Compiler *compiler, const AstNode *arguments, FunctionNode *node)
+{
+    FunctionNode *first = NULL, **end = &first;
+    if (node == NULL || !has_commas(compiler, arguments)) {
+        return NULL;
+    }
+    for (const AstNode *argument = arguments; argument != NULL; argument = argument->next) {
+        *end = compile(compiler, argument);
+        if (*end == NULL) {
+            return NULL;
+        }
+        end = &(*end)->next;
+    }
+    return with_arguments(node, first);
+}
+
+// A sum or a product with a variable of its own: sum(I, From, To, Term).
+static FunctionNode *compile_sequence(Compiler *compiler, const AstNode *node)
+{
+    Eval *ev = compiler->ev;
+    const AstNode *name = node->a;
+    FunctionNode *made = new_node(compiler, node, node->symbol == W_sum ? function_run_sum : function_run_product);
+    if (node->count != 4 || name->kind != AST_NAME || scope_find(ev, name->symbol) != NULL) {
+        eval_fault(ev, DIAG_E0261, node->span, "`%s` takes a new name, two bounds and a term",
+                   eval_text(ev, node->symbol));
+        return NULL;
+    }
+    if (compiler->count == FUNCTION_SLOTS_MAX) {
+        eval_fault(ev, DIAG_E0260, name->span, "a function has at most %d parameters and variables of sums",
+                   FUNCTION_SLOTS_MAX);
+        return NULL;
+    }
+    unsigned slot = compiler->count;
+    compiler->names[compiler->count++] = name->symbol;
+    FunctionNode *sequence = compile_arguments(compiler, name->next, made);
+    compiler->count--;
+    if (sequence != NULL) {
+        sequence->slot = slot;
+    }
+    return sequence;
+}
+
+static FunctionNode *compile_builtin(Compiler *compiler, const AstNode *node)
+{
+    FunctionNode made = {.height = 1};
+    unsigned least, greatest;
+    if (node->symbol == W_sum || node->symbol == W_prod) {
+        return compile_sequence(compiler, node);
+    }
+    if (node->symbol == W_internal) {
+        compiler->unsupported = "internal";
+        return number_node(compiler, node, 0.0);
+    }
+    if (!function_builtin((Word)node->symbol, &made, &least, &greatest)) {
+        return fault_word(compiler, node, "only functions of numbers without memory can");
+    }
+    if (node->count < least || node->count > greatest) {
+        eval_fault(compiler->ev, DIAG_E0203, node->span, "`%s` takes %s%u argument%s here, and %u %s given",
+                   eval_text(compiler->ev, node->symbol), least == greatest ? "" : "at least ", least,
+                   least == 1 ? "" : "s", (unsigned)node->count, node->count == 1 ? "is" : "are");
+        return NULL;
+    }
+    FunctionNode *kept = new_node(compiler, node, NULL);
+    if (kept != NULL) {
+        *kept = made;
+    }
+    return compile_arguments(compiler, node->a, kept);
+}
+
+// `member` is the node of `.x` around the call, or NULL.
+static FunctionNode *call_node(Compiler *compiler, const AstNode *call, const Function *function, const AstNode *member)
+{
+    Eval *ev = compiler->ev;
+    unsigned component = 0;
+    if (function->kind == FUNCTION_UNSUPPORTED) {
+        compiler->unsupported = function->word;
+        return number_node(compiler, call, 0.0);
+    }
+    if (!call_ends_well(ev, call)) {
+        return NULL;
+    }
+    if (call->count != function->parameter_count) {
+        call_fault_count(ev, call, "function", function->parameter_count);
+        return NULL;
+    }
+    if (function->kind != FUNCTION_NUMBER && member == NULL) {
+        return fault_body(compiler, call, "a vector", "take one component of it, as in `F(x, y, z).x`");
+    }
+    if (function->kind == FUNCTION_NUMBER && member != NULL) {
+        return fault_body(compiler, member, "a component of a number", NULL);
+    }
+    if (member != NULL && !value_component(member->symbol, function_width(function), &component)) {
+        eval_fault(ev, DIAG_E0204, member->span, "a vector of %u has no component `%s`", function_width(function),
+                   eval_text(ev, member->symbol));
+        return NULL;
+    }
+    FunctionNode *node = new_node(compiler, call, function_run_call);
+    node = compile_arguments(compiler, call->a, node);
+    if (node != NULL) {
+        node->function = function;
+        node->slot = component;
+        node->height += CALL_HEIGHT + (function->kind == FUNCTION_NUMBER ? function->body->height : 0);
+    }
+    return node;
+}
+
+static bool take_item(void *client, const AstNode *item)
+{
+    Place *place = client;
+    place->node = compile(place->compiler, item);
+    return place->node != NULL;
+}
+
+static FunctionNode *compile_call_in(Compiler *compiler, const AstNode *node, const AstNode *parent,
+                                     const AstNode *member)
+{
+    Eval *ev = compiler->ev;
+    const Value *callee = call_callee(ev, node);
+    Place place = {.compiler = compiler};
+    if (callee != NULL && callee->kind == VALUE_FUNCTION) {
+        return call_node(compiler, node, callee->function, member);
+    }
+    if (callee != NULL && callee->kind == VALUE_SPLINE) {
+        return fault_body(compiler, node, "a spline", "declare a `function { spline { … } }` and take a component of it");
+    }
+    if (node->b != NULL) {
+        return callee == NULL ? NULL : constant_value(compiler, node, callee);
+    }
+    return macro_expand(ev, node, member != NULL ? member : parent, take_item, &place) ? place.node : NULL;
+}
+
+static FunctionNode *compile_call(Compiler *compiler, const AstNode *node)
+{
+    return compile_call_in(compiler, node, NULL, NULL);
+}
+
+static FunctionNode *compile_member(Compiler *compiler, const AstNode *node)
+{
+    const AstNode *base = node->a;
+    const Value *callee = base->kind == AST_CALL ? call_callee(compiler->ev, base) : NULL;
+    if (callee == NULL || callee->kind != VALUE_FUNCTION) {
+        return fault_body(compiler, node, "a component", "only calls of functions of a transform or spline have components here");
+    }
+    return compile_call_in(compiler, base, NULL, node);
+}
+
+static FunctionNode *compile_inline(Compiler *compiler, const AstNode *node)
+{
+    Place place = {.compiler = compiler};
+    return inline_expand(compiler->ev, node, take_item, &place) ? place.node : NULL;
+}
+
+// ---- the table
+
+static FunctionNode *compile(Compiler *compiler, const AstNode *node)
+{
+    static const CompileFn compilers[AST_KIND_COUNT] = {
+        [AST_NUMBER] = compile_number,   [AST_NAME] = compile_name,       [AST_CONSTANT] = compile_constant,
+        [AST_UNARY] = compile_unary,     [AST_BINARY] = compile_binary,   [AST_CONDITIONAL] = compile_conditional,
+        [AST_CALL] = compile_call,       [AST_BUILTIN] = compile_builtin, [AST_INLINE] = compile_inline,
+        [AST_INDEX] = compile_element,   [AST_MEMBER] = compile_member,
+    };
+    CompileFn compiles = compilers[node->kind];
+    if (compiles == NULL) {
+        bool has_word = node->kind == AST_WORD || node->kind == AST_BLOCK;
+        return has_word ? fault_word(compiler, node, NULL)
+                        : fault_body(compiler, node, node->kind == AST_VECTOR ? "a vector" : "this", NULL);
+    }
+    if (!eval_deepen(compiler->ev, 1, node->span)) {
+        return NULL;
+    }
+    FunctionNode *made = compiles(compiler, node);
+    eval_shallow(compiler->ev, 1);
+    return made;
+}
+
+static FunctionNode *compile_operand(Compiler *compiler, const AstNode *node, const AstNode *parent)
+{
+    bool is_bare_call = node->kind == AST_CALL && !(node->flags & AST_IN_PARENTHESES);
+    return is_bare_call ? compile_call_in(compiler, node, parent, NULL) : compile(compiler, node);
+}
+
+const FunctionNode *function_compile(FunctionBody *body, const AstNode *node)
+{
+    body->ev->inner++;
+    const FunctionNode *made = compile(body, node);
+    body->ev->inner--;
+    return made;
+}
