@@ -105,6 +105,10 @@ bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer) 
 bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
 
+// extent.c
+// Tells of a transform that is about to be applied; `keeps_spheres`: it moves, turns or scales evenly.
+bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span) RT_MUST_CHECK;
+
 // object.c
 bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object

@@ -322,6 +322,8 @@ static const Builtin builtins[WORD_COUNT] = {
     [W_vrotate] = {vector_vector, NULL, 2, 2},
     [W_vnormalize] = {vector_vector, NULL, 1, 1},
     [W_vaxis_rotate] = {rotate_about_axis, NULL, 3, 3},
+    [W_min_extent] = {builtin_extent, NULL, 1, 1},
+    [W_max_extent] = {builtin_extent, NULL, 1, 1},
     [W_defined] = {is_defined, NULL, 1, 1},
     [W_dimensions] = {array_dimensions, NULL, 1, 1},
     [W_dimension_size] = {array_dimensions, NULL, 2, 2},
@@ -340,8 +342,6 @@ static const Builtin builtins[WORD_COUNT] = {
     // Words of the language that rtlang does not have.
     [W_trace] = {not_supported, NULL, 0, ANY_COUNT},
     [W_inside] = {not_supported, NULL, 0, ANY_COUNT},
-    [W_min_extent] = {not_supported, NULL, 0, ANY_COUNT},
-    [W_max_extent] = {not_supported, NULL, 0, ANY_COUNT},
     [W_vturbulence] = {not_supported, NULL, 0, ANY_COUNT},
     [W_datetime] = {not_supported, NULL, 0, ANY_COUNT},
     [W_sum] = {not_supported, NULL, 0, ANY_COUNT},

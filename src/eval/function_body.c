@@ -123,9 +123,9 @@ static void fault_undeclared(Compiler *compiler, const AstNode *node)
         return;
     }
     if (suggest.best != NULL) {
-        diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
+        diag_did_you_mean(ev->options.diags, node->span, suggest.best);
     } else {
-        scope_suggest(ev, node->symbol);
+        scope_suggest(ev, node->symbol, node->span);
     }
 }
 

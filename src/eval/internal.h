@@ -271,6 +271,8 @@ bool spline_create(Eval *ev, const AstNode *block, Value *value) RT_MUST_CHECK;
 
 bool builtin_call(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool builtin_constant(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// min_extent and max_extent, see extent.c.
+bool builtin_extent(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // Functions of strings, entries of the table in builtins.c.
 typedef bool (*BuiltinFn)(Eval *ev, const AstNode *node, Value *value);
 bool builtin_str(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;

@@ -131,7 +131,7 @@ static bool read_transform(Block *block, const AstNode *item, Transform *transfo
 bool transform_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     Transform transform;
-    Vec3 by;
+    Vec3 by = {0};
     Span span = item->span;
     bool takes_vector = property->action != ACTION_MATRIX && property->action != ACTION_TRANSFORM;
     if (takes_vector && !read_vector(block, property->word, item->span, &by, &span)) {
@@ -151,6 +151,11 @@ bool transform_action(Block *block, const SchemaProperty *property, const AstNod
             return false;
         }
         break;
+    }
+    bool is_even = property->action != ACTION_SCALE ||
+                   (transform.m[0][0] == transform.m[1][1] && transform.m[1][1] == transform.m[2][2]);
+    if (!extent_note(block, &transform, takes_vector && is_even, span)) {
+        return false;
     }
     apply(block, &transform);
     return transform_is_finite(&block->record->transform) || block->is == KIND_LIGHT_SOURCE ||

@@ -52,6 +52,7 @@ typedef struct SphereBlueprint {
     ObjectPart part;
     Vec3 centre;
     double radius;
+    const Transform *rigid; // the transform before the first that need not keep a sphere; NULL: there is none
 } SphereBlueprint;
 
 typedef struct PlaneBlueprint {
@@ -67,8 +68,16 @@ struct UnionMember {
     SchemaKind kind;
 };
 
+// A transform of a union as it was written, for its extent.
+typedef struct UnionStep UnionStep;
+struct UnionStep {
+    Transform transform;
+    const UnionStep *earlier;
+};
+
 typedef struct UnionBlueprint {
     ObjectPart part;
+    const UnionStep *steps; // the last one first
     const UnionMember *members;
     uint32_t count;
     uint32_t depth; // of the unions inside, this one included
