@@ -441,7 +441,7 @@ static FunctionNode *compile(Compiler *compiler, const AstNode *node)
     if (compiles == NULL) {
         bool has_word = node->kind == AST_WORD || node->kind == AST_BLOCK;
         return has_word ? fault_word(compiler, node, NULL)
-                        : fault_body(compiler, node, node->kind == AST_VECTOR ? "a vector" : "this", NULL);
+                        : fault_body(compiler, node, node->kind == AST_VECTOR ? "a vector" : "a string", NULL);
     }
     if (!eval_deepen(compiler->ev, 1, node->span)) {
         return NULL;

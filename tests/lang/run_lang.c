@@ -5,6 +5,7 @@
 //     -- file lib/x.inc        a file beside it, before the expectations; lib/ is on the include path
 //     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth or text_bytes
 //     -- declare N 5           a number declared before the scene begins, as with -D
+//     -- warning all           which warnings are told, as after -W; may repeat
 //     -- debug                 the lines that #debug gives, as POV-Ray shows them
 //     -- scene                 the scene's dump
 //     -- diagnostics           all messages
@@ -201,6 +202,16 @@ static void list_fault(DiagSink *diags, const Diag *diag, TextBuffer *out)
     text_printf(out, "%s\n", diag->code < DIAG_CODE_COUNT ? diag_code_name(diag->code) : diag->message);
 }
 
+static void set_warnings(const Case *test, DiagSink *diags)
+{
+    for (size_t i = 1; i < test->count; i++) {
+        const char *header = test->sections[i].header;
+        if (strncmp(header, "warning ", 8) == 0) {
+            must(diag_set_warning(diags, header + 8), header);
+        }
+    }
+}
+
 static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
 {
     char declared_names[SECTIONS_MAX][32];
@@ -211,6 +222,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     DiagSink diags;
     Scene scene;
     diag_init(&diags, sources);
+    set_warnings(test, &diags);
     scene_init(&scene);
     must(sources != NULL && names != NULL && words_intern(names), "no memory");
     Source *source = source_open_text(sources, "test.scn", test->sections[0].text, trimmed(&test->sections[0]));
