@@ -114,18 +114,19 @@ static void fault_undeclared(Compiler *compiler, const AstNode *node)
 {
     Eval *ev = compiler->ev;
     Suggest suggest;
+    if (ev->include_is_missing || !eval_report(ev, DIAG_E0201, node->span, "`%s` is neither a parameter nor declared",
+                                               eval_text(ev, node->symbol))) {
+        return;
+    }
     suggest_begin(&suggest, eval_text(ev, node->symbol));
     for (unsigned i = 0; i < compiler->count; i++) {
         suggest_offer(&suggest, eval_text(ev, compiler->names[i]));
     }
-    if (!eval_report(ev, DIAG_E0201, node->span, "`%s` is neither a parameter nor declared",
-                     eval_text(ev, node->symbol))) {
-        return;
+    if (suggest.best == NULL) {
+        suggest = scope_nearest(ev, node);
     }
     if (suggest.best != NULL) {
         diag_did_you_mean(ev->options.diags, node->span, suggest.best);
-    } else {
-        scope_suggest(ev, node->symbol, node->span);
     }
 }
 

@@ -98,7 +98,7 @@ static const struct {
     {"#while(A<1) #for(I 0 10) M(I) #end #for(J,0,1,.5) #end #end",
      "#while (A < 1)\n  #for (I, 0, 10)\n    M(I)\n  #end\n  #for (J, 0, 1, 0.5)\n  #end\n#end\n"},
     {"#macro M(a b,c,) rgb a*2 #end #macro N() 5; #end M(1 x, rgb 1,) N()",
-     "#macro M (a, b, c)\n  rgb a*2\n#end\n#macro N ()\n  5;\n#end\nM(1, x, rgb 1)\nN()\n"},
+     "#macro M (a, b, c)\n  rgb a*2\n#end\n#macro N ()\n  5;\n#end\nM(1, x, rgb 1,)\nN()\n"},
     {"#version 3.7; #include \"a\\b.inc\" #default{finish{F}} #warning concat(\"a\" str(1<2,0,0)) #error A",
      "#version 3.7;\n#include \"a\\b.inc\"\n#default {\n  finish {\n    F\n  }\n}\n#warning concat(\"a\", str(1 < 2, "
      "0, 0))\n"
