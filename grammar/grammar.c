@@ -6,10 +6,13 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/grammar.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
 
-bool grammar_emit(GrammarState *state, AstNode *item)
+bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
 {
     if (state->builder.failed) {
         return false;
@@ -23,22 +26,44 @@ bool grammar_emit(GrammarState *state, AstNode *item)
         return false;
     }
     arena_rewind(state->context->arena, state->mark);
+    state->item_begin = has_lookahead ? state->current.span.begin : 0;
+    state->faults_before = state->context->diags->error_count;
     return true;
 }
 
-static void begin(GrammarState *state, const GrammarContext *context, Source *source)
+void grammar_begin(GrammarState *state, const GrammarContext *context)
 {
     *state = (GrammarState){
         .context = context,
         .builder = {.arena = context->arena, .diags = context->diags, .depth_limit = context->limits->ast_depth},
-        .source = source,
         .mark = arena_mark(context->arena),
     };
+}
+
+static void begin(GrammarState *state, const GrammarContext *context, Source *source)
+{
+    grammar_begin(state, context);
+    state->source = source;
+    state->offset = source_base(source);
+    state->start = TOKEN_START_TEXT;
+    state->can_splice = context->hooks != NULL;
 }
 
 static void report_no_memory(GrammarState *state)
 {
     grammar_fault(state, DIAG_E0602, (Span){state->offset, state->offset}, "out of memory while reading the scene");
+}
+
+// Statement by statement; one that is torn apart by directives is read again with them resolved.
+static void parse(GrammarState *state)
+{
+    bool goes_on = true;
+    while (goes_on) {
+        state->start = TOKEN_START_TEXT;
+        bool fine = grammar_yyparse(state) == 0;
+        goes_on = state->torn && state->kept == NULL && grammar_splice_statement(state);
+        state->faulty |= !fine && !state->torn && !goes_on && !state->client_ended;
+    }
 }
 
 static bool run(GrammarState *state)
@@ -47,8 +72,8 @@ static bool run(GrammarState *state)
         report_no_memory(state);
     } else if (!grammar_scan_begin(state)) {
         report_no_memory(state);
-    } else if (grammar_yyparse(state) != 0) {
-        state->faulty |= !state->client_ended;
+    } else {
+        parse(state);
     }
     grammar_scan_end(state);
     ARRAY_FREE(&state->openers);
@@ -64,13 +89,123 @@ bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn 
     return run(&state);
 }
 
-bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *items)
+bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *items, bool *torn)
 {
     GrammarState state;
     begin(&state, context, source);
     *items = (AstList){0};
     state.kept = items;
-    return run(&state);
+    bool fine = run(&state);
+    *torn = state.torn;
+    return fine && !state.torn;
+}
+
+// ---- text for splices
+
+bool grammar_text_is_balanced(const GrammarText *text)
+{
+    long depth = 0;
+    unsigned open = 0, skipped = 0; // directives; from the first one of which another branch is passed over
+    for (size_t i = 0; i < text->count; i++) {
+        DirectiveRole role = grammar_role(text->tokens[i].kind);
+        open += role == ROLE_OPENS;
+        if (skipped == 0 && open > 0 && (role == ROLE_ELSE || role == ROLE_MIDDLE)) {
+            skipped = open;
+        }
+        if (role == ROLE_END && open > 0) {
+            skipped = skipped == open ? 0 : skipped;
+            open--;
+        }
+        if (skipped == 0) {
+            depth += (text->tokens[i].kind == '{') - (text->tokens[i].kind == '}');
+        }
+        if (depth < 0) {
+            return false;
+        }
+    }
+    return depth == 0;
+}
+
+bool grammar_text_is_empty(const GrammarText *text)
+{
+    return text->count == 0;
+}
+
+typedef ARRAY(Token) Tokens;
+
+static bool read_tokens(GrammarState *state, Tokens *tokens)
+{
+    Token token = {0};
+    bool fine = setjmp(state->escape) == 0 && grammar_scan_begin(state);
+    while (fine) {
+        grammar_read_token(state, &token);
+        if (token.kind == TOKEN_END_OF_FILE) {
+            break;
+        }
+        fine = ARRAY_PUSH(tokens, token);
+    }
+    if (!fine) {
+        report_no_memory(state);
+    }
+    grammar_scan_end(state);
+    return fine;
+}
+
+static GrammarText *read_text(GrammarState *state)
+{
+    Tokens tokens = {0};
+    GrammarText *text = read_tokens(state, &tokens) ? grammar_text_new(tokens.items, tokens.count) : NULL;
+    ARRAY_FREE(&tokens);
+    return text;
+}
+
+GrammarText *grammar_text_read(const GrammarContext *context, Source *source)
+{
+    GrammarState state;
+    begin(&state, context, source);
+    return read_text(&state);
+}
+
+GrammarText *grammar_text_again(const GrammarContext *context, Span span)
+{
+    // What is wrong with it has been told when it was read first.
+    GrammarContext quiet_context = *context;
+    GrammarState state;
+    DiagSink quiet;
+    char *bytes = malloc((size_t)(span.end - span.begin) + 1);
+    bool is_there = bytes != NULL && source_read_span(context->diags->sources, span, bytes);
+    GrammarText *text = NULL;
+    diag_init(&quiet, context->diags->sources);
+    quiet_context.diags = &quiet;
+    if (is_there) {
+        grammar_begin(&state, &quiet_context);
+        state.offset = span.begin;
+        state.text = bytes;
+        state.text_length = (size_t)(span.end - span.begin);
+        text = read_text(&state);
+    }
+    diag_fini(&quiet);
+    free(bytes);
+    if (text == NULL) {
+        diag_report(context->diags, DIAG_E0502, span, "this text cannot be read again");
+    }
+    return text;
+}
+
+GrammarText *grammar_text_body(const GrammarContext *context, Span macro)
+{
+    GrammarText *text = grammar_text_again(context, macro);
+    if (text == NULL) {
+        return NULL;
+    }
+    size_t begin = 0;
+    while (begin < text->count && text->tokens[begin].kind != ')') {
+        begin++;
+    }
+    size_t count = begin + 2 <= text->count ? text->count - begin - 2 : 0;
+    memmove(text->tokens, text->tokens + begin + 1, count * sizeof *text->tokens);
+    text->count = count;
+    return text;
 }
 
 static GrammarToken plain_token(const Token *token)

@@ -14,12 +14,56 @@
 #include "ast/words.h"
 #include "base/text.h"
 
+// Text that was read to be read again: a macro's body, a loop's. Opaque.
+typedef struct GrammarText GrammarText;
+
+// A #for while it runs.
+typedef struct GrammarLoop {
+    Symbol counter;
+    Span span;
+    double end, step;
+} GrammarLoop;
+
+// Where a directive holds no whole items, text is read again in a *splice*: conditions, loops and macro calls are
+// resolved token by token, as POV-Ray does it, and what is left is parsed. These functions are the evaluator's part: all
+// before a token has been worked out when it is delivered. None of them is called otherwise.
+typedef struct GrammarHooks {
+    void *client;
+    unsigned *nesting; // of fragments, all together; kept by the grammar
+    // What a name stands for now, kept in the parse arena; NULL: nothing.
+    const void *(*capture)(void *client, Symbol name, Span span);
+    bool (*is_macro)(void *client, Symbol name);
+    // A macro whose text holds unpaired braces; *has_unbalanced: there are any.
+    bool (*is_unbalanced)(void *client, Symbol name);
+    const bool *has_unbalanced;
+    // Works an expression out: sets AST_KNOWN and `known`.
+    void (*fold)(void *client, AstNode *node);
+    // Runs a directive other than those below; `within`: inside an item. False: stop.
+    bool (*run)(void *client, const AstNode *directive, bool within);
+    // Whether the condition holds (IF, IFDEF, WHILE) or *subject meets it (CASE, RANGE); SWITCH sets *subject. False: a
+    // fault was reported.
+    bool (*decide)(void *client, const AstNode *directive, double *subject, bool *holds);
+    // Begins a #for, and takes its next turn.
+    bool (*loop_begin)(void *client, const AstNode *header, GrammarLoop *loop, bool *holds);
+    bool (*loop_turn)(void *client, const GrammarLoop *loop, bool *holds);
+    bool (*step)(void *client, Span span); // counts a turn; false: stop
+    // Defines a macro: MACRO without a body when it holds no whole items, and all its text after the parameters.
+    bool (*define)(void *client, const AstNode *macro, const GrammarText *body);
+    // Begins a call: its body; NULL after a fault. `leave` ends it, and an included file.
+    const GrammarText *(*call)(void *client, const AstNode *call);
+    // Opens an #include inside an item; NULL after a fault.
+    Source *(*include)(void *client, const AstNode *directive);
+    void (*leave)(void *client);
+    bool (*is_stopped)(void *client);
+} GrammarHooks;
+
 // Everything a parse needs; plain data, filled by the caller, shared by nested parses (#include).
 typedef struct GrammarContext {
     InternTable *names; // reserved words interned
     Arena *arena;       // parse arena
     DiagSink *diags;
     const Limits *limits;
+    GrammarHooks *hooks; // NULL: text is parsed only, and what would need a splice is a fault
 } GrammarContext;
 
 // Called for each complete top-level item (a directive, a block, an expression, a word). The node is valid during the
@@ -31,8 +75,36 @@ typedef bool (*GrammarItemFn)(void *client, const AstNode *item);
 // client never returned false.
 bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn item, void *client) RT_MUST_CHECK;
 
-// The same, but keeps all items in the arena as one list, for an #include inside a block.
-bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *items) RT_MUST_CHECK;
+// The same, but keeps all items in the arena as one list, for an #include inside a block. *torn: nothing was reported,
+// but the text needs a splice.
+bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *items, bool *torn) RT_MUST_CHECK;
+
+// A text that is read in a splice, item by item, on demand. The items live in the parse arena.
+typedef struct GrammarStream GrammarStream;
+
+// The text stays the caller's. `within`: it stands inside braces or parentheses; `is_call`: it is a macro's, which
+// #break leaves. NULL when out of memory.
+GrammarStream *grammar_stream_open(const GrammarContext *context, const GrammarText *text, bool within,
+                                   bool is_call) RT_MUST_CHECK;
+// The next item; NULL at the end, or when reading cannot go on (`*failed`).
+AstNode *grammar_stream_next(GrammarStream *stream, bool *failed) RT_MUST_CHECK;
+// One expression, or `name(arguments)` as a CALL; NULL when there is none, which is reported.
+AstNode *grammar_stream_expression(GrammarStream *stream) RT_MUST_CHECK;
+AstNode *grammar_stream_arguments(GrammarStream *stream) RT_MUST_CHECK;
+// True when a directive stood right after the last item, and may have ended it.
+bool grammar_stream_is_cut(const GrammarStream *stream);
+void grammar_stream_close(GrammarStream *stream);
+
+// Reads all of a source, or a span of one again, for a splice; NULL after a fault. The caller's to free.
+GrammarText *grammar_text_read(const GrammarContext *context, Source *source) RT_MUST_CHECK;
+GrammarText *grammar_text_again(const GrammarContext *context, Span span) RT_MUST_CHECK;
+// The body of a macro, whose definition stands in the span.
+GrammarText *grammar_text_body(const GrammarContext *context, Span macro) RT_MUST_CHECK;
+// Whether its braces pair up, taking the first branch of each directive.
+bool grammar_text_is_balanced(const GrammarText *text);
+bool grammar_text_is_empty(const GrammarText *text);
+// A copy in an arena; NULL when out of memory.
+GrammarText *grammar_text_copy(const GrammarText *text, Arena *arena) RT_MUST_CHECK;
 
 // What a token is, for those who want tokens and no syntax.
 typedef enum GrammarTokenKind {

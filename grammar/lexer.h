@@ -2,7 +2,8 @@
 //
 // One GrammarState is one parse. The scanner (lexer.l) turns text into tokens; the token stream (tokens.c) stands
 // between it and the parser: it knows the brackets and directives that are open and skips what cannot be understood;
-// messages.c says what is wrong; the facade (grammar.c) sets all up.
+// splice.c is another such stream, which resolves directives and macro calls while it reads; messages.c says what is
+// wrong; the facade (grammar.c) sets all up.
 //
 // SPDX-License-Identifier: MIT
 #ifndef GRAMMAR_LEXER_H
@@ -22,7 +23,13 @@ typedef struct Token {
         Symbol symbol; // words, names, strings; the directive's word
         double number;
     };
+    const void *known; // of a name that a splice delivers: what it stood for then; NULL: nothing
 } Token;
+
+struct GrammarText {
+    size_t count;
+    Token tokens[];
+};
 
 typedef enum DirectiveRole {
     ROLE_NONE,
@@ -44,7 +51,11 @@ typedef struct Opener {
 typedef struct GrammarState {
     const GrammarContext *context;
     AstBuilder builder;
-    Source *source;
+    Source *source;    // NULL: `text` or `tokens` are read
+    const char *text;  // the rest of a text in memory
+    size_t text_length;
+    const Token *tokens; // the rest of tokens that were read before
+    size_t token_count;
     GrammarItemFn item;
     void *client;
     ArenaMark mark;    // where the present top-level item begins
@@ -52,6 +63,11 @@ typedef struct GrammarState {
     bool client_ended; // the client returned false
     bool faulty;       // a fault was reported
     bool ended;        // a fault that ends the parse: only the end of the file is delivered from now on
+    bool can_splice;   // a statement that a directive tears apart is to be read again, see grammar_tear
+    bool torn;         // it was found to be one: nothing is said of it, and the end of the file is delivered
+    Token torn_at;       // the token where that was found
+    uint64_t item_begin; // where the present top-level item begins; 0 before its first token
+    size_t faults_before; // errors that were reported before it
 
     // Scanner.
     void *scanner;
@@ -67,12 +83,26 @@ typedef struct GrammarState {
 
     // Token stream.
     Token previous, current; // the last two delivered to the parser
-    Token held[2];           // read while skipping, to be delivered again: the last one first
+    Token held[4];           // to be delivered again: the last one first
     unsigned held_count;
+    int last_read;           // kind of the last token from the scanner
+    int start;               // the token that says what is parsed: delivered first, then 0
     bool skips;          // a fault was reported: skip before the next token
     unsigned unknown_directives; // not guessed; an #end may belong to each
     bool past_directive; // the fault is a directive inside an expression: skip all of it
     ARRAY(Opener) openers;
+
+    // A fragment of a splice: one item, one directive, one list of arguments.
+    GrammarStream *stream; // NULL: not a fragment
+    int base_depth;        // directives end an expression that is complete with so many openers
+    bool is_raw;           // names and directives are delivered as they stand
+    bool begins_raw;       // so is its first token
+    size_t function_level; // openers around the body of a function, whose names stand for themselves; 0: none
+    bool function_begins;  // the next brace opens one
+    bool ends_before;      // the last token delivered may end an expression
+    Token ended_by;        // the directive or call that ended it
+    bool has_lookahead;    // the current token was read too much
+    AstNode *result;
 } GrammarState;
 
 // Scanner: the next token into *token.
@@ -89,6 +119,27 @@ DirectiveRole grammar_role(int token);
 Symbol grammar_directive_word(int token);       // of a token that is a directive
 Opener *grammar_innermost(GrammarState *state); // NULL when nothing is open
 
+// The next token as the text has it.
+void grammar_read_token(GrammarState *state, Token *token);
+void grammar_hold_token(GrammarState *state, Token token);
+void grammar_track(GrammarState *state, const Token *token); // keeps the stack of openers
+// Gives the present statement up so that it is read again with its directives resolved. False when that cannot be.
+bool grammar_tear(GrammarState *state);
+
+// Splices (splice.c): the token after the current one, of a fragment.
+void grammar_splice_token(GrammarState *state, Token *token);
+// Reads the statement that was found torn at the current token, and hands its items over. False when the parse is to
+// stop.
+bool grammar_splice_statement(GrammarState *state) RT_MUST_CHECK;
+
+bool grammar_stream_has_failed(const GrammarStream *stream);
+
+// Builders for names and expressions, which are worked out at once in a splice.
+AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span);
+AstNode *grammar_fold(GrammarState *state, AstNode *node);
+// Ends a fragment: `has_lookahead` when a token after it was read.
+void grammar_finish(GrammarState *state, AstNode *result, bool has_lookahead);
+
 // Messages: reports a fault at the current token; `expected` names the tokens that would do.
 void grammar_report_syntax(GrammarState *state, const char *const *expected, size_t count);
 void grammar_fault(GrammarState *state, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
@@ -102,7 +153,10 @@ void grammar_next_token(GrammarState *state);
 // `kind text` of a token, for a dump.
 void grammar_describe_token(const GrammarState *state, const Token *token, TextBuffer *out);
 
-// Facade: hands a completed top-level item over. False when the parse is to stop.
-bool grammar_emit(GrammarState *state, AstNode *item);
+// Facade: hands a completed top-level item over; `has_lookahead`: a token after it was read. False when the parse is to
+// stop.
+bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead);
+void grammar_begin(GrammarState *state, const GrammarContext *context);
+GrammarText *grammar_text_new(const Token *tokens, size_t count) RT_MUST_CHECK;
 
 #endif

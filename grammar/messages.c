@@ -264,8 +264,33 @@ static const Opener *outer_opener(GrammarState *state, bool directive)
     return NULL;
 }
 
+// What splices that began outside of the text have to say at its end.
+static bool report_cut(GrammarState *state)
+{
+    if (state->ended_by.kind == 0 || state->current.kind != TOKEN_END_OF_FILE) {
+        return false;
+    }
+    TextBuffer text;
+    text_init(&text);
+    grammar_describe(state, &state->ended_by, &text);
+    grammar_fault(state, DIAG_E0221, state->ended_by.span, "%s ends the expression before it, which is not whole here",
+                  text_get(&text));
+    text_fini(&text);
+    return true;
+}
+
 // One end of a bracket inside a directive's branch and the other outside, or the reverse: nothing after it can be
 // trusted.
+static bool is_in_macro(const GrammarState *state)
+{
+    for (size_t i = 0; i < state->openers.count; i++) {
+        if (state->openers.items[i].kind == TOKEN_HASH_MACRO) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool report_split(GrammarState *state)
 {
     DirectiveRole role = grammar_role(state->current.kind);
@@ -276,7 +301,14 @@ static bool report_split(GrammarState *state)
         return false;
     }
     const Opener *outer = outer_opener(state, ends_branch);
-    if (outer == NULL || (ends_branch ? opener->kind : outer->kind) != '{') {
+    bool closes_callers = !ends_branch && outer == NULL && is_in_macro(state);
+    if (!closes_callers && (outer == NULL || (ends_branch ? opener->kind : outer->kind) != '{')) {
+        return false;
+    }
+    if (grammar_tear(state)) {
+        return true;
+    }
+    if (closes_callers) {
         return false;
     }
     TextBuffer found, inner;
@@ -312,7 +344,7 @@ static bool report_misplaced_directive(GrammarState *state, const Expected *expe
     grammar_describe(state, &state->current, &text);
     if (role == ROLE_SIMPLE || role == ROLE_OPENS) {
         bool in_value = expected->seen[EXPECT_VALUE] || expected->seen[EXPECT_OPERATOR];
-        if (in_value) {
+        if (in_value && !grammar_tear(state)) {
             state->past_directive = true;
             grammar_fault(state, DIAG_E0109, state->current.span,
                           "%s stands inside an expression or a list of values; a directive stands between whole items",
@@ -361,6 +393,16 @@ static void report_general(GrammarState *state, const Expected *expected)
     text_fini(&text);
 }
 
+// The first token of a branch, or the one after its #end: the text around the directive may make sense of it.
+static bool is_after_branch(const GrammarState *state)
+{
+    const Opener *opener = state->openers.count > 0 ? &state->openers.items[state->openers.count - 1] : NULL;
+    int before = state->previous.kind;
+    bool is_first = opener != NULL && grammar_is_directive(opener->kind) && opener->header_done && before == ')';
+    bool has_end = state->current.kind == TOKEN_END_OF_FILE;
+    return !has_end && (is_first || before == TOKEN_HASH_ELSE || before == TOKEN_HASH_END);
+}
+
 void grammar_report_syntax(GrammarState *state, const char *const *names, size_t count)
 {
     if (state->ended || state->builder.failed) {
@@ -369,6 +411,16 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
     state->skips = true;
     state->past_directive = false;
     Expected expected = sort_expected(names, count);
+    if (state->stream != NULL) {
+        state->ended = true;
+        if (!grammar_stream_has_failed(state->stream) && !report_cut(state)) {
+            report_general(state, &expected);
+        }
+        return;
+    }
+    if (is_after_branch(state) && grammar_tear(state)) {
+        return;
+    }
     if (state->current.kind != TOKEN_INVALID && !report_reserved(state) && !report_split(state) &&
         !report_misplaced_directive(state, &expected)) {
         report_general(state, &expected);

@@ -42,6 +42,12 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
     ast_node_list(&state->builder, AST_##kind, AST_OP_##op, (symbol), (at), (a), (b), (c))
 #define LIST(kind, symbol, at, a) LISTS(kind, NONE, symbol, at, a, EMPTY, EMPTY)
 #define ONE(node) ast_append(EMPTY, (node))
+#define FOLD(node) grammar_fold(state, (node))
+#define FINISH(node)                                                                                                   \
+    do {                                                                                                               \
+        grammar_finish(state, (node), yychar != TOKEN_GRAMMAR_YYEMPTY);                                                      \
+        YYACCEPT;                                                                                                      \
+    } while (false)
 
 // As span_join, for spans that all exist; an empty rule stands at the end of what came before.
 #define YYLLOC_DEFAULT(current, rhs, count)                                                                            \
@@ -53,6 +59,10 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
 static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 }
 
+// What is parsed: a whole text, or a fragment of a splice.
+%token START_TEXT "a text" START_ITEM "an item" START_DIRECTIVE "a directive"
+%token START_CONDITION "a condition" START_SUBJECT "a subject" START_RANGE "a range" START_FOR "the head of a loop"
+%token START_FULL "an expression" START_MACRO "the head of a macro" START_ARGUMENTS "arguments"
 %token END_OF_FILE 0 "the end of the file"
 %token INVALID "an unreadable token"
 %token RESYNC "the next item"
@@ -72,7 +82,7 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token HASH_STATISTICS "#statistics"
 %token HASH_FOPEN "#fopen" HASH_FCLOSE "#fclose" HASH_READ "#read" HASH_WRITE "#write"
 
-%type <node> item block layer entry array function directive declare assignment conditional message file case
+%type <node> item block layer entry array function directive simple declare assignment conditional message file case
 %type <node> value initialiser unreadable
 %type <node> full logic relation sum indexed inline include target subject condition
 %type <list> items entry_items body block_body components arguments operands colour colour_open layers sizes rows
@@ -92,9 +102,43 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %precedence UNARY
 %precedence '.'
 
-%start text
+%start start
 
 %%
+
+// Each fragment ends itself, so that no token after it is read where none is needed.
+start:
+  START_TEXT text
+| START_ITEM item                   { FINISH($item); } rest
+| START_FULL full                   { FINISH($full); } more
+| START_DIRECTIVE simple            { FINISH($simple); } rest
+| START_CONDITION '(' full ')'      { FINISH($full); }
+| START_SUBJECT '(' subject ')'     { FINISH($subject); }
+| START_RANGE '(' sum[low] comma sum[high] ')'
+    { FINISH(LISTS(RANGE, NONE, SYMBOL_NONE, @$, ONE($low), ONE($high), EMPTY)); }
+| START_FOR '(' NAME comma bounds ')'
+    { FINISH(LISTS(FOR, NONE, SYMBOL_NONE, @$, ONE(LEAF(NAME, $NAME, @NAME)), $bounds, EMPTY)); }
+| START_MACRO NAME '(' names comma ')' { FINISH(LISTS(MACRO, NONE, $NAME, @$, $names, EMPTY, EMPTY)); }
+| START_MACRO NAME '(' ')'          { FINISH(LISTS(MACRO, NONE, $NAME, @$, EMPTY, EMPTY, EMPTY)); }
+| START_ARGUMENTS '(' arguments comma ')' { FINISH(LIST(CALL, SYMBOL_NONE, @$, $arguments)); }
+| START_ARGUMENTS '(' ')'           { FINISH(LIST(CALL, SYMBOL_NONE, @$, EMPTY)); }
+;
+
+// What may follow a fragment; never read.
+more:
+  %empty
+| ','
+;
+
+rest:
+  %empty
+| item
+| ','
+| ';'
+| '}'
+| ']'
+| ')'
+;
 
 // ---- Items: the top level, blocks and the bodies of directives hold the same.
 
@@ -105,8 +149,10 @@ text:
 
 top:
   %empty
-| top item                          { if (!grammar_emit(state, $item)) { YYABORT; } }
-| top ',' item                      { if (!grammar_emit(state, ast_flag($item, AST_AFTER_COMMA))) { YYABORT; } }
+| top item
+    { if (!grammar_emit(state, $item, yychar != TOKEN_GRAMMAR_YYEMPTY)) { YYABORT; } }
+| top ',' item
+    { if (!grammar_emit(state, ast_flag($item, AST_AFTER_COMMA), yychar != TOKEN_GRAMMAR_YYEMPTY)) { YYABORT; } }
 | top error RESYNC                  { yyerrok; }
 ;
 
@@ -254,11 +300,8 @@ comma:
 // ---- Directives.
 
 directive:
-  declare                           { $$ = $declare; }
+  simple                            { $$ = $simple; }
 | conditional                       { $$ = $conditional; }
-| message                           { $$ = $message; }
-| file                              { $$ = $file; }
-| HASH_UNDEF target                 { $$ = NODE(UNDEF, NONE, SYMBOL_NONE, @$, $target, NULL, NULL); }
 | HASH_BREAK                        { $$ = LEAF(BREAK, SYMBOL_NONE, @$); }
 | HASH_WHILE condition body HASH_END
     { $$ = LISTS(WHILE, NONE, SYMBOL_NONE, @$, ONE($condition), $body, EMPTY); }
@@ -272,7 +315,15 @@ directive:
     { $$ = LISTS(MACRO, NONE, $NAME, @$, EMPTY, $body, EMPTY); }
 | HASH_MACRO error RESYNC body HASH_END
     { $$ = LISTS(MACRO, NONE, SYMBOL_NONE, @$, EMPTY, $body, EMPTY); yyerrok; }
+;
+
+// Those that hold no items of the text around them.
+simple:
+  declare                           { $$ = $declare; }
+| message                           { $$ = $message; }
+| file                              { $$ = $file; }
 | include                           { $$ = $include; }
+| HASH_UNDEF target                 { $$ = NODE(UNDEF, NONE, SYMBOL_NONE, @$, $target, NULL, NULL); }
 | HASH_DEFAULT '{' block_body '}'   { $$ = LIST(DEFAULT, SYMBOL_NONE, @$, $block_body); }
 | HASH_VERSION sum                  %prec JUXTAPOSED { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
 | HASH_VERSION sum ';'              { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
@@ -406,54 +457,54 @@ written:
 full:
   logic                             %prec JUXTAPOSED { $$ = $logic; }
 | logic '?' full[then] ':' full[else]
-    { $$ = NODE(CONDITIONAL, CONDITIONAL, SYMBOL_NONE, @$, $logic, $then, $else); }
+    { $$ = FOLD(NODE(CONDITIONAL, CONDITIONAL, SYMBOL_NONE, @$, $logic, $then, $else)); }
 ;
 
 logic:
   relation                          %prec JUXTAPOSED { $$ = $relation; }
-| logic '&' relation                %prec JUXTAPOSED { $$ = BINARY(AND, @$, $1, $relation); }
-| logic '|' relation                %prec JUXTAPOSED { $$ = BINARY(OR, @$, $1, $relation); }
+| logic '&' relation                %prec JUXTAPOSED { $$ = FOLD(BINARY(AND, @$, $1, $relation)); }
+| logic '|' relation                %prec JUXTAPOSED { $$ = FOLD(BINARY(OR, @$, $1, $relation)); }
 ;
 
 relation:
   sum                               %prec JUXTAPOSED { $$ = $sum; }
-| relation '=' sum                  %prec JUXTAPOSED { $$ = BINARY(EQ, @$, $1, $sum); }
-| relation NOT_EQUAL sum            %prec JUXTAPOSED { $$ = BINARY(NE, @$, $1, $sum); }
-| relation '<' sum                  %prec JUXTAPOSED { $$ = BINARY(LT, @$, $1, $sum); }
-| relation LESS_EQUAL sum           %prec JUXTAPOSED { $$ = BINARY(LE, @$, $1, $sum); }
-| relation '>' sum                  %prec JUXTAPOSED { $$ = BINARY(GT, @$, $1, $sum); }
-| relation GREATER_EQUAL sum        %prec JUXTAPOSED { $$ = BINARY(GE, @$, $1, $sum); }
+| relation '=' sum                  %prec JUXTAPOSED { $$ = FOLD(BINARY(EQ, @$, $1, $sum)); }
+| relation NOT_EQUAL sum            %prec JUXTAPOSED { $$ = FOLD(BINARY(NE, @$, $1, $sum)); }
+| relation '<' sum                  %prec JUXTAPOSED { $$ = FOLD(BINARY(LT, @$, $1, $sum)); }
+| relation LESS_EQUAL sum           %prec JUXTAPOSED { $$ = FOLD(BINARY(LE, @$, $1, $sum)); }
+| relation '>' sum                  %prec JUXTAPOSED { $$ = FOLD(BINARY(GT, @$, $1, $sum)); }
+| relation GREATER_EQUAL sum        %prec JUXTAPOSED { $$ = FOLD(BINARY(GE, @$, $1, $sum)); }
 ;
 
 // One rule, by precedences: a number is one reduction away from here.
 sum:
   NUMBER                            { $$ = ast_number(&state->builder, $NUMBER, @$); }
 | STRING                            { $$ = LEAF(STRING, $STRING, @$); }
-| NAME                              %prec JUXTAPOSED { $$ = LEAF(NAME, $NAME, @$); }
+| NAME                              %prec JUXTAPOSED { $$ = grammar_name(state, $NAME, @$); }
 | CONSTANT                          { $$ = LEAF(CONSTANT, $CONSTANT, @$); }
-| indexed                           %prec JUXTAPOSED { $$ = $indexed; }
-| '<' components comma '>'          { $$ = LIST(VECTOR, SYMBOL_NONE, @$, $components); }
+| indexed                           %prec JUXTAPOSED { $$ = FOLD($indexed); }
+| '<' components comma '>'          { $$ = FOLD(LIST(VECTOR, SYMBOL_NONE, @$, $components)); }
 | '(' full ')'                      { $$ = ast_flag($full, AST_IN_PARENTHESES); }
 | '(' inline ')'                    { $$ = ast_flag($inline, AST_IN_PARENTHESES); }
-| NAME '(' arguments ')'            { $$ = LIST(CALL, $NAME, @$, $arguments); }
-| NAME '(' arguments ',' ')'        { $$ = LIST(CALL, $NAME, @$, ast_flag_last($arguments, AST_BEFORE_COMMA)); }
+| NAME '(' arguments ')'            { $$ = FOLD(LIST(CALL, $NAME, @$, $arguments)); }
+| NAME '(' arguments ',' ')'        { $$ = FOLD(LIST(CALL, $NAME, @$, ast_flag_last($arguments, AST_BEFORE_COMMA))); }
 | NAME '(' arguments ',' WORD ')'
-    { $$ = LIST(CALL, $NAME, @$, ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD))); }
-| NAME '(' ')'                      { $$ = LIST(CALL, $NAME, @$, EMPTY); }
-| indexed '(' arguments ')'         { $$ = LISTS(CALL, NONE, SYMBOL_NONE, @$, $arguments, ONE($indexed), EMPTY); }
+    { $$ = FOLD(LIST(CALL, $NAME, @$, ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD)))); }
+| NAME '(' ')'                      { $$ = FOLD(LIST(CALL, $NAME, @$, EMPTY)); }
+| indexed '(' arguments ')'         { $$ = FOLD(LISTS(CALL, NONE, SYMBOL_NONE, @$, $arguments, ONE($indexed), EMPTY)); }
 | indexed '(' arguments ',' WORD ')'
-    { $$ = LISTS(CALL, NONE, SYMBOL_NONE, @$,
-                 ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD)), ONE($indexed), EMPTY); }
-| BUILTIN '(' operands ')'          { $$ = LIST(BUILTIN, $BUILTIN, @$, $operands); }
-| BUILTIN '(' ')'                   { $$ = LIST(BUILTIN, $BUILTIN, @$, EMPTY); }
-| sum '.' member                    { $$ = NODE(MEMBER, NONE, $member, @$, $1, NULL, NULL); }
-| '-' sum[operand]                  %prec UNARY { $$ = NODE(UNARY, NEG, SYMBOL_NONE, @$, $operand, NULL, NULL); }
-| '+' sum[operand]                  %prec UNARY { $$ = NODE(UNARY, PLUS, SYMBOL_NONE, @$, $operand, NULL, NULL); }
-| '!' sum[operand]                  %prec UNARY { $$ = NODE(UNARY, NOT, SYMBOL_NONE, @$, $operand, NULL, NULL); }
-| sum '*' sum                       { $$ = BINARY(MUL, @$, $1, $3); }
-| sum '/' sum                       { $$ = BINARY(DIV, @$, $1, $3); }
-| sum '+' sum                       { $$ = BINARY(ADD, @$, $1, $3); }
-| sum '-' sum                       { $$ = BINARY(SUB, @$, $1, $3); }
+    { $$ = FOLD(LISTS(CALL, NONE, SYMBOL_NONE, @$,
+                      ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD)), ONE($indexed), EMPTY)); }
+| BUILTIN '(' operands ')'          { $$ = FOLD(LIST(BUILTIN, $BUILTIN, @$, $operands)); }
+| BUILTIN '(' ')'                   { $$ = FOLD(LIST(BUILTIN, $BUILTIN, @$, EMPTY)); }
+| sum '.' member                    { $$ = FOLD(NODE(MEMBER, NONE, $member, @$, $1, NULL, NULL)); }
+| '-' sum[operand]                  %prec UNARY { $$ = FOLD(NODE(UNARY, NEG, SYMBOL_NONE, @$, $operand, NULL, NULL)); }
+| '+' sum[operand]                  %prec UNARY { $$ = FOLD(NODE(UNARY, PLUS, SYMBOL_NONE, @$, $operand, NULL, NULL)); }
+| '!' sum[operand]                  %prec UNARY { $$ = FOLD(NODE(UNARY, NOT, SYMBOL_NONE, @$, $operand, NULL, NULL)); }
+| sum '*' sum                       { $$ = FOLD(BINARY(MUL, @$, $1, $3)); }
+| sum '/' sum                       { $$ = FOLD(BINARY(DIV, @$, $1, $3)); }
+| sum '+' sum                       { $$ = FOLD(BINARY(ADD, @$, $1, $3)); }
+| sum '-' sum                       { $$ = FOLD(BINARY(SUB, @$, $1, $3)); }
 ;
 
 // A directive in the place of a value: what its chosen branch or its file holds.

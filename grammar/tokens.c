@@ -204,7 +204,7 @@ static void track_directive(GrammarState *state, const Token *token)
     }
 }
 
-static void track(GrammarState *state, const Token *token)
+void grammar_track(GrammarState *state, const Token *token)
 {
     switch (token->kind) {
     case '{':
@@ -244,23 +244,30 @@ static void supply_hash(GrammarState *state, Token *token, int before)
     }
 }
 
-static void next_token(GrammarState *state, Token *token)
+void grammar_read_token(GrammarState *state, Token *token)
 {
     if (state->held_count > 0) {
         *token = state->held[--state->held_count];
+    } else if (state->token_count > 0) {
+        *token = *state->tokens++;
+        state->token_count--;
+        state->offset = token->span.end;
+    } else if (state->scanner == NULL) {
+        state->ended = true;
     } else if (!state->ended && !state->builder.failed) {
-        int before = state->current.kind;
-        state->file_name = before == TOKEN_HASH_INCLUDE;
+        state->file_name = state->last_read == TOKEN_HASH_INCLUDE;
         if (grammar_scan(token, state->scanner) == TOKEN_DIRECTIVE_WORD) {
-            supply_hash(state, token, before);
+            supply_hash(state, token, state->last_read);
         }
+        token->known = NULL;
+        state->last_read = token->kind;
     }
     if (RT_UNLIKELY(state->ended || state->builder.failed)) {
         *token = (Token){.kind = TOKEN_END_OF_FILE, .span = {state->offset, state->offset}};
     }
 }
 
-static void hold_token(GrammarState *state, Token token)
+void grammar_hold_token(GrammarState *state, Token token)
 {
     state->held[state->held_count++] = token; // the last one held is the first to be delivered
 }
@@ -268,18 +275,18 @@ static void hold_token(GrammarState *state, Token token)
 // In the parentheses after a directive: to their end, or to what cannot stand in them.
 static void skip_header(GrammarState *state, size_t level, Token token)
 {
-    for (Token last = {0};; last = token, next_token(state, &token)) {
+    for (Token last = {0};; last = token, grammar_read_token(state, &token)) {
         if (token.kind == TOKEN_END_OF_FILE || token.kind == '{' || token.kind == '}' || token.kind == ';' ||
             grammar_is_directive(token.kind)) {
-            hold_token(state, token);
+            grammar_hold_token(state, token);
             if (token.kind == '{' && (grammar_is_reserved(last.kind) || last.kind == TOKEN_NAME)) {
-                hold_token(state, last); // the block is whole
+                grammar_hold_token(state, last); // the block is whole
             }
             state->openers.count = level;
             state->openers.items[level - 1].header_done = true;
             return;
         }
-        track(state, &token);
+        grammar_track(state, &token);
         if (state->openers.count == level && state->openers.items[level - 1].header_done) {
             return;
         }
@@ -308,9 +315,9 @@ static bool ends_skipping(const GrammarState *state, size_t level, const Token *
 static void skip_semicolon(GrammarState *state)
 {
     Token token;
-    next_token(state, &token);
+    grammar_read_token(state, &token);
     if (token.kind != ';') {
-        hold_token(state, token);
+        grammar_hold_token(state, token);
     }
 }
 
@@ -329,7 +336,7 @@ static void skip_items(GrammarState *state, size_t level, Token token)
     while (passes || !ends_skipping(state, level, &token)) {
         passes = false;
         bool among_items = state->openers.count <= level;
-        track(state, &token);
+        grammar_track(state, &token);
         if (token.kind == ';' && among_items && --semicolons == 0) {
             return;
         }
@@ -337,10 +344,10 @@ static void skip_items(GrammarState *state, size_t level, Token token)
             skip_semicolon(state);
             return;
         }
-        next_token(state, &token);
+        grammar_read_token(state, &token);
     }
     state->openers.count = level;
-    hold_token(state, token);
+    grammar_hold_token(state, token);
 }
 
 static void skip(GrammarState *state)
@@ -362,7 +369,7 @@ static void skip(GrammarState *state)
 
 void grammar_next_token(GrammarState *state)
 {
-    next_token(state, &state->current);
+    grammar_read_token(state, &state->current);
 }
 
 static const char *kind_name(int kind)
@@ -389,14 +396,73 @@ void grammar_describe_token(const GrammarState *state, const Token *token, TextB
     }
 }
 
+// A sign right after the head, an #else or the end of a directive may belong to the value before it, or the value may
+// go on after the #end: then it is not a value of its own.
+static bool is_doubtful_sign(const GrammarState *state)
+{
+    if (state->current.kind != '+' && state->current.kind != '-') {
+        return false;
+    }
+    const Opener *open = state->openers.items;
+    size_t count = state->openers.count;
+    switch (state->previous.kind) {
+    case TOKEN_HASH_ELSE:
+    case TOKEN_HASH_END:
+    case ';': return true;
+    case ')': return count > 0 && grammar_is_directive(open[count - 1].kind);
+    default: return false;
+    }
+}
+
+bool grammar_tear(GrammarState *state)
+{
+    if (!state->can_splice || state->context->diags->error_count != state->faults_before) {
+        return false;
+    }
+    state->torn = state->ended = true;
+    state->torn_at = state->current;
+    return true;
+}
+
+// The name of a macro whose text opens or closes what others close or open.
+static bool calls_unbalanced(const GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    return hooks != NULL && *hooks->has_unbalanced && state->current.kind == TOKEN_NAME &&
+           state->previous.kind != TOKEN_HASH_MACRO && hooks->is_unbalanced(hooks->client, state->current.symbol);
+}
+
+static void next_token(GrammarState *state)
+{
+    grammar_track(state, &state->current);
+    state->previous = state->current;
+    if (RT_UNLIKELY(state->stream != NULL)) {
+        grammar_splice_token(state, &state->current);
+        return;
+    }
+    grammar_read_token(state, &state->current);
+    if (state->item_begin == 0) {
+        state->item_begin = state->current.span.begin;
+        state->faults_before = state->context->diags->error_count;
+    }
+    if (RT_UNLIKELY(is_doubtful_sign(state) || calls_unbalanced(state)) && grammar_tear(state)) {
+        grammar_read_token(state, &state->current); // the end, from now on
+    }
+}
+
 int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state)
 {
+    if (RT_UNLIKELY(state->start != 0)) {
+        state->current = state->previous = (Token){.span = {state->offset, state->offset}};
+        *span = state->current.span;
+        int start = state->start;
+        state->start = 0;
+        return start;
+    }
     if (RT_UNLIKELY(state->skips)) {
         skip(state);
     } else {
-        track(state, &state->current);
-        state->previous = state->current;
-        next_token(state, &state->current);
+        next_token(state);
     }
     if (state->current.kind == TOKEN_NUMBER) {
         value->number = state->current.number;

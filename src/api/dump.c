@@ -27,7 +27,7 @@ rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path,
     }
     Arena arena;
     arena_init(&arena, session->limits.arena_bytes);
-    GrammarContext context = {session->names, &arena, &session->diags, &session->limits};
+    GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL};
     AstDump dump = {session->names, &session->dump};
     bool fine = stage == RT_SYNTAX_TOKENS ? grammar_dump_tokens(&context, source, session->sources, &session->dump)
                                           : grammar_parse(&context, source, print_item, &dump);

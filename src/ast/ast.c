@@ -158,7 +158,7 @@ AstNode *ast_clone(const AstNode *node, Arena *arena)
     }
     *copy = *node;
     copy->next = NULL;
-    if (node->kind == AST_NUMBER) {
+    if (node->kind == AST_NUMBER || (node->flags & AST_KNOWN)) {
         return copy;
     }
     copy->a = copy->b = copy->c = NULL;

@@ -40,6 +40,8 @@ enum {
     AST_IN_PARENTHESES =
         8, // an expression with its own parentheses: a macro's argument, value or call may depend on them
     AST_WITHOUT_COMMA = 16, // an argument that follows another with a blank only; ast_equal does not look at it
+    AST_KNOWN = 32,         // an expression that was worked out while it was read: its value is in `known`
+    AST_PASTES = 64, // an expression with a macro call for an operand or an element, whose text may fall apart there
 };
 
 typedef struct AstNode AstNode;
@@ -55,7 +57,11 @@ struct AstNode {
         double number; // NUMBER only
         AstNode *a;
     };
-    AstNode *b, *c;
+    AstNode *b;
+    union {
+        AstNode *c;
+        const void *known; // with AST_KNOWN: the evaluator's value; NULL: a name that was not declared
+    };
     AstNode *next; // the following element when this node is in a list
 };
 

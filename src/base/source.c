@@ -516,3 +516,15 @@ bool source_locate(SourceMap *map, Span span, SourceLocation *location)
     location->column = cursor.characters + 1;
     return true;
 }
+
+bool source_read_span(SourceMap *map, Span span, char *buffer)
+{
+    const Source *source = source_find(map, span.begin);
+    return source && span.end >= span.begin && span.end <= source->base + source->size &&
+           source_read_again(map, source, span.begin - source->base, buffer, (size_t)(span.end - span.begin));
+}
+
+Span source_extent(const Source *source)
+{
+    return (Span){source->base, source->base + source->size};
+}

@@ -75,12 +75,16 @@ ptrdiff_t source_read(Source *source, char *buffer, size_t size) RT_MUST_CHECK;
 // Closes the stream; the name and the means to find a line again stay with the map.
 void source_close(Source *source);
 
+Span source_extent(const Source *source); // of the whole text, as far as it was read or is a file
 uint64_t source_base(const Source *source); // the global offset of its first byte
 const char *source_name(const Source *source);
 
 // Finds file, line, column and the text of the line in which the span begins. False when the span is in no text or its
 // file cannot be read any more, or when it is a text as a whole (name is then still set if it is known, and line is 0).
 bool source_locate(SourceMap *map, Span span, SourceLocation *location) RT_MUST_CHECK;
+
+// Reads the text of a span, which lies in one text, once more: span.end - span.begin bytes. False when it cannot be read.
+bool source_read_span(SourceMap *map, Span span, char *buffer) RT_MUST_CHECK;
 
 // Bytes read from all sources so far.
 uint64_t source_bytes_read(const SourceMap *map);

@@ -258,6 +258,11 @@ static void take_name(Block *block, const Value *value, const AstNode *item)
     }
 }
 
+static bool is_declared(const Eval *ev, const AstNode *name)
+{
+    return name->flags & AST_KNOWN ? name->known != NULL : scope_find(ev, name->symbol) != NULL;
+}
+
 // A leading identifier of a block. One that stands for a number or a colour is left for the arguments.
 static void read_name(Block *block)
 {
@@ -270,7 +275,7 @@ static void read_name(Block *block)
     const SchemaList *arguments = &schema_kind(block->kind)->arguments;
     bool takes_values = arguments->count > 0 || bodies[block->kind];
     bool may_lack_values = arguments->count == 0 || arguments->items[0].is_optional;
-    if ((item->kind == AST_NAME && !takes_values && !scope_find(block->ev, item->symbol)) ||
+    if ((item->kind == AST_NAME && !takes_values && !is_declared(block->ev, item)) ||
         (may_lack_values && block_is_misspelt(block, item))) {
         return;
     }
@@ -418,7 +423,7 @@ static void refuse_word(Block *block, const AstNode *item)
 static void refuse_value(Block *block, const AstNode *item)
 {
     Value value;
-    bool is_undeclared = item->kind == AST_NAME && !scope_find(block->ev, item->symbol);
+    bool is_undeclared = item->kind == AST_NAME && !is_declared(block->ev, item);
     if (is_undeclared && bodies[block->kind] && !block_is_misspelt(block, item)) {
         // Where objects stand it is more likely one of them.
         block->has_fault = !eval_expression(block->ev, item, &value);

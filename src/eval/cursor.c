@@ -25,14 +25,18 @@ CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, c
     frame->next = items;
     frame->node = node;
     frame->kind = kind;
+    frame->stream = NULL;
     cursor->frame = frame;
     return frame;
 }
 
-static void pop(Cursor *cursor)
+void cursor_pop(Cursor *cursor)
 {
     Eval *ev = cursor->ev;
     CursorFrame *frame = cursor->frame;
+    if (frame->stream != NULL) {
+        splice_stream_close(frame->stream);
+    }
     if (frame->kind == FRAME_MACRO) {
         macro_leave(ev);
     } else if (frame->kind == FRAME_INCLUDE) {
@@ -57,7 +61,7 @@ void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span)
 void cursor_close(Cursor *cursor)
 {
     while (cursor->frame != NULL) {
-        pop(cursor);
+        cursor_pop(cursor);
     }
     if (cursor->included) {
         arena_rewind(&cursor->ev->parse, cursor->mark);
@@ -93,14 +97,15 @@ static void end_of_frame(Cursor *cursor)
         break;
     case FRAME_SWITCH:
         frame->node = frame->node->next;
-        if (frame->node != NULL) {
+        // The head of a case that is run into is worked out, too, as in POV-Ray.
+        if (frame->node != NULL && directive_decide(cursor->ev, frame->node, &(double){0}, &(bool){false})) {
             frame->next = case_items(frame->node);
             return;
         }
         break;
     default: break;
     }
-    pop(cursor);
+    cursor_pop(cursor);
 }
 
 void cursor_break(Cursor *cursor, const AstNode *node)
@@ -115,23 +120,52 @@ void cursor_break(Cursor *cursor, const AstNode *node)
     }
     const CursorFrame *rest = frame->outer;
     while (cursor->frame != rest) {
-        pop(cursor);
+        cursor_pop(cursor);
     }
+}
+
+bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned, bool is_call)
+{
+    Eval *ev = cursor->ev;
+    if (!cursor->included && !cursor->top) {
+        cursor->included = true;
+        cursor->mark = arena_mark(&ev->parse);
+    }
+    frame->stream = splice_stream_open(ev, text, owned, !cursor->top && ev->inner > 0, is_call);
+    return frame->stream != NULL || eval_no_memory(ev, cursor->span);
+}
+
+// The item that a frame has next.
+static const AstNode *take_next(const Cursor *cursor)
+{
+    CursorFrame *frame = cursor->frame;
+    if (RT_UNLIKELY(frame->stream != NULL)) {
+        return splice_stream_next(frame->stream, cursor->top);
+    }
+    const AstNode *item = frame->next;
+    if (item != NULL) {
+        frame->next = item->next;
+    }
+    return item;
 }
 
 static void expand(Cursor *cursor, const AstNode *call)
 {
     Eval *ev = cursor->ev;
-    const Macro *macro;
+    Macro *macro;
     CursorFrame *frame;
     if (!macro_find(ev, call, &macro) || (frame = cursor_push(cursor, FRAME_ITEMS, NULL, call)) == NULL) {
         return;
     }
     if (macro_enter(ev, call, macro, &frame->diag)) {
         frame->kind = FRAME_MACRO;
-        frame->next = macro->body->b;
+        if (!macro->is_torn) {
+            frame->next = macro->body->b;
+        } else if (!cursor_push_text(cursor, frame, macro->text, NULL, true)) {
+            cursor_pop(cursor);
+        }
     } else {
-        pop(cursor);
+        cursor_pop(cursor);
     }
 }
 
@@ -142,13 +176,12 @@ const AstNode *cursor_peek(Cursor *cursor)
         return ev->stop ? NULL : cursor->item;
     }
     while (cursor->frame != NULL && !ev->stop) {
-        const AstNode *item = cursor->frame->next;
+        const AstNode *item = take_next(cursor);
         if (item == NULL) {
             end_of_frame(cursor);
             continue;
         }
-        cursor->frame->next = item->next;
-        if (item->kind == AST_CALL && !call_is_value(ev, item)) {
+        if (item->kind == AST_CALL && !(item->flags & AST_KNOWN) && !call_is_value(ev, item)) {
             expand(cursor, item);
         } else if (!directive_run(cursor, item)) {
             cursor->item = item;

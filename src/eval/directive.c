@@ -80,7 +80,7 @@ static void run_undef(Cursor *cursor, const AstNode *node)
 
 static void run_macro(Cursor *cursor, const AstNode *node)
 {
-    macro_define(cursor->ev, node);
+    macro_define(cursor->ev, node, NULL);
 }
 
 static void run_default(Cursor *cursor, const AstNode *node)
@@ -182,6 +182,18 @@ static void run_switch(Cursor *cursor, const AstNode *node)
     push_branch(cursor, node->c); // what stands before the first case
 }
 
+bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds)
+{
+    switch ((AstKind)node->kind) {
+    case AST_IFDEF: *holds = is_declared(ev, node->a) == (node->op == AST_OP_IFDEF); return true;
+    case AST_SWITCH: return eval_number(ev, node->a, subject);
+    case AST_CASE:
+    case AST_RANGE:
+    case AST_ELSE: return case_holds(ev, node, *subject, holds);
+    default: return eval_condition(ev, node->a, holds);
+    }
+}
+
 // ---- loops
 
 static void run_while(Cursor *cursor, const AstNode *node)
@@ -198,13 +210,9 @@ static bool for_holds(double number, double end, double step)
     return step > 0.0 ? number < end + 1e-10 : number > end - 1e-10;
 }
 
-static void run_for(Cursor *cursor, const AstNode *node)
+bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool *holds)
 {
-    Eval *ev = cursor->ev;
     double from = 0, end = 0, step = 1;
-    if (node->a == NULL) {
-        return; // its head was not readable
-    }
     const AstNode *third = node->b->next->next;
     ev->inner++;
     bool fine = eval_number(ev, node->b, &from);
@@ -212,31 +220,50 @@ static void run_for(Cursor *cursor, const AstNode *node)
     fine = (third == NULL || eval_number(ev, third, &step)) && fine;
     ev->inner--;
     if (!fine) {
-        return;
+        return false;
     }
     if (step == 0.0) {
-        eval_fault(ev, DIAG_E0305, third->span, "the step of a loop must not be zero");
-        return;
+        return eval_fault(ev, DIAG_E0305, third->span, "the step of a loop must not be zero");
     }
     if (third != NULL && third->next != NULL) {
-        eval_fault(ev, DIAG_E0203, third->next->span, "`#for` takes a name and at most three numbers");
-        return;
+        return eval_fault(ev, DIAG_E0203, third->next->span, "`#for` takes a name and at most three numbers");
     }
     Symbol name = node->a->symbol;
     Value value = value_of_number(from);
     if (scope_is_reference(ev, name)) {
-        eval_fault(ev, DIAG_E0220, node->a->span, "`%s` stands for the caller's variable and cannot count a loop",
-                   eval_text(ev, name));
-        return;
+        return eval_fault(ev, DIAG_E0220, node->a->span,
+                          "`%s` stands for the caller's variable and cannot count a loop", eval_text(ev, name));
     }
-    if (!scope_declare(ev, name, true, &value, node->a->span) || !for_holds(from, end, step) ||
-        !eval_step(ev, node->span)) {
-        return;
+    *loop = (GrammarLoop){.counter = name, .span = node->a->span, .end = end, .step = step};
+    *holds = for_holds(from, end, step);
+    return scope_declare(ev, name, true, &value, node->a->span);
+}
+
+bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds)
+{
+    Value *counter = scope_find(ev, loop->counter);
+    *holds = false;
+    if (counter == NULL || counter->kind != VALUE_NUMBER) {
+        return (counter == NULL || counter->kind != VALUE_NONE) &&
+               eval_fault(ev, DIAG_E0220, loop->span, "the loop has lost its counter: `%s` is %s now",
+                          eval_text(ev, loop->counter), counter != NULL ? value_describe(counter) : "not declared");
+    }
+    counter->number += loop->step;
+    *holds = for_holds(counter->number, loop->end, loop->step);
+    return true;
+}
+
+static void run_for(Cursor *cursor, const AstNode *node)
+{
+    GrammarLoop loop;
+    bool holds = false;
+    if (node->a == NULL || !directive_begin_for(cursor->ev, node, &loop, &holds) || !holds ||
+        !eval_step(cursor->ev, node->span)) {
+        return; // at the first, its head was not readable
     }
     CursorFrame *frame = cursor_push(cursor, FRAME_FOR, node->c, node);
     if (frame != NULL) {
-        frame->end = end;
-        frame->step = step;
+        frame->loop = loop;
     }
 }
 
@@ -250,14 +277,8 @@ bool loop_continues(Eval *ev, CursorFrame *frame)
         arena_rewind(&ev->scratch, mark);
         return fine && holds && eval_step(ev, node->span);
     }
-    Value *counter = scope_find(ev, node->a->symbol);
-    if (counter == NULL || counter->kind != VALUE_NUMBER) {
-        return (counter == NULL || counter->kind != VALUE_NONE) &&
-               eval_fault(ev, DIAG_E0220, node->a->span, "the loop has lost its counter: `%s` is %s now",
-                          eval_text(ev, node->a->symbol), counter != NULL ? value_describe(counter) : "not declared");
-    }
-    counter->number += frame->step;
-    return for_holds(counter->number, frame->end, frame->step) && eval_step(ev, node->span);
+    bool holds;
+    return directive_next_for(ev, &frame->loop, &holds) && holds && eval_step(ev, node->span);
 }
 
 static void run_break(Cursor *cursor, const AstNode *node)

@@ -132,6 +132,7 @@ static void fini(Eval *ev)
     scope_fini(ev);
     text_fini(&ev->line);
     ARRAY_FREE(&ev->streams);
+    ARRAY_FREE(&ev->pasted);
     ARRAY_FREE(&ev->reported);
     arena_fini(&ev->scratch);
     arena_fini(&ev->program);
@@ -161,8 +162,10 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
     if (!scope_init(&ev) || !objects_init(&ev) || !declare_all(&ev, source)) {
         eval_no_memory(&ev, SPAN_NONE);
     } else {
-        GrammarContext context = {options->names, &ev.parse, options->diags, options->limits};
-        bool is_whole = grammar_parse(&context, source, take_item, &ev);
+        Splice reading;
+        splice_init(&reading, &ev);
+        bool is_whole = grammar_parse(&reading.context, source, take_item, &ev);
+        splice_fini(&reading);
         ev.faulty = ev.faulty || !is_whole;
         settle_version(&ev);
     }

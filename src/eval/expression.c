@@ -102,7 +102,7 @@ static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
 
 static bool eval_name(Eval *ev, const AstNode *node, Value *value)
 {
-    const Value *found = scope_find(ev, node->symbol);
+    const Value *found = node->flags & AST_KNOWN ? node->known : scope_find(ev, node->symbol);
     if (RT_UNLIKELY(found == NULL)) {
         return fault_undeclared(ev, node, "the name");
     }
@@ -134,7 +134,7 @@ static bool eval_element(Eval *ev, const AstNode *node, Value *value)
 
 // ---- calls
 
-bool macro_find(Eval *ev, const AstNode *call, const Macro **macro)
+bool macro_find(Eval *ev, const AstNode *call, Macro **macro)
 {
     const Value *found = scope_find(ev, call->symbol);
     const char *name = eval_text(ev, call->symbol);
@@ -162,7 +162,7 @@ static bool eval_inline(Eval *ev, const AstNode *node, Value *value)
 // An operand of `parent`: a macro's text must not fall apart there.
 static bool eval_operand(Eval *ev, const AstNode *parent, const AstNode *node, Value *value)
 {
-    if (RT_UNLIKELY(node->kind == AST_CALL) && !(node->flags & AST_IN_PARENTHESES)) {
+    if (RT_UNLIKELY(node->kind == AST_CALL) && !(node->flags & (AST_IN_PARENTHESES | AST_KNOWN))) {
         return macro_value(ev, node, parent, false, value);
     }
     return eval_expression(ev, node, value);
@@ -478,6 +478,17 @@ static bool fault_no_expression(Eval *ev, const AstNode *node)
                       has_word ? "`" : "");
 }
 
+// What was worked out while it was read, and what may have to be read again.
+static bool eval_special(Eval *ev, const AstNode *node, EvalFn evaluate, Value *value)
+{
+    if ((node->flags & AST_KNOWN) && node->kind != AST_NAME) {
+        *value = *(const Value *)node->known;
+        return value->kind != VALUE_NONE;
+    }
+    bool is_pasted = (node->flags & AST_PASTES) && paste_is_needed(ev, node);
+    return is_pasted ? paste_value(ev, node, value) : evaluate(ev, node, value);
+}
+
 bool eval_expression(Eval *ev, const AstNode *node, Value *value)
 {
     if (node->kind == AST_NUMBER) {
@@ -493,7 +504,8 @@ bool eval_expression(Eval *ev, const AstNode *node, Value *value)
     }
     unsigned closes = node->flags & AST_IN_PARENTHESES ? 1 : 0;
     ev->inner += closes;
-    bool fine = evaluate(ev, node, value);
+    bool is_special = node->flags & (AST_KNOWN | AST_PASTES);
+    bool fine = RT_UNLIKELY(is_special) ? eval_special(ev, node, evaluate, value) : evaluate(ev, node, value);
     ev->inner -= closes;
     eval_shallow(ev, 1);
     return fine;
@@ -538,7 +550,7 @@ bool eval_rvalue(Eval *ev, const AstNode *node, Value *value)
     case AST_ARRAY: return array_create(ev, node, value);
     case AST_FUNCTION: return function_create(ev, node, value);
     case AST_CALL:
-        if (!(node->flags & AST_IN_PARENTHESES)) {
+        if (!(node->flags & (AST_IN_PARENTHESES | AST_KNOWN))) {
             return macro_value(ev, node, NULL, true, value);
         }
         return eval_expression(ev, node, value);

@@ -232,6 +232,17 @@ static void stream(Eval *ev, Source *source, const GrammarContext *context, Span
     ev->include_depth--;
 }
 
+// A text with items that directives tear apart: read again, item by item.
+static void splice_again(Cursor *cursor, CursorFrame *frame, const Source *source, const GrammarContext *context)
+{
+    Eval *ev = cursor->ev;
+    GrammarText *text = grammar_text_again(context, source_extent(source));
+    frame->next = NULL;
+    if (text == NULL || !cursor_push_text(cursor, frame, text, text, false)) {
+        ev->faulty = true;
+    }
+}
+
 // Inside a block: all items, kept until the block is closed.
 static void splice(Cursor *cursor, Source *source, const GrammarContext *context, Span span)
 {
@@ -246,29 +257,56 @@ static void splice(Cursor *cursor, Source *source, const GrammarContext *context
         return;
     }
     frame->kind = FRAME_INCLUDE;
-    bool is_whole = grammar_parse_all(context, source, &items);
-    ev->faulty = ev->faulty || !is_whole;
+    bool is_torn = false;
+    bool is_whole = grammar_parse_all(context, source, &items, &is_torn);
     frame->next = items.first;
+    if (is_torn) {
+        splice_again(cursor, frame, source, context);
+    } else {
+        ev->faulty = ev->faulty || !is_whole;
+    }
 }
 
-void include_run(Cursor *cursor, const AstNode *node)
+static Source *open_included(Eval *ev, const AstNode *node)
 {
-    Eval *ev = cursor->ev;
     Source *source = NULL;
     if (ev->include_depth >= ev->options.limits->include_depth) {
         eval_fault(ev, DIAG_E0603, node->a->span, "includes nest deeper than %u levels: does a file include itself?",
                    ev->options.limits->include_depth);
         ev->stop = true;
+        return NULL;
+    }
+    return open_named(ev, node, &source) ? source : NULL;
+}
+
+Source *include_enter(Eval *ev, CursorFrame *frame, const AstNode *node)
+{
+    Source *source = open_included(ev, node);
+    if (source == NULL) {
+        return NULL;
+    }
+    if (!enter(ev, &frame->diag, source, node->span)) {
+        source_close(source);
+        return NULL;
+    }
+    frame->kind = FRAME_INCLUDE;
+    return source;
+}
+
+void include_run(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    Source *source = open_included(ev, node);
+    if (source == NULL) {
         return;
     }
-    if (!open_named(ev, node, &source)) {
-        return;
-    }
-    GrammarContext context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits};
+    Splice reading;
+    splice_init(&reading, ev);
     if (cursor->top) {
-        stream(ev, source, &context, node->span);
+        stream(ev, source, &reading.context, node->span);
     } else {
-        splice(cursor, source, &context, node->span);
+        splice(cursor, source, &reading.context, node->span);
     }
+    splice_fini(&reading);
     source_close(source);
 }

@@ -7,6 +7,7 @@
 //   colour.c     colour phrases                     macro.c     definitions, calls and their values
 //   function.c and the others of callable.h: functions and splines
 //   directive.c  what each directive does           include.c   finding and reading scene text
+//   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
 //   misfit.c     what is said of items that do not fit into a block
 //   block.c      a block's properties into a struct, driven by scene/schema.h
@@ -65,7 +66,7 @@ typedef struct Value {
             size_t length;
         };
         ValueArray *array;
-        const Macro *macro;
+        Macro *macro;
         const Function *function;
         const Spline *spline;
         const void *record; // of schema_kind(block)->size bytes, in the scene arena
@@ -89,8 +90,17 @@ struct Macro {
     Span span;
     unsigned parameter_count;
     Symbol *parameters;
-    AstNode *body;
+    AstNode *body;           // the definition; without items when `is_torn`
+    const GrammarText *text; // the body's tokens, in the program arena; NULL until a splice needs them
+    bool is_unbalanced;      // its braces pair up with those of other text
+    bool is_torn;            // holds no whole items: read in a splice at each call
+    bool is_loose;           // may give more or less than one value, or one that operators around it may tear apart
 };
+
+typedef struct PastedText {
+    uint64_t begin, end;
+    const GrammarText *text; // in the program arena
+} PastedText;
 
 typedef struct Scope Scope;             // scope.c
 typedef struct CursorFrame CursorFrame; // cursor.c
@@ -114,6 +124,9 @@ typedef struct Eval {
     TextBuffer line;              // of #debug, not ended yet
     CursorFrame *free_frames;     // for reuse, in the program arena
     uint64_t steps;
+    bool has_unbalanced;          // a macro that is_unbalanced was defined
+    unsigned splice_nesting;      // of fragments that are being parsed
+    ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     bool has_stray_word; // at the top level, reported: its values are not reported as well
     bool faulty;         // something was reported, if only before
@@ -212,7 +225,7 @@ bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *ar
 ValueArray *scope_array(const Eval *ev, Symbol name);
 bool scope_is_reference(const Eval *ev, Symbol name);
 
-bool scope_define_macro(Eval *ev, const Macro *macro) RT_MUST_CHECK;
+bool scope_define_macro(Eval *ev, Macro *macro) RT_MUST_CHECK;
 bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
 // Of the names in scope and the reserved words that could stand in the place of a NAME or CALL, the nearest.
 Suggest scope_nearest(const Eval *ev, const AstNode *node);
@@ -327,27 +340,41 @@ struct CursorFrame {
     const AstNode *next; // the next item to look at
     const AstNode *node; // the loop, the call, or the case of a #switch that is walked
     FrameKind kind;
-    double end, step;    // FRAME_FOR
+    GrammarLoop loop;    // FRAME_FOR
     DiagFrame diag;      // FRAME_MACRO, FRAME_INCLUDE
+    struct SpliceStream *stream; // items that are read in a splice, on demand; NULL: `next`
 };
 
 // NULL when out of memory, which stops the evaluation.
 CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, const AstNode *node);
+void cursor_pop(Cursor *cursor);
+// Pushes the items of a text that is read in a splice. False when out of memory, which stops the evaluation.
+bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned,
+                      bool is_call) RT_MUST_CHECK;
 void cursor_break(Cursor *cursor, const AstNode *node); // #break
 const AstNode *case_items(const AstNode *node); // of a CASE, RANGE or ELSE
 bool directive_run(Cursor *cursor, const AstNode *node); // false when the node is no directive
 bool loop_continues(Eval *ev, CursorFrame *frame); // at the end of a loop's body: one more turn
 void include_run(Cursor *cursor, const AstNode *node);
+// Opens the file of an #include and enters it; the frame becomes a FRAME_INCLUDE. NULL after a fault.
+Source *include_enter(Eval *ev, CursorFrame *frame, const AstNode *node) RT_MUST_CHECK;
+// For splices: what a directive asks, and the turns of a #for.
+bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds) RT_MUST_CHECK;
+bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
+bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
 bool include_exists(const Eval *ev, const Value *name);
 
 // ---- macros
 
-void macro_define(Eval *ev, const AstNode *node);
+// `text`: the body's, when it was read in a splice, else NULL.
+void macro_define(Eval *ev, const AstNode *node, const GrammarText *text);
+// The tokens of a macro's body; NULL after a fault.
+const GrammarText *macro_text(Eval *ev, Macro *macro) RT_MUST_CHECK;
 // Begins a call: a new level of names with the parameters in it. macro_leave ends it.
-bool macro_enter(Eval *ev, const AstNode *call, const Macro *macro, DiagFrame *frame) RT_MUST_CHECK;
+bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame) RT_MUST_CHECK;
 void macro_leave(Eval *ev);
 // The macro that a CALL node means.
-bool macro_find(Eval *ev, const AstNode *call, const Macro **macro) RT_MUST_CHECK;
+bool macro_find(Eval *ev, const AstNode *call, Macro **macro) RT_MUST_CHECK;
 // The value of a call. `whole`: any right-hand side will do; else an expression, which stands under the operator
 // `parent` (NULL: none) and must not fall apart there.
 bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value) RT_MUST_CHECK;
@@ -357,6 +384,34 @@ bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MU
 typedef bool (*MacroItemFn)(void *client, const AstNode *item);
 bool macro_expand(Eval *ev, const AstNode *call, const AstNode *parent, MacroItemFn take, void *client) RT_MUST_CHECK;
 bool inline_expand(Eval *ev, const AstNode *node, MacroItemFn take, void *client) RT_MUST_CHECK;
+
+// ---- splices: text that is read again with its directives resolved (splice.c)
+
+// What grammar needs to parse one text; a splice of it keeps its calls and files in the cursor.
+typedef struct Splice {
+    GrammarContext context;
+    GrammarHooks hooks;
+    Cursor cursor;
+} Splice;
+
+typedef struct SpliceStream SpliceStream;
+
+void splice_init(Splice *splice, Eval *ev);
+void splice_fini(Splice *splice);
+
+// Items of a text, on demand. `owned` (NULL or the text) is freed with it. NULL when out of memory.
+SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool within,
+                                 bool is_call) RT_MUST_CHECK;
+const AstNode *splice_stream_next(SpliceStream *stream, bool top) RT_MUST_CHECK;
+bool splice_stream_is_cut(const SpliceStream *stream);
+void splice_stream_close(SpliceStream *stream);
+
+// True when a macro called in the expression may need its text to be pasted, not its value.
+bool paste_is_needed(const Eval *ev, const AstNode *node);
+// The value of an expression that is read again, with the text of its macros in it.
+bool paste_value(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// The same for the arguments of a call: a CALL node in the parse arena, or NULL after a fault.
+const AstNode *paste_arguments(Eval *ev, const AstNode *call) RT_MUST_CHECK;
 
 // ---- blocks
 

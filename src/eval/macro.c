@@ -4,9 +4,70 @@
 // argument is a bare name or element. Knows nothing of blocks.
 //
 // SPDX-License-Identifier: MIT
+#include <stdlib.h>
+
 #include "eval/internal.h"
 
 enum { CALL_WEIGHT = 8 }; // of native recursion, see eval_deepen
+
+// What the items of a body, or of a branch in it, may give where a value is wanted.
+typedef struct Yield {
+    unsigned values; // at most 2
+    bool is_loose;
+} Yield;
+
+static Yield yield_of(const AstNode *items);
+
+static Yield one_or_other(Yield one, Yield other)
+{
+    return (Yield){one.values > other.values ? one.values : other.values, one.is_loose || other.is_loose};
+}
+
+static Yield yield_of_item(const AstNode *item)
+{
+    Yield yield = {0, false};
+    switch ((AstKind)item->kind) {
+    case AST_IF:
+    case AST_IFDEF: return one_or_other(yield_of(item->b), yield_of(item->c));
+    case AST_SWITCH:
+        for (const AstNode *branch = item->b; branch != NULL; branch = branch->next) {
+            yield = one_or_other(yield, yield_of(case_items(branch)));
+        }
+        // One that runs on into the next gives more than one value.
+        yield.is_loose |= yield.values > 0;
+        return yield;
+    case AST_WHILE: yield = yield_of(item->b); break;
+    case AST_FOR: yield = yield_of(item->c); break;
+    case AST_INCLUDE:
+    case AST_CALL: return (Yield){1, true};
+    default:
+        if (item->kind < AST_DECLARE) {
+            yield.values = item->kind != AST_WORD;
+            bool is_operation = item->kind == AST_BINARY || item->kind == AST_CONDITIONAL || item->kind == AST_UNARY;
+            yield.is_loose = (is_operation || item->kind == AST_INLINE) && !(item->flags & AST_IN_PARENTHESES);
+        }
+        return yield;
+    }
+    return (Yield){yield.values * 2, yield.is_loose || yield.values > 0};
+}
+
+static Yield yield_of(const AstNode *items)
+{
+    Yield yield = {0, false};
+    for (; items != NULL; items = items->next) {
+        Yield more = yield_of_item(items);
+        yield.values = yield.values + more.values > 1 ? 2 : yield.values + more.values;
+        yield.is_loose |= more.is_loose || (items->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA));
+    }
+    return yield;
+}
+
+// Whether the macro's text may be more than one value, or fall apart among operators.
+static bool is_loose(const AstNode *body)
+{
+    Yield yield = yield_of(body);
+    return yield.is_loose || yield.values > 1;
+}
 
 static Macro *copy_macro(Eval *ev, const AstNode *node)
 {
@@ -24,7 +85,7 @@ static Macro *copy_macro(Eval *ev, const AstNode *node)
     return macro;
 }
 
-void macro_define(Eval *ev, const AstNode *node)
+void macro_define(Eval *ev, const AstNode *node, const GrammarText *text)
 {
     const Value *known = scope_find(ev, node->symbol);
     bool is_same = known != NULL && known->kind == VALUE_MACRO && known->macro->span.begin == node->span.begin;
@@ -32,9 +93,31 @@ void macro_define(Eval *ev, const AstNode *node)
     if (is_same || node->symbol == SYMBOL_NONE) {
         return;
     }
-    const Macro *macro = copy_macro(ev, node);
+    Macro *macro = copy_macro(ev, node);
     bool is_kept = macro != NULL && scope_define_macro(ev, macro);
+    if (is_kept && text != NULL) {
+        macro->text = grammar_text_copy(text, &ev->program);
+        is_kept = macro->text != NULL || eval_no_memory(ev, node->span);
+        macro->is_unbalanced = !grammar_text_is_balanced(text);
+        ev->has_unbalanced = ev->has_unbalanced || macro->is_unbalanced;
+        macro->is_torn = node->b == NULL && !grammar_text_is_empty(text);
+    }
+    if (is_kept) {
+        macro->is_loose = macro->is_torn || is_loose(macro->body->b);
+    }
     ev->faulty = ev->faulty || !is_kept;
+}
+
+const GrammarText *macro_text(Eval *ev, Macro *macro)
+{
+    if (macro->text == NULL) {
+        GrammarContext context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, NULL};
+        GrammarText *text = grammar_text_body(&context, macro->span);
+        macro->text = text != NULL ? grammar_text_copy(text, &ev->program) : NULL;
+        free(text);
+        ev->faulty = ev->faulty || macro->text == NULL;
+    }
+    return macro->text;
 }
 
 // ---- calls
@@ -96,10 +179,14 @@ static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
     return true;
 }
 
-bool macro_enter(Eval *ev, const AstNode *call, const Macro *macro, DiagFrame *frame)
+bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame)
 {
     if (!eval_step(ev, call->span)) {
         return false;
+    }
+    if ((call->flags & (AST_PASTES | AST_KNOWN)) == AST_PASTES && paste_is_needed(ev, call)) {
+        const AstNode *pasted = paste_arguments(ev, call);
+        return pasted != NULL && macro_enter(ev, pasted, macro, frame);
     }
     if (ev->call_depth >= ev->options.limits->call_depth) {
         eval_fault(ev, DIAG_E0604, call->span, "macro calls nest deeper than %u levels",
@@ -165,7 +252,8 @@ static bool is_followed(const Cursor *cursor)
 {
     for (const CursorFrame *frame = cursor->frame; frame != NULL; frame = frame->outer) {
         bool ends_in_directive = frame->outer != NULL && frame->kind != FRAME_MACRO && frame->kind != FRAME_INCLUDE;
-        bool has_directive = frame->next != NULL && frame->next->kind >= AST_DECLARE;
+        bool has_directive = frame->stream != NULL ? splice_stream_is_cut(frame->stream)
+                                                   : frame->next != NULL && frame->next->kind >= AST_DECLARE;
         if (has_directive || ends_in_directive) {
             return true;
         }
@@ -261,7 +349,7 @@ typedef bool (*TakeFn)(Cursor *cursor, const Wanted *wanted, void *client);
 
 static bool walk_macro(Eval *ev, const AstNode *call, const AstNode *parent, TakeFn take, void *client)
 {
-    const Macro *macro;
+    Macro *macro;
     DiagFrame frame;
     if (!macro_find(ev, call, &macro) || !eval_deepen(ev, CALL_WEIGHT, call->span)) {
         return false;
@@ -270,7 +358,11 @@ static bool walk_macro(Eval *ev, const AstNode *call, const AstNode *parent, Tak
     if (fine) {
         Cursor cursor;
         Wanted wanted = {call->span, eval_text(ev, call->symbol)};
-        cursor_open(&cursor, ev, macro->body->b, call->span);
+        cursor_open(&cursor, ev, macro->is_torn ? NULL : macro->body->b, call->span);
+        if (macro->is_torn && cursor.frame != NULL &&
+            !cursor_push_text(&cursor, cursor.frame, macro->text, NULL, true)) {
+            ev->faulty = true;
+        }
         const AstNode *item = cursor_peek(&cursor);
         if (item != NULL && !holds_together(item, parent, call)) {
             fine = fault_torn_apart(ev, item, &wanted);

@@ -213,7 +213,7 @@ bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *ar
     return true;
 }
 
-bool scope_define_macro(Eval *ev, const Macro *macro)
+bool scope_define_macro(Eval *ev, Macro *macro)
 {
     Binding *binding = find(ev, macro->name);
     if (binding == NULL) {

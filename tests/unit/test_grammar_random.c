@@ -55,12 +55,13 @@ static void bench_fini(Bench *bench)
 static bool parse_text(Bench *bench, const char *text, size_t length, AstList *items)
 {
     Limits limits = LIMITS_DEFAULT;
-    GrammarContext context = {bench->names, &bench->arena, &bench->diags, &limits};
+    GrammarContext context = {bench->names, &bench->arena, &bench->diags, &limits, NULL};
     Source *source = source_open_text(bench->sources, "test", text, length);
     if (source == NULL) {
         abort();
     }
-    bool clean = grammar_parse_all(&context, source, items);
+    bool torn;
+    bool clean = grammar_parse_all(&context, source, items, &torn);
     source_close(source);
     return clean;
 }

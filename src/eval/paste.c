@@ -1,0 +1,149 @@
+// Pasting: an expression in which macros are called is read again with their text in it, where values would not do.
+//
+// A macro stands for its text: in `M() * 2` a body `1 + 2` means 1 + 2*2, and `<M(), 3>` may be a vector of three. Turns
+// such an expression, found by its place in the source, into a value. Owns the texts that it keeps for the next time.
+//
+// SPDX-License-Identifier: MIT
+#include <stdlib.h>
+#include <string.h>
+
+#include "eval/internal.h"
+
+static bool is_open_operation(const AstNode *node)
+{
+    bool is_operation = node->kind == AST_UNARY || node->kind == AST_BINARY || node->kind == AST_MEMBER;
+    return is_operation && (node->flags & AST_PASTES) && !(node->flags & AST_IN_PARENTHESES);
+}
+
+static bool is_loose_part(const Eval *ev, const AstNode *part)
+{
+    if (part == NULL) {
+        return false;
+    }
+    if (part->kind == AST_CALL && !(part->flags & AST_IN_PARENTHESES)) {
+        const Value *found = scope_find(ev, part->symbol);
+        return found != NULL && found->kind == VALUE_MACRO && found->macro->is_loose;
+    }
+    return is_open_operation(part) && (is_loose_part(ev, part->a) || is_loose_part(ev, part->b));
+}
+
+bool paste_is_needed(const Eval *ev, const AstNode *node)
+{
+    bool is_list = node->kind == AST_VECTOR || node->kind == AST_CALL || node->kind == AST_BUILTIN;
+    if (!is_list) {
+        return is_loose_part(ev, node->a) || is_loose_part(ev, node->b);
+    }
+    for (const AstNode *part = node->a; part != NULL; part = part->next) {
+        if (is_loose_part(ev, part)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// ---- texts, kept in order of their place
+
+static size_t place_of(const Eval *ev, Span span)
+{
+    size_t low = 0, high = ev->pasted.count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        const PastedText *text = &ev->pasted.items[middle];
+        bool is_before = text->begin < span.begin || (text->begin == span.begin && text->end < span.end);
+        low = is_before ? middle + 1 : low;
+        high = is_before ? high : middle;
+    }
+    return low;
+}
+
+static const GrammarText *text_of(Eval *ev, Span span)
+{
+    size_t at = place_of(ev, span);
+    if (at < ev->pasted.count && ev->pasted.items[at].begin == span.begin && ev->pasted.items[at].end == span.end) {
+        return ev->pasted.items[at].text;
+    }
+    GrammarContext context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, NULL};
+    GrammarText *read = grammar_text_again(&context, span);
+    const GrammarText *kept = read != NULL ? grammar_text_copy(read, &ev->program) : NULL;
+    free(read);
+    if (kept == NULL || !ARRAY_PUSH(&ev->pasted, (PastedText){0})) {
+        ev->faulty = true;
+        return kept;
+    }
+    PastedText *items = ev->pasted.items;
+    memmove(items + at + 1, items + at, (ev->pasted.count - 1 - at) * sizeof *items);
+    items[at] = (PastedText){span.begin, span.end, kept};
+    return kept;
+}
+
+// ---- values
+
+static bool read_value(Eval *ev, const AstNode *node, GrammarStream *stream, Value *value)
+{
+    const AstNode *read = grammar_stream_expression(stream);
+    if (read == NULL) {
+        ev->faulty = true;
+        return false;
+    }
+    if (grammar_stream_is_cut(stream)) {
+        if (eval_report(ev, DIAG_E0221, node->span, "a directive after the value of a macro ends the expression")) {
+            diag_suggest(ev->options.diags, "put parentheses around the call");
+        }
+        return false;
+    }
+    if (!eval_expression(ev, read, value)) {
+        return false;
+    }
+    bool has_memory = value->kind == VALUE_STRING || value->kind == VALUE_ARRAY;
+    if (has_memory && !value_store(ev, value, &ev->scratch, node->span, value)) {
+        return false;
+    }
+    bool failed = false;
+    const AstNode *rest = grammar_stream_next(stream, &failed);
+    if (rest != NULL) {
+        return eval_fault(ev, DIAG_E0213, node->span, "macros give more than one value here");
+    }
+    ev->faulty = ev->faulty || failed;
+    return !failed;
+}
+
+bool paste_value(Eval *ev, const AstNode *node, Value *value)
+{
+    Splice splice;
+    const GrammarText *text = text_of(ev, node->span);
+    if (text == NULL) {
+        return false;
+    }
+    ArenaMark mark = arena_mark(&ev->parse);
+    splice_init(&splice, ev);
+    GrammarStream *stream = grammar_stream_open(&splice.context, text, ev->inner > 0, false);
+    bool fine = stream != NULL ? read_value(ev, node, stream, value) : eval_no_memory(ev, node->span);
+    if (stream != NULL) {
+        grammar_stream_close(stream);
+    }
+    splice_fini(&splice);
+    arena_rewind(&ev->parse, mark);
+    return fine && !ev->stop;
+}
+
+const AstNode *paste_arguments(Eval *ev, const AstNode *call)
+{
+    Splice splice;
+    const GrammarText *text = text_of(ev, call->span);
+    if (text == NULL) {
+        return NULL;
+    }
+    splice_init(&splice, ev);
+    GrammarStream *stream = grammar_stream_open(&splice.context, text, false, false);
+    AstNode *pasted = stream != NULL ? grammar_stream_arguments(stream) : NULL;
+    if (pasted != NULL) {
+        pasted->symbol = call->symbol;
+        pasted->span = call->span;
+    }
+    if (stream != NULL) {
+        grammar_stream_close(stream);
+    }
+    splice_fini(&splice);
+    ev->faulty = ev->faulty || pasted == NULL;
+    return pasted;
+}

@@ -1,0 +1,254 @@
+// The evaluator's part in splices: names, expressions, conditions and calls are worked out while text is read.
+//
+// Turns what grammar asks through GrammarHooks into values. A value that was read is kept in the parse arena, beside the
+// node that stands for it. Calls and included files that a splice is inside of are frames of a cursor of its own.
+// Knows nothing of tokens.
+//
+// SPDX-License-Identifier: MIT
+#include <stdlib.h>
+
+#include "eval/internal.h"
+
+struct SpliceStream {
+    Splice splice;
+    GrammarStream *stream;
+    GrammarText *owned;
+    ArenaMark mark; // where its items begin
+};
+
+// A copy that outlives the scope in which the value stands.
+static const Value *keep(Eval *ev, const Value *value, Span span)
+{
+    Value *kept = arena_alloc(&ev->parse, sizeof *kept);
+    if (kept == NULL) {
+        eval_no_memory(ev, span);
+        return NULL;
+    }
+    *kept = *value;
+    bool has_memory = value->kind == VALUE_STRING || value->kind == VALUE_ARRAY;
+    if (has_memory && !value_store(ev, value, &ev->parse, span, kept)) {
+        kept->kind = VALUE_NONE;
+    }
+    kept->name = value->name;
+    return kept;
+}
+
+static Eval *eval_of(void *client)
+{
+    return ((Splice *)client)->cursor.ev;
+}
+
+static const void *capture(void *client, Symbol name, Span span)
+{
+    Eval *ev = eval_of(client);
+    const Value *found = scope_find(ev, name);
+    if (found == NULL) {
+        return NULL;
+    }
+    Value value = *found;
+    value.name = name;
+    return keep(ev, &value, span);
+}
+
+static bool is_macro(void *client, Symbol name)
+{
+    const Value *found = scope_find(eval_of(client), name);
+    return found != NULL && found->kind == VALUE_MACRO;
+}
+
+static bool is_unbalanced(void *client, Symbol name)
+{
+    const Value *found = scope_find(eval_of(client), name);
+    return found != NULL && found->kind == VALUE_MACRO && found->macro->is_unbalanced;
+}
+
+static void fold(void *client, AstNode *node)
+{
+    Eval *ev = eval_of(client);
+    Value value;
+    ArenaMark mark = arena_mark(&ev->scratch);
+    if (!eval_expression(ev, node, &value)) {
+        ev->faulty = true;
+        value = (Value){.kind = VALUE_NONE};
+    }
+    node->known = keep(ev, &value, node->span);
+    if (node->known != NULL) {
+        ast_flag(node, AST_KNOWN);
+    }
+    arena_rewind(&ev->scratch, mark);
+}
+
+static bool run(void *client, const AstNode *directive, bool within)
+{
+    Splice *splice = client;
+    Eval *ev = eval_of(client);
+    if (within && directive->kind == AST_DEFAULT) {
+        eval_fault(ev, DIAG_E0111, directive->span,
+                   "`#default` cannot stand inside an item whose text directives tear apart");
+        return false;
+    }
+    directive_run(&splice->cursor, directive);
+    return !ev->stop;
+}
+
+static bool decide(void *client, const AstNode *directive, double *subject, bool *holds)
+{
+    Eval *ev = eval_of(client);
+    ArenaMark mark = arena_mark(&ev->scratch);
+    bool fine = directive_decide(ev, directive, subject, holds);
+    arena_rewind(&ev->scratch, mark);
+    ev->faulty = ev->faulty || !fine;
+    return fine && !ev->stop;
+}
+
+static bool loop_begin(void *client, const AstNode *header, GrammarLoop *loop, bool *holds)
+{
+    Eval *ev = eval_of(client);
+    bool fine = directive_begin_for(ev, header, loop, holds);
+    ev->faulty = ev->faulty || !fine;
+    return fine && !ev->stop;
+}
+
+static bool loop_turn(void *client, const GrammarLoop *loop, bool *holds)
+{
+    Eval *ev = eval_of(client);
+    bool fine = directive_next_for(ev, loop, holds);
+    ev->faulty = ev->faulty || !fine;
+    return fine && !ev->stop;
+}
+
+static bool step(void *client, Span span)
+{
+    return eval_step(eval_of(client), span);
+}
+
+static bool define(void *client, const AstNode *macro, const GrammarText *body)
+{
+    Eval *ev = eval_of(client);
+    macro_define(ev, macro, body);
+    return !ev->stop;
+}
+
+static const GrammarText *call(void *client, const AstNode *node)
+{
+    Splice *splice = client;
+    Eval *ev = eval_of(client);
+    Macro *macro;
+    CursorFrame *frame;
+    const GrammarText *text;
+    if (!macro_find(ev, node, &macro) || (text = macro_text(ev, macro)) == NULL ||
+        (frame = cursor_push(&splice->cursor, FRAME_ITEMS, NULL, NULL)) == NULL) {
+        ev->faulty = true;
+        return NULL;
+    }
+    if (!macro_enter(ev, node, macro, &frame->diag)) {
+        cursor_pop(&splice->cursor);
+        ev->faulty = true;
+        return NULL;
+    }
+    frame->kind = FRAME_MACRO;
+    return text;
+}
+
+static Source *include(void *client, const AstNode *directive)
+{
+    Splice *splice = client;
+    Eval *ev = eval_of(client);
+    CursorFrame *frame = cursor_push(&splice->cursor, FRAME_ITEMS, NULL, NULL);
+    Source *source = frame != NULL ? include_enter(ev, frame, directive) : NULL;
+    if (source == NULL && frame != NULL) {
+        cursor_pop(&splice->cursor);
+    }
+    return source;
+}
+
+static void leave(void *client)
+{
+    Splice *splice = client;
+    if (splice->cursor.frame != NULL) {
+        cursor_pop(&splice->cursor);
+    }
+}
+
+static bool is_stopped(void *client)
+{
+    return eval_of(client)->stop;
+}
+
+void splice_init(Splice *splice, Eval *ev)
+{
+    *splice = (Splice){
+        .context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, &splice->hooks},
+        .cursor = {.ev = ev, .top = true},
+        .hooks = {.client = splice,
+                  .nesting = &ev->splice_nesting,
+                  .capture = capture,
+                  .is_macro = is_macro,
+                  .is_unbalanced = is_unbalanced,
+                  .has_unbalanced = &ev->has_unbalanced,
+                  .fold = fold,
+                  .run = run,
+                  .decide = decide,
+                  .loop_begin = loop_begin,
+                  .loop_turn = loop_turn,
+                  .step = step,
+                  .define = define,
+                  .call = call,
+                  .include = include,
+                  .leave = leave,
+                  .is_stopped = is_stopped},
+    };
+}
+
+void splice_fini(Splice *splice)
+{
+    cursor_close(&splice->cursor);
+}
+
+// ---- items on demand
+
+SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool within, bool is_call)
+{
+    SpliceStream *stream = malloc(sizeof *stream);
+    if (stream == NULL) {
+        free(owned);
+        return NULL;
+    }
+    splice_init(&stream->splice, ev);
+    stream->splice.cursor.top = false;
+    stream->owned = owned;
+    stream->mark = arena_mark(&ev->parse);
+    stream->stream = grammar_stream_open(&stream->splice.context, text, within, is_call);
+    if (stream->stream == NULL) {
+        free(owned);
+        free(stream);
+        return NULL;
+    }
+    return stream;
+}
+
+const AstNode *splice_stream_next(SpliceStream *stream, bool top)
+{
+    Eval *ev = stream->splice.cursor.ev;
+    bool failed = false;
+    // At the top level the items before this one are done with.
+    if (top) {
+        arena_rewind(&ev->parse, stream->mark);
+    }
+    const AstNode *item = grammar_stream_next(stream->stream, &failed);
+    ev->faulty = ev->faulty || failed;
+    return item;
+}
+
+bool splice_stream_is_cut(const SpliceStream *stream)
+{
+    return grammar_stream_is_cut(stream->stream);
+}
+
+void splice_stream_close(SpliceStream *stream)
+{
+    grammar_stream_close(stream->stream);
+    splice_fini(&stream->splice);
+    free(stream->owned);
+    free(stream);
+}
