@@ -102,9 +102,24 @@ bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *i
 
 // ---- text for splices
 
+// Whether an expression may be going on beyond the first or the last token of a text.
+static bool goes_on(const GrammarText *text)
+{
+    if (text->count == 0) {
+        return false;
+    }
+    int first = text->tokens[0].kind, last = text->tokens[text->count - 1].kind;
+    bool goes_on_before = first < 256 && strchr("*/.)]>:?", first) != NULL;
+    bool goes_on_after = last < 256 && strchr("}])>;", last) == NULL;
+    return goes_on_before || goes_on_after;
+}
+
 bool grammar_text_is_balanced(const GrammarText *text)
 {
     long depth = 0;
+    if (goes_on(text)) {
+        return false;
+    }
     unsigned open = 0, skipped = 0; // directives; from the first one of which another branch is passed over
     for (size_t i = 0; i < text->count; i++) {
         DirectiveRole role = grammar_role(text->tokens[i].kind);
@@ -117,7 +132,8 @@ bool grammar_text_is_balanced(const GrammarText *text)
             open--;
         }
         if (skipped == 0) {
-            depth += (text->tokens[i].kind == '{') - (text->tokens[i].kind == '}');
+            int kind = text->tokens[i].kind;
+            depth += (kind == '{' || kind == '(' || kind == '[') - (kind == '}' || kind == ')' || kind == ']');
         }
         if (depth < 0) {
             return false;

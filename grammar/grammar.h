@@ -100,7 +100,7 @@ GrammarText *grammar_text_read(const GrammarContext *context, Source *source) RT
 GrammarText *grammar_text_again(const GrammarContext *context, Span span) RT_MUST_CHECK;
 // The body of a macro, whose definition stands in the span.
 GrammarText *grammar_text_body(const GrammarContext *context, Span macro) RT_MUST_CHECK;
-// Whether its braces pair up, taking the first branch of each directive.
+// Whether its brackets pair up and no expression goes on beyond it, taking the first branch of each directive.
 bool grammar_text_is_balanced(const GrammarText *text);
 bool grammar_text_is_empty(const GrammarText *text);
 // A copy in an arena; NULL when out of memory.

@@ -99,6 +99,9 @@ typedef struct GrammarState {
     bool begins_raw;       // so is its first token
     size_t function_level; // openers around the body of a function, whose names stand for themselves; 0: none
     bool function_begins;  // the next brace opens one
+    size_t own_frame;      // of the stream, in which this directive began; 0: it is none
+    bool takes_elements;   // elements of arrays may stand for themselves in it
+    bool takes_string;     // it is a directive that takes a string
     bool ends_before;      // the last token delivered may end an expression
     Token ended_by;        // the directive or call that ended it
     bool has_lookahead;    // the current token was read too much
@@ -132,10 +135,13 @@ void grammar_splice_token(GrammarState *state, Token *token);
 // stop.
 bool grammar_splice_statement(GrammarState *state) RT_MUST_CHECK;
 
+// The name of a macro that gave nothing between the last two tokens, or NULL.
+const Token *grammar_stream_silent(const GrammarStream *stream);
 bool grammar_stream_has_failed(const GrammarStream *stream);
 
 // Builders for names and expressions, which are worked out at once in a splice.
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span);
+AstNode *grammar_element(GrammarState *state, AstNode *node);
 AstNode *grammar_fold(GrammarState *state, AstNode *node);
 // Ends a fragment: `has_lookahead` when a token after it was read.
 void grammar_finish(GrammarState *state, AstNode *result, bool has_lookahead);

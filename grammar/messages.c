@@ -264,9 +264,15 @@ static const Opener *outer_opener(GrammarState *state, bool directive)
     return NULL;
 }
 
-// What splices that began outside of the text have to say at its end.
+// A macro without a text where one is needed, and a directive that ends what is parsed.
 static bool report_cut(GrammarState *state)
 {
+    const Token *silent = grammar_stream_silent(state->stream);
+    if (silent != NULL) {
+        grammar_fault(state, DIAG_E0213, silent->span, "the macro `%s` gives no value here",
+                      intern_get(state->context->names, silent->symbol));
+        return true;
+    }
     if (state->ended_by.kind == 0 || state->current.kind != TOKEN_END_OF_FILE) {
         return false;
     }
@@ -403,6 +409,15 @@ static bool is_after_branch(const GrammarState *state)
     return !has_end && (is_first || before == TOKEN_HASH_ELSE || before == TOKEN_HASH_END);
 }
 
+// The end of a branch, where more is expected.
+static bool cuts_branch(GrammarState *state)
+{
+    DirectiveRole role = grammar_role(state->current.kind);
+    const Opener *opener = grammar_innermost(state);
+    bool is_inside = opener != NULL && (grammar_is_directive(opener->kind) || outer_opener(state, true) != NULL);
+    return is_inside && (role == ROLE_MIDDLE || role == ROLE_ELSE || role == ROLE_END);
+}
+
 void grammar_report_syntax(GrammarState *state, const char *const *names, size_t count)
 {
     if (state->ended || state->builder.failed) {
@@ -418,7 +433,7 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
         }
         return;
     }
-    if (is_after_branch(state) && grammar_tear(state)) {
+    if ((is_after_branch(state) || cuts_branch(state)) && grammar_tear(state)) {
         return;
     }
     if (state->current.kind != TOKEN_INVALID && !report_reserved(state) && !report_split(state) &&

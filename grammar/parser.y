@@ -521,8 +521,10 @@ operands:
 ;
 
 indexed:
-  NAME '[' sum ']'                  { $$ = NODE(INDEX, NONE, SYMBOL_NONE, @$, LEAF(NAME, $NAME, @NAME), $sum, NULL); }
-| indexed '[' sum ']'               { $$ = NODE(INDEX, NONE, SYMBOL_NONE, @$, $1, $sum, NULL); }
+  NAME '[' sum ']'                  
+    { $$ = grammar_element(state, NODE(INDEX, NONE, SYMBOL_NONE, @$, LEAF(NAME, $NAME, @NAME), $sum, NULL)); }
+| indexed '[' sum ']'
+    { $$ = grammar_element(state, NODE(INDEX, NONE, SYMBOL_NONE, @$, $1, $sum, NULL)); }
 ;
 
 components:

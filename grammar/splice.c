@@ -51,6 +51,7 @@ struct GrammarStream {
     bool is_cut;  // a directive stood right after the last item
     bool is_open; // an item or a directive is being read
     Span end;     // of the last token
+    Token silent; // the name of a macro that gave nothing before the present token
 };
 
 // ---- faults
@@ -283,6 +284,7 @@ static AstNode *parse_fragment(GrammarStream *stream, int start, int base_depth,
     state.start = start;
     state.base_depth = base_depth;
     state.is_raw = is_raw;
+    state.takes_elements = start == TOKEN_START_SUBJECT;
     state.begins_raw = start == TOKEN_START_DIRECTIVE;
     bool was_open = stream->is_open;
     stream->is_open = true;
@@ -684,6 +686,7 @@ static void call_macro(GrammarStream *stream, const Token *name)
     }
     frame->tokens = text->tokens;
     frame->count = text->count;
+    stream->silent = *name;
 }
 
 static void run_simple(Reading *reading)
@@ -775,6 +778,22 @@ static bool is_call(GrammarStream *stream, const GrammarState *state, const Toke
            stream->hooks->is_macro(stream->hooks->client, token->symbol) && peek_kind(stream) == '(';
 }
 
+// True when a directive, which is complete, stands at the end of the text in which it began: what it declares belongs to
+// the scope of that text, which is not left before.
+static bool is_at_own_end(GrammarStream *stream, const GrammarState *state)
+{
+    size_t at;
+    while ((at = innermost_text(stream)) > state->own_frame && at == stream->frames.count) {
+        const Frame *frame = &stream->frames.items[at - 1];
+        if ((frame->kind != FRAME_MACRO && frame->kind != FRAME_FILE) || frame->at < frame->count) {
+            return false;
+        }
+        drop(stream, at - 1);
+    }
+    const Frame *own = at == state->own_frame && at > 0 ? &stream->frames.items[at - 1] : NULL;
+    return own != NULL && own->kind != FRAME_LIVE && own->at == own->count;
+}
+
 // A directive or a call that ends what is parsed.
 static void cut(GrammarStream *stream, GrammarState *state, Token *token)
 {
@@ -791,24 +810,51 @@ static void capture(GrammarStream *stream, const GrammarState *state, Token *tok
     }
 }
 
+static bool takes_string(int directive)
+{
+    switch (directive) {
+    case TOKEN_HASH_INCLUDE:
+    case TOKEN_HASH_DEBUG:
+    case TOKEN_HASH_WARNING:
+    case TOKEN_HASH_ERROR:
+    case TOKEN_HASH_RENDER:
+    case TOKEN_HASH_STATISTICS: return true;
+    default: return false;
+    }
+}
+
 void grammar_splice_token(GrammarState *state, Token *token)
 {
     GrammarStream *stream = state->stream;
     track_more(state);
+    stream->silent.kind = 0;
     state->ends_before = ends_operand(state);
     bool begins = state->begins_raw;
     state->begins_raw = false;
     for (;;) {
-        if (stream->failed || state->ended || state->builder.failed) {
+        bool may_end = state->ends_before || state->previous.kind == ';';
+        bool is_over = may_end && state->own_frame > 0 && state->openers.count == 0 && is_at_own_end(stream, state);
+        if (is_over || stream->failed || state->ended || state->builder.failed) {
             deliver_end(stream, token);
             return;
         }
         read_raw(stream, token);
         bool is_directive = grammar_is_directive(token->kind);
-        if (state->is_raw || begins || (!is_directive && !is_call(stream, state, token))) {
+        if (begins) {
+            state->takes_string = takes_string(token->kind);
+            state->takes_elements = token->kind == TOKEN_HASH_UNDEF || token->kind == TOKEN_HASH_READ;
+            state->own_frame = innermost_text(stream);
             break;
         }
-        bool may_end = state->ends_before || state->previous.kind == ';';
+        // No operator continues a string.
+        if (state->takes_string && state->ends_before && state->openers.count == 0 && token->kind != '[') {
+            unread(stream, token);
+            deliver_end(stream, token);
+            return;
+        }
+        if (state->is_raw || (!is_directive && !is_call(stream, state, token))) {
+            break;
+        }
         if (may_end && state->base_depth != NO_BASE && state->openers.count <= (size_t)state->base_depth) {
             cut(stream, state, token);
             return;
@@ -818,6 +864,10 @@ void grammar_splice_token(GrammarState *state, Token *token)
         } else {
             call_macro(stream, token);
         }
+    }
+    size_t from = innermost_text(stream);
+    if (from > 0 && stream->frames.items[from - 1].kind == FRAME_MACRO) {
+        stream->silent.kind = 0;
     }
     if (!state->is_raw) {
         capture(stream, state, token);
@@ -864,12 +914,22 @@ static AstNode *mark_pastes(AstNode *node)
     return pastes ? ast_flag(node, AST_PASTES) : node;
 }
 
+// Before a token after it is read, which may be a call that changes the array.
+AstNode *grammar_element(GrammarState *state, AstNode *node)
+{
+    if (RT_LIKELY(state->stream == NULL) || state->takes_elements) {
+        return node;
+    }
+    int next = peek_kind(state->stream);
+    return next == '[' || next == '=' ? node : grammar_fold(state, node);
+}
+
 AstNode *grammar_fold(GrammarState *state, AstNode *node)
 {
     if (RT_LIKELY(state->stream == NULL)) {
         return mark_pastes(node);
     }
-    if (!is_in_function(state) && !state->builder.failed && !state->stream->failed) {
+    if (!is_in_function(state) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->stream->failed) {
         state->stream->hooks->fold(state->stream->hooks->client, node);
         state->stream->failed = state->stream->hooks->is_stopped(state->stream->hooks->client);
     }
@@ -963,6 +1023,11 @@ AstNode *grammar_stream_arguments(GrammarStream *stream)
 bool grammar_stream_is_cut(const GrammarStream *stream)
 {
     return stream->is_cut;
+}
+
+const Token *grammar_stream_silent(const GrammarStream *stream)
+{
+    return stream->silent.kind != 0 ? &stream->silent : NULL;
 }
 
 bool grammar_stream_has_failed(const GrammarStream *stream)

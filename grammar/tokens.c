@@ -396,8 +396,8 @@ void grammar_describe_token(const GrammarState *state, const Token *token, TextB
     }
 }
 
-// A sign right after the head, an #else or the end of a directive may belong to the value before it, or the value may
-// go on after the #end: then it is not a value of its own.
+// A sign right after the head, an #else or the end of a directive (or the string that it takes) may belong to the value
+// before it, or the value may go on after the #end: then it is not a value of its own.
 static bool is_doubtful_sign(const GrammarState *state)
 {
     if (state->current.kind != '+' && state->current.kind != '-') {
@@ -408,6 +408,7 @@ static bool is_doubtful_sign(const GrammarState *state)
     switch (state->previous.kind) {
     case TOKEN_HASH_ELSE:
     case TOKEN_HASH_END:
+    case TOKEN_STRING:
     case ';': return true;
     case ')': return count > 0 && grammar_is_directive(open[count - 1].kind);
     default: return false;

@@ -159,15 +159,6 @@ static bool eval_inline(Eval *ev, const AstNode *node, Value *value)
     return inline_value(ev, node, false, value);
 }
 
-// An operand of `parent`: a macro's text must not fall apart there.
-static bool eval_operand(Eval *ev, const AstNode *parent, const AstNode *node, Value *value)
-{
-    if (RT_UNLIKELY(node->kind == AST_CALL) && !(node->flags & (AST_IN_PARENTHESES | AST_KNOWN))) {
-        return macro_value(ev, node, parent, false, value);
-    }
-    return eval_expression(ev, node, value);
-}
-
 // ---- operators
 
 static const char *spelling(const AstNode *node)
@@ -177,7 +168,7 @@ static const char *spelling(const AstNode *node)
 
 static bool eval_unary(Eval *ev, const AstNode *node, Value *value)
 {
-    if (!eval_operand(ev, node, node->a, value)) {
+    if (!eval_expression(ev, node->a, value)) {
         return false;
     }
     value->name = SYMBOL_NONE;
@@ -316,8 +307,8 @@ static void check_nearness(Eval *ev, const AstNode *node, double one, double oth
 static bool eval_binary(Eval *ev, const AstNode *node, Value *value)
 {
     Value right;
-    bool left_fine = eval_operand(ev, node, node->a, value);
-    if (!eval_operand(ev, node, node->b, &right) || !left_fine) {
+    bool left_fine = eval_expression(ev, node->a, value);
+    if (!eval_expression(ev, node->b, &right) || !left_fine) {
         return false;
     }
     value->name = SYMBOL_NONE;
@@ -440,7 +431,7 @@ bool value_component(Symbol name, unsigned width, unsigned *component)
 static bool eval_member(Eval *ev, const AstNode *node, Value *value)
 {
     unsigned component;
-    if (!eval_operand(ev, node, node->a, value)) {
+    if (!eval_expression(ev, node->a, value)) {
         return false;
     }
     bool is_number = value->kind == VALUE_NUMBER;

@@ -375,8 +375,7 @@ bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame) 
 void macro_leave(Eval *ev);
 // The macro that a CALL node means.
 bool macro_find(Eval *ev, const AstNode *call, Macro **macro) RT_MUST_CHECK;
-// The value of a call. `whole`: any right-hand side will do; else an expression, which stands under the operator
-// `parent` (NULL: none) and must not fall apart there.
+// The value of a call. `whole`: any right-hand side will do; else an expression.
 bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value) RT_MUST_CHECK;
 // The value that a directive in the place of an expression gives.
 bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MUST_CHECK;

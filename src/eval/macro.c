@@ -20,7 +20,8 @@ static Yield yield_of(const AstNode *items);
 
 static Yield one_or_other(Yield one, Yield other)
 {
-    return (Yield){one.values > other.values ? one.values : other.values, one.is_loose || other.is_loose};
+    bool differ = one.values != other.values;
+    return (Yield){one.values > other.values ? one.values : other.values, one.is_loose || other.is_loose || differ};
 }
 
 static Yield yield_of_item(const AstNode *item)
@@ -66,7 +67,7 @@ static Yield yield_of(const AstNode *items)
 static bool is_loose(const AstNode *body)
 {
     Yield yield = yield_of(body);
-    return yield.is_loose || yield.values > 1;
+    return yield.is_loose || yield.values != 1;
 }
 
 static Macro *copy_macro(Eval *ev, const AstNode *node)

@@ -56,7 +56,7 @@ static Suggest nearest_property(const Block *block, const AstNode *item)
 
 bool block_is_misspelt(const Block *block, const AstNode *item)
 {
-    if (item->kind != AST_NAME || (item->flags & AST_KNOWN) || scope_find(block->ev, item->symbol)) {
+    if (item->kind != AST_NAME || item->flags & AST_KNOWN || scope_find(block->ev, item->symbol)) {
         return false;
     }
     Suggest property = nearest_property(block, item);
