@@ -405,8 +405,10 @@ static bool is_after_branch(const GrammarState *state)
     const Opener *opener = state->openers.count > 0 ? &state->openers.items[state->openers.count - 1] : NULL;
     int before = state->previous.kind;
     bool is_first = opener != NULL && grammar_is_directive(opener->kind) && opener->header_done && before == ')';
-    bool has_end = state->current.kind == TOKEN_END_OF_FILE;
-    return !has_end && (is_first || before == TOKEN_HASH_ELSE || before == TOKEN_HASH_END);
+    DirectiveRole role = grammar_role(state->current.kind);
+    bool may_begin = role == ROLE_NONE || role == ROLE_SIMPLE || role == ROLE_OPENS;
+    return may_begin && state->current.kind != TOKEN_END_OF_FILE &&
+           (is_first || before == TOKEN_HASH_ELSE || before == TOKEN_HASH_END);
 }
 
 // The end of a branch, where more is expected.
@@ -414,7 +416,8 @@ static bool cuts_branch(GrammarState *state)
 {
     DirectiveRole role = grammar_role(state->current.kind);
     const Opener *opener = grammar_innermost(state);
-    bool is_inside = opener != NULL && (grammar_is_directive(opener->kind) || outer_opener(state, true) != NULL);
+    bool is_item = grammar_is_directive(state->previous.kind); // what is wrong is the directive itself
+    bool is_inside = !is_item && opener != NULL && (grammar_is_directive(opener->kind) || outer_opener(state, true) != NULL);
     return is_inside && (role == ROLE_MIDDLE || role == ROLE_ELSE || role == ROLE_END);
 }
 
@@ -428,6 +431,7 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
     Expected expected = sort_expected(names, count);
     if (state->stream != NULL) {
         state->ended = true;
+        state->skips = false;
         if (!grammar_stream_has_failed(state->stream) && !report_cut(state)) {
             report_general(state, &expected);
         }

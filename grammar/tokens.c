@@ -410,7 +410,8 @@ static bool is_doubtful_sign(const GrammarState *state)
     case TOKEN_HASH_END:
     case TOKEN_STRING:
     case ';': return true;
-    case ')': return count > 0 && grammar_is_directive(open[count - 1].kind);
+    case ')':
+        return count > 0 && grammar_is_directive(open[count - 1].kind) && open[count - 1].kind != TOKEN_HASH_MACRO;
     default: return false;
     }
 }
@@ -421,6 +422,7 @@ bool grammar_tear(GrammarState *state)
         return false;
     }
     state->torn = state->ended = true;
+    state->skips = false;
     state->torn_at = state->current;
     return true;
 }

@@ -152,6 +152,7 @@ static const AstNode *take_next(const Cursor *cursor)
 static void expand(Cursor *cursor, const AstNode *call)
 {
     Eval *ev = cursor->ev;
+    cursor->at_call = cursor->after_value && !(call->flags & AST_AFTER_COMMA);
     Macro *macro;
     CursorFrame *frame;
     if (!macro_find(ev, call, &macro) || (frame = cursor_push(cursor, FRAME_ITEMS, NULL, call)) == NULL) {
@@ -169,6 +170,24 @@ static void expand(Cursor *cursor, const AstNode *call)
     }
 }
 
+// The text of a macro that begins with a sign goes on with the value before it, which has been taken as whole.
+static void check_pasted_sign(Cursor *cursor, const AstNode *item)
+{
+    bool is_value = item->kind <= AST_MEMBER;
+    if (RT_UNLIKELY(cursor->at_call) && is_value && !(item->flags & AST_AFTER_COMMA)) {
+        const AstNode *first = item;
+        while (first->kind == AST_BINARY && !(first->flags & AST_IN_PARENTHESES)) {
+            first = first->a;
+        }
+        bool is_sign = first->kind == AST_UNARY && first->op != AST_OP_NOT && !(first->flags & AST_IN_PARENTHESES);
+        if (is_sign) {
+            eval_fault(cursor->ev, DIAG_E0110, item->span, "this text of a macro goes on with the value before the call");
+        }
+    }
+    cursor->at_call = false;
+    cursor->after_value = is_value;
+}
+
 const AstNode *cursor_peek(Cursor *cursor)
 {
     Eval *ev = cursor->ev;
@@ -184,6 +203,7 @@ const AstNode *cursor_peek(Cursor *cursor)
         if (item->kind == AST_CALL && !(item->flags & AST_KNOWN) && !call_is_value(ev, item)) {
             expand(cursor, item);
         } else if (!directive_run(cursor, item)) {
+            check_pasted_sign(cursor, item);
             cursor->item = item;
             return item;
         }

@@ -185,7 +185,7 @@ static void run_switch(Cursor *cursor, const AstNode *node)
 bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds)
 {
     switch ((AstKind)node->kind) {
-    case AST_IFDEF: *holds = is_declared(ev, node->a) == (node->op == AST_OP_IFDEF); return true;
+    case AST_IFDEF: *holds = name_is_declared(ev, node->a) == (node->op == AST_OP_IFDEF); return true;
     case AST_SWITCH: return eval_number(ev, node->a, subject);
     case AST_CASE:
     case AST_RANGE:

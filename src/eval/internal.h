@@ -310,6 +310,8 @@ typedef struct Cursor {
     const AstNode *item; // the item that cursor_peek found; NULL when none is pending
     Span span;           // of the block, for messages
     bool top;            // walks the top level: included text is handed on item by item, and not kept
+    bool after_value;    // the last item was an expression
+    bool at_call;        // since then the text of a macro began
     bool included;       // text was included on the way, and stands in the parse arena since `mark`
     bool counted;        // in expression_depth
     ArenaMark mark;
