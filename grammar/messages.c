@@ -411,6 +411,13 @@ static bool is_after_branch(const GrammarState *state)
            (is_first || before == TOKEN_HASH_ELSE || before == TOKEN_HASH_END);
 }
 
+// A call in a place where none can stand: its text may make sense there.
+static bool is_at_macro(const GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    return hooks != NULL && state->current.kind == TOKEN_NAME && hooks->is_macro(hooks->client, state->current.symbol);
+}
+
 // The end of a branch, where more is expected.
 static bool cuts_branch(GrammarState *state)
 {
@@ -437,7 +444,7 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
         }
         return;
     }
-    if ((is_after_branch(state) || cuts_branch(state)) && grammar_tear(state)) {
+    if ((is_after_branch(state) || cuts_branch(state) || is_at_macro(state)) && grammar_tear(state)) {
         return;
     }
     if (state->current.kind != TOKEN_INVALID && !report_reserved(state) && !report_split(state) &&
