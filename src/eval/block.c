@@ -21,6 +21,8 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_SCALE] = transform_action,        [ACTION_MATRIX] = transform_action,
     [ACTION_TRANSFORM] = transform_action,    [ACTION_TEXTURE] = texture_action,
     [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
+    [ACTION_PATTERN] = pattern_action,        [ACTION_WAVE] = pattern_wave_action,
+    [ACTION_MAP] = pattern_map_action,
     [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
 };
@@ -29,12 +31,16 @@ static const BlockAction actions[ACTION_COUNT] = {
 static const BlockHook bodies[KIND_COUNT] = {
     [KIND_UNION] = object_members,
     [KIND_OBJECT] = object_body,
+    [KIND_COLOUR_MAP] = pattern_map_body,
+    [KIND_PIGMENT_MAP] = pattern_map_body,
+    [KIND_TEXTURE_MAP] = pattern_map_body,
 };
 
 // At the closing brace.
 static const BlockHook closings[KIND_COUNT] = {
     [KIND_CAMERA] = camera_close, [KIND_PLANE] = plane_close,           [KIND_UNION] = union_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
+    [KIND_TEXTURE] = pattern_close,
 };
 
 SchemaKind block_kind(const Eval *ev, const AstNode *node)
@@ -67,9 +73,9 @@ void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
     const Settings *settings = &ev->scene->settings;
     memcpy(record, schema->defaults, schema->size);
     switch (kind) {
-    case KIND_TEXTURE: record->texture.layer = ev->objects->defaults; break;
-    case KIND_PIGMENT: record->pigment.colour = ev->objects->defaults.pigment; break;
-    case KIND_FINISH: record->finish.finish = ev->objects->defaults.finish; break;
+    case KIND_TEXTURE: record->texture = *ev->objects->defaults; break;
+    case KIND_PIGMENT: record->pigment = ev->objects->defaults->pigment; break;
+    case KIND_FINISH: record->finish.finish = ev->objects->defaults->finish; break;
     case KIND_GLOBAL_SETTINGS:
         record->settings.ambient_light = settings->ambient_light;
         record->settings.adc_bailout = settings->adc_bailout;
@@ -251,7 +257,7 @@ static void take_name(Block *block, const Value *value, const AstNode *item)
         block_fault(block, DIAG_E0258, item->span, "`%s` cannot begin with %s", block_word(block),
                     value_describe(value));
     } else if (value->block == KIND_PIGMENT && block->kind == KIND_TEXTURE) {
-        block->record->texture.layer.pigment = ((const PigmentBlueprint *)value->record)->colour;
+        block->record->texture.pigment = *(const PigmentBlueprint *)value->record;
     } else {
         block->is = (SchemaKind)value->block;
         memcpy(block->record, value->record, schema_kind(block->is)->size);
@@ -289,8 +295,7 @@ static void read_name(Block *block)
     }
 }
 
-// A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
-static bool begins_like_colour(Block *block, const AstNode *item)
+bool block_begins_like_colour(Block *block, const AstNode *item)
 {
     while (item->kind == AST_BINARY) {
         item = item->a;
@@ -320,11 +325,14 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
     if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA)) {
         block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
     }
-    if (block->kind == KIND_PIGMENT && !begins_like_colour(block, item)) {
+    if (block->kind == KIND_PIGMENT && !block_begins_like_colour(block, item)) {
         block_fault(block, DIAG_E0254, item->span,
                     "the colour of a pigment begins with a colour word such as `rgb`, or with the name of a colour");
     }
     block->arguments++;
+    if (block->kind == KIND_PIGMENT) {
+        block->record->patterned.pattern.type = PATTERN_NONE; // of #default, or of what stood before
+    }
     return read_typed(block, argument, (char *)block->record + argument->at);
 }
 
@@ -498,23 +506,46 @@ static void read_properties(Block *block)
     }
 }
 
+// All that stands in a block whose cursor is open.
+static bool read_items(Block *block, SchemaKind *is)
+{
+    SchemaKind kind = block->kind;
+    read_name(block);
+    read_arguments(block);
+    if (bodies[kind] && !block->has_name && !bodies[kind](block)) {
+        block->has_fault = true;
+    }
+    read_properties(block);
+    cursor_close(&block->cursor);
+    if (block->ev->stop || block->has_fault || (closings[kind] && !closings[kind](block))) {
+        return false;
+    }
+    *is = block->is;
+    return !block->has_unsupported || block->ev->objects->is_deferring;
+}
+
 bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Blueprint *record, SchemaKind *is)
 {
     Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind};
     cursor_open(&block.cursor, ev, node->a, node->span);
-    read_name(&block);
-    read_arguments(&block);
-    if (bodies[kind] && !block.has_name && !bodies[kind](&block)) {
-        block.has_fault = true;
-    }
-    read_properties(&block);
-    cursor_close(&block.cursor);
-    if (ev->stop || block.has_fault || (closings[kind] && !closings[kind](&block))) {
+    if (!read_items(&block, is)) {
         return false;
     }
     if (schema_kind(block.is)->is_object) {
         record->part.span = node->span;
     }
-    *is = block.is;
-    return !block.has_unsupported || ev->objects->is_deferring;
+    return true;
+}
+
+bool block_read_entry(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *arena, double *at, Blueprint *record)
+{
+    Block block = {.ev = ev, .node = entry, .arena = arena, .record = record, .kind = kind, .is = kind};
+    SchemaKind is;
+    Span span = entry->span;
+    cursor_open(&block.cursor, ev, entry->a, entry->span);
+    if (!cursor_number(&block.cursor, at, &span)) {
+        cursor_close(&block.cursor);
+        return false;
+    }
+    return block_finite(&block, *at, span, schema_kind(kind)->word) && read_items(&block, &is);
 }

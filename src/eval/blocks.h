@@ -13,7 +13,7 @@ struct ObjectState {
     uint8_t properties[KIND_COUNT][WORD_COUNT]; // place in the kind's properties + 1
     uint8_t advice[WORD_COUNT];                 // place among the unsupported words + 1
     bool is_told[WORD_COUNT];                   // that rtlang has not this word
-    TextureLayer defaults;                      // of #default
+    const TextureBlueprint *defaults;           // of #default
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring, has_deferred;
     UnsupportedBlueprint deferred;
@@ -85,7 +85,27 @@ bool transform_close(Block *block) RT_MUST_CHECK;
 double vector_length(Vec3 vector);
 Vec3 vector_unit(Vec3 vector);
 
+// Reads an entry of a map: a number, then what may stand in a block of the kind.
+bool block_read_entry(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *arena, double *at,
+                      Blueprint *record) RT_MUST_CHECK;
+
+// pattern.c
+bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool pattern_map_body(Block *block) RT_MUST_CHECK;
+bool pattern_close(Block *block) RT_MUST_CHECK; // of a pigment or texture
+// A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
+bool block_begins_like_colour(Block *block, const AstNode *item);
+
+// material.c
+// The scene's record of a texture that is moved by `outer`.
+bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer, Span span,
+                    MaterialIndex *index) RT_MUST_CHECK;
+
 // texture.c
+// Moves a texture with all that lies below it.
+void texture_transform(TextureBlueprint *texture, const Transform *transform);
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool finish_close(Block *block) RT_MUST_CHECK;

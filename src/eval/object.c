@@ -164,7 +164,8 @@ bool object_body(Block *block)
 
 typedef struct Placement {
     Transform outer;
-    const TextureLayer *inherited; // of the nearest union that has one, else #default's
+    const TextureBlueprint *texture; // of the nearest object around that has one, else #default's
+    Transform texture_outer;         // of the texture
 } Placement;
 
 static bool flattened(Eval *ev, const ObjectPart *part)
@@ -227,8 +228,7 @@ static bool place_plane(Eval *ev, const PlaneBlueprint *plane, const Transform *
            eval_no_memory(ev, plane->part.span);
 }
 
-static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Transform *transform,
-                        const TextureLayer *texture)
+static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Placement *placement)
 {
     const ObjectPart *part = object;
     MaterialIndex index;
@@ -238,10 +238,11 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Tra
         ev->stop = true; // only now: nothing is reported after it
         return false;
     }
-    if (!scene_add_material(ev->scene, texture->pigment, &texture->finish, &index)) {
-        return eval_no_memory(ev, part->span);
+    if (!material_place(ev, placement->texture, &placement->texture_outer, part->span, &index)) {
+        return false;
     }
-    return kind == KIND_SPHERE ? place_sphere(ev, object, transform, index) : place_plane(ev, object, transform, index);
+    return kind == KIND_SPHERE ? place_sphere(ev, object, &placement->outer, index)
+                               : place_plane(ev, object, &placement->outer, index);
 }
 
 // Recursive: object_members keeps trees from growing deeper than the limit.
@@ -253,14 +254,15 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
     const ObjectPart *part = object;
     Placement inner = {
         .outer = transform_compose(part->transform, outer->outer),
-        .inherited = part->has_texture ? &part->texture : outer->inherited,
+        .texture = part->texture ? part->texture : outer->texture,
+        .texture_outer = part->texture ? outer->outer : outer->texture_outer,
     };
     if (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius == 0.0) {
         eval_warn(ev, DIAG_W0348, part->span, "a sphere of radius 0 is not drawn");
         return true;
     }
     if (kind != KIND_UNION) {
-        return place_shape(ev, kind, object, &inner.outer, inner.inherited);
+        return place_shape(ev, kind, object, &inner);
     }
     bool is_fine = true;
     for (const UnionMember *member = ((const UnionBlueprint *)object)->members; member && !ev->stop;
@@ -272,7 +274,8 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
 
 static bool place_object(Eval *ev, SchemaKind kind, const void *object)
 {
-    Placement world = {.outer = transform_identity(), .inherited = &ev->objects->defaults};
+    Transform identity = transform_identity();
+    Placement world = {identity, ev->objects->defaults, identity};
     return place(ev, kind, object, &world);
 }
 
@@ -400,6 +403,7 @@ static void index_words(Eval *ev)
             objects->properties[kind][word_symbol(ev, property->word)] = (uint8_t)(i + 1);
         }
     }
+    objects->kinds[W_colour_map] = KIND_COLOUR_MAP; // another spelling
     const SchemaUnsupported *entry;
     for (size_t i = 0; (entry = schema_unsupported(i)); i++) {
         objects->advice[word_symbol(ev, entry->word)] = (uint8_t)(i + 1);
@@ -415,7 +419,7 @@ bool objects_init(Eval *ev)
     }
     memset(objects, 0, sizeof *objects);
     ev->objects = objects;
-    objects->defaults = ((const TextureBlueprint *)schema_kind(KIND_TEXTURE)->defaults)->layer;
+    objects->defaults = schema_kind(KIND_TEXTURE)->defaults;
     index_words(ev);
     return true;
 }

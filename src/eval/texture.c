@@ -1,58 +1,97 @@
-// Textures: pigment, finish and reflection become one layer.
+// Textures: pigments, finishes and layers.
 //
 // A block inside another one changes only what it says; the rest is the surrounding texture's, or that of #default at
-// the time. Albedo forms are worked out at a finish's closing brace, with the exponents it has by then. Knows nothing
-// of shapes.
+// the time. An object's texture is never changed in place, for copies may share it. Albedo forms are worked out at a
+// finish's closing brace, with the exponents it has by then. Knows nothing of shapes.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
 #include "eval/blocks.h"
 
-static bool read_pigment(Eval *ev, const AstNode *item, TextureLayer *layer)
+void texture_transform(TextureBlueprint *texture, const Transform *transform)
 {
-    Blueprint record;
-    SchemaKind is;
-    block_defaults(ev, KIND_PIGMENT, &record);
-    record.pigment.colour = layer->pigment;
-    if (!block_read(ev, item, KIND_PIGMENT, &ev->program, &record, &is)) {
-        return false;
+    texture->part.transform = transform_compose(texture->part.transform, *transform);
+}
+
+// Hands the transform of a texture on to its pigment and to what lies below, so that a new pigment is not moved by it.
+static bool settle(Eval *ev, Arena *arena, TextureBlueprint *texture, Span span)
+{
+    const Transform *transform = &texture->part.transform;
+    if (texture->part.pattern.type != PATTERN_NONE) {
+        return true;
     }
-    layer->pigment = record.pigment.colour;
+    texture->pigment.part.transform = transform_compose(texture->pigment.part.transform, *transform);
+    if (texture->below) {
+        TextureBlueprint *below = arena_copy(arena, texture->below, sizeof *below);
+        if (!below) {
+            return eval_no_memory(ev, span);
+        }
+        texture_transform(below, transform);
+        texture->below = below;
+    }
+    texture->part.transform = transform_identity();
     return true;
 }
 
-static bool read_finish(Eval *ev, const AstNode *item, TextureLayer *layer)
+static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+{
+    Blueprint record;
+    SchemaKind is;
+    if (!settle(ev, arena, texture, item->span)) {
+        return false;
+    }
+    record.pigment = texture->pigment;
+    if (!block_read(ev, item, KIND_PIGMENT, arena, &record, &is)) {
+        return false;
+    }
+    texture->pigment = record.pigment;
+    return true;
+}
+
+static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
 {
     Blueprint record;
     SchemaKind is;
     block_defaults(ev, KIND_FINISH, &record);
-    record.finish.finish = layer->finish;
-    if (!block_read(ev, item, KIND_FINISH, &ev->program, &record, &is)) {
+    record.finish.finish = texture->finish;
+    if (!block_read(ev, item, KIND_FINISH, arena, &record, &is)) {
         return false;
     }
-    layer->finish = record.finish.finish;
+    texture->finish = record.finish.finish;
     return true;
 }
 
-// A texture over another one hides it if no light gets through; only then is it the only one.
-static void add_layer(Eval *ev, const TextureLayer *layer, Span span, bool has_texture, TextureLayer *texture)
+// Lays `top`, which may have layers of its own, over `below`.
+static bool lay_over(Eval *ev, Arena *arena, TextureBlueprint *top, const TextureBlueprint *below, Span span)
 {
-    if (has_texture && (layer->pigment.filter != 0.0 || layer->pigment.transmit != 0.0)) {
-        block_unsupported(ev, "texture", span, KIND_TEXTURE);
+    TextureBlueprint *layer = top;
+    for (;;) {
+        if (!settle(ev, arena, layer, span) || !eval_step(ev, span)) {
+            return false;
+        }
+        if (layer->part.pattern.type != PATTERN_NONE) {
+            return eval_fault(ev, DIAG_E0290, span, "a pattern of textures can only be the lowest layer");
+        }
+        if (!layer->below) {
+            layer->below = below;
+            return true;
+        }
+        layer = (TextureBlueprint *)layer->below; // a copy that settle has made
     }
-    *texture = *layer;
 }
 
-static bool read_texture(Eval *ev, const AstNode *item, bool has_texture, TextureLayer *texture)
+static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const TextureBlueprint *below,
+                         TextureBlueprint *texture)
 {
     Blueprint record;
     SchemaKind is;
     block_defaults(ev, KIND_TEXTURE, &record);
-    if (!block_read(ev, item, KIND_TEXTURE, &ev->program, &record, &is)) {
+    if (!block_read(ev, item, KIND_TEXTURE, arena, &record, &is) ||
+        (below && !lay_over(ev, arena, &record.texture, below, item->span))) {
         return false;
     }
-    add_layer(ev, &record.texture.layer, item->span, has_texture, texture);
+    *texture = record.texture;
     return true;
 }
 
@@ -60,19 +99,22 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
 {
     Eval *ev = block->ev;
     if (block->kind == KIND_TEXTURE) {
-        TextureLayer *layer = &block->record->texture.layer;
-        return property->action == ACTION_PIGMENT ? read_pigment(ev, item, layer) : read_finish(ev, item, layer);
+        TextureBlueprint *texture = &block->record->texture;
+        return property->action == ACTION_PIGMENT ? read_pigment(ev, item, block->arena, texture)
+                                                  : read_finish(ev, item, block->arena, texture);
     }
     ObjectPart *part = &block->record->part;
-    bool had_texture = part->has_texture;
-    if (!had_texture) {
-        part->texture = ev->objects->defaults;
-        part->has_texture = true;
+    TextureBlueprint *texture =
+        arena_copy(block->arena, part->texture ? part->texture : ev->objects->defaults, sizeof *texture);
+    if (!texture) {
+        return eval_no_memory(ev, item->span);
     }
+    const TextureBlueprint *before = part->texture;
+    part->texture = texture;
     switch (property->action) {
-    case ACTION_PIGMENT: return read_pigment(ev, item, &part->texture);
-    case ACTION_FINISH: return read_finish(ev, item, &part->texture);
-    default: return read_texture(ev, item, had_texture, &part->texture);
+    case ACTION_PIGMENT: return read_pigment(ev, item, block->arena, texture);
+    case ACTION_FINISH: return read_finish(ev, item, block->arena, texture);
+    default: return read_texture(ev, item, block->arena, before, texture);
     }
 }
 
@@ -135,57 +177,57 @@ bool finish_close(Block *block)
 
 bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value)
 {
-    TextureBlueprint *record = arena_alloc(&ev->program, sizeof *record);
-    if (!record) {
-        return eval_no_memory(ev, first->span);
-    }
-    *value = (Value){.kind = VALUE_BLOCK, .block = KIND_TEXTURE, .record = record};
-    for (const AstNode *layer = first; layer; layer = layer->next) {
+    const TextureBlueprint *below = NULL;
+    for (const AstNode *node = first; node; node = node->next) {
         Value one;
-        if (!eval_block(ev, layer, &one)) {
+        if (!eval_block(ev, node, &one)) {
             return false;
         }
         if (one.block == KIND_UNSUPPORTED) {
             *value = one;
             return true;
         }
-        const TextureBlueprint *texture = one.record;
-        bool is_seen_through = texture->layer.pigment.filter != 0.0 || texture->layer.pigment.transmit != 0.0;
-        if (layer != first && is_seen_through) {
-            UnsupportedBlueprint what = {layer->span, "texture", KIND_TEXTURE};
-            void *kept = arena_copy(&ev->program, &what, sizeof what);
-            if (!kept) {
-                return eval_no_memory(ev, layer->span);
-            }
-            *value = (Value){.kind = VALUE_BLOCK, .block = KIND_UNSUPPORTED, .record = kept};
-            return true;
+        TextureBlueprint *layer = arena_copy(&ev->program, one.record, sizeof *layer);
+        if (!layer) {
+            return eval_no_memory(ev, node->span);
         }
-        *record = *texture;
+        if (below && !lay_over(ev, &ev->program, layer, below, node->span)) {
+            return false;
+        }
+        below = layer;
     }
+    *value = (Value){.kind = VALUE_BLOCK, .block = KIND_TEXTURE, .record = below};
     return true;
+}
+
+static bool read_default(Eval *ev, const AstNode *item, TextureBlueprint *texture)
+{
+    switch (block_kind(ev, item)) {
+    case KIND_TEXTURE: return read_texture(ev, item, &ev->program, NULL, texture);
+    case KIND_PIGMENT: return read_pigment(ev, item, &ev->program, texture);
+    case KIND_FINISH: return read_finish(ev, item, &ev->program, texture);
+    default:
+        return eval_fault(ev, DIAG_E0256, item->span, "#default holds texture, pigment and finish blocks only");
+    }
 }
 
 bool eval_default(Eval *ev, const AstNode *directive)
 {
     Cursor cursor;
-    TextureLayer *defaults = &ev->objects->defaults;
     bool is_fine = true;
     const AstNode *item;
+    TextureBlueprint *texture = arena_copy(&ev->program, ev->objects->defaults, sizeof *texture);
+    if (!texture) {
+        return eval_no_memory(ev, directive->span);
+    }
     cursor_open(&cursor, ev, directive->a, directive->span);
     while ((item = cursor_peek(&cursor))) {
-        switch (block_kind(ev, item)) {
-        case KIND_TEXTURE: is_fine = read_texture(ev, item, false, defaults) && is_fine; break;
-        case KIND_PIGMENT: is_fine = read_pigment(ev, item, defaults) && is_fine; break;
-        case KIND_FINISH: is_fine = read_finish(ev, item, defaults) && is_fine; break;
-        default:
-            is_fine = eval_fault(ev, DIAG_E0256, item->span,
-                                 "#default holds texture, pigment and finish blocks only");
-            break;
-        }
+        is_fine = read_default(ev, item, texture) && is_fine;
         do {
             cursor_skip(&cursor); // what is not understood, with all that belongs to it
         } while (!is_fine && (item = cursor_peek(&cursor)) && item->kind != AST_BLOCK);
     }
     cursor_close(&cursor);
+    ev->objects->defaults = texture;
     return is_fine;
 }

@@ -31,13 +31,24 @@ Vec3 vector_unit(Vec3 vector)
     return vec3(scaled.x / length, scaled.y / length, scaled.z / length);
 }
 
-static void apply(Block *block, const Transform *transform)
+// An object's texture moves with it.
+static bool apply(Block *block, const Transform *transform)
 {
     if (block->is == KIND_LIGHT_SOURCE) {
         light_transform(&block->record->light, transform);
-    } else {
-        block->record->transform = transform_compose(block->record->transform, *transform);
+        return true;
     }
+    block->record->transform = transform_compose(block->record->transform, *transform);
+    ObjectPart *part = &block->record->part;
+    if (schema_kind(block->is)->is_object && part->texture) {
+        TextureBlueprint *texture = arena_copy(block->arena, part->texture, sizeof *texture);
+        if (!texture) {
+            return eval_no_memory(block->ev, block->node->span);
+        }
+        texture_transform(texture, transform);
+        part->texture = texture;
+    }
+    return true;
 }
 
 static bool read_vector(Block *block, const char *word, Span word_span, Vec3 *vector, Span *span)
@@ -157,7 +168,9 @@ bool transform_action(Block *block, const SchemaProperty *property, const AstNod
     if (!extent_note(block, &transform, takes_vector && is_even, span)) {
         return false;
     }
-    apply(block, &transform);
+    if (!apply(block, &transform)) {
+        return false;
+    }
     return transform_is_finite(&block->record->transform) || block->is == KIND_LIGHT_SOURCE ||
            block_fault(block, DIAG_E0340, item->span, "the transforms leave the range of numbers");
 }

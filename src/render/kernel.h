@@ -18,7 +18,8 @@ typedef enum RenderFeature {
     RENDER_REFLECTION = 1 << 11,
     RENDER_TRANSPARENCY = 1 << 12, // filter or transmit, in shadows too
     RENDER_EXPONENT = 1 << 13,     // reflected light raised to a power
-    RENDER_ALL_FEATURES = 0x3f << 8,
+    RENDER_TEXTURES = 1 << 14,     // patterns or layers
+    RENDER_ALL_FEATURES = 0x7f << 8,
 } RenderFeature;
 
 // Pixels left <= x < right, top <= y < bottom.

@@ -149,6 +149,18 @@ static unsigned pigments_features(const Scene *scene)
             return RENDER_TRANSPARENCY;
         }
     }
+    for (size_t i = 0; i < scene->pigment_entries.count; i++) {
+        const Pigment *pigment = &scene->pigment_entries.items[i].pigment;
+        if (pigment->filter != 0.0F || pigment->transmit != 0.0F) {
+            return RENDER_TRANSPARENCY;
+        }
+    }
+    for (size_t i = 0; i < scene->textures.count; i++) {
+        const Pigment *pigment = &scene->textures.items[i].pigment;
+        if (pigment->filter != 0.0F || pigment->transmit != 0.0F) {
+            return RENDER_TRANSPARENCY;
+        }
+    }
     return 0;
 }
 
@@ -158,6 +170,7 @@ static unsigned needed_features(const Prepared *p, const Scene *scene)
     for (size_t i = 0; i < p->light_count; i++) {
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
     }
+    features |= scene->compounds.count ? (unsigned)RENDER_TEXTURES : 0;
     for (size_t i = 0; i < p->finish_count; i++) {
         features |= finish_features(&p->finishes[i]);
     }
@@ -175,6 +188,7 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
         }
     }
     p->materials = scene->materials.items;
+    p->compounds = scene->compounds.items;
     p->finish_count = scene->finishes.count;
     for (size_t i = 0; i < p->finish_count; i++) {
         p->finishes[i] = prepare_finish(&scene->finishes.items[i], &scene->settings);
@@ -191,7 +205,7 @@ Prepared *prepared_new(const Scene *scene)
     p->geometry = geometry_new(scene, exponent);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
-    if (!p->geometry || !p->lights || !p->finishes) {
+    if (!p->geometry || !p->lights || !p->finishes || !texture_table_init(&p->textures, scene, exponent)) {
         prepared_free(p);
         return NULL;
     }
@@ -214,6 +228,7 @@ void prepared_free(Prepared *prepared)
     geometry_free(prepared->geometry);
     free(prepared->lights);
     free(prepared->finishes);
+    texture_table_fini(&prepared->textures);
     free(prepared);
 }
 

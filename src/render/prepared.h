@@ -11,6 +11,7 @@
 #include "math/vec3.h"
 #include "render/kernel.h"
 #include "render/render.h"
+#include "render/texture.h"
 #include "scene/scene.h"
 #include "trace/trace.h"
 
@@ -47,6 +48,8 @@ struct Prepared {
     PreparedLight *lights;
     size_t light_count;
     const Material *materials; // the scene's
+    const Compound *compounds; // the scene's
+    TextureTable textures;
     PreparedFinish *finishes;
     size_t finish_count;
     int max_trace_level;

@@ -13,6 +13,7 @@
 #include "base/limits.h"
 #include "render/kernel.h"
 #include "render/prepared.h"
+#include "render/texture.h"
 #include "trace/query.h"
 
 // A ray that is still to be traced, or (closes) the end of one whose light is raised to a power before it is added.
@@ -42,33 +43,58 @@ typedef struct ShadePoint {
     Vec3 point, normal, outward;
     Vec3 direction; // of the ray that found it
     ShapeId shape;
+    MaterialIndex material;
     bool inside;
 } ShadePoint;
 
 // What a surface is made of at a point. "Opaque share" is 1 - filter - transmit.
 typedef struct ShadeMaterial {
     Rgb pigment;
-    Rgb opaque;  // opaque share × pigment
-    Rgb through; // filter × pigment + transmit: what a ray that goes through is multiplied with
+    Rgb opaque; // opaque share × pigment
     const PreparedFinish *finish;
 } ShadeMaterial;
 
-RT_ALWAYS_INLINE Rgb shade_through(const Material *material)
+// What a surface sends on, all its layers together.
+typedef struct ShadeOnward {
+    Rgb through;     // what a ray that goes through is multiplied with
+    Rgb reflectance; // the same for the mirrored ray
+    double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
+    double reflection_exponent;
+    bool conserves_energy;
+} ShadeOnward;
+
+// The same as shade_surface for patterns and layers; not inline, for it costs more than a call. In kernel.c's company.
+Rgb shade_compound(const Prepared *p, const ShadePoint *at, ShadeOnward *onward, RenderStatistics *statistics);
+
+RT_ALWAYS_INLINE Rgb shade_pigment_through(Rgbft pigment)
 {
-    Rgb pigment = rgb(material->red, material->green, material->blue);
-    return rgb_add(rgb_scale(material->filter, pigment), rgb_grey(material->transmit));
+    return rgb_add(rgb_scale(pigment.filter, rgbft_rgb(pigment)), rgb_grey(pigment.transmit));
 }
 
-RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned features, MaterialIndex index)
+RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned features, Rgbft pigment, FinishIndex finish)
 {
-    const Material *material = &p->materials[index];
-    Rgb pigment = rgb(material->red, material->green, material->blue);
-    ShadeMaterial out = {pigment, pigment, rgb_grey(0.0), &p->finishes[material->finish]};
+    Rgb colour = rgbft_rgb(pigment);
+    ShadeMaterial out = {colour, colour, &p->finishes[finish]};
     if (features & RENDER_TRANSPARENCY) {
-        out.opaque = rgb_scale(1.0 - (double)material->filter - (double)material->transmit, pigment);
-        out.through = shade_through(material);
+        out.opaque = rgb_scale(1.0 - pigment.filter - pigment.transmit, colour);
     }
     return out;
+}
+
+static inline void shade_visit_nothing(void *client, const TextureLayer *layer)
+{
+    (void)client;
+    (void)layer;
+}
+
+// What a surface multiplies light with that goes through it.
+RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface)
+{
+    if ((features & RENDER_TEXTURES) && (surface->material & MATERIAL_COMPOUND)) {
+        const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
+        return texture_walk(&p->textures, compound->texture, surface->point, shade_visit_nothing, NULL);
+    }
+    return shade_pigment_through(material_pigment(&p->materials[surface->material]));
 }
 
 // base^exponent, by multiplications for whole exponents, so that the bits do not depend on a machine's pow.
@@ -97,7 +123,7 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, R
     Hit hit;
     for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
         Surface surface = geometry_surface(p->geometry, features, ray, hit);
-        Rgb through = shade_through(&p->materials[surface.material]);
+        Rgb through = shade_surface_through(p, features, &surface);
         if (rgb_is_black(through) || passed > p->crossings_max) {
             return rgb_grey(0.0);
         }
@@ -210,22 +236,22 @@ RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
 }
 
 // The mirrored ray, unless it is too deep or worth too little. The angle does not enter its weight.
-RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ShadeMaterial *material,
-                                    const ShadePoint *at, const PendingRay *from, Rgb reflectance, Pending *pending)
+RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                    const ShadePoint *at, const PendingRay *from, Pending *pending)
 {
-    double weight = from->weight * material->finish->reflection_weight;
+    double weight = from->weight * onward->reflection_weight;
     if (from->level >= p->max_trace_level || weight < p->adc_bailout) {
         return;
     }
     PendingRay ray = {
         .ray = {at->point, vec3_normalize(vec3_reflect(at->direction, at->normal))},
         .start = {at->shape, at->inside},
-        .share = rgb_mul(from->share, reflectance),
+        .share = rgb_mul(from->share, onward->reflectance),
         .weight = weight,
         .level = from->level + 1,
     };
-    if ((features & RENDER_EXPONENT) && material->finish->reflection_exponent != 1.0) {
-        PendingRay end = {.share = ray.share, .exponent = 1.0 / material->finish->reflection_exponent, .closes = true};
+    if ((features & RENDER_EXPONENT) && onward->reflection_exponent != 1.0) {
+        PendingRay end = {.share = ray.share, .exponent = 1.0 / onward->reflection_exponent, .closes = true};
         pending->rays[pending->count++] = end;
         pending->sums[++pending->open] = rgb_grey(0.0);
         ray.share = rgb_grey(1.0);
@@ -234,12 +260,12 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
 }
 
 // The ray that goes straight on. It stays on its level; what bounds it is that a line meets only so many surfaces.
-RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeMaterial *material, const ShadePoint *at,
-                                     const PendingRay *from, Rgb reflectance, Pending *pending)
+RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onward, const ShadePoint *at,
+                                     const PendingRay *from, Pending *pending)
 {
-    Rgb through = material->through;
-    if (material->finish->conserves_energy) {
-        through = rgb_mul(through, rgb_add_scaled(rgb_grey(1.0), -1.0, reflectance));
+    Rgb through = onward->through;
+    if (onward->conserves_energy) {
+        through = rgb_mul(through, rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance));
     }
     double grey = 0.297 * through.red + 0.589 * through.green + 0.114 * through.blue;
     double weight = from->weight * rgb_max(through);
@@ -257,7 +283,24 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeMaterial *mat
     };
 }
 
-// What a hit adds by itself: its glow and what the lights make of it.
+// The rays that go on from a hit; the reflected one will be traced first.
+RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                  const ShadePoint *at, const PendingRay *from, Pending *pending,
+                                  RenderStatistics *statistics)
+{
+    int before = pending->count;
+    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(onward->through)) {
+        shade_transmit(p, onward, at, from, pending);
+        statistics->transmitted_rays += (uint64_t)(pending->count - before);
+    }
+    before = pending->count;
+    if ((features & RENDER_REFLECTION) && onward->reflection_weight != 0.0) {
+        shade_reflect(p, features, onward, at, from, pending);
+        statistics->reflected_rays += pending->count > before;
+    }
+}
+
+// What a material adds by itself: its glow and what the lights make of it.
 RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const ShadeMaterial *material,
                                  const ShadePoint *at, RenderStatistics *statistics)
 {
@@ -268,30 +311,48 @@ RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const Sha
     return light;
 }
 
-// The rays that go on from a hit; the reflected one will be traced first.
-RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeMaterial *material,
-                                  const ShadePoint *at, const PendingRay *from, Pending *pending,
-                                  RenderStatistics *statistics)
+// The mirror of a material, by colour; false when it has none.
+RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *material, const ShadePoint *at,
+                                   Rgb *reflectance)
 {
-    Rgb reflectance = rgb_grey(0.0);
-    if ((features & RENDER_REFLECTION) && material->finish->reflects) {
-        reflectance = shade_reflectance(material, -vec3_dot(at->normal, at->direction));
+    if (!(features & RENDER_REFLECTION) || !material->finish->reflects) {
+        return false;
     }
-    int before = pending->count;
-    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(material->through)) {
-        shade_transmit(p, material, at, from, reflectance, pending);
-        statistics->transmitted_rays += (uint64_t)(pending->count - before);
+    *reflectance = shade_reflectance(material, -vec3_dot(at->normal, at->direction));
+    return true;
+}
+
+// The light of a surface of one material, and what it sends on.
+RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadePoint *at, ShadeOnward *onward,
+                                 RenderStatistics *statistics)
+{
+    const Material *plain = &p->materials[at->material];
+    Rgbft pigment = material_pigment(plain);
+    ShadeMaterial material = shade_material(p, features, pigment, plain->finish);
+    if (shade_mirror(features, &material, at, &onward->reflectance)) {
+        onward->reflection_weight = material.finish->reflection_weight;
+        onward->reflection_exponent = material.finish->reflection_exponent;
     }
-    before = pending->count;
-    if ((features & RENDER_REFLECTION) && material->finish->reflects) {
-        shade_reflect(p, features, material, at, from, reflectance, pending);
-        statistics->reflected_rays += pending->count > before;
+    if (features & RENDER_TRANSPARENCY) {
+        onward->through = shade_pigment_through(pigment);
+        onward->conserves_energy = material.finish->conserves_energy;
     }
+    return shade_local(p, features, &material, at, statistics);
+}
+
+// The light at a hit, and what the surface sends on.
+RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const ShadePoint *at, ShadeOnward *onward,
+                                   RenderStatistics *statistics)
+{
+    *onward = (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0};
+    if ((features & RENDER_TEXTURES) && (at->material & MATERIAL_COMPOUND)) {
+        return shade_compound(p, at, onward, statistics);
+    }
+    return shade_plain(p, features, at, onward, statistics);
 }
 
 // Finds what a ray hits; false when it meets nothing.
-RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, ShadePoint *at,
-                                 ShadeMaterial *material)
+RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, ShadePoint *at)
 {
     Hit hit;
     if (!geometry_closest(p->geometry, features, now->ray, now->start, (double)INFINITY, &hit)) {
@@ -299,8 +360,13 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
     }
     Surface surface = geometry_surface(p->geometry, features, now->ray, hit);
     Vec3 normal = hit.inside ? vec3_neg(surface.normal) : surface.normal;
-    *material = shade_material(p, features, surface.material);
-    *at = (ShadePoint){surface.point, normal, surface.normal, now->ray.direction, hit.shape, hit.inside};
+    *at = (ShadePoint){.point = surface.point,
+                       .normal = normal,
+                       .outward = surface.normal,
+                       .direction = now->ray.direction,
+                       .shape = hit.shape,
+                       .material = surface.material,
+                       .inside = hit.inside};
     return true;
 }
 
@@ -323,14 +389,14 @@ RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const Pend
     while (pending.count > 0) {
         PendingRay now = pending.rays[--pending.count];
         ShadePoint at;
-        ShadeMaterial material;
+        ShadeOnward onward;
         if ((features & RENDER_EXPONENT) && now.closes) {
             Rgb light = shade_rgb_power(pending.sums[pending.open--], now.exponent);
             pending_add(&pending, &now, light);
-        } else if (shade_find(p, features, &now, &at, &material)) {
+        } else if (shade_find(p, features, &now, &at)) {
             // Its own light first: a reflected ray may open a sum of its own.
-            pending_add(&pending, &now, shade_local(p, features, &material, &at, statistics));
-            shade_go_on(p, features, &material, &at, &now, &pending, statistics);
+            pending_add(&pending, &now, shade_surface(p, features, &at, &onward, statistics));
+            shade_go_on(p, features, &onward, &at, &now, &pending, statistics);
         } else {
             pending_add(&pending, &now, p->background);
         }
@@ -346,9 +412,8 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, Re
         return shade_path(p, features, &first, statistics);
     }
     ShadePoint at;
-    ShadeMaterial material;
-    return shade_find(p, features, &first, &at, &material) ? shade_local(p, features, &material, &at, statistics)
-                                                           : p->background;
+    ShadeOnward onward;
+    return shade_find(p, features, &first, &at) ? shade_surface(p, features, &at, &onward, statistics) : p->background;
 }
 
 #endif

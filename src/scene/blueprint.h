@@ -26,18 +26,44 @@ typedef struct CameraBlueprint {
     bool has_right, has_up, has_look_at, has_angle;
 } CameraBlueprint;
 
-// One layer of a texture, with all that is said or taken over.
-typedef struct TextureLayer {
-    Rgbft pigment;
+// A pattern in space and what lies along it; with PATTERN_NONE, what the pigment or texture around it says.
+typedef struct PatternMap PatternMap;
+typedef struct PatternPart {
+    Transform transform; // from the pattern's space; also moves what lies below a texture
+    Pattern pattern;
+    const PatternMap *map; // NULL: the pattern's own
+} PatternPart;
+
+typedef struct PigmentBlueprint {
+    PatternPart part;
+    Rgbft colour, quick_colour;
+} PigmentBlueprint;
+
+typedef struct TextureBlueprint TextureBlueprint;
+struct TextureBlueprint {
+    PatternPart part; // a pattern of textures
+    PigmentBlueprint pigment;
     Finish finish;
-} TextureLayer;
+    const TextureBlueprint *below;
+};
+
+typedef struct PatternEntry {
+    double at;
+    Rgbft colour;
+    const PigmentBlueprint *pigment; // instead of the colour, or NULL
+    const TextureBlueprint *texture; // of a map of textures
+} PatternEntry;
+
+struct PatternMap {
+    const PatternEntry *entries; // NULL in the blueprint of a map that has none yet
+    size_t count;
+};
 
 // Common to everything that may be an object.
 typedef struct ObjectPart {
     Transform transform;
-    bool has_texture; // a texture, pigment or finish of its own
     bool hollow, split_union;
-    TextureLayer texture;
+    const TextureBlueprint *texture; // of its own, as it is moved with the object; NULL: taken over
     Span span;
 } ObjectPart;
 
@@ -94,22 +120,12 @@ typedef struct SettingsBlueprint {
     double ignored; // settings that change no picture here
 } SettingsBlueprint;
 
-typedef struct PigmentBlueprint {
-    Transform transform; // moves nothing: the colour is the same everywhere
-    Rgbft colour, quick_colour;
-} PigmentBlueprint;
-
 typedef struct FinishBlueprint {
     Finish finish;
     // The share was given as an albedo; resolved and false again once the finish is complete.
     bool diffuse_is_albedo, phong_is_albedo, specular_is_albedo;
     bool conserve_energy;
 } FinishBlueprint;
-
-typedef struct TextureBlueprint {
-    Transform transform; // moves nothing, as for pigments
-    TextureLayer layer;
-} TextureBlueprint;
 
 typedef struct TransformBlueprint {
     Transform transform;
@@ -136,6 +152,8 @@ typedef union Blueprint {
     SettingsBlueprint settings;
     PigmentBlueprint pigment;
     FinishBlueprint finish;
+    PatternPart patterned; // of a pigment or texture
+    PatternMap map;
     TextureBlueprint texture;
     TransformBlueprint transformation;
     UnsupportedBlueprint unsupported;

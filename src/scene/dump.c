@@ -6,9 +6,10 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
+#include "scene/dump.h"
 #include "scene/scene.h"
 
-static void dump_numbers(TextBuffer *out, const double *numbers, size_t count)
+void dump_numbers(TextBuffer *out, const double *numbers, size_t count)
 {
     text_append_char(out, '<');
     for (size_t i = 0; i < count; i++) {
@@ -18,7 +19,7 @@ static void dump_numbers(TextBuffer *out, const double *numbers, size_t count)
     text_append_char(out, '>');
 }
 
-static void dump_vector(TextBuffer *out, const char *before, Vec3 vector)
+void dump_vector(TextBuffer *out, const char *before, Vec3 vector)
 {
     text_append(out, before);
     dump_numbers(out, (double[]){vector.x, vector.y, vector.z}, 3);
@@ -30,13 +31,13 @@ static void dump_rgb(TextBuffer *out, const char *before, Rgb colour)
     dump_numbers(out, (double[]){colour.red, colour.green, colour.blue}, 3);
 }
 
-static void dump_rgbft(TextBuffer *out, const char *before, Rgbft c)
+void dump_rgbft(TextBuffer *out, const char *before, Rgbft c)
 {
     text_printf(out, "%srgbft ", before);
     dump_numbers(out, (double[]){c.red, c.green, c.blue, c.filter, c.transmit}, 5);
 }
 
-static void dump_number(TextBuffer *out, const char *before, double number)
+void dump_number(TextBuffer *out, const char *before, double number)
 {
     text_append(out, before);
     text_append_double(out, number);
@@ -116,30 +117,36 @@ static void dump_material(const Material *material, size_t number, TextBuffer *o
     text_printf(out, " } finish { F%lu } }\n", (unsigned long)material->finish + 1);
 }
 
-static void dump_texture(MaterialIndex material, TextBuffer *out)
+// The texture of a shape, which is its last property.
+static void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer *out)
 {
-    text_printf(out, " texture { M%lu } }\n", (unsigned long)material + 1);
+    if (material & MATERIAL_COMPOUND) {
+        const Compound *compound = &scene->compounds.items[material & ~MATERIAL_COMPOUND];
+        text_printf(out, " texture { T%lu } }\n", (unsigned long)compound->texture + 1);
+    } else {
+        text_printf(out, " texture { M%lu } }\n", (unsigned long)material + 1);
+    }
 }
 
-static void dump_sphere(const Sphere *sphere, TextBuffer *out)
+static void dump_sphere(const Scene *scene, const Sphere *sphere, TextBuffer *out)
 {
     dump_vector(out, "sphere { ", sphere->centre);
     dump_number(out, ", ", sphere->radius);
-    dump_texture(sphere->material, out);
+    dump_texture(scene, sphere->material, out);
 }
 
-static void dump_ellipsoid(const Ellipsoid *ellipsoid, TextBuffer *out)
+static void dump_ellipsoid(const Scene *scene, const Ellipsoid *ellipsoid, TextBuffer *out)
 {
     text_append(out, "sphere { 0, 1 matrix ");
     dump_numbers(out, &ellipsoid->to_world.m[0][0], 12);
-    dump_texture(ellipsoid->material, out);
+    dump_texture(scene, ellipsoid->material, out);
 }
 
-static void dump_plane(const Plane *plane, TextBuffer *out)
+static void dump_plane(const Scene *scene, const Plane *plane, TextBuffer *out)
 {
     dump_vector(out, "plane { ", plane->normal);
     dump_number(out, ", ", plane->distance);
-    dump_texture(plane->material, out);
+    dump_texture(scene, plane->material, out);
 }
 
 // Each array is in the order of declaration, so the three are merged.
@@ -148,11 +155,11 @@ static void dump_shapes(const Scene *scene, TextBuffer *out)
     size_t sphere = 0, ellipsoid = 0, plane = 0;
     for (uint32_t order = 0; order < scene->shape_count; order++) {
         if (sphere < scene->spheres.count && scene->spheres.items[sphere].order == order) {
-            dump_sphere(&scene->spheres.items[sphere++], out);
+            dump_sphere(scene, &scene->spheres.items[sphere++], out);
         } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
-            dump_plane(&scene->planes.items[plane++], out);
+            dump_plane(scene, &scene->planes.items[plane++], out);
         } else {
-            dump_ellipsoid(&scene->ellipsoids.items[ellipsoid++], out);
+            dump_ellipsoid(scene, &scene->ellipsoids.items[ellipsoid++], out);
         }
     }
 }
@@ -174,5 +181,6 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     for (size_t i = 0; i < scene->materials.count; i++) {
         dump_material(&scene->materials.items[i], i + 1, out);
     }
+    dump_textures(scene, out);
     dump_shapes(scene, out);
 }

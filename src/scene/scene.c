@@ -7,6 +7,11 @@
 #include "scene/scene.h"
 
 _Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
+_Static_assert(sizeof(Pattern) == 2 * sizeof(uint32_t) + 7 * sizeof(double), "no padding in a pattern");
+_Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * sizeof(uint32_t), "no padding");
+_Static_assert(sizeof(PatternedPigment) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(uint32_t), "no padding");
+_Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(Pattern) + 4 * sizeof(uint32_t),
+               "no padding in a texture");
 _Static_assert(sizeof(Finish) == 23 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
 
 void scene_init(Scene *scene)
@@ -36,23 +41,62 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->lights);
     ARRAY_FREE(&scene->finishes);
     ARRAY_FREE(&scene->materials);
+    ARRAY_FREE(&scene->pigment_entries);
+    ARRAY_FREE(&scene->patterns);
+    ARRAY_FREE(&scene->texture_entries);
+    ARRAY_FREE(&scene->textures);
+    ARRAY_FREE(&scene->compounds);
     ARRAY_FREE(&scene->spheres);
     ARRAY_FREE(&scene->ellipsoids);
     ARRAY_FREE(&scene->planes);
     unique_fini(&scene->finish_index);
     unique_fini(&scene->material_index);
+    unique_fini(&scene->pigment_entry_index);
+    unique_fini(&scene->pattern_index);
+    unique_fini(&scene->texture_entry_index);
+    unique_fini(&scene->texture_index);
+    unique_fini(&scene->compound_index);
     scene_init(scene);
 }
 
-// A slot may only be taken when the record is sure to follow, so room is made first.
-static bool add_finish(Scene *scene, const Finish *finish, FinishIndex *index)
+// The index of an equal record of an array that keeps each different one once. A slot may only be taken when the record
+// is sure to follow, so room is made first.
+#define ADD_ONCE(array, unique, record, index)                                                                         \
+    (ARRAY_RESERVE((array), (array)->count + 1) &&                                                                     \
+     unique_place((unique), (array)->items, (array)->count, sizeof *(array)->items, (record), (index)) &&              \
+     (*(index) < (array)->count || ARRAY_PUSH((array), *(record))))
+
+bool scene_add_finish(Scene *scene, const Finish *finish, FinishIndex *index)
 {
-    if (!ARRAY_RESERVE(&scene->finishes, scene->finishes.count + 1) ||
-        !unique_place(&scene->finish_index, scene->finishes.items, scene->finishes.count, sizeof *finish, finish,
-                      index)) {
-        return false;
-    }
-    return *index < scene->finishes.count || ARRAY_PUSH(&scene->finishes, *finish);
+    return ADD_ONCE(&scene->finishes, &scene->finish_index, finish, index);
+}
+
+bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *index)
+{
+    return ADD_ONCE(&scene->pigment_entries, &scene->pigment_entry_index, entry, index);
+}
+
+bool scene_add_pattern(Scene *scene, const PatternedPigment *pattern, uint32_t *index)
+{
+    return ADD_ONCE(&scene->patterns, &scene->pattern_index, pattern, index);
+}
+
+bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *index)
+{
+    return ADD_ONCE(&scene->texture_entries, &scene->texture_entry_index, entry, index);
+}
+
+bool scene_add_texture(Scene *scene, const Texture *texture, uint32_t *index)
+{
+    return ADD_ONCE(&scene->textures, &scene->texture_index, texture, index);
+}
+
+bool scene_add_compound(Scene *scene, const Compound *compound, MaterialIndex *index)
+{
+    bool is_added = scene->compounds.count < MATERIAL_COMPOUND &&
+                    ADD_ONCE(&scene->compounds, &scene->compound_index, compound, index);
+    *index |= MATERIAL_COMPOUND;
+    return is_added;
 }
 
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index)
@@ -64,18 +108,14 @@ bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, Mater
         .filter = (float)pigment.filter,
         .transmit = (float)pigment.transmit,
     };
-    if (!add_finish(scene, finish, &material.finish) ||
-        !ARRAY_RESERVE(&scene->materials, scene->materials.count + 1) ||
-        !unique_place(&scene->material_index, scene->materials.items, scene->materials.count, sizeof material,
-                      &material, index)) {
-        return false;
-    }
-    return *index < scene->materials.count || ARRAY_PUSH(&scene->materials, material);
+    return scene->materials.count < MATERIAL_COMPOUND && scene_add_finish(scene, finish, &material.finish) &&
+           ADD_ONCE(&scene->materials, &scene->material_index, &material, index);
 }
 
-Rgbft material_pigment(const Material *material)
+Pigment pigment_of(Rgbft colour)
 {
-    return (Rgbft){material->red, material->green, material->blue, material->filter, material->transmit};
+    return (Pigment){(float)colour.red,    (float)colour.green,    (float)colour.blue,
+                     (float)colour.filter, (float)colour.transmit, RECORD_NONE};
 }
 
 bool scene_add_light(Scene *scene, const Light *light)

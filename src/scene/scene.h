@@ -18,6 +18,7 @@
 #include "math/colour.h"
 #include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/pattern.h"
 #include "scene/unique.h"
 
 typedef enum CameraType { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraType;
@@ -71,8 +72,54 @@ typedef struct Material {
     FinishIndex finish;
 } Material;
 
-// Index into Scene.materials.
+enum { RECORD_NONE = UINT32_MAX }; // an index that stands for nothing
+
+// The colour at each point of a surface: one of Scene.patterns, or the same everywhere.
+typedef struct Pigment {
+    float red, green, blue, filter, transmit; // pattern == RECORD_NONE
+    uint32_t pattern;
+} Pigment;
+
+// What lies along a pattern, as a list that ends with RECORD_NONE: colours or pigments, each with the value at which it
+// is seen alone, rising from 0 to 1; for blocks, one for each kind of block.
+typedef struct PigmentEntry {
+    double at;
+    Pigment pigment;
+    uint32_t next, unused;
+} PigmentEntry;
+
+typedef struct PatternedPigment {
+    Transform to_world; // from the pattern's space; of an entry: to the space of the pattern it lies along
+    Pattern pattern;
+    uint32_t entries; // the first of Scene.pigment_entries
+    uint32_t unused;
+} PatternedPigment;
+
+// A texture: a pigment and a finish over what lies below, or textures by a pattern.
+typedef struct Texture {
+    Pigment pigment;
+    FinishIndex finish;
+    uint32_t below;     // Scene.textures, seen where this one lets light through
+    Transform to_world; // of the pattern
+    Pattern pattern;    // PATTERN_NONE: pigment and finish
+    uint32_t entries;   // the first of Scene.texture_entries
+    uint32_t unused;
+} Texture;
+
+typedef struct TextureEntry {
+    double at;
+    uint32_t texture, next;
+} TextureEntry;
+
+// What is more than a plain material.
+typedef struct Compound {
+    uint32_t texture; // Scene.textures
+} Compound;
+
+// Index into Scene.materials, or into Scene.compounds when MATERIAL_COMPOUND is set.
 typedef uint32_t MaterialIndex;
+
+#define MATERIAL_COMPOUND (UINT32_C(1) << 31)
 
 typedef struct Sphere {
     Vec3 centre;
@@ -126,11 +173,17 @@ typedef struct Scene {
     ARRAY(Light) lights;
     ARRAY(Finish) finishes;    // each different one once
     ARRAY(Material) materials; // each different one once
+    ARRAY(PigmentEntry) pigment_entries; // of these five, too, each different one once
+    ARRAY(PatternedPigment) patterns;
+    ARRAY(TextureEntry) texture_entries;
+    ARRAY(Texture) textures;
+    ARRAY(Compound) compounds;
     ARRAY(Sphere) spheres;
     ARRAY(Ellipsoid) ellipsoids;
     ARRAY(Plane) planes;
     uint32_t shape_count;                 // spheres, ellipsoids and planes
-    UniqueIndex finish_index, material_index;
+    UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, texture_entry_index, texture_index,
+        compound_index;
 } Scene;
 
 // An empty scene with the language's defaults. Nothing is allocated.
@@ -142,7 +195,25 @@ void scene_fini(Scene *scene);
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index) RT_MUST_CHECK;
 
 // The pigment of a material.
-Rgbft material_pigment(const Material *material);
+static inline Rgbft material_pigment(const Material *material)
+{
+    return (Rgbft){material->red, material->green, material->blue, material->filter, material->transmit};
+}
+
+// The same for the parts of textures. Lists are made from their ends.
+bool scene_add_finish(Scene *scene, const Finish *finish, FinishIndex *index) RT_MUST_CHECK;
+bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_pattern(Scene *scene, const PatternedPigment *pattern, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_texture(Scene *scene, const Texture *texture, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_compound(Scene *scene, const Compound *compound, MaterialIndex *index) RT_MUST_CHECK;
+
+// A colour that is the same everywhere, and back.
+Pigment pigment_of(Rgbft colour);
+static inline Rgbft pigment_colour(const Pigment *pigment)
+{
+    return (Rgbft){pigment->red, pigment->green, pigment->blue, pigment->filter, pigment->transmit};
+}
 
 // Add a record; `order` and shape_count are set here. False when out of memory.
 bool scene_add_light(Scene *scene, const Light *light) RT_MUST_CHECK;

@@ -31,8 +31,34 @@ static const SchemaProperty transforms[] = {
     {"transform", TYPE_ACTION, ACTION_TRANSFORM, .doc = "`{ transforms }`, or the name of a declared transform"},
 };
 
+#define PATTERN_AT(field) .at = (uint16_t)offsetof(PatternPart, pattern.field)
+
+static const SchemaProperty pattern_modifiers[] = {
+    {"checker", TYPE_ACTION, ACTION_PATTERN, .doc = "unit cubes of two kinds"},
+    {"hexagon", TYPE_ACTION, ACTION_PATTERN, .doc = "six-sided prisms of three kinds along y, each side of length 1"},
+    {"brick", TYPE_ACTION, ACTION_PATTERN, .doc = "mortar and bricks in courses along y"},
+    {"gradient", TYPE_ACTION, ACTION_PATTERN, .doc = "from 0 to 1 along a vector, again and again"},
+    {"radial", TYPE_ACTION, ACTION_PATTERN, .doc = "once around the y axis, from +x by -z"},
+    {"onion", TYPE_ACTION, ACTION_PATTERN, .doc = "shells of thickness 1 around the origin"},
+    {"leopard", TYPE_ACTION, ACTION_PATTERN, .doc = "spots from sines of x, y and z"},
+    {"spherical", TYPE_ACTION, ACTION_PATTERN, .doc = "1 at the origin, 0 at distance 1 and beyond"},
+    {"planar", TYPE_ACTION, ACTION_PATTERN, .doc = "1 at y = 0, 0 at distance 1 and beyond"},
+    {"boxed", TYPE_ACTION, ACTION_PATTERN, .doc = "1 at the origin, 0 on the cube from <-1, -1, -1> to <1, 1, 1>"},
+    {"cylindrical", TYPE_ACTION, ACTION_PATTERN, .doc = "1 on the y axis, 0 at distance 1 and beyond"},
+    {"frequency", TYPE_NUMBER, PATTERN_AT(frequency), .doc = "how often the map is run through"},
+    {"phase", TYPE_NUMBER, PATTERN_AT(phase), .doc = "where in the map it begins"},
+    {"ramp_wave", TYPE_ACTION, ACTION_WAVE, .doc = "rises evenly, then starts again"},
+    {"triangle_wave", TYPE_ACTION, ACTION_WAVE, .doc = "rises and falls evenly"},
+    {"sine_wave", TYPE_ACTION, ACTION_WAVE, .doc = "rises and falls as a sine does"},
+    {"scallop_wave", TYPE_ACTION, ACTION_WAVE, .doc = "the size of a sine"},
+    {"cubic_wave", TYPE_ACTION, ACTION_WAVE, .doc = "rises and falls as a cubic does"},
+    {"poly_wave", TYPE_ACTION, ACTION_WAVE, PATTERN_AT(exponent), .doc = "a power; its exponent may follow"},
+    {"brick_size", TYPE_VECTOR, PATTERN_AT(vector), .doc = "of `brick`, with the mortar"},
+    {"mortar", TYPE_NUMBER, PATTERN_AT(mortar), .doc = "of `brick`: its width"},
+};
+
 static const SchemaProperty object_modifiers[] = {
-    {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; over an earlier one only if it is opaque"},
+    {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; a second one is laid over the first"},
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "the texture's pigment"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
     {"hollow", TYPE_SWITCH, AT(ObjectPart, hollow), .doc = "accepted; changes no picture without media"},
@@ -126,6 +152,7 @@ static const SettingsBlueprint settings_defaults = {
 static const SchemaProperty texture_properties[] = {
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "its colour"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
+    {"texture_map", TYPE_BLOCK, ACTION_MAP, .doc = "textures along a pattern of values"},
 };
 
 static const SchemaProperty pigment_arguments[] = {
@@ -134,6 +161,9 @@ static const SchemaProperty pigment_arguments[] = {
 };
 
 static const SchemaProperty pigment_properties[] = {
+    {"color_map", TYPE_BLOCK, ACTION_MAP, .doc = "colours along a pattern of values"},
+    {"colour_map", TYPE_BLOCK, ACTION_MAP, .doc = "the same"},
+    {"pigment_map", TYPE_BLOCK, ACTION_MAP, .doc = "pigments along a pattern of values"},
     {"quick_color", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
     {"quick_colour", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
 };
@@ -180,8 +210,16 @@ static const SchemaProperty reflection_properties[] = {
     }
 
 static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
-static const PigmentBlueprint pigment_defaults = {.transform = IDENTITY};
-static const TextureBlueprint texture_defaults = {.transform = IDENTITY, .layer.finish = FINISH_DEFAULTS};
+
+#define PATTERN_PART                                                                                                   \
+    {                                                                                                                  \
+        .transform = IDENTITY, .pattern = {.frequency = 1.0, .exponent = 1.0}                                          \
+    }
+
+static const PigmentBlueprint pigment_defaults = {.part = PATTERN_PART};
+static const TextureBlueprint texture_defaults = {
+    .part = PATTERN_PART, .pigment = {.part = PATTERN_PART}, .finish = FINISH_DEFAULTS};
+static const PatternMap map_defaults = {NULL, 0};
 
 static const SchemaProperty transform_properties[] = {
     {"inverse", TYPE_FLAG, AT(TransformBlueprint, is_inverse), .doc = "the way back, wherever it stands"},
@@ -191,6 +229,7 @@ static const TransformBlueprint transform_defaults = {.transform = IDENTITY};
 static const UnsupportedBlueprint unsupported_defaults;
 
 #define TRANSFORMS LIST(transforms)
+#define PATTERNS LIST(pattern_modifiers)
 #define OBJECT_GROUPS LIST(object_modifiers), TRANSFORMS
 
 static const SchemaBlock kinds[KIND_COUNT] = {
@@ -255,14 +294,14 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                       .size = sizeof(TextureBlueprint),
                       .defaults = &texture_defaults,
                       .is_declarable = true,
-                      .groups = {LIST(texture_properties), TRANSFORMS},
-                      .doc = "A pigment and a finish."},
+                      .groups = {LIST(texture_properties), PATTERNS, TRANSFORMS},
+                      .doc = "A pigment and a finish, or textures by a pattern."},
     [KIND_PIGMENT] = {.word = "pigment",
                       .size = sizeof(PigmentBlueprint),
                       .defaults = &pigment_defaults,
                       .is_declarable = true,
                       .arguments = LIST(pigment_arguments),
-                      .groups = {LIST(pigment_properties), TRANSFORMS},
+                      .groups = {LIST(pigment_properties), PATTERNS, TRANSFORMS},
                       .doc = "The colour of a surface and how much light it lets through."},
     [KIND_FINISH] = {.word = "finish",
                      .size = sizeof(FinishBlueprint),
@@ -270,6 +309,22 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                      .is_declarable = true,
                      .groups = {LIST(finish_properties)},
                      .doc = "What a surface does with light."},
+    [KIND_COLOUR_MAP] = {.word = "color_map",
+                         .size = sizeof(PatternMap),
+                         .defaults = &map_defaults,
+                         .is_declarable = true,
+                         .doc = "`[value colour]` or `[value value colour colour]`, values rising from 0 to 1. Also written "
+                                "`colour_map`."},
+    [KIND_PIGMENT_MAP] = {.word = "pigment_map",
+                          .size = sizeof(PatternMap),
+                          .defaults = &map_defaults,
+                          .is_declarable = true,
+                          .doc = "`[value pigment]`, the pigment being what may stand in `pigment { }`."},
+    [KIND_TEXTURE_MAP] = {.word = "texture_map",
+                          .size = sizeof(PatternMap),
+                          .defaults = &map_defaults,
+                          .is_declarable = true,
+                          .doc = "`[value texture]`, the texture being what may stand in `texture { }`."},
     [KIND_REFLECTION] = {.word = "reflection",
                          .size = sizeof(FinishBlueprint),
                          .defaults = &finish_defaults,
@@ -473,7 +528,7 @@ static void write_row(TextBuffer *out, const SchemaBlock *kind, const SchemaProp
 
 static bool is_shared(const SchemaList *list)
 {
-    return list->items == transforms || list->items == object_modifiers;
+    return list->items == transforms || list->items == object_modifiers || list->items == pattern_modifiers;
 }
 
 static void write_kind(TextBuffer *out, const SchemaBlock *kind)
@@ -482,6 +537,8 @@ static void write_kind(TextBuffer *out, const SchemaBlock *kind)
     for (size_t i = 0; i < SCHEMA_GROUPS; i++) {
         if (kind->groups[i].items == object_modifiers) {
             text_append(out, " Takes object modifiers.");
+        } else if (kind->groups[i].items == pattern_modifiers) {
+            text_append(out, " Takes patterns.");
         } else if (kind->groups[i].items == transforms) {
             text_append(out, " Takes transforms.");
         }
@@ -516,5 +573,6 @@ void schema_write_reference(TextBuffer *out)
         write_kind(out, &kinds[kind]);
     }
     write_group(out, "Object modifiers", object_modifiers, RT_COUNT_OF(object_modifiers));
+    write_group(out, "Patterns", pattern_modifiers, RT_COUNT_OF(pattern_modifiers));
     write_group(out, "Transforms", transforms, RT_COUNT_OF(transforms));
 }

@@ -27,6 +27,9 @@ typedef enum SchemaKind {
     KIND_TEXTURE,
     KIND_PIGMENT,
     KIND_FINISH,
+    KIND_COLOUR_MAP,
+    KIND_PIGMENT_MAP,
+    KIND_TEXTURE_MAP,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
@@ -58,6 +61,9 @@ typedef enum SchemaAction {
     ACTION_TEXTURE,
     ACTION_PIGMENT,
     ACTION_FINISH,
+    ACTION_PATTERN,
+    ACTION_WAVE,
+    ACTION_MAP,
     ACTION_REFLECTION,
     ACTION_ANGLE,
     ACTION_POINT_AT,

@@ -75,27 +75,33 @@ static bool materials_are_valid(const Scene *scene, DiagSink *diags)
     return finite || fault(diags, DIAG_E0412, 0, "a texture has a number that is not finite");
 }
 
+static bool has_material(const Scene *scene, MaterialIndex index)
+{
+    return index & MATERIAL_COMPOUND ? (index & ~MATERIAL_COMPOUND) < scene->compounds.count
+                                     : index < scene->materials.count;
+}
+
 static bool shapes_are_valid(const Scene *scene, DiagSink *diags)
 {
     bool valid = true;
     for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         if (!vec3_is_finite(sphere->centre) || !isfinite(sphere->radius) || !(sphere->radius > 0.0) ||
-            sphere->material >= scene->materials.count) {
+            !has_material(scene, sphere->material)) {
             valid = fault(diags, DIAG_E0413, sphere->source, "the sphere cannot be represented");
         }
     }
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
         const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
         if (!transform_is_finite(&ellipsoid->to_world) || !transform_is_finite(&ellipsoid->to_object) ||
-            ellipsoid->material >= scene->materials.count) {
+            !has_material(scene, ellipsoid->material)) {
             valid = fault(diags, DIAG_E0413, ellipsoid->source, "the stretched sphere cannot be represented");
         }
     }
     for (size_t i = 0; i < scene->planes.count; i++) {
         const Plane *plane = &scene->planes.items[i];
         if (!vec3_is_finite(plane->normal) || !isfinite(plane->distance) ||
-            vec3_equal(plane->normal, vec3(0.0, 0.0, 0.0)) || plane->material >= scene->materials.count) {
+            vec3_equal(plane->normal, vec3(0.0, 0.0, 0.0)) || !has_material(scene, plane->material)) {
             valid = fault(diags, DIAG_E0413, plane->source, "the plane cannot be represented");
         }
     }

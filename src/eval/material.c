@@ -1,0 +1,164 @@
+// Materials: the blueprint of a texture becomes scene records, moved to where its object stands.
+//
+// A texture of one pigment without a pattern is a plain material; everything else is a tree of records, each different
+// one of which the scene keeps once. Knows nothing of shapes.
+//
+// SPDX-License-Identifier: MIT
+#include "eval/blocks.h"
+
+enum { TREE_DEPTH_WEIGHT = 2 }; // of native recursion, see eval_deepen
+
+typedef struct Builder {
+    Eval *ev;
+    Span span; // of the object that needs the texture
+} Builder;
+
+static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
+                        uint32_t *index);
+static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out);
+
+// A pattern must be found back from the world.
+static bool place_pattern(const Builder *builder, const Transform *own, const Transform *outer, Transform *whole)
+{
+    Transform back;
+    *whole = transform_compose(*own, *outer);
+    for (int row = 0; row < 4; row++) {
+        for (int column = 0; column < 3; column++) {
+            whole->m[row][column] += 0.0; // -0 becomes 0, so that what is written and read again is the same
+        }
+    }
+    return (transform_is_finite(whole) && transform_invert(whole, &back)) ||
+           eval_fault(builder->ev, DIAG_E0345, builder->span, "the transforms leave a flat or infinite pattern");
+}
+
+static bool no_memory(const Builder *builder)
+{
+    return eval_no_memory(builder->ev, builder->span);
+}
+
+// Lists are made from their ends, so that equal ends are kept once.
+static bool add_pigment_entries(const Builder *builder, const PatternMap *map, uint32_t *first)
+{
+    Transform identity = transform_identity();
+    *first = RECORD_NONE;
+    for (size_t i = map->count; i-- > 0;) {
+        const PatternEntry *from = &map->entries[i];
+        PigmentEntry entry = {.at = from->at, .pigment = pigment_of(from->colour), .next = *first};
+        if (!eval_step(builder->ev, builder->span) ||
+            (from->pigment && !add_pigment(builder, from->pigment, &identity, &entry.pigment))) {
+            return false;
+        }
+        if (!scene_add_pigment_entry(builder->ev->scene, &entry, first)) {
+            return no_memory(builder);
+        }
+    }
+    return true;
+}
+
+static const PatternEntry grey_entries[] = {
+    {.at = 0.0, .colour = {0.0, 0.0, 0.0, 0.0, 0.0}}, {.at = 1.0, .colour = {1.0, 1.0, 1.0, 0.0, 0.0}}};
+static const PatternMap grey_map = {grey_entries, RT_COUNT_OF(grey_entries)};
+
+static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer,
+                          Pigment *out)
+{
+    PatternedPigment record = {.pattern = pigment->part.pattern};
+    if (!place_pattern(builder, &pigment->part.transform, outer, &record.to_world) ||
+        !add_pigment_entries(builder, pigment->part.map ? pigment->part.map : &grey_map, &record.entries)) {
+        return false;
+    }
+    *out = (Pigment){.pattern = 0};
+    return scene_add_pattern(builder->ev->scene, &record, &out->pattern) || no_memory(builder);
+}
+
+static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out)
+{
+    if (pigment->part.pattern.type == PATTERN_NONE) {
+        *out = pigment_of(pigment->colour);
+        return true;
+    }
+    if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
+        return false;
+    }
+    bool is_added = add_patterned(builder, pigment, outer, out);
+    eval_shallow(builder->ev, TREE_DEPTH_WEIGHT);
+    return is_added;
+}
+
+static bool add_texture_entries(const Builder *builder, const PatternMap *map, uint32_t *first)
+{
+    Transform identity = transform_identity();
+    *first = RECORD_NONE;
+    for (size_t i = map->count; i-- > 0;) {
+        TextureEntry entry = {.at = map->entries[i].at, .next = *first};
+        if (!eval_step(builder->ev, builder->span) ||
+            !add_texture(builder, map->entries[i].texture, &identity, &entry.texture)) {
+            return false;
+        }
+        if (!scene_add_texture_entry(builder->ev->scene, &entry, first)) {
+            return no_memory(builder);
+        }
+    }
+    return true;
+}
+
+// True when nothing below a texture can be seen: it is of one colour that lets no light through.
+static bool hides_all(const TextureBlueprint *texture)
+{
+    return texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE &&
+           texture->pigment.colour.filter == 0.0 && texture->pigment.colour.transmit == 0.0;
+}
+
+static bool add_one_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
+                            uint32_t *index)
+{
+    Texture record = {
+        .pigment = pigment_of((Rgbft){0.0, 0.0, 0.0, 0.0, 0.0}),
+        .below = RECORD_NONE,
+        .to_world = transform_identity(),
+        .pattern = texture->part.pattern,
+        .entries = RECORD_NONE,
+    };
+    Transform moved = transform_compose(texture->part.transform, *outer);
+    if (!scene_add_finish(builder->ev->scene, &texture->finish, &record.finish)) {
+        return no_memory(builder);
+    }
+    if (texture->part.pattern.type != PATTERN_NONE) {
+        if (!place_pattern(builder, &texture->part.transform, outer, &record.to_world) ||
+            !add_texture_entries(builder, texture->part.map, &record.entries)) {
+            return false;
+        }
+    } else if (!add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
+               (texture->below && !hides_all(texture) &&
+                !add_texture(builder, texture->below, &moved, &record.below))) {
+        return false;
+    }
+    return scene_add_texture(builder->ev->scene, &record, index) || no_memory(builder);
+}
+
+static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
+                        uint32_t *index)
+{
+    if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
+        return false;
+    }
+    bool is_added = add_one_texture(builder, texture, outer, index);
+    eval_shallow(builder->ev, TREE_DEPTH_WEIGHT);
+    return is_added;
+}
+
+bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer, Span span,
+                    MaterialIndex *index)
+{
+    bool is_plain = texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE;
+    if (is_plain && (!texture->below || hides_all(texture))) {
+        return scene_add_material(ev->scene, texture->pigment.colour, &texture->finish, index) ||
+               eval_no_memory(ev, span);
+    }
+    Builder builder = {ev, span};
+    Compound compound;
+    if (!add_texture(&builder, texture, outer, &compound.texture)) {
+        return false;
+    }
+    return scene_add_compound(ev->scene, &compound, index) || eval_no_memory(ev, span);
+}

@@ -1,0 +1,268 @@
+// Patterns: the words that spread a pigment or a texture over space, and the maps of what lies along them.
+//
+// Writes into the PatternPart at the start of a pigment's or texture's blueprint. A map becomes a list of entries in the
+// block's arena that is never changed again. Knows nothing of how a pattern is worked out.
+//
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "eval/blocks.h"
+
+enum { MAP_ENTRIES_MAX = 256 }; // as POV-Ray has it
+
+// Entries while they are read.
+typedef struct EntryList {
+    PatternEntry *items;
+    size_t count, capacity;
+} EntryList;
+
+static bool add_entry(Block *block, EntryList *list, const PatternEntry *entry, Span span)
+{
+    if (list->count == MAP_ENTRIES_MAX) {
+        return block_fault(block, DIAG_E0291, span, "a map has at most %d entries", (int)MAP_ENTRIES_MAX);
+    }
+    if (list->count == list->capacity) {
+        size_t capacity = list->capacity ? 2 * list->capacity : 4;
+        PatternEntry *items = arena_alloc(block->arena, capacity * sizeof *items);
+        if (!items) {
+            return eval_no_memory(block->ev, span);
+        }
+        if (list->count) {
+            memcpy(items, list->items, list->count * sizeof *items);
+        }
+        list->items = items;
+        list->capacity = capacity;
+    }
+    list->items[list->count++] = *entry;
+    return true;
+}
+
+// The record of a pigment or texture that an entry holds.
+static bool keep_entry(Block *block, SchemaKind kind, const Blueprint *record, Span span, PatternEntry *entry)
+{
+    const void *kept = arena_copy(block->arena, record, schema_kind(kind)->size);
+    if (!kept) {
+        return eval_no_memory(block->ev, span);
+    }
+    entry->pigment = kind == KIND_PIGMENT ? kept : NULL;
+    entry->texture = kind == KIND_TEXTURE ? kept : NULL;
+    return true;
+}
+
+// ---- maps
+
+static bool read_colour(Block *block, Cursor *cursor, Rgbft *colour)
+{
+    Span span;
+    if (!cursor_colour(cursor, colour, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    double sum = colour->red + colour->green + colour->blue + colour->filter + colour->transmit;
+    return block_finite(block, sum - sum, span, "color_map");
+}
+
+// `[at colour]`, or in the old way `[from to colour colour]`.
+static bool read_colour_entry(Block *block, Cursor *cursor, EntryList *list, const AstNode *node)
+{
+    PatternEntry entry = {0}, second = {0};
+    Span span = node->span;
+    if (!cursor_number(cursor, &entry.at, &span)) {
+        return false;
+    }
+    const AstNode *item = cursor_peek(cursor);
+    bool is_old = item && cursor_at_value(cursor) && !block_begins_like_colour(block, item);
+    if ((is_old && !cursor_number(cursor, &second.at, &span)) || !read_colour(block, cursor, &entry.colour) ||
+        !add_entry(block, list, &entry, node->span)) {
+        return false;
+    }
+    return !is_old ||
+           (read_colour(block, cursor, &second.colour) && add_entry(block, list, &second, node->span));
+}
+
+static bool read_colours(Block *block, EntryList *list, const AstNode *node)
+{
+    Cursor cursor;
+    cursor_open(&cursor, block->ev, node->a, node->span);
+    bool is_fine = read_colour_entry(block, &cursor, list, node);
+    const AstNode *rest = is_fine ? cursor_peek(&cursor) : NULL;
+    if (rest) {
+        is_fine = block_fault(block, DIAG_E0254, rest->span, "one value too many in the entry of a map");
+    }
+    cursor_close(&cursor);
+    return is_fine;
+}
+
+static bool read_entry(Block *block, EntryList *list, const AstNode *node)
+{
+    if (block->kind == KIND_COLOUR_MAP) {
+        return read_colours(block, list, node);
+    }
+    SchemaKind kind = block->kind == KIND_PIGMENT_MAP ? KIND_PIGMENT : KIND_TEXTURE;
+    Blueprint record;
+    PatternEntry entry = {0};
+    block_defaults(block->ev, kind, &record);
+    return block_read_entry(block->ev, node, kind, block->arena, &entry.at, &record) &&
+           keep_entry(block, kind, &record, node->span, &entry) && add_entry(block, list, &entry, node->span);
+}
+
+bool pattern_map_body(Block *block)
+{
+    EntryList list = {0};
+    bool is_fine = true;
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind == AST_ENTRY) {
+        is_fine = read_entry(block, &list, item) && is_fine;
+        cursor_skip(&block->cursor);
+    }
+    if (is_fine && list.count == 0) {
+        return block_fault(block, DIAG_E0253, item ? item->span : block->node->span,
+                           "a map needs entries such as `[0.5 …]`");
+    }
+    // An entry before its predecessor is never reached: the map is read from its start.
+    for (size_t i = 1; is_fine && i < list.count; i++) {
+        if (list.items[i].at < list.items[i - 1].at) {
+            return block_fault(block, DIAG_E0292, block->node->span, "the values of a map must rise: %g follows %g",
+                               list.items[i].at, list.items[i - 1].at);
+        }
+    }
+    block->record->map = (PatternMap){list.items, list.count};
+    return is_fine;
+}
+
+bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    (void)property;
+    Blueprint record;
+    SchemaKind is;
+    SchemaKind kind = block_kind(block->ev, item);
+    block_defaults(block->ev, kind, &record);
+    if (!block_read(block->ev, item, kind, block->arena, &record, &is)) {
+        return false;
+    }
+    PatternMap *map = arena_copy(block->arena, &record.map, sizeof record.map);
+    if (!map) {
+        return eval_no_memory(block->ev, item->span);
+    }
+    block->record->patterned.map = map;
+    return true;
+}
+
+// ---- patterns
+
+static PatternType type_of(const char *word)
+{
+    PatternType type = PATTERN_NONE;
+    while (strcmp(pattern_info(type)->word, word) != 0) {
+        type++;
+    }
+    return type;
+}
+
+// One kind of block after `checker` and the like: a colour or `pigment { }`, or `texture { }` in a texture.
+static bool read_block_entry(Block *block, EntryList *list, bool *is_there)
+{
+    PatternEntry entry = {.at = (double)list->count};
+    const AstNode *item = cursor_peek(&block->cursor);
+    SchemaKind kind = block->kind == KIND_TEXTURE ? KIND_TEXTURE : KIND_PIGMENT;
+    *is_there = true;
+    if (item && block_kind(block->ev, item) == kind) {
+        Blueprint record;
+        SchemaKind is;
+        block_defaults(block->ev, kind, &record);
+        if (!block_read(block->ev, item, kind, block->arena, &record, &is) ||
+            !keep_entry(block, kind, &record, item->span, &entry)) {
+            return false;
+        }
+        cursor_skip(&block->cursor);
+        return add_entry(block, list, &entry, item->span);
+    }
+    if (item && kind == KIND_PIGMENT && cursor_at_value(&block->cursor)) {
+        return read_colour(block, &block->cursor, &entry.colour) && add_entry(block, list, &entry, item->span);
+    }
+    *is_there = false;
+    return true;
+}
+
+// What POV-Ray takes where nothing is said, measured.
+static void block_defaults_of(PatternType type, PatternEntry entries[3])
+{
+    static const Rgbft blue = {0.0, 0.0, 1.0, 0.0, 0.0}, green = {0.0, 1.0, 0.0, 0.0, 0.0},
+                       red = {1.0, 0.0, 0.0, 0.0, 0.0}, grey = {0.5, 0.5, 0.5, 0.0, 0.0},
+                       brick = {0.3f, 0.1f, 0.1f, 0.0, 0.0};
+    bool is_brick = type == PATTERN_BRICK;
+    entries[0] = (PatternEntry){.at = 0.0, .colour = is_brick ? grey : blue};
+    entries[1] = (PatternEntry){.at = 1.0, .colour = is_brick ? brick : green};
+    entries[2] = (PatternEntry){.at = 2.0, .colour = red};
+}
+
+static bool read_block_entries(Block *block, PatternType type, Span span)
+{
+    uint32_t wanted = pattern_info(type)->blocks;
+    EntryList list = {0};
+    bool is_there = true;
+    while (is_there && list.count < wanted) {
+        if (!read_block_entry(block, &list, &is_there)) {
+            return false;
+        }
+    }
+    PatternEntry defaults[3];
+    block_defaults_of(type, defaults);
+    if (block->kind == KIND_TEXTURE && list.count < wanted) {
+        return block_fault(block, DIAG_E0253, span, "`%s` needs %u textures after it", pattern_info(type)->word,
+                           wanted);
+    }
+    while (list.count < wanted) {
+        if (!add_entry(block, &list, &defaults[list.count], span)) {
+            return false;
+        }
+    }
+    PatternMap map = {list.items, list.count};
+    PatternMap *kept = arena_copy(block->arena, &map, sizeof map);
+    block->record->patterned.map = kept;
+    return kept || eval_no_memory(block->ev, span);
+}
+
+bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty direction = {"gradient", TYPE_VECTOR, ACTION_NONE,
+                                             .at = offsetof(PatternPart, pattern.vector)};
+    Pattern *pattern = &block->record->patterned.pattern;
+    PatternType type = type_of(property->word);
+    const PatternInfo *before = pattern_info((PatternType)pattern->type), *info = pattern_info(type);
+    // A list of blocks is no map along values, nor the other way round.
+    if (before->blocks) {
+        block->record->patterned.map = NULL;
+    }
+    pattern->type = type;
+    if (type == PATTERN_BRICK) {
+        pattern->vector = vec3(8.0, 3.0, 4.5);
+        pattern->mortar = 0.5;
+    }
+    if (info->has_direction) {
+        return block_value(block, &direction, item->span);
+    }
+    return !info->blocks || read_block_entries(block, type, item->span);
+}
+
+bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty exponent = {"poly_wave", TYPE_OPTIONAL_NUMBER, ACTION_NONE,
+                                            .at = offsetof(PatternPart, pattern.exponent), .bare = 1.0};
+    Pattern *pattern = &block->record->patterned.pattern;
+    WaveType wave = WAVE_RAMP;
+    while (strcmp(pattern_wave_word(wave), property->word) != 0) {
+        wave++;
+    }
+    pattern->wave = wave;
+    return wave != WAVE_POLY || block_value(block, &exponent, item->span);
+}
+
+bool pattern_close(Block *block)
+{
+    const PatternPart *part = &block->record->patterned;
+    if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && !part->map) {
+        return block_fault(block, DIAG_E0253, block->node->span, "a pattern of textures needs a `texture_map`");
+    }
+    return true;
+}

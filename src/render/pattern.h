@@ -1,0 +1,19 @@
+// Patterns at a point: the value of one that varies, the block of one that fills space with blocks.
+//
+// Points are in the pattern's own space. The formulas are those of the scene language's manual, with what it leaves open
+// measured; docs/language.md, "Patterns". Knows nothing of colours.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_PATTERN_H
+#define RENDER_PATTERN_H
+
+#include "math/vec3.h"
+#include "scene/pattern.h"
+
+// From 0 to 1, after frequency, phase and wave. For patterns without blocks.
+double pattern_value(const Pattern *pattern, Vec3 point);
+
+// The number of the block that holds the point, less than the pattern's count of blocks.
+unsigned pattern_block(const Pattern *pattern, Vec3 point);
+
+#endif

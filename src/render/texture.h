@@ -1,0 +1,44 @@
+// Textures at a point: which pigments and finishes are seen there, and how much of each.
+//
+// The scene's records with every pattern's way back from prepared space worked out. Read-only once made, shared by
+// threads. Refers to the scene, which must outlive it. Knows nothing of light.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_TEXTURE_H
+#define RENDER_TEXTURE_H
+
+#include <stdbool.h>
+
+#include "base/attributes.h"
+#include "math/colour.h"
+#include "math/transform.h"
+#include "scene/scene.h"
+
+typedef struct TextureTable {
+    const Scene *scene;
+    double scale;                  // from prepared lengths to the scene's, a power of two
+    Transform *to_pattern;         // for each of the scene's patterns
+    Transform *texture_to_pattern; // for each of its textures; unused without a pattern
+} TextureTable;
+
+// Lengths of the prepared scene are the scene's times 2^-exponent. False when out of memory.
+bool texture_table_init(TextureTable *table, const Scene *scene, int exponent) RT_MUST_CHECK;
+void texture_table_fini(TextureTable *table);
+
+// The colour of a pigment at a point in the scene's lengths.
+Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);
+
+// One of the surfaces that are seen at a point.
+typedef struct TextureLayer {
+    Rgbft pigment;
+    FinishIndex finish;
+    Rgb share; // of the light that it gives back: what is left by the layers above, times its part in a map
+} TextureLayer;
+
+typedef void (*TextureVisit)(void *client, const TextureLayer *layer);
+
+// Calls `visit` for each surface seen at a point of prepared space, from top to bottom, and returns what all of them let
+// through, by colour.
+Rgb texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, TextureVisit visit, void *client);
+
+#endif

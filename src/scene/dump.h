@@ -1,0 +1,20 @@
+// The inner interface of the files that write scene records as text.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_DUMP_H
+#define SCENE_DUMP_H
+
+#include "base/text.h"
+#include "scene/scene.h"
+
+// Each writes `before`, then a value in a form that reads back as the same bits.
+void dump_number(TextBuffer *out, const char *before, double number);
+void dump_vector(TextBuffer *out, const char *before, Vec3 vector);
+void dump_rgbft(TextBuffer *out, const char *before, Rgbft colour);
+// `<…>`
+void dump_numbers(TextBuffer *out, const double *numbers, size_t count);
+
+// Declarations of all patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its finishes.
+void dump_textures(const Scene *scene, TextBuffer *out);
+
+#endif

@@ -1,0 +1,117 @@
+// Patterned pigments and textures as `.scn` text.
+//
+// A record stands after the ones it refers to, for that is the order in which they were added. Knows only what it writes
+// of the language.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/dump.h"
+
+static void dump_matrix(const Transform *transform, TextBuffer *out)
+{
+    text_append(out, "  matrix ");
+    dump_numbers(out, &transform->m[0][0], 12);
+    text_append(out, "\n");
+}
+
+// What `pigment { }` holds, or an entry of a map.
+static void dump_pigment_items(const Pigment *pigment, TextBuffer *out)
+{
+    if (pigment->pattern == RECORD_NONE) {
+        dump_rgbft(out, "", pigment_colour(pigment));
+    } else {
+        text_printf(out, "P%lu", (unsigned long)pigment->pattern + 1);
+    }
+}
+
+static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
+{
+    if (pattern->type == PATTERN_BRICK) {
+        dump_vector(out, "  brick_size ", pattern->vector);
+        dump_number(out, " mortar ", pattern->mortar);
+        text_append(out, "\n");
+    }
+    dump_number(out, "  frequency ", pattern->frequency);
+    dump_number(out, " phase ", pattern->phase);
+    text_printf(out, " %s", pattern_wave_word((WaveType)pattern->wave));
+    if (pattern->wave == WAVE_POLY) {
+        dump_number(out, " ", pattern->exponent);
+    }
+    text_append(out, "\n");
+}
+
+static void dump_pattern_word(const Pattern *pattern, TextBuffer *out)
+{
+    const PatternInfo *info = pattern_info((PatternType)pattern->type);
+    text_printf(out, "  %s", info->word);
+    if (info->has_direction) {
+        dump_vector(out, " ", pattern->vector);
+    }
+}
+
+static void dump_pigment(const Scene *scene, const PatternedPigment *record, size_t number, TextBuffer *out)
+{
+    bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    text_printf(out, "#declare P%zu = pigment {\n", number);
+    dump_pattern_word(&record->pattern, out);
+    text_append(out, has_blocks ? "" : "\n  pigment_map {");
+    for (uint32_t i = record->entries; i != RECORD_NONE; i = scene->pigment_entries.items[i].next) {
+        const PigmentEntry *entry = &scene->pigment_entries.items[i];
+        if (has_blocks) {
+            text_append(out, " pigment { ");
+        } else {
+            dump_number(out, " [", entry->at);
+            text_append(out, " ");
+        }
+        dump_pigment_items(&entry->pigment, out);
+        text_append(out, has_blocks ? " }" : "]");
+    }
+    text_append(out, has_blocks ? "\n" : " }\n");
+    dump_modifiers(&record->pattern, out);
+    dump_matrix(&record->to_world, out);
+    text_append(out, "}\n");
+}
+
+static void dump_layer(const Texture *record, size_t number, TextBuffer *out)
+{
+    text_printf(out, "#declare T%zu =", number);
+    if (record->below != RECORD_NONE) {
+        text_printf(out, " texture { T%lu }", (unsigned long)record->below + 1);
+    }
+    text_append(out, " texture { pigment { ");
+    dump_pigment_items(&record->pigment, out);
+    text_printf(out, " } finish { F%lu } }\n", (unsigned long)record->finish + 1);
+}
+
+static void dump_texture_pattern(const Scene *scene, const Texture *record, size_t number, TextBuffer *out)
+{
+    bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    text_printf(out, "#declare T%zu = texture {\n", number);
+    dump_pattern_word(&record->pattern, out);
+    text_append(out, has_blocks ? "" : "\n  texture_map {");
+    for (uint32_t i = record->entries; i != RECORD_NONE; i = scene->texture_entries.items[i].next) {
+        const TextureEntry *entry = &scene->texture_entries.items[i];
+        if (!has_blocks) {
+            dump_number(out, " [", entry->at);
+        }
+        text_printf(out, has_blocks ? " texture { T%lu }" : " T%lu]", (unsigned long)entry->texture + 1);
+    }
+    text_append(out, has_blocks ? "\n" : " }\n");
+    dump_modifiers(&record->pattern, out);
+    dump_matrix(&record->to_world, out);
+    text_append(out, "}\n");
+}
+
+void dump_textures(const Scene *scene, TextBuffer *out)
+{
+    for (size_t i = 0; i < scene->patterns.count; i++) {
+        dump_pigment(scene, &scene->patterns.items[i], i + 1, out);
+    }
+    for (size_t i = 0; i < scene->textures.count; i++) {
+        const Texture *record = &scene->textures.items[i];
+        if (record->pattern.type == PATTERN_NONE) {
+            dump_layer(record, i + 1, out);
+        } else {
+            dump_texture_pattern(scene, record, i + 1, out);
+        }
+    }
+}

@@ -1,0 +1,53 @@
+// Patterns: numbers spread over space, by which pigments and textures change from place to place.
+//
+// A pattern turns a point into a value from 0 to 1, or into the number of a block for those that fill space with blocks
+// (checker, hexagon, brick). Plain data without padding, so that patterns can be compared bit by bit.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_PATTERN_H
+#define SCENE_PATTERN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/vec3.h"
+
+typedef enum PatternType {
+    PATTERN_NONE, // the same everywhere
+    PATTERN_CHECKER,
+    PATTERN_HEXAGON,
+    PATTERN_BRICK,
+    PATTERN_GRADIENT,
+    PATTERN_RADIAL,
+    PATTERN_ONION,
+    PATTERN_LEOPARD,
+    PATTERN_SPHERICAL,
+    PATTERN_PLANAR,
+    PATTERN_BOXED,
+    PATTERN_CYLINDRICAL,
+    PATTERN_COUNT
+} PatternType;
+
+typedef enum WaveType { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY } WaveType;
+
+typedef struct Pattern {
+    uint32_t type; // PatternType
+    uint32_t wave; // WaveType
+    Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar
+    double mortar; // brick: width of the mortar
+    double frequency, phase;
+    double exponent; // WAVE_POLY
+} Pattern;
+
+typedef struct PatternInfo {
+    const char *word;    // of the language
+    uint32_t blocks;     // kinds of block that fill space, 0 for a pattern of values
+    bool has_direction;  // a vector follows the word
+} PatternInfo;
+
+// The entry of a type, never NULL; PATTERN_NONE's word is "".
+const PatternInfo *pattern_info(PatternType type);
+// "ramp_wave" and the like.
+const char *pattern_wave_word(WaveType wave);
+
+#endif
