@@ -189,7 +189,7 @@ static void block_defaults_of(PatternType type, PatternEntry entries[3])
 {
     static const Rgbft blue = {0.0, 0.0, 1.0, 0.0, 0.0}, green = {0.0, 1.0, 0.0, 0.0, 0.0},
                        red = {1.0, 0.0, 0.0, 0.0, 0.0}, grey = {0.5, 0.5, 0.5, 0.0, 0.0},
-                       brick = {0.3f, 0.1f, 0.1f, 0.0, 0.0};
+                       brick = {0.6f, 0.15f, 0.15f, 0.0, 0.0};
     bool is_brick = type == PATTERN_BRICK;
     entries[0] = (PatternEntry){.at = 0.0, .colour = is_brick ? grey : blue};
     entries[1] = (PatternEntry){.at = 1.0, .colour = is_brick ? brick : green};

@@ -52,6 +52,12 @@ static inline double rgb_max(Rgb a)
     return fmax(a.red, fmax(a.green, a.blue));
 }
 
+// The scene language's grey.
+static inline double rgb_luminance(Rgb a)
+{
+    return 0.297 * a.red + 0.589 * a.green + 0.114 * a.blue;
+}
+
 static inline bool rgb_is_black(Rgb a)
 {
     return a.red == 0.0 && a.green == 0.0 && a.blue == 0.0;

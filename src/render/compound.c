@@ -9,32 +9,47 @@
 typedef struct LayerSum {
     const Prepared *p;
     const ShadePoint *at;
+    double weight; // of the ray
     ShadeOnward *onward;
     RenderStatistics *statistics;
     Rgb light;
 } LayerSum;
 
+// A mirror is seen undimmed through the layers above, unless the ray would be worth too little; measured.
+static void add_mirror(LayerSum *sum, const TextureLayer *layer, const ShadeMaterial *material)
+{
+    Rgb reflectance;
+    if (!shade_mirror(RENDER_ALL_FEATURES, material, sum->at, &reflectance)) {
+        return;
+    }
+    double weight = rgb_luminance(layer->above) * material->finish->reflection_weight;
+    if (sum->weight * weight < sum->p->adc_bailout) {
+        return;
+    }
+    ShadeOnward *onward = sum->onward;
+    onward->reflectance = rgb_add_scaled(onward->reflectance, layer->part, reflectance);
+    onward->reflection_weight = fmax(onward->reflection_weight, weight);
+    onward->reflection_exponent = material->finish->reflection_exponent;
+}
+
 static void add_layer(void *client, const TextureLayer *layer)
 {
     LayerSum *sum = client;
     unsigned features = RENDER_ALL_FEATURES | (unsigned)TRACE_ALL_FEATURES;
-    ShadeOnward *onward = sum->onward;
     ShadeMaterial material = shade_material(sum->p, features, layer->pigment, layer->finish);
-    Rgb reflectance;
-    if (shade_mirror(features, &material, sum->at, &reflectance)) {
-        onward->reflectance = rgb_add(onward->reflectance, rgb_mul(layer->share, reflectance));
-        onward->reflection_weight += rgb_max(layer->share) * material.finish->reflection_weight;
-        onward->reflection_exponent = material.finish->reflection_exponent;
-    }
-    onward->conserves_energy |= material.finish->conserves_energy;
+    add_mirror(sum, layer, &material);
+    sum->onward->conserves_energy |= material.finish->conserves_energy;
     Rgb light = shade_local(sum->p, features, &material, sum->at, sum->statistics);
-    sum->light = rgb_add(sum->light, rgb_mul(layer->share, light));
+    sum->light = rgb_add(sum->light, rgb_mul(rgb_scale(layer->part, layer->above), light));
 }
 
-Rgb shade_compound(const Prepared *p, const ShadePoint *at, ShadeOnward *onward, RenderStatistics *statistics)
+Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
+                   RenderStatistics *statistics)
 {
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
-    LayerSum sum = {.p = p, .at = at, .onward = onward, .statistics = statistics, .light = rgb_grey(0.0)};
-    onward->through = texture_walk(&p->textures, compound->texture, at->point, add_layer, &sum);
+    LayerSum sum = {p, at, weight, onward, statistics, rgb_grey(0.0)};
+    TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
+    onward->through = through.light;
+    onward->through_weight = through.weight;
     return sum.light;
 }

@@ -11,9 +11,11 @@ static const double pi = 3.14159265358979323846;
 
 // ---- values
 
+// Begins anew at 1, but not at 0; so does onion.
 static double gradient(const Pattern *pattern, Vec3 p)
 {
-    return vec3_dot(pattern->vector, p);
+    double along = vec3_dot(pattern->vector, p) / vec3_length(pattern->vector);
+    return along > 1.0 ? fmod(along, 1.0) : along;
 }
 
 static double radial(const Pattern *pattern, Vec3 p)
@@ -25,7 +27,7 @@ static double radial(const Pattern *pattern, Vec3 p)
 static double onion(const Pattern *pattern, Vec3 p)
 {
     (void)pattern;
-    return vec3_length(p);
+    return fmod(vec3_length(p), 1.0);
 }
 
 static double leopard(const Pattern *pattern, Vec3 p)
@@ -80,10 +82,18 @@ static double wave(const Pattern *pattern, double x)
     return x;
 }
 
+// What is above 1 begins the map anew. POV-Ray does so after 1.00001, so that 1 itself is still the map's end; measured
+// with frequencies up to 10^4.
+static double fold(double x)
+{
+    return x > 1.0 ? fmod(x, 1.00001) : x;
+}
+
 double pattern_value(const Pattern *pattern, Vec3 point)
 {
-    double x = values[pattern->type](pattern, point) * pattern->frequency + pattern->phase;
-    return wave(pattern, x - floor(x));
+    double x = fold(values[pattern->type](pattern, point)) * pattern->frequency + pattern->phase;
+    x = x < 0.0 ? 1.0 + fmod(x, 1.00001) : fold(x);
+    return wave(pattern, x);
 }
 
 // ---- blocks
@@ -95,18 +105,39 @@ static unsigned checker(const Pattern *pattern, Vec3 p)
     return (unsigned)fabs(fmod(sum, 2.0));
 }
 
+// The middles are at q <3/2, 0, sqrt(3)/2> + r <0, 0, sqrt(3)>. A point belongs to the one that its fractional q, r and
+// s = -q - r round to, the coordinate that was rounded furthest being made the sum of the others.
 static unsigned hexagon(const Pattern *pattern, Vec3 p)
 {
     (void)pattern;
-    (void)p;
-    return 0;
+    double q = p.x / 1.5, r = p.z / sqrt(3.0) - q / 2.0, s = -q - r;
+    double q_whole = floor(q + 0.5), r_whole = floor(r + 0.5), s_whole = floor(s + 0.5);
+    double q_off = fabs(q_whole - q), r_off = fabs(r_whole - r), s_off = fabs(s_whole - s);
+    if (q_off > r_off && q_off > s_off) {
+        q_whole = -r_whole - s_whole;
+    } else if (r_off > s_off) {
+        r_whole = -q_whole - s_whole;
+    }
+    double colour = fmod(2.0 * q_whole + r_whole, 3.0);
+    return (unsigned)(colour < 0.0 ? colour + 3.0 : colour);
 }
 
+// What is left of x after whole periods, in [0, period).
+static double remainder_of(double x, double period)
+{
+    return x - period * floor(x / period);
+}
+
+// Mortar (0) fills the end of each period of x, y and z. Odd courses are moved by half a brick in x, even ones in z.
 static unsigned brick(const Pattern *pattern, Vec3 p)
 {
-    (void)pattern;
-    (void)p;
-    return 0;
+    Vec3 size = pattern->vector;
+    bool is_odd = remainder_of(floor(p.y / size.y), 2.0) != 0.0;
+    double x = remainder_of(is_odd ? p.x + size.x / 2.0 : p.x, size.x);
+    double y = remainder_of(p.y, size.y);
+    double z = remainder_of(is_odd ? p.z : p.z + size.z / 2.0, size.z);
+    bool is_mortar = x >= size.x - pattern->mortar || y >= size.y - pattern->mortar || z >= size.z - pattern->mortar;
+    return is_mortar ? 0 : 1;
 }
 
 typedef unsigned (*BlockFunction)(const Pattern *pattern, Vec3 p);

@@ -58,13 +58,16 @@ typedef struct ShadeMaterial {
 typedef struct ShadeOnward {
     Rgb through;     // what a ray that goes through is multiplied with
     Rgb reflectance; // the same for the mirrored ray
+    double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
     double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
     double reflection_exponent;
     bool conserves_energy;
 } ShadeOnward;
 
 // The same as shade_surface for patterns and layers; not inline, for it costs more than a call. In kernel.c's company.
-Rgb shade_compound(const Prepared *p, const ShadePoint *at, ShadeOnward *onward, RenderStatistics *statistics);
+// `weight` is the ray's.
+Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
+                   RenderStatistics *statistics);
 
 RT_ALWAYS_INLINE Rgb shade_pigment_through(Rgbft pigment)
 {
@@ -81,18 +84,12 @@ RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned featur
     return out;
 }
 
-static inline void shade_visit_nothing(void *client, const TextureLayer *layer)
-{
-    (void)client;
-    (void)layer;
-}
-
 // What a surface multiplies light with that goes through it.
 RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface)
 {
     if ((features & RENDER_TEXTURES) && (surface->material & MATERIAL_COMPOUND)) {
         const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
-        return texture_walk(&p->textures, compound->texture, surface->point, shade_visit_nothing, NULL);
+        return texture_walk(&p->textures, compound->texture, surface->point, 0.0, NULL, NULL).light;
     }
     return shade_pigment_through(material_pigment(&p->materials[surface->material]));
 }
@@ -267,10 +264,9 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
     if (onward->conserves_energy) {
         through = rgb_mul(through, rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance));
     }
-    double grey = 0.297 * through.red + 0.589 * through.green + 0.114 * through.blue;
-    double weight = from->weight * rgb_max(through);
-    if (from->level >= p->max_trace_level || grey < p->adc_bailout || weight < p->adc_bailout ||
-        from->passed >= p->crossings_max) {
+    double weight = from->weight * (onward->through_weight > 0.0 ? onward->through_weight : rgb_max(through));
+    if (from->level >= p->max_trace_level || weight < p->adc_bailout || from->passed >= p->crossings_max ||
+        (onward->through_weight == 0.0 && rgb_luminance(through) < p->adc_bailout)) {
         return;
     }
     pending->rays[pending->count++] = (PendingRay){
@@ -341,12 +337,12 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
 }
 
 // The light at a hit, and what the surface sends on.
-RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const ShadePoint *at, ShadeOnward *onward,
-                                   RenderStatistics *statistics)
+RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const ShadePoint *at, double weight,
+                                   ShadeOnward *onward, RenderStatistics *statistics)
 {
     *onward = (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0};
     if ((features & RENDER_TEXTURES) && (at->material & MATERIAL_COMPOUND)) {
-        return shade_compound(p, at, onward, statistics);
+        return shade_compound(p, at, weight, onward, statistics);
     }
     return shade_plain(p, features, at, onward, statistics);
 }
@@ -395,7 +391,7 @@ RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const Pend
             pending_add(&pending, &now, light);
         } else if (shade_find(p, features, &now, &at)) {
             // Its own light first: a reflected ray may open a sum of its own.
-            pending_add(&pending, &now, shade_surface(p, features, &at, &onward, statistics));
+            pending_add(&pending, &now, shade_surface(p, features, &at, now.weight, &onward, statistics));
             shade_go_on(p, features, &onward, &at, &now, &pending, statistics);
         } else {
             pending_add(&pending, &now, p->background);
@@ -413,7 +409,7 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, Re
     }
     ShadePoint at;
     ShadeOnward onward;
-    return shade_find(p, features, &first, &at) ? shade_surface(p, features, &at, &onward, statistics) : p->background;
+    return shade_find(p, features, &first, &at) ? shade_surface(p, features, &at, 1.0, &onward, statistics) : p->background;
 }
 
 #endif

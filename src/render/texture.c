@@ -104,11 +104,13 @@ Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 po
 
 typedef struct Walk {
     const TextureTable *table;
+    double cut;
     TextureVisit visit;
     void *client;
+    TextureThrough through;
 } Walk;
 
-static Rgb walk_layers(const Walk *walk, uint32_t index, Vec3 point, Rgb share);
+static void walk_layers(Walk *walk, uint32_t index, Vec3 point, double part, Rgb above);
 
 static uint32_t nth_texture(const TextureEntry *entries, uint32_t first, unsigned n)
 {
@@ -118,44 +120,51 @@ static uint32_t nth_texture(const TextureEntry *entries, uint32_t first, unsigne
     return first;
 }
 
-static Rgb walk_pattern(const Walk *walk, uint32_t index, Vec3 outer, Rgb share)
+static void walk_pattern(Walk *walk, uint32_t index, Vec3 outer, double part, Rgb above)
 {
     const Texture *texture = &walk->table->scene->textures.items[index];
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
     Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer);
     if (pattern_info((PatternType)texture->pattern.type)->blocks) {
         uint32_t entry = nth_texture(entries, texture->entries, pattern_block(&texture->pattern, point));
-        return walk_layers(walk, entries[entry].texture, point, share);
+        walk_layers(walk, entries[entry].texture, point, part, above);
+        return;
     }
     Place place;
     double value = pattern_value(&texture->pattern, point);
     FIND_PLACE(entries, texture->entries, value, &place);
-    if (!(place.share > 0.0)) {
-        return walk_layers(walk, entries[place.low].texture, point, share);
+    walk_layers(walk, entries[place.low].texture, point, (1.0 - place.share) * part, above);
+    if (place.share > 0.0) {
+        walk_layers(walk, entries[place.high].texture, point, place.share * part, above);
     }
-    Rgb low = walk_layers(walk, entries[place.low].texture, point, rgb_scale(1.0 - place.share, share));
-    Rgb high = walk_layers(walk, entries[place.high].texture, point, rgb_scale(place.share, share));
-    return rgb_add(low, high);
 }
 
-static Rgb walk_layers(const Walk *walk, uint32_t index, Vec3 point, Rgb share)
+static void walk_layers(Walk *walk, uint32_t index, Vec3 point, double part, Rgb above)
 {
-    for (; index != RECORD_NONE && !rgb_is_black(share); index = walk->table->scene->textures.items[index].below) {
+    for (; index != RECORD_NONE; index = walk->table->scene->textures.items[index].below) {
         const Texture *texture = &walk->table->scene->textures.items[index];
         if (texture->pattern.type != PATTERN_NONE) {
-            return walk_pattern(walk, index, point, share);
+            walk_pattern(walk, index, point, part, above); // the lowest one, by the evaluator's rule
+            return;
         }
-        TextureLayer layer = {texture_pigment(walk->table, &texture->pigment, point), texture->finish, share};
-        walk->visit(walk->client, &layer);
-        Rgb through = rgb_add(rgb_scale(layer.pigment.filter, rgbft_rgb(layer.pigment)),
-                              rgb_grey(layer.pigment.transmit));
-        share = rgb_mul(share, through);
+        TextureLayer layer = {texture_pigment(walk->table, &texture->pigment, point), texture->finish, part, above};
+        if (walk->visit) {
+            walk->visit(walk->client, &layer);
+        }
+        above = rgb_mul(above, rgb_add(rgb_scale(layer.pigment.filter, rgbft_rgb(layer.pigment)),
+                                       rgb_grey(layer.pigment.transmit)));
+        if (rgb_is_black(above) || rgb_luminance(above) < walk->cut) {
+            return;
+        }
     }
-    return share;
+    walk->through.light = rgb_add_scaled(walk->through.light, part, above);
+    walk->through.weight = fmax(walk->through.weight, rgb_max(above));
 }
 
-Rgb texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, TextureVisit visit, void *client)
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
+                            void *client)
 {
-    Walk walk = {table, visit, client};
-    return walk_layers(&walk, texture, vec3_scale(table->scale, point), rgb_grey(1.0));
+    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0}};
+    walk_layers(&walk, texture, vec3_scale(table->scale, point), 1.0, rgb_grey(1.0));
+    return walk.through;
 }

@@ -32,13 +32,21 @@ Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 po
 typedef struct TextureLayer {
     Rgbft pigment;
     FinishIndex finish;
-    Rgb share; // of the light that it gives back: what is left by the layers above, times its part in a map
+    double part; // of the texture in a map, 1 without a map
+    Rgb above;   // what the layers above let through
 } TextureLayer;
 
 typedef void (*TextureVisit)(void *client, const TextureLayer *layer);
 
-// Calls `visit` for each surface seen at a point of prepared space, from top to bottom, and returns what all of them let
-// through, by colour.
-Rgb texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, TextureVisit visit, void *client);
+// What all layers let through, by colour, and the greatest component of what one texture of a map does.
+typedef struct TextureThrough {
+    Rgb light;
+    double weight;
+} TextureThrough;
+
+// Calls `visit`, unless it is NULL, for each surface seen at a point of prepared space, from top to bottom. Light that
+// is darker than `cut` in grey does not go on to the layer below or out of the last one.
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
+                            void *client);
 
 #endif
