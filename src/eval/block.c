@@ -40,7 +40,7 @@ static const BlockHook bodies[KIND_COUNT] = {
 static const BlockHook closings[KIND_COUNT] = {
     [KIND_CAMERA] = camera_close, [KIND_PLANE] = plane_close,           [KIND_UNION] = union_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
-    [KIND_TEXTURE] = pattern_close,
+    [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close,
 };
 
 SchemaKind block_kind(const Eval *ev, const AstNode *node)

@@ -240,7 +240,9 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
         pattern->mortar = 0.5;
     }
     if (info->has_direction) {
-        return block_value(block, &direction, item->span);
+        return block_value(block, &direction, item->span) &&
+               (vec3_length_squared(pattern->vector) > 0.0 ||
+                block_fault(block, DIAG_E0342, item->span, "the direction of a gradient cannot be <0, 0, 0>"));
     }
     return !info->blocks || read_block_entries(block, type, item->span);
 }
@@ -261,6 +263,10 @@ bool pattern_wave_action(Block *block, const SchemaProperty *property, const Ast
 bool pattern_close(Block *block)
 {
     const PatternPart *part = &block->record->patterned;
+    const Vec3 *size = &part->pattern.vector;
+    if (part->pattern.type == PATTERN_BRICK && (size->x == 0.0 || size->y == 0.0 || size->z == 0.0)) {
+        return block_fault(block, DIAG_E0342, block->node->span, "no component of `brick_size` can be 0");
+    }
     if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && !part->map) {
         return block_fault(block, DIAG_E0253, block->node->span, "a pattern of textures needs a `texture_map`");
     }
