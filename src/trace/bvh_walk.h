@@ -15,83 +15,108 @@
 
 enum { BVH_STACK = BVH_DEPTH_MOST * (BVH_WIDTH - 1) + BVH_WIDTH };
 
+// x, y, z and something.
+typedef double Axes __attribute__((vector_size(32)));
+typedef float FloatAxes __attribute__((vector_size(16)));
+typedef int64_t AxesMask __attribute__((vector_size(32)));
+
 typedef struct BvhWalk {
     const BvhNode *nodes;
     double scale, skipped; // distance in the tree = parameter of the ray * scale - skipped
-    // Axis; near, far: distance of a plane = (plane - origin) * inverse.
-    float origin[3][2], inverse[3][2];
-    unsigned near_side[3];    // 1 when the ray meets the high plane of an axis first
+    float origin[2][4], inverse[2][4]; // of near, of far planes: their distance is (plane - origin) * inverse
+    unsigned near_side[3];             // 1 when the ray meets the high plane of an axis first
     unsigned waiting;
     uint64_t stack[BVH_STACK]; // bits of the distance above, child below: distances are >= 0, so they order as integers
 } BvhWalk;
 
-// Distances as they are compared: never too small by rounding.
+// A parameter of the ray as distances in the tree are compared with it: never too small by rounding.
 RT_ALWAYS_INLINE float bvh_walk_limit(const BvhWalk *walk, double t_max)
 {
     double limit = t_max * walk->scale - walk->skipped;
     return (float)(limit + fabs(limit) * 0x1p-22);
 }
 
+RT_ALWAYS_INLINE void axes_store(float to[4], Axes a)
+{
+    FloatAxes narrow = __builtin_convertvector(a, FloatAxes);
+    memcpy(to, &narrow, sizeof(narrow));
+}
+
+RT_ALWAYS_INLINE double axes_sum_abs(Axes a)
+{
+    return fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
+}
+
+// Moves a far origin up to the root box; false when the ray misses that.
+RT_ALWAYS_INLINE bool bvh_walk_approach(BvhWalk *walk, const Bvh *bvh, Axes *origin, Axes direction, Axes inverse,
+                                        double pad)
+{
+    const double u = DBL_EPSILON / 2;
+    const double half[3] = {bvh->half.x, bvh->half.y, bvh->half.z};
+    double enter = 0.0;
+    double leave = (double)INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double side = copysign(half[axis] + pad, inverse[axis]);
+        double near = (-side - (*origin)[axis]) * inverse[axis];
+        double far = (side - (*origin)[axis]) * inverse[axis];
+        enter = near > enter ? near : enter;
+        leave = far < leave ? far : leave;
+    }
+    walk->skipped = enter * (1.0 - 8 * u);
+    *origin += walk->skipped * direction;
+    return walk->skipped <= leave * (1.0 + 8 * u);
+}
+
 // Begins a walk from p(0) on. The direction is about of unit length.
 //
-// Let D be the greatest coordinate difference between the origin and a point of the tree, in tree coordinates, u = 2^-53,
-// and D' the greatest coordinate of the origin after it has been moved up to the tree along the ray. Planes are moved
-// outward by 32 u D + 2^-22 D', to cover
+// Let D be the sum of the coordinates of origin and root box in tree coordinates, which is not less than any difference
+// between them, u = 2^-53, and D' the same after the origin has been moved up to the tree along the ray, when it is far
+// away. Planes are moved outward by 32 u D + 2^-22 D', to cover
 //   in u D:     3 for a point reported at a t that is off by an ulp; 3 for centre ± radius in tree coordinates; 1 for the
 //               origin there and 5 for moving it; the rest is spare
 //   in 2^-24 D': 1 for the origin's conversion to float; the rest is spare
 // and distances are multiplied by 1 ∓ 2^-21, where plane - origin, 1/direction and their product are each off by 2^-24.
-// A direction's component below 2^-60 is taken for 2^-60: over the length of the tree that is less than 32 u D.
+// A direction's component below 2^-60 is taken for 2^-60: over the length of the tree that is less than u D.
 // (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, with all of it done once a ray instead of once a box.)
 // False when the ray cannot meet the tree.
 RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin, Vec3 direction)
 {
-    const double u = DBL_EPSILON / 2;
-    Vec3 from = vec3_scale(bvh->scale, vec3_sub(origin, bvh->centre));
-    const double d[3] = {direction.x, direction.y, direction.z};
-    const double half[3] = {bvh->half.x, bvh->half.y, bvh->half.z};
-    double o[3] = {from.x, from.y, from.z};
-    double inverse[3];
-    double reach = 0.0;
-    bool is_ray = bvh->nodes != NULL;
-    for (int axis = 0; axis < 3; axis++) {
-        double component = fabs(d[axis]) < 0x1p-60 ? copysign(0x1p-60, d[axis]) : d[axis];
-        inverse[axis] = 1.0 / component;
-        walk->near_side[axis] = inverse[axis] < 0.0;
-        is_ray = is_ray && fabs(d[axis]) < 0x1p60 && fabs(o[axis]) < (double)INFINITY;
-        reach = fmax(reach, fabs(o[axis]) + half[axis]);
+    const Axes centre = {bvh->centre.x, bvh->centre.y, bvh->centre.z};
+    Axes o = (Axes){origin.x, origin.y, origin.z} - centre;
+    o *= bvh->scale;
+    Axes d = {direction.x, direction.y, direction.z, 1.0};
+    AxesMask signs = (AxesMask)d & INT64_MIN;
+    Axes size = (Axes)((AxesMask)d & INT64_MAX);
+    AxesMask small = size < 0x1p-60;
+    size = (Axes)((small & (AxesMask)((Axes){0} + 0x1p-60)) | (~small & (AxesMask)size));
+    Axes inverse = 1.0 / (Axes)((AxesMask)size | signs);
+    double half = bvh->half.x + bvh->half.y + bvh->half.z;
+    double reach = axes_sum_abs(o) + half;
+    if (!(reach < (double)INFINITY) || !bvh->nodes) {
+        return false;
     }
-    double pad = 32.0 * u * reach;
+    double pad = 16.0 * (32.0 * (DBL_EPSILON / 2) + 0x1p-22);
     walk->skipped = 0.0;
-    if (reach > 4.0) {
-        double enter = 0.0;
-        double leave = (double)INFINITY;
-        for (int axis = 0; axis < 3; axis++) {
-            double side = copysign(half[axis] + pad, inverse[axis]);
-            enter = fmax(enter, (-side - o[axis]) * inverse[axis]);
-            leave = fmin(leave, (side - o[axis]) * inverse[axis]);
-        }
-        if (!(enter * (1.0 - 8 * u) <= leave * (1.0 + 8 * u))) {
+    if (reach > 16.0) {
+        pad = 32.0 * (DBL_EPSILON / 2) * reach;
+        if (!bvh_walk_approach(walk, bvh, &o, d, inverse, pad)) {
             return false;
         }
-        walk->skipped = enter * (1.0 - 8 * u);
-        for (int axis = 0; axis < 3; axis++) {
-            o[axis] += walk->skipped * d[axis];
-            pad = fmax(pad, 0x1p-22 * fabs(o[axis]));
-        }
+        pad += 0x1p-22 * (axes_sum_abs(o) + half);
     }
+    Axes shift = (Axes)((AxesMask)((Axes){0} + pad) | signs);
+    axes_store(walk->origin[0], o + shift);
+    axes_store(walk->origin[1], o - shift);
+    axes_store(walk->inverse[0], inverse * (1.0 - 0x1p-21));
+    axes_store(walk->inverse[1], inverse * (1.0 + 0x1p-21));
     for (int axis = 0; axis < 3; axis++) {
-        double shift = copysign(pad + 0x1p-22 * (fabs(o[axis]) + pad), inverse[axis]);
-        walk->origin[axis][0] = (float)(o[axis] + shift);
-        walk->origin[axis][1] = (float)(o[axis] - shift);
-        walk->inverse[axis][0] = (float)(inverse[axis] * (1.0 - 0x1p-21));
-        walk->inverse[axis][1] = (float)(inverse[axis] * (1.0 + 0x1p-21));
+        walk->near_side[axis] = signs[axis] != 0;
     }
     walk->nodes = bvh->nodes;
     walk->scale = bvh->scale;
     walk->waiting = 1;
     walk->stack[0] = 0;
-    return is_ray;
+    return true;
 }
 
 RT_ALWAYS_INLINE uint64_t bvh_walk_key(float distance, BvhChild child)
@@ -112,8 +137,8 @@ RT_ALWAYS_INLINE unsigned bvh_walk_boxes(const BvhWalk *walk, const BvhNode *nod
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; axis++) {
             unsigned side = walk->near_side[axis];
-            Floats near = (floats_load(&node->box[axis][side][at]) - walk->origin[axis][0]) * walk->inverse[axis][0];
-            Floats far = (floats_load(&node->box[axis][side ^ 1][at]) - walk->origin[axis][1]) * walk->inverse[axis][1];
+            Floats near = (floats_load(&node->box[axis][side][at]) - walk->origin[0][axis]) * walk->inverse[0][axis];
+            Floats far = (floats_load(&node->box[axis][side ^ 1][at]) - walk->origin[1][axis]) * walk->inverse[1][axis];
             enter = floats_max(near, enter);
             leave = floats_min(far, leave);
         }
@@ -123,15 +148,45 @@ RT_ALWAYS_INLINE unsigned bvh_walk_boxes(const BvhWalk *walk, const BvhNode *nod
     return met;
 }
 
-// The next leaf with a box that begins no later than t_max; false when there is none.
-RT_ALWAYS_INLINE bool bvh_walk_next(BvhWalk *walk, double t_max, BvhChild *leaf)
+// Puts a child and distance among those that wait above `bottom`, far ones first.
+RT_ALWAYS_INLINE void bvh_walk_push(BvhWalk *walk, unsigned bottom, uint64_t key)
 {
-    float limit = bvh_walk_limit(walk, t_max);
-    uint64_t last = bvh_walk_key(limit, UINT32_MAX);
-    if (!(limit >= 0.0f)) {
-        return false;
+    unsigned at = walk->waiting++;
+    for (; at > bottom && walk->stack[at - 1] < key; at--) {
+        walk->stack[at] = walk->stack[at - 1];
     }
-    while (walk->waiting > 0) {
+    walk->stack[at] = key;
+}
+
+// The nearest of the children that are met; the others wait.
+RT_ALWAYS_INLINE BvhChild bvh_walk_choose(BvhWalk *walk, const BvhNode *node, unsigned met, const float enters[BVH_WIDTH])
+{
+    unsigned i = (unsigned)__builtin_ctz(met);
+    BvhChild child = node->child[i];
+    met &= met - 1;
+    if (RT_LIKELY(!met)) {
+        return child;
+    }
+    uint64_t nearest = bvh_walk_key(enters[i], child);
+    i = (unsigned)__builtin_ctz(met);
+    uint64_t other = bvh_walk_key(enters[i], node->child[i]);
+    unsigned bottom = walk->waiting;
+    walk->stack[walk->waiting++] = other > nearest ? other : nearest;
+    nearest = other > nearest ? nearest : other;
+    while ((met &= met - 1)) {
+        i = (unsigned)__builtin_ctz(met);
+        other = bvh_walk_key(enters[i], node->child[i]);
+        bvh_walk_push(walk, bottom, other > nearest ? other : nearest);
+        nearest = other > nearest ? nearest : other;
+    }
+    return (BvhChild)nearest;
+}
+
+// The next leaf with a box that begins no later than the limit (of bvh_walk_limit); false when there is none.
+RT_ALWAYS_INLINE bool bvh_walk_next(BvhWalk *walk, float limit, BvhChild *leaf)
+{
+    uint64_t last = bvh_walk_key(limit, UINT32_MAX);
+    while (walk->waiting > 0 && limit >= 0.0f) {
         uint64_t key = walk->stack[--walk->waiting];
         if (key > last) {
             continue;
@@ -144,28 +199,7 @@ RT_ALWAYS_INLINE bool bvh_walk_next(BvhWalk *walk, double t_max, BvhChild *leaf)
             if (!met) {
                 break;
             }
-            unsigned i = (unsigned)__builtin_ctz(met);
-            child = node->child[i];
-            met &= met - 1;
-            if (!met) {
-                continue;
-            }
-            // Far ones first onto the stack: an insertion, as there are seldom more than three.
-            uint64_t nearest = bvh_walk_key(enters[i], child);
-            unsigned bottom = walk->waiting;
-            do {
-                i = (unsigned)__builtin_ctz(met);
-                met &= met - 1;
-                uint64_t other = bvh_walk_key(enters[i], node->child[i]);
-                uint64_t farther = other > nearest ? other : nearest;
-                nearest = other > nearest ? nearest : other;
-                unsigned at = walk->waiting++;
-                for (; at > bottom && walk->stack[at - 1] < farther; at--) {
-                    walk->stack[at] = walk->stack[at - 1];
-                }
-                walk->stack[at] = farther;
-            } while (met);
-            child = (BvhChild)nearest;
+            child = bvh_walk_choose(walk, node, met, enters);
         }
         if (child & BVH_LEAF) {
             *leaf = child;

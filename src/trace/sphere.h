@@ -62,7 +62,7 @@ RT_ALWAYS_INLINE SphereRay sphere_ray_make(Vec3 origin, Vec3 direction)
 // True for a ray that can meet anything at all.
 RT_ALWAYS_INLINE bool sphere_ray_is_usable(const SphereRay *ray)
 {
-    return ray->inverse_square > 0.0 && ray->inverse_square < (double)INFINITY;
+    return ray->inverse_square > 0x1p-100 && ray->inverse_square < (double)INFINITY;
 }
 
 // What rounding can do to r² - |l|² and to |f|² - r² is below SPHERE_ROUNDING (|f|² + r²). Where they are beyond

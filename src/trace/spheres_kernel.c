@@ -69,11 +69,12 @@ static void tree_closest(const SphereTable *table, const SphereRay *ray, const B
     if (!bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
         return;
     }
-    Nearest best = *nearest;
-    while (bvh_walk_next(&walk, nearest_limit(best.hit.t), &leaf)) {
+    double limit = nearest_limit(nearest->hit.t);
+    float tree_limit = bvh_walk_limit(&walk, limit);
+    while (bvh_walk_next(&walk, tree_limit, &leaf)) {
         uint32_t block = leaf & ~BVH_LEAF;
         BlockHits hits;
-        if (!block_test(&table->blocks[block], ray, nearest_limit(best.hit.t), &hits)) {
+        if (!block_test(&table->blocks[block], ray, limit, &hits)) {
             continue;
         }
         do {
@@ -90,10 +91,12 @@ static void tree_closest(const SphereTable *table, const SphereRay *ray, const B
             if (RT_UNLIKELY(!is_rough)) {
                 t = sphere_exact(ray, &ball, &inside);
             }
-            nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, &best);
+            nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, nearest);
         } while (hits.met);
+        limit = nearest_limit(nearest->hit.t);
+        tree_limit = bvh_walk_limit(&walk, limit);
     }
-    *nearest = best;
+    nearest_settle(table, ray, nearest); // here, where the processor may have a fused multiply-add
 }
 
 static bool tree_occluded(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max)
@@ -104,7 +107,8 @@ static bool tree_occluded(const SphereTable *table, const SphereRay *ray, const 
         return false;
     }
     double limit = nearest_limit(t_max);
-    while (bvh_walk_next(&walk, limit, &leaf)) {
+    float tree_limit = bvh_walk_limit(&walk, limit);
+    while (bvh_walk_next(&walk, tree_limit, &leaf)) {
         uint32_t block = leaf & ~BVH_LEAF;
         BlockHits hits;
         if (!block_test(&table->blocks[block], ray, limit, &hits)) {
