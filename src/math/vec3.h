@@ -84,6 +84,17 @@ static inline double vec3_max_abs(Vec3 a)
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
+// Component by component.
+static inline Vec3 vec3_least(Vec3 a, Vec3 b)
+{
+    return vec3(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+}
+
+static inline Vec3 vec3_greatest(Vec3 a, Vec3 b)
+{
+    return vec3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+
 static inline bool vec3_is_finite(Vec3 a)
 {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);

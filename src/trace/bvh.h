@@ -60,13 +60,14 @@ typedef struct Bvh {
     Vec3 half;    // half the size of the root box, in tree coordinates
 } Bvh;
 
-// A thing while the tree is built: its box in tree coordinates, and its number for whoever builds.
+// A thing while the tree is built: its box in tree coordinates, and in the fourth places its number for whoever builds, 23
+// bits in the fraction of each, so that they can go through vector arithmetic as harmless numbers between 1 and 2.
 typedef struct BvhRef {
-    float low[3];
-    uint32_t index;
-    float high[3];
-    uint32_t unused;
+    _Alignas(16) float low[4];
+    float high[4];
 } BvhRef;
+
+uint32_t bvh_ref_index(const BvhRef *ref);
 
 // Chooses the coordinates of a tree whose things all lie within low..high, which are finite.
 void bvh_place(Bvh *bvh, Vec3 low, Vec3 high);

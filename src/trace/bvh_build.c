@@ -17,6 +17,7 @@
 
 enum {
     BIN_MOST = 16,
+    SAMPLES_LEAST = 512, // a range of twice as many or more is binned by a sample of that size
     POOL_CHUNK_NODES = 256,
     // A range this small is built by one thread; a whole tree this small on one alone.
     TASK_REFS_LEAST = 4096,
@@ -69,15 +70,11 @@ static inline float box_half_area(const Box *box)
     return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
 }
 
-// The box of a ref; its fourth components are those of an empty box's, so that they cannot be NaN.
 static inline Box ref_box(const BvhRef *ref)
 {
     Box box;
     memcpy(&box.low, ref->low, sizeof box.low);
     memcpy(&box.high, ref->high, sizeof box.high);
-    const Int4 used = {-1, -1, -1, 0};
-    box.low = (Float4)((Int4)box.low & used);
-    box.high = (Float4)((Int4)box.high & used);
     return box;
 }
 
@@ -135,17 +132,28 @@ BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index)
 {
     Vec3 a = vec3_scale(bvh->scale, vec3_sub(low, bvh->centre));
     Vec3 b = vec3_scale(bvh->scale, vec3_sub(high, bvh->centre));
-    return (BvhRef){.low = {float_below(a.x), float_below(a.y), float_below(a.z)},
-                    .index = index,
-                    .high = {float_above(b.x), float_above(b.y), float_above(b.z)}};
+    uint32_t bits[2] = {0x3f800000u | (index & 0x7fffffu), 0x3f800000u | index >> 23};
+    float parts[2];
+    memcpy(parts, bits, sizeof(parts));
+    return (BvhRef){{float_below(a.x), float_below(a.y), float_below(a.z), parts[0]},
+                    {float_above(b.x), float_above(b.y), float_above(b.z), parts[1]}};
+}
+
+uint32_t bvh_ref_index(const BvhRef *ref)
+{
+    const float parts[2] = {ref->low[3], ref->high[3]};
+    uint32_t bits[2];
+    memcpy(bits, parts, sizeof(bits));
+    return (bits[0] & 0x7fffffu) | (bits[1] & 0x1ffu) << 23;
 }
 
 // ---- one split
 
-// Maps box centres to bins along each axis.
+// Maps box centres to bins along the axis on which they lie farthest apart. The best of all three axes is seldom another
+// one, and costs three times as much to find.
 typedef struct Binning {
-    Float4 low, bins_per_unit; // 0 for an axis along which the centres do not differ
-    Int4 last;
+    int axis, count;
+    float low, bins_per_unit;
 } Binning;
 
 typedef struct Bin {
@@ -153,36 +161,23 @@ typedef struct Bin {
     uint32_t count;
 } Bin;
 
-typedef struct Split {
-    float cost; // of both sides: blocks times half the area
-    int axis;
-    int bin;    // the first bin of the right side
-} Split;
-
-static inline Int4 binning_bins(const Binning *binning, const Box *box)
+static inline int binning_bin(const Binning *binning, Float4 centre)
 {
-    Int4 bins =
-        __builtin_convertvector((box->low + box->high - binning->low) * binning->bins_per_unit, Int4);
-    Int4 within = bins < binning->last;
-    return (within & bins) | (~within & binning->last);
+    int bin = (int)((centre[binning->axis] - binning->low) * binning->bins_per_unit);
+    return bin < binning->count ? bin : binning->count - 1;
 }
 
 // False when all centres are the same.
 static bool binning_init(Binning *binning, const Range *range)
 {
+    Float4 extent = range->centres.high - range->centres.low;
+    int axis = extent[1] > extent[0];
+    axis = extent[2] > extent[axis] ? 2 : axis;
     // Half of all ranges are short; for them the bins themselves would be most of the work.
     uint32_t refs = range->end - range->begin;
-    int count = refs >= 64 ? BIN_MOST : refs >= 16 ? BIN_MOST / 2 : BIN_MOST / 4;
-    *binning = (Binning){.low = range->centres.low, .last = {count - 1, count - 1, count - 1, 0}};
-    bool differ = false;
-    for (int axis = 0; axis < 3; axis++) {
-        float bins_per_unit = (float)count / (range->centres.high[axis] - range->centres.low[axis]);
-        if (bins_per_unit < INFINITY) {
-            binning->bins_per_unit[axis] = bins_per_unit;
-            differ = true;
-        }
-    }
-    return differ;
+    int count = refs >= 64 ? BIN_MOST : BIN_MOST / 2;
+    *binning = (Binning){axis, count, range->centres.low[axis], (float)count / extent[axis]};
+    return binning->bins_per_unit < INFINITY;
 }
 
 // A leaf is tested whole, so cost counts leaves, not things.
@@ -191,8 +186,8 @@ static inline float side_cost(const Box *box, uint32_t count)
     return count ? (float)((count + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST) * box_half_area(box) : INFINITY;
 }
 
-// The cheapest place to cut along one axis, if it is cheaper than *best.
-static void split_axis(const Bin *bins, int bin_count, int axis, Split *best)
+// The cheapest place to cut: the first bin of the right side.
+static int bins_cut(const Bin *bins, int bin_count)
 {
     float right_cost[BIN_MOST];
     Box box = EMPTY_BOX;
@@ -204,55 +199,57 @@ static void split_axis(const Bin *bins, int bin_count, int axis, Split *best)
     }
     box = EMPTY_BOX;
     count = 0;
+    float best = INFINITY;
+    int cut = 0;
     for (int i = 1; i < bin_count; i++) {
         box_join(&box, &bins[i - 1].box);
         count += bins[i - 1].count;
         float cost = side_cost(&box, count) + right_cost[i];
-        if (cost < best->cost) {
-            *best = (Split){cost, axis, i};
+        if (cost < best) {
+            best = cost;
+            cut = i;
         }
     }
+    return cut;
 }
 
-static void bins_fill(Bin bins[3][BIN_MOST], const BvhRef *refs, const Range *range, const Binning *binning)
+static void bins_fill(Bin bins[BIN_MOST], const BvhRef *refs, const Range *range, const Binning *binning)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        for (int i = 0; i <= binning->last[0]; i++) {
-            bins[axis][i] = (Bin){EMPTY_BOX, 0};
-        }
+    for (int i = 0; i < binning->count; i++) {
+        bins[i] = (Bin){EMPTY_BOX, 0};
     }
-    for (uint32_t i = range->begin; i < range->end; i++) {
+    uint32_t count = range->end - range->begin;
+    uint32_t stride = count < 2 * SAMPLES_LEAST ? 1 : count / SAMPLES_LEAST;
+    for (uint32_t i = range->begin; i < range->end; i += stride) {
         Box box = ref_box(&refs[i]);
-        Int4 places = binning_bins(binning, &box);
-        for (int axis = 0; axis < 3; axis++) {
-            Bin *bin = &bins[axis][places[axis]];
-            box_join(&bin->box, &box);
-            bin->count++;
-        }
+        Bin *bin = &bins[binning_bin(binning, box.low + box.high)];
+        box_join(&bin->box, &box);
+        bin->count++;
     }
 }
 
-// Puts the refs left of the split first, and notes the extent of the centres on both sides.
-static uint32_t split_apply(BvhRef *refs, const Range *range, const Binning *binning, const Split *split,
-                            Box *left_centres, Box *right_centres)
+// Puts the refs left of the split first, and measures both sides.
+static void split_apply(BvhRef *refs, const Range *range, const Binning *binning, int cut, Range *left, Range *right)
 {
-    uint32_t left = range->begin;
-    uint32_t right = range->end;
-    *left_centres = *right_centres = EMPTY_BOX;
-    while (left < right) {
-        Box box = ref_box(&refs[left]);
+    uint32_t begin = range->begin;
+    uint32_t end = range->end;
+    Box boxes[2] = {EMPTY_BOX, EMPTY_BOX}, centres[2] = {EMPTY_BOX, EMPTY_BOX};
+    while (begin < end) {
+        Box box = ref_box(&refs[begin]);
         Float4 centre = box.low + box.high;
-        if (binning_bins(binning, &box)[split->axis] < split->bin) {
-            box_join(left_centres, &(Box){centre, centre});
-            left++;
+        int side = binning_bin(binning, centre) >= cut;
+        box_join(&boxes[side], &box);
+        box_join(&centres[side], &(Box){centre, centre});
+        if (side == 0) {
+            begin++;
         } else {
-            box_join(right_centres, &(Box){centre, centre});
-            BvhRef moved = refs[left];
-            refs[left] = refs[--right];
-            refs[right] = moved;
+            BvhRef moved = refs[begin];
+            refs[begin] = refs[--end];
+            refs[end] = moved;
         }
     }
-    return left;
+    *left = (Range){boxes[0], centres[0], range->begin, begin, range->depth + 1};
+    *right = (Range){boxes[1], centres[1], begin, range->end, range->depth + 1};
 }
 
 // The box and centres of a range, from its refs.
@@ -271,31 +268,21 @@ static Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, uns
 // Cuts a range of more than a leaf in two.
 static void range_split(BvhRef *refs, const Range *range, Range *left, Range *right)
 {
-    unsigned depth = range->depth + 1;
     Binning binning;
-    Split best = {INFINITY, 0, 0};
     if (range->depth < BVH_SAH_DEPTH_MOST && binning_init(&binning, range)) {
-        Bin bins[3][BIN_MOST];
+        Bin bins[BIN_MOST];
         bins_fill(bins, refs, range, &binning);
-        for (int axis = 0; axis < 3; axis++) {
-            split_axis(bins[axis], binning.last[0] + 1, axis, &best);
-        }
-        if (best.cost < INFINITY) {
-            *left = (Range){EMPTY_BOX, EMPTY_BOX, range->begin, 0, depth};
-            *right = (Range){EMPTY_BOX, EMPTY_BOX, 0, range->end, depth};
-            for (int i = 0; i <= binning.last[0]; i++) {
-                box_join(i < best.bin ? &left->box : &right->box, &bins[best.axis][i].box);
-            }
-            left->end = right->begin =
-                split_apply(refs, range, &binning, &best, &left->centres, &right->centres);
+        int cut = bins_cut(bins, binning.count);
+        if (cut > 0) {
+            split_apply(refs, range, &binning, cut, left, right);
             return;
         }
     }
     // In half by full leaves.
     uint32_t leaves = (range->end - range->begin + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST;
     uint32_t middle = range->begin + leaves / 2 * BVH_LEAF_MOST;
-    *left = range_measure(refs, range->begin, middle, depth);
-    *right = range_measure(refs, middle, range->end, depth);
+    *left = range_measure(refs, range->begin, middle, range->depth + 1);
+    *right = range_measure(refs, middle, range->end, range->depth + 1);
 }
 
 // ---- nodes

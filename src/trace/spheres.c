@@ -19,7 +19,7 @@ enum {
     // A sphere this many times larger than the median is kept out of the tree. A planet under a million grains would
     // otherwise make every box on its way to the root as large as itself.
     LARGE_RADIUS_RATIO = 32,
-    REFS_CHUNK = 16384, // spheres that a thread takes at a time
+    CHUNK = 16384,      // spheres that a thread takes at a time
     NODES_CHUNK = 256,  // nodes whose leaves a thread fills at a time
 };
 
@@ -51,14 +51,24 @@ const SphereKernels *sphere_kernels_choose(const char *name)
 
 // ---- the table
 
+// What a chunk of the scene's spheres holds: those for the tree, and those that are large.
+typedef struct Chunk {
+    Vec3 low, high;        // of the centres of both kinds
+    double radius_squared; // the greatest of those for the tree
+    uint32_t count, large; // usable ones; large ones among them
+    uint32_t first;        // where its refs begin
+} Chunk;
+
 typedef struct Maker {
     SphereTable *table;
     const Scene *scene;
-    double scale[2];   // lengths are multiplied by both
-    uint32_t *numbers; // of the usable spheres in the scene, the loose ones first
-    BvhRef *refs;      // of the others
+    double scale[2]; // lengths are multiplied by both
+    double limit;    // spheres whose radius squared is above are large, and loose
+    Chunk *chunks;
+    BvhRef *refs;           // of the spheres for the tree
     uint32_t *first_blocks; // of each chunk of nodes
-    atomic_uint next;       // the first sphere, or chunk of nodes, that no thread has taken yet
+    uint32_t loose[LOOSE_SPHERES_MOST];
+    atomic_uint next; // the first chunk that no thread has taken yet
 } Maker;
 
 static double maker_length(const Maker *maker, double length)
@@ -66,12 +76,23 @@ static double maker_length(const Maker *maker, double length)
     return length * maker->scale[0] * maker->scale[1];
 }
 
-static Ball maker_ball(const Maker *maker, uint32_t number)
+static inline Ball maker_ball(const Maker *maker, size_t number)
 {
     const Sphere *sphere = &maker->scene->spheres.items[number];
     Vec3 c = sphere->centre;
     return ball_make(vec3(maker_length(maker, c.x), maker_length(maker, c.y), maker_length(maker, c.z)),
                      maker_length(maker, sphere->radius));
+}
+
+static size_t chunk_count(const Maker *maker)
+{
+    return (maker->scene->spheres.count + CHUNK - 1) / CHUNK;
+}
+
+static size_t chunk_end(const Maker *maker, size_t chunk)
+{
+    size_t end = (chunk + 1) * CHUNK;
+    return end < maker->scene->spheres.count ? end : maker->scene->spheres.count;
 }
 
 static int double_compare(const void *a, const void *b)
@@ -81,85 +102,129 @@ static int double_compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The square of the radius above which a sphere is large; infinite when there would be too many of them.
-static double large_radius_squared(const Maker *maker, uint32_t count)
+// The square of the radius above which a sphere is large.
+static double large_radius_squared(const Maker *maker)
 {
     double samples[RADIUS_SAMPLES];
-    uint32_t sample_count = count < RADIUS_SAMPLES ? count : RADIUS_SAMPLES;
-    for (uint32_t i = 0; i < sample_count; i++) {
-        samples[i] = maker_ball(maker, maker->numbers[(uint64_t)i * count / sample_count]).radius_squared;
+    size_t count = maker->scene->spheres.count;
+    size_t sample_count = 0;
+    for (size_t i = 0; i < RADIUS_SAMPLES && i < count; i++) {
+        double square = maker_ball(maker, i * count / (count < RADIUS_SAMPLES ? count : RADIUS_SAMPLES)).radius_squared;
+        if (!isnan(square)) {
+            samples[sample_count++] = square;
+        }
     }
     qsort(samples, sample_count, sizeof(samples[0]), double_compare);
-    double limit = samples[sample_count / 2] * (LARGE_RADIUS_RATIO * LARGE_RADIUS_RATIO);
-    uint32_t large_count = 0;
-    for (uint32_t i = 0; i < count && large_count <= LOOSE_SPHERES_MOST; i++) {
-        large_count += maker_ball(maker, maker->numbers[i]).radius_squared > limit;
-    }
-    return large_count <= LOOSE_SPHERES_MOST ? limit : (double)INFINITY;
+    return sample_count ? samples[sample_count / 2] * (LARGE_RADIUS_RATIO * LARGE_RADIUS_RATIO) : (double)INFINITY;
 }
 
-// Lists the spheres that a ray can meet, the loose ones first.
-static void maker_gather(Maker *maker)
+static void chunk_measure(const Maker *maker, size_t number)
 {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < maker->scene->spheres.count; i++) {
+    Chunk chunk = {.low = {(double)INFINITY, (double)INFINITY, (double)INFINITY},
+                   .high = {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}};
+    for (size_t i = number * CHUNK; i < chunk_end(maker, number); i++) {
         Ball ball = maker_ball(maker, i);
-        if (ball_is_usable(&ball)) {
-            maker->numbers[count++] = i;
+        if (!ball_is_usable(&ball)) {
+            continue;
         }
-    }
-    maker->table->count = count;
-    if (count <= LOOSE_SPHERES_MOST) {
-        maker->table->loose_count = count;
-        return;
-    }
-    double limit = large_radius_squared(maker, count);
-    for (uint32_t i = 0; i < count && limit < (double)INFINITY; i++) {
-        if (maker_ball(maker, maker->numbers[i]).radius_squared > limit) {
-            uint32_t place = maker->table->loose_count++;
-            uint32_t number = maker->numbers[i];
-            maker->numbers[i] = maker->numbers[place];
-            maker->numbers[place] = number;
+        Vec3 c = ball.centre;
+        chunk.count++;
+        if (ball.radius_squared > maker->limit) {
+            chunk.large++;
+            continue;
         }
+        chunk.low = vec3_least(chunk.low, c);
+        chunk.high = vec3_greatest(chunk.high, c);
+        chunk.radius_squared = ball.radius_squared > chunk.radius_squared ? ball.radius_squared : chunk.radius_squared;
+    }
+    maker->chunks[number] = chunk;
+}
+
+static void measure_work(void *client, int thread)
+{
+    Maker *maker = client;
+    (void)thread;
+    for (size_t chunk; (chunk = atomic_fetch_add(&maker->next, 1)) < chunk_count(maker);) {
+        chunk_measure(maker, chunk);
     }
 }
 
-// ---- the tree of the table
-
-static void maker_place(Maker *maker, uint32_t count)
+// Threads for work that is shared by chunks.
+static void maker_share(Maker *maker, int threads, void (*work)(void *client, int thread))
 {
-    const uint32_t *numbers = maker->numbers + maker->table->loose_count;
-    Vec3 low = vec3((double)INFINITY, (double)INFINITY, (double)INFINITY);
-    Vec3 high = vec3_neg(low);
-    double radius_squared = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        Ball ball = maker_ball(maker, numbers[i]);
-        Vec3 c = ball.centre;
-        low = vec3(fmin(low.x, c.x), fmin(low.y, c.y), fmin(low.z, c.z));
-        high = vec3(fmax(high.x, c.x), fmax(high.y, c.y), fmax(high.z, c.z));
-        radius_squared = fmax(radius_squared, ball.radius_squared);
+    atomic_store(&maker->next, 0);
+    parallel_run(chunk_count(maker) > 1 ? threads : 1, work, maker);
+}
+
+// Counts usable and large spheres; what is large is loose if there are few of them.
+static void maker_measure(Maker *maker, int threads)
+{
+    maker->limit = large_radius_squared(maker);
+    for (;;) {
+        uint32_t count = 0;
+        uint32_t large = 0;
+        maker_share(maker, threads, measure_work);
+        for (size_t i = 0; i < chunk_count(maker); i++) {
+            maker->chunks[i].first = count - large;
+            count += maker->chunks[i].count;
+            large += maker->chunks[i].large;
+        }
+        maker->table->count = count;
+        maker->table->loose_count = large;
+        if (large <= LOOSE_SPHERES_MOST && (count > LOOSE_SPHERES_MOST || large == count)) {
+            return;
+        }
+        maker->limit = count <= LOOSE_SPHERES_MOST ? -1.0 : (double)INFINITY; // all are loose, or none is
+    }
+}
+
+static void maker_place(Maker *maker)
+{
+    Chunk all = maker->chunks[0];
+    for (size_t i = 1; i < chunk_count(maker); i++) {
+        const Chunk *chunk = &maker->chunks[i];
+        all.low = vec3_least(all.low, chunk->low);
+        all.high = vec3_greatest(all.high, chunk->high);
+        all.radius_squared = chunk->radius_squared > all.radius_squared ? chunk->radius_squared : all.radius_squared;
     }
     // The greatest radius all around also holds spheres too small to show beside their coordinates.
-    double radius = sqrt(radius_squared);
+    double radius = sqrt(all.radius_squared);
     Vec3 margin = vec3(radius, radius, radius);
-    bvh_place(&maker->table->bvh, vec3_sub(low, margin), vec3_add(high, margin));
+    bvh_place(&maker->table->bvh, vec3_sub(all.low, margin), vec3_add(all.high, margin));
+}
+
+static void chunk_refs(const Maker *maker, size_t number)
+{
+    BvhRef *ref = maker->refs + maker->chunks[number].first;
+    for (size_t i = number * CHUNK; i < chunk_end(maker, number); i++) {
+        Ball ball = maker_ball(maker, i);
+        if (ball_is_usable(&ball) && ball.radius_squared <= maker->limit) {
+            double r = sqrt(ball.radius_squared);
+            Vec3 radius = vec3(r, r, r);
+            *ref++ = bvh_ref(&maker->table->bvh, vec3_sub(ball.centre, radius), vec3_add(ball.centre, radius),
+                             (uint32_t)i);
+        }
+    }
 }
 
 static void refs_work(void *client, int thread)
 {
     Maker *maker = client;
     (void)thread;
-    uint32_t loose = maker->table->loose_count;
-    uint32_t count = maker->table->count - loose;
-    for (uint32_t begin; (begin = atomic_fetch_add(&maker->next, REFS_CHUNK)) < count;) {
-        uint32_t end = begin + REFS_CHUNK < count ? begin + REFS_CHUNK : count;
-        for (uint32_t i = begin; i < end; i++) {
-            uint32_t number = maker->numbers[loose + i];
-            Ball ball = maker_ball(maker, number);
-            double r = sqrt(ball.radius_squared);
-            Vec3 radius = vec3(r, r, r);
-            maker->refs[i] = bvh_ref(&maker->table->bvh, vec3_sub(ball.centre, radius),
-                                     vec3_add(ball.centre, radius), number);
+    for (size_t chunk; (chunk = atomic_fetch_add(&maker->next, 1)) < chunk_count(maker);) {
+        chunk_refs(maker, chunk);
+    }
+}
+
+static void maker_list_loose(Maker *maker)
+{
+    uint32_t count = 0;
+    for (size_t chunk = 0; chunk < chunk_count(maker); chunk++) {
+        for (size_t i = chunk * CHUNK; maker->chunks[chunk].large > 0 && i < chunk_end(maker, chunk); i++) {
+            Ball ball = maker_ball(maker, i);
+            if (ball_is_usable(&ball) && ball.radius_squared > maker->limit) {
+                maker->loose[count++] = (uint32_t)i;
+            }
         }
     }
 }
@@ -200,7 +265,7 @@ static void chunk_fill(const Maker *maker, uint32_t chunk)
             }
             uint32_t count = bvh_leaf_count(leaf);
             for (uint32_t at = 0; at < count; at++) {
-                slot_fill(maker, block * SPHERE_BLOCK + at, maker->refs[bvh_leaf_first(leaf) + at].index);
+                slot_fill(maker, block * SPHERE_BLOCK + at, bvh_ref_index(&maker->refs[bvh_leaf_first(leaf) + at]));
             }
             slots_clear(maker, block, count);
             bvh->nodes[i].child[child] = BVH_LEAF | block++;
@@ -244,51 +309,57 @@ static bool table_reserve(SphereTable *table)
     return table->blocks && table->info;
 }
 
+// The tree over all but the loose spheres.
+static bool maker_plant(Maker *maker, uint32_t count, int threads)
+{
+    maker->refs = malloc(count * sizeof(*maker->refs));
+    if (!maker->refs) {
+        return false;
+    }
+    maker_place(maker);
+    maker_share(maker, threads, refs_work);
+    return bvh_build(&maker->table->bvh, maker->refs, count, threads) && maker_count_blocks(maker);
+}
+
 static bool maker_make(Maker *maker, int threads)
 {
     SphereTable *table = maker->table;
-    maker_gather(maker);
+    maker_measure(maker, threads);
     uint32_t count = table->count - table->loose_count;
     table->block_count = table->loose_count > 0;
-    if (count > 0) {
-        maker->refs = malloc(count * sizeof(*maker->refs));
-        if (!maker->refs) {
-            return false;
-        }
-        maker_place(maker, count);
-        parallel_run(count > REFS_CHUNK ? threads : 1, refs_work, maker);
-        if (!bvh_build(&table->bvh, maker->refs, count, threads) || !maker_count_blocks(maker)) {
-            return false;
-        }
-    }
-    if (table->block_count > 0 && !table_reserve(table)) {
+    if (count > 0 && !maker_plant(maker, count, threads)) {
         return false;
     }
-    for (uint32_t i = 0; i < table->loose_count; i++) {
-        slot_fill(maker, i, maker->numbers[i]);
+    if (table->block_count == 0) {
+        return true;
+    }
+    if (!table_reserve(table)) {
+        return false;
     }
     if (table->loose_count > 0) {
+        maker_list_loose(maker);
+        for (uint32_t i = 0; i < table->loose_count; i++) {
+            slot_fill(maker, i, maker->loose[i]);
+        }
         slots_clear(maker, 0, table->loose_count);
     }
-    atomic_store(&maker->next, 0);
-    parallel_run(count > REFS_CHUNK ? threads : 1, blocks_work, maker);
+    maker_share(maker, threads, blocks_work);
     return true;
 }
 
 bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads)
 {
     *table = (SphereTable){0};
-    size_t count = scene->spheres.count;
-    if (count == 0) {
+    if (scene->spheres.count == 0) {
         return true;
     }
     // In two steps, each of which is in range for any exponent that a double can have.
     Maker maker = {.table = table,
                    .scene = scene,
-                   .scale = {ldexp(1.0, -(exponent / 2)), ldexp(1.0, -(exponent - exponent / 2))},
-                   .numbers = malloc(count * sizeof(*maker.numbers))};
-    bool done = maker.numbers && maker_make(&maker, threads);
-    free(maker.numbers);
+                   .scale = {ldexp(1.0, -(exponent / 2)), ldexp(1.0, -(exponent - exponent / 2))}};
+    maker.chunks = malloc(chunk_count(&maker) * sizeof(*maker.chunks));
+    bool done = maker.chunks && maker_make(&maker, threads);
+    free(maker.chunks);
     free(maker.refs);
     free(maker.first_blocks);
     return done;
