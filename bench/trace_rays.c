@@ -128,6 +128,20 @@ static double time_closest(const Geometry *g, const RaySet *set, size_t *hits)
     return now() - start;
 }
 
+static double time_tiles(const Geometry *g, const RaySet *set, size_t *hits)
+{
+    double start = now();
+    *hits = 0;
+    for (size_t i = 0; i < set->count; i += TILE_RAYS) {
+        Hit found[TILE_RAYS];
+        geometry_closest_tile(g, TRACE_SPHERES | TRACE_SPHERE_BVH, &set->rays[i], found);
+        for (int k = 0; k < TILE_RAYS; k++) {
+            *hits += found[k].shape != SHAPE_NONE;
+        }
+    }
+    return now() - start;
+}
+
 static double time_occluded(const Geometry *g, const RaySet *set, size_t *hits)
 {
     double start = now();
@@ -285,6 +299,7 @@ static void measure_ours(Bench *b, int turn)
     b->seconds[OURS][CAMERA][turn] = time_closest(b->geometry, &b->camera, &b->hits[OURS][CAMERA]);
     b->seconds[OURS][REFLECTED][turn] = time_closest(b->geometry, &b->reflected, &b->hits[OURS][REFLECTED]);
     b->seconds[OURS][SHADOW][turn] = time_occluded(b->geometry, &b->shadow, &b->hits[OURS][SHADOW]);
+    b->seconds[OURS][TILE][turn] = time_tiles(b->geometry, &b->camera, &b->hits[OURS][TILE]);
     b->seconds[OURS][BUILD][turn] = time_build(&b->scene, 1);
 }
 

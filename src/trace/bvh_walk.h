@@ -67,6 +67,41 @@ RT_ALWAYS_INLINE bool bvh_walk_approach(BvhWalk *walk, const Bvh *bvh, Axes *ori
     return walk->skipped <= leave * (1.0 + 8 * u);
 }
 
+// What the tests of boxes need: planes moved outward by `pad`, and the inverses for near and for far planes.
+RT_ALWAYS_INLINE void bvh_walk_set(BvhWalk *walk, const Bvh *bvh, Axes origin, double pad, AxesMask signs,
+                                   Axes near_inverse, Axes far_inverse)
+{
+    Axes shift = (Axes)((AxesMask)((Axes){0} + pad) | signs);
+    axes_store(walk->origin[0], origin + shift);
+    axes_store(walk->origin[1], origin - shift);
+    axes_store(walk->inverse[0], near_inverse * (1.0 - 0x1p-21));
+    axes_store(walk->inverse[1], far_inverse * (1.0 + 0x1p-21));
+    for (int axis = 0; axis < 3; axis++) {
+        walk->near_side[axis] = signs[axis] != 0;
+    }
+    walk->nodes = bvh->nodes;
+    walk->scale = bvh->scale;
+    walk->waiting = 1;
+    walk->stack[0] = 0;
+}
+
+// 1/d, with components of d below 2^-60 taken for that.
+RT_ALWAYS_INLINE void axes_invert(Axes d, Axes *inverse)
+{
+    AxesMask signs = (AxesMask)d & INT64_MIN;
+    Axes size = (Axes)((AxesMask)d & INT64_MAX);
+    AxesMask small = size < 0x1p-60;
+    size = (Axes)((small & (AxesMask)((Axes){0} + 0x1p-60)) | (~small & (AxesMask)size));
+    *inverse = 1.0 / (Axes)((AxesMask)size | signs);
+}
+
+// A point in the coordinates of the tree.
+RT_ALWAYS_INLINE void bvh_walk_point(const Bvh *bvh, Vec3 p, Axes *out)
+{
+    const Axes centre = {bvh->centre.x, bvh->centre.y, bvh->centre.z};
+    *out = ((Axes){p.x, p.y, p.z} - centre) * bvh->scale;
+}
+
 // Begins a walk from p(0) on. The direction is about of unit length.
 //
 // Let D be the sum of the coordinates of origin and root box in tree coordinates, which is not less than any difference
@@ -81,15 +116,10 @@ RT_ALWAYS_INLINE bool bvh_walk_approach(BvhWalk *walk, const Bvh *bvh, Axes *ori
 // False when the ray cannot meet the tree.
 RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin, Vec3 direction)
 {
-    const Axes centre = {bvh->centre.x, bvh->centre.y, bvh->centre.z};
-    Axes o = (Axes){origin.x, origin.y, origin.z} - centre;
-    o *= bvh->scale;
+    Axes o, inverse;
     Axes d = {direction.x, direction.y, direction.z, 1.0};
-    AxesMask signs = (AxesMask)d & INT64_MIN;
-    Axes size = (Axes)((AxesMask)d & INT64_MAX);
-    AxesMask small = size < 0x1p-60;
-    size = (Axes)((small & (AxesMask)((Axes){0} + 0x1p-60)) | (~small & (AxesMask)size));
-    Axes inverse = 1.0 / (Axes)((AxesMask)size | signs);
+    bvh_walk_point(bvh, origin, &o);
+    axes_invert(d, &inverse);
     double half = bvh->half.x + bvh->half.y + bvh->half.z;
     double reach = axes_sum_abs(o) + half;
     if (!(reach < (double)INFINITY) || !bvh->nodes) {
@@ -104,18 +134,30 @@ RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin,
         }
         pad += 0x1p-22 * (axes_sum_abs(o) + half);
     }
-    Axes shift = (Axes)((AxesMask)((Axes){0} + pad) | signs);
-    axes_store(walk->origin[0], o + shift);
-    axes_store(walk->origin[1], o - shift);
-    axes_store(walk->inverse[0], inverse * (1.0 - 0x1p-21));
-    axes_store(walk->inverse[1], inverse * (1.0 + 0x1p-21));
-    for (int axis = 0; axis < 3; axis++) {
-        walk->near_side[axis] = signs[axis] != 0;
+    bvh_walk_set(walk, bvh, o, pad, (AxesMask)d & INT64_MIN, inverse, inverse);
+    return true;
+}
+
+// The same for all rays from one origin whose directions have components between `least` and `greatest`, least and
+// greatest by size and of the same signs. False when there are no such leaves, or when the origin is too far away for boxes
+// in float (then ask ray by ray).
+RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 origin, Vec3 least, Vec3 greatest,
+                                          bool *is_too_far)
+{
+    Axes o, near_inverse, far_inverse;
+    Axes far_direction = {least.x, least.y, least.z, 1.0};
+    Axes near_direction = {greatest.x, greatest.y, greatest.z, 1.0};
+    bvh_walk_point(bvh, origin, &o);
+    axes_invert(near_direction, &near_inverse);
+    axes_invert(far_direction, &far_inverse);
+    double reach = axes_sum_abs(o) + bvh->half.x + bvh->half.y + bvh->half.z;
+    *is_too_far = !(reach < 4096.0);
+    if (*is_too_far || !bvh->nodes) {
+        return false;
     }
-    walk->nodes = bvh->nodes;
-    walk->scale = bvh->scale;
-    walk->waiting = 1;
-    walk->stack[0] = 0;
+    walk->skipped = 0.0;
+    bvh_walk_set(walk, bvh, o, (32.0 * (DBL_EPSILON / 2) + 0x1p-22) * reach, (AxesMask)near_direction & INT64_MIN,
+                 near_inverse, far_inverse);
     return true;
 }
 

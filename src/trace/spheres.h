@@ -44,6 +44,15 @@ typedef struct Nearest {
     bool is_rough;
 } Nearest;
 
+enum { TILE_ROW = 8, TILE_RAYS = 64 };
+
+// Rays from one point, of about unit length, in rows of eight neighbours: an 8 x 8 tile of camera rays.
+typedef struct SphereTile {
+    Vec3 origin;
+    _Alignas(64) double direction[3][TILE_RAYS];
+    double dual[3][TILE_RAYS], inverse_square[TILE_RAYS]; // as in SphereRay
+} SphereTile;
+
 // Brings `nearest` up to date with the spheres of the tree; tells whether one is met at 0 < t < t_max. Spheres equal to
 // `start` are passed over.
 typedef struct SphereKernels {
@@ -51,6 +60,9 @@ typedef struct SphereKernels {
     bool (*is_supported)(void);
     void (*closest)(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest);
     bool (*occluded)(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max);
+    // The same as `closest` for each ray of a tile, with the loose spheres. False when the rays are too far apart, or their
+    // origin too far away, to be traced together; nothing is done then.
+    bool (*closest_tile)(const SphereTable *table, const SphereTile *tile, Nearest nearest[TILE_RAYS]);
 } SphereKernels;
 
 // The kernels of an instruction set by name, or, for NULL, the best that this processor has. NULL when it has not.
@@ -62,6 +74,25 @@ const SphereKernels *sphere_kernels_at(size_t i);
 // All usable spheres of the scene, lengths times 2^-exponent. False when out of memory; fini is to be called anyway.
 bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads) RT_MUST_CHECK;
 void sphere_table_fini(SphereTable *table);
+
+RT_ALWAYS_INLINE void sphere_tile_set(SphereTile *tile, unsigned i, const SphereRay *ray)
+{
+    tile->direction[0][i] = ray->direction.x;
+    tile->direction[1][i] = ray->direction.y;
+    tile->direction[2][i] = ray->direction.z;
+    tile->dual[0][i] = ray->dual.x;
+    tile->dual[1][i] = ray->dual.y;
+    tile->dual[2][i] = ray->dual.z;
+    tile->inverse_square[i] = ray->inverse_square;
+}
+
+RT_ALWAYS_INLINE SphereRay sphere_tile_ray(const SphereTile *tile, unsigned i)
+{
+    return (SphereRay){tile->origin,
+                       {tile->direction[0][i], tile->direction[1][i], tile->direction[2][i]},
+                       {tile->dual[0][i], tile->dual[1][i], tile->dual[2][i]},
+                       tile->inverse_square[i]};
+}
 
 RT_ALWAYS_INLINE Ball sphere_table_ball(const SphereTable *table, uint32_t slot)
 {

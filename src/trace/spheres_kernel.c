@@ -7,6 +7,7 @@
 #include "trace/bvh_walk.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
+#include "trace/spheres_tile.h"
 
 enum { HALVES = SPHERE_BLOCK / DOUBLES };
 
@@ -151,5 +152,5 @@ static bool is_supported(void)
 
 extern const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS);
 const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS) = {
-    TEXT_OF(SPHERE_KERNELS), is_supported, tree_closest, tree_occluded,
+    TEXT_OF(SPHERE_KERNELS), is_supported, tree_closest, tree_occluded, tile_closest,
 };
