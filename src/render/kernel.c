@@ -7,20 +7,43 @@
 #include "render/prepared.h"
 #include "render/shade.h"
 
+enum { BEAM = TILE_ROW }; // camera rays of BEAM x BEAM pixels are traced together
+
+// The pixels of one beam that are left < right, top < bottom; where it is cut off, its last ones are traced again.
+RT_ALWAYS_INLINE void trace_beam(const Prepared *p, unsigned features, Tile tile, Film *film,
+                                 RenderStatistics *statistics)
+{
+    Ray rays[TILE_RAYS];
+    Hit hits[TILE_RAYS];
+    for (int i = 0; i < TILE_RAYS; i++) {
+        int x = tile.left + i % BEAM, y = tile.top + i / BEAM;
+        x = x < tile.right ? x : tile.right - 1;
+        y = y < tile.bottom ? y : tile.bottom - 1;
+        rays[i] = camera_ray(&p->camera, (x + 0.5) / film->width - 0.5, (y + 0.5) / film->height - 0.5);
+    }
+    geometry_closest_tile(p->geometry, features, rays, hits);
+    for (int y = tile.top; y < tile.bottom; y++) {
+        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)tile.left)];
+        for (int x = tile.left; x < tile.right; x++, pixel += 3) {
+            int i = (y - tile.top) * BEAM + (x - tile.left);
+            Rgb light = shade_ray(p, features, rays[i], &hits[i], statistics);
+            statistics->camera_rays++;
+            pixel[0] = (float)light.red;
+            pixel[1] = (float)light.green;
+            pixel[2] = (float)light.blue;
+        }
+    }
+}
+
 RT_ALWAYS_INLINE void trace_tile(const Prepared *p, unsigned features, Tile tile, Film *film,
                                  RenderStatistics *statistics)
 {
     RenderStatistics counted = {0};
-    for (int y = tile.top; y < tile.bottom; y++) {
-        double v = (y + 0.5) / film->height - 0.5;
-        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)tile.left)];
-        for (int x = tile.left; x < tile.right; x++, pixel += 3) {
-            Ray ray = camera_ray(&p->camera, (x + 0.5) / film->width - 0.5, v);
-            Rgb light = shade_ray(p, features, ray, &counted);
-            counted.camera_rays++;
-            pixel[0] = (float)light.red;
-            pixel[1] = (float)light.green;
-            pixel[2] = (float)light.blue;
+    for (int top = tile.top; top < tile.bottom; top += BEAM) {
+        for (int left = tile.left; left < tile.right; left += BEAM) {
+            Tile beam = {left, top, left + BEAM < tile.right ? left + BEAM : tile.right,
+                         top + BEAM < tile.bottom ? top + BEAM : tile.bottom};
+            trace_beam(p, features, beam, film, &counted);
         }
     }
     *statistics = counted;

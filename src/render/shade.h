@@ -26,6 +26,7 @@ typedef struct PendingRay {
     uint64_t passed; // surfaces gone through since the last reflection
     double exponent; // closes: of the light; else unused
     bool closes;
+    const Hit *known; // what it hits, where that is known already (SHAPE_NONE: nothing); else NULL
 } PendingRay;
 
 // Depth first, each level leaves at most one transmitted ray and one closing entry behind.
@@ -350,8 +351,13 @@ RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const S
 // Finds what a ray hits; false when it meets nothing.
 RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, ShadePoint *at)
 {
-    Hit hit;
-    if (!geometry_closest(p->geometry, features, now->ray, now->start, (double)INFINITY, &hit)) {
+    Hit hit = {.shape = SHAPE_NONE};
+    if (now->known) {
+        hit = *now->known;
+    } else if (!geometry_closest(p->geometry, features, now->ray, now->start, (double)INFINITY, &hit)) {
+        return false;
+    }
+    if (hit.shape == SHAPE_NONE) {
         return false;
     }
     Surface surface = geometry_surface(p->geometry, features, now->ray, hit);
@@ -400,10 +406,12 @@ RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const Pend
     return pending.sums[0];
 }
 
-// The light that one camera ray brings back.
-RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, RenderStatistics *statistics)
+// The light that one camera ray brings back, which hits what `known` says.
+RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, const Hit *known,
+                               RenderStatistics *statistics)
 {
-    PendingRay first = {.ray = ray, .start = RAY_START_FREE, .share = rgb_grey(1.0), .weight = 1.0, .level = 1};
+    PendingRay first = {
+        .ray = ray, .start = RAY_START_FREE, .share = rgb_grey(1.0), .weight = 1.0, .level = 1, .known = known};
     if (features & (RENDER_REFLECTION | RENDER_TRANSPARENCY)) {
         return shade_path(p, features, &first, statistics);
     }

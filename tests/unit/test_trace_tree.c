@@ -283,6 +283,47 @@ static void test_kernels(size_t family)
     scene_fini(&scene);
 }
 
+// Tiles of rays from one point, narrow, wide, across an axis, with rays given twice, near and far: the same hits as ray by
+// ray.
+static void test_tiles(size_t family, int count)
+{
+    Random random = {family + 120};
+    Scene scene;
+    scene_init(&scene);
+    families[family].make(&scene, &random, count);
+    Geometry *geometry = prepare(&scene, 0);
+    int different = 0;
+    int hits = 0;
+    for (int turn = 0; turn < 400; turn++) {
+        Ray middle = hard_ray(&scene, &random, families[family].size, families[family].middle);
+        Vec3 across = random_perpendicular(&random, middle.direction);
+        Vec3 down = vec3_cross(middle.direction, across);
+        double step = pow(10, random_between(&random, -8, -1));
+        Ray rays[TILE_RAYS];
+        Hit found[TILE_RAYS];
+        for (int i = 0; i < TILE_RAYS; i++) {
+            int x = turn % 5 == 0 && i % 8 > 5 ? 5 : i % 8;
+            Vec3 towards = vec3_add_scaled(middle.direction, step * (x - 3.5), across);
+            rays[i] = (Ray){middle.origin, vec3_normalize(vec3_add_scaled(towards, step * (i / 8 - 3.5), down))};
+        }
+        for (size_t isa = 0; geometry_isa(isa); isa++) {
+            geometry->kernels = sphere_kernels_choose(geometry_isa(isa));
+            geometry_closest_tile(geometry, TRACE_ALL_FEATURES, rays, found);
+            for (int i = 0; i < TILE_RAYS; i++) {
+                Hit hit = {0};
+                bool met = closest(geometry, rays[i], RAY_START_FREE, (double)INFINITY, &hit);
+                hits += met;
+                different += met ? hit.t != found[i].t || hit.shape != found[i].shape || hit.inside != found[i].inside
+                                 : found[i].shape != SHAPE_NONE;
+            }
+        }
+    }
+    tap_ok(different == 0 && hits > 1000, "%s, %d: tiles of rays hit what the rays hit (%d of %d differ)",
+           families[family].name, count, different, hits);
+    geometry_free(geometry);
+    scene_fini(&scene);
+}
+
 static void test_kernel_names(void)
 {
     tap_ok(sphere_kernels_choose("z80") == NULL, "an instruction set that is not there is not chosen");
@@ -301,6 +342,8 @@ int main(void)
         test_tree_shape(family, 20 * 1000);
         test_threads(family);
         test_kernels(family);
+        test_tiles(family, 8);
+        test_tiles(family, 700);
     }
     return tap_done();
 }
