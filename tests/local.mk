@@ -101,7 +101,7 @@ test_scripts = \
   %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.py %D%/check-docs.py \
   %D%/format/check_format.py %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py \
   %D%/system/check_rtcheck.sh \
-  %D%/povray/check_pictures.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
+  %D%/povray/check_pictures.py %D%/povray/check_includes.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py %D%/povray/check_survey.py
 
 TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
