@@ -108,8 +108,8 @@ def lacks(program):
 POINT_LIGHT = "area_light=None, point_lights=[[(2.0, 3.0, 40.0), 'White']]"
 # name, the program that it needs, how it is made, what is expected
 CASES = [
-    ("Open Babel, phenol, space-filling", "obabel", from_openbabel(PHENOL, "SPF"), "E0109 #else"),
-    ("Open Babel, ethane, ball and stick", "obabel", from_openbabel(ETHANE, "BAS"), "E0109 #else"),
+    ("Open Babel, phenol, space-filling", "obabel", from_openbabel(PHENOL, "SPF"), "E0252 merge"),
+    ("Open Babel, ethane, ball and stick", "obabel", from_openbabel(ETHANE, "BAS"), "E0252 merge"),
     ("Open Babel, phenol, its atoms placed one by one", "obabel", from_openbabel_atoms(PHENOL), DRAWN),
     ("PyMOL, benzene, spheres", "pymol", from_pymol("fragment benzene", "hide everything", "show spheres"), DRAWN),
     ("PyMOL, peptide of five residues, spheres", "pymol",
