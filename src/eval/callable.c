@@ -36,8 +36,8 @@ static const char *name_of(const Eval *ev, const AstNode *call)
 bool call_fault_count(Eval *ev, const AstNode *call, const char *what, unsigned wanted)
 {
     return eval_fault(ev, DIAG_E0203, call->span, "the %s %s%s%s takes %u argument%s, and %u %s given", what,
-                      QUOTE(call), name_of(ev, call), QUOTE(call), wanted, wanted == 1 ? "" : "s", (unsigned)call->count,
-                      call->count == 1 ? "is" : "are");
+                      QUOTE(call), name_of(ev, call), QUOTE(call), wanted, wanted == 1 ? "" : "s",
+                      (unsigned)call->count, call->count == 1 ? "is" : "are");
 }
 
 bool function_fault_unsupported(Eval *ev, const Function *function, const AstNode *call)
@@ -133,8 +133,8 @@ bool call_value(Eval *ev, const AstNode *call, Value *value)
     } else if (callee->kind == VALUE_NONE) {
         eval_fault(ev, DIAG_E0207, call->b != NULL ? call->b->span : call->span,
                    "this element of the array has no value yet");
-    } else if (eval_report(ev, DIAG_E0208, call->span, "%s%s%s is %s and cannot be called", QUOTE(call), name_of(ev, call),
-                           QUOTE(call), value_describe(callee))) {
+    } else if (eval_report(ev, DIAG_E0208, call->span, "%s%s%s is %s and cannot be called", QUOTE(call),
+                           name_of(ev, call), QUOTE(call), value_describe(callee))) {
         diag_suggest(ev->options.diags, "put a comma before the parenthesis if it begins another value");
     }
     ev->inner--;

@@ -415,7 +415,7 @@ double number_gray(const double v[3])
 
 bool value_component(Symbol name, unsigned width, unsigned *component)
 {
-    if (name == W_gray && width >= 3) {
+    if (name == W_gray && width >= 2) {
         *component = COMPONENT_GRAY;
         return true;
     }
@@ -440,7 +440,12 @@ static bool eval_member(Eval *ev, const AstNode *node, Value *value)
         return eval_fault(ev, DIAG_E0204, node->span, "%s has no component `%s`", value_describe(value),
                           eval_text(ev, node->symbol));
     }
-    double number = is_number ? value->number : component == COMPONENT_GRAY ? number_gray(value->v) : value->v[component];
+    if (value->kind == VALUE_VECTOR && value->components == 2) {
+        value->v[2] = 0.0; // for `gray`
+    }
+    double number = is_number                     ? value->number
+                    : component == COMPONENT_GRAY ? number_gray(value->v)
+                                                  : value->v[component];
     set_number(value, number);
     return true;
 }
@@ -554,8 +559,23 @@ bool eval_rvalue(Eval *ev, const AstNode *node, Value *value)
     }
 }
 
+// In POV-Ray's language no value begins with `t`, which is a word of transforms and maps, too.
+static bool begins_with_t(const AstNode *node)
+{
+    while ((node->kind == AST_BINARY || node->kind == AST_MEMBER) && !(node->flags & AST_IN_PARENTHESES)) {
+        node = node->a;
+    }
+    return node->kind == AST_CONSTANT && node->symbol == W_t && !(node->flags & AST_IN_PARENTHESES);
+}
+
 bool eval_open_rvalue(Eval *ev, const AstNode *node, Value *value)
 {
+    if (RT_UNLIKELY(begins_with_t(node))) {
+        if (eval_report(ev, DIAG_E0265, node->span, "a value cannot begin with `t` here")) {
+            diag_suggest(ev->options.diags, "write `(t)`");
+        }
+        return false;
+    }
     unsigned inner = ev->inner;
     ev->inner = 0;
     bool fine = eval_rvalue(ev, node, value);

@@ -40,7 +40,8 @@ static Extent turned(const Extent *extent, const Transform *transform)
 {
     double least[3] = {boundless, boundless, boundless}, greatest[3] = {-boundless, -boundless, -boundless};
     for (unsigned corner = 0; corner < 8; corner++) {
-        Vec3 point = vec3(corner & 1 ? upper(extent, 0) : extent->corner[0], corner & 2 ? upper(extent, 1) : extent->corner[1],
+        Vec3 point = vec3(corner & 1 ? upper(extent, 0) : extent->corner[0],
+                          corner & 2 ? upper(extent, 1) : extent->corner[1],
                           corner & 4 ? upper(extent, 2) : extent->corner[2]);
         Vec3 image = transform_point(transform, point);
         const double v[3] = {image.x, image.y, image.z};

@@ -1,7 +1,7 @@
 // Functions: `function (a, b) { … }`, and functions made of a transform or a spline.
 //
-// Turns a FUNCTION node into a value that calls can use: its parameters are named, its body is compiled. What rtlang has
-// not is kept as a function that is a fault where it is called. Knows nothing of calls.
+// Turns a FUNCTION node into a value that calls can use: its parameters are named, its body is compiled. What rtlang
+// has not is kept as a function that is a fault where it is called. Knows nothing of calls.
 //
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"

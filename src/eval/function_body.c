@@ -166,7 +166,8 @@ static FunctionNode *compile_constant(Compiler *compiler, const AstNode *node)
     if (node->symbol == W_pi || node->symbol == W_clock) {
         return builtin_constant(compiler->ev, node, &value) ? constant_value(compiler, node, &value) : NULL;
     }
-    bool is_coordinate = function_slot_name(node->symbol) == W_x || function_slot_name(node->symbol) == W_y || node->symbol == W_z;
+    Symbol name = function_slot_name(node->symbol);
+    bool is_coordinate = name == W_x || name == W_y || name == W_z;
     if (is_coordinate) {
         eval_fault(compiler->ev, DIAG_E0201, node->span, "`%s` is not a parameter of this function",
                    eval_text(compiler->ev, node->symbol));
@@ -197,8 +198,10 @@ static FunctionNode *compile_unary(Compiler *compiler, const AstNode *node)
         return fault_body(compiler, node, "a second sign", "put the value with its sign in parentheses");
     }
     FunctionNode *operand = compile_operand(compiler, node->a, node);
-    return operand == NULL ? NULL
-                           : with_arguments(new_node(compiler, node, function_operator((AstOp)node->op)), operand);
+    if (operand == NULL) {
+        return NULL;
+    }
+    return with_arguments(new_node(compiler, node, function_operator((AstOp)node->op)), operand);
 }
 
 static FunctionNode *join(Compiler *compiler, const AstNode *at, AstOp op, FunctionNode *left, FunctionNode *right)
@@ -399,7 +402,8 @@ static FunctionNode *compile_call_in(Compiler *compiler, const AstNode *node, co
         return call_node(compiler, node, callee->function, member);
     }
     if (callee != NULL && callee->kind == VALUE_SPLINE) {
-        return fault_body(compiler, node, "a spline", "declare a `function { spline { … } }` and take a component of it");
+        return fault_body(compiler, node, "a spline",
+                          "declare a `function { spline { … } }` and take a component of it");
     }
     if (node->b != NULL) {
         return callee == NULL ? NULL : constant_value(compiler, node, callee);
@@ -417,7 +421,8 @@ static FunctionNode *compile_member(Compiler *compiler, const AstNode *node)
     const AstNode *base = node->a;
     const Value *callee = base->kind == AST_CALL ? call_callee(compiler->ev, base) : NULL;
     if (callee == NULL || callee->kind != VALUE_FUNCTION) {
-        return fault_body(compiler, node, "a component", "only calls of functions of a transform or spline have components here");
+        return fault_body(compiler, node, "a component",
+                          "only calls of functions of a transform or spline have components here");
     }
     return compile_call_in(compiler, base, NULL, node);
 }

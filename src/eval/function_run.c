@@ -150,9 +150,11 @@ bool function_builtin(Word word, FunctionNode *node, unsigned *least, unsigned *
         [W_asin] = OF_ONE(asin),    [W_acos] = OF_ONE(acos),   [W_atan] = OF_ONE(atan),   [W_sinh] = OF_ONE(sinh),
         [W_cosh] = OF_ONE(cosh),    [W_tanh] = OF_ONE(tanh),   [W_asinh] = OF_ONE(asinh), [W_acosh] = OF_ONE(acosh),
         [W_atanh] = OF_ONE(atanh),  [W_exp] = OF_ONE(exp),     [W_ln] = OF_ONE(log),      [W_log] = OF_ONE(log10),
-        [W_sqrt] = OF_ONE(sqrt),    [W_floor] = OF_ONE(floor), [W_ceil] = OF_ONE(ceil),   [W_int] = OF_ONE(number_to_int),
+        [W_sqrt] = OF_ONE(sqrt),    [W_floor] = OF_ONE(floor), [W_ceil] = OF_ONE(ceil),
+        [W_int] = OF_ONE(number_to_int),
         [W_degrees] = OF_ONE(number_degrees), [W_radians] = OF_ONE(number_radians),
-        [W_atan2] = OF_TWO(atan2),  [W_pow] = OF_TWO(pow),     [W_mod] = OF_TWO(fmod),    [W_div] = OF_TWO(whole_quotient),
+        [W_atan2] = OF_TWO(atan2),  [W_pow] = OF_TWO(pow),     [W_mod] = OF_TWO(fmod),
+        [W_div] = OF_TWO(whole_quotient),
         [W_min] = {.run = run_extreme, .least = 2, .greatest = UINT8_MAX},
         [W_max] = {.run = run_extreme, .least = 2, .greatest = UINT8_MAX},
         [W_select] = {.run = run_select, .least = 3, .greatest = 4},
@@ -180,7 +182,10 @@ bool function_builtin(Word word, FunctionNode *node, unsigned *least, unsigned *
 
 unsigned function_width(const Function *function)
 {
-    return function->kind == FUNCTION_SPLINE ? function->spline->components : function->kind == FUNCTION_TRANSFORM ? 3 : 1;
+    if (function->kind == FUNCTION_SPLINE) {
+        return function->spline->components;
+    }
+    return function->kind == FUNCTION_TRANSFORM ? 3 : 1;
 }
 
 static bool run_body(Eval *ev, const Function *function, const double *arguments, Span span, double *number)

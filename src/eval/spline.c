@@ -230,7 +230,8 @@ static double cubic_at(const SplinePoint *p, unsigned c, double t)
     double chord = (p[2].v[c] - p[1].v[c]) / length;
     double after = (p[3].v[c] - p[2].v[c]) / (p[3].t - p[2].t);
     double square = share * share, cube = square * share;
-    return (2.0 * cube - 3.0 * square + 1.0) * p[1].v[c] + (cube - 2.0 * square + share) * length * (before + chord) / 2.0 +
+    return (2.0 * cube - 3.0 * square + 1.0) * p[1].v[c] +
+           (cube - 2.0 * square + share) * length * (before + chord) / 2.0 +
            (3.0 * square - 2.0 * cube) * p[2].v[c] + (cube - square) * length * (chord + after) / 2.0;
 }
 
