@@ -119,13 +119,7 @@ bool pattern_map_body(Block *block)
         return block_fault(block, DIAG_E0253, item ? item->span : block->node->span,
                            "a map needs entries such as `[0.5 …]`");
     }
-    // An entry before its predecessor is never reached: the map is read from its start.
-    for (size_t i = 1; is_fine && i < list.count; i++) {
-        if (list.items[i].at < list.items[i - 1].at) {
-            return block_fault(block, DIAG_E0292, block->node->span, "the values of a map must rise: %g follows %g",
-                               list.items[i].at, list.items[i - 1].at);
-        }
-    }
+    // Values may fall, as in woods.inc: the map is read from its start to the first entry beyond the value.
     block->record->map = (PatternMap){list.items, list.count};
     return is_fine;
 }
