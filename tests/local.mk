@@ -14,6 +14,8 @@ AM_TESTS_ENVIRONMENT = \
   PRINT_SCHEMA='$(abs_top_builddir)/tests/unit/print_schema'; export PRINT_SCHEMA; \
   PRINT_DIAGNOSTICS='$(abs_top_builddir)/tests/unit/print_diagnostics'; export PRINT_DIAGNOSTICS; \
   POVRAY='$(POVRAY)'; export POVRAY; \
+  VALGRIND='$(VALGRIND)'; export VALGRIND; \
+  COUNT_SPHERE_TESTS='$(abs_top_builddir)/tests/system/count_sphere_tests'; export COUNT_SPHERE_TESTS; \
   CC='$(CC)'; export CC; \
   RTLANG_MODULE_DIR='$(abs_top_builddir)/.libs'; export RTLANG_MODULE_DIR; \
   top_srcdir='$(abs_top_srcdir)'; export top_srcdir; \
@@ -92,6 +94,9 @@ check_PROGRAMS += tests/lang/typos
 tests_lang_typos_SOURCES = %D%/lang/typos.c
 tests_lang_typos_LDADD = $(tests_lang_run_lang_LDADD)
 
+check_PROGRAMS += tests/system/count_sphere_tests
+tests_system_count_sphere_tests_SOURCES = %D%/system/count_sphere_tests.c
+tests_system_count_sphere_tests_LDADD = $(UNIT_TRACE)
 check_PROGRAMS += tests/fuzz/fuzz_scene
 tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
 tests_fuzz_fuzz_scene_LDADD = libapi.la
@@ -99,7 +104,7 @@ tests_fuzz_fuzz_scene_LDADD = libapi.la
 test_scripts = \
   %D%/fuzz/replay.sh %D%/lang/check_cases.sh \
   %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.py %D%/check-docs.py \
-  %D%/format/check_format.py %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py \
+  %D%/format/check_format.py %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
   %D%/povray/check_pictures.py %D%/povray/check_includes.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py %D%/povray/check_survey.py

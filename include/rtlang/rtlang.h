@@ -116,6 +116,10 @@ RT_API rt_status rt_check_format(rt_session *session, const char *path);
 /* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
+/* Names of the instruction sets that the tracer can use on this machine, from plain C to the best, and NULL past the end. */
+RT_API const char *rt_isa(size_t i);
+/* Use one of them; the best is used if nothing is said. The picture does not depend on it. */
+RT_API rt_status rt_set_isa(rt_session *session, const char *name);
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* Makes a running rt_render stop soon. The only call that may be made from another thread or a signal handler. */

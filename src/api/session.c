@@ -265,13 +265,31 @@ static void film_to_linear(const Settings *settings, Film *film)
     }
 }
 
+const char *rt_isa(size_t i)
+{
+    return geometry_isa(i);
+}
+
+rt_status rt_set_isa(rt_session *session, const char *name)
+{
+    for (size_t i = 0; geometry_isa(i); i++) {
+        if (strcmp(name, geometry_isa(i)) == 0) {
+            session->isa = geometry_isa(i);
+            return RT_OK;
+        }
+    }
+    return RT_FAULT_USAGE;
+}
+
 rt_status rt_render(rt_session *session, int threads)
 {
     if (!session->loaded || session->rendered || threads < 0) {
         return RT_FAULT_USAGE;
     }
     double start = session_clock();
-    Prepared *prepared = prepared_new(&session->scene);
+    threads = threads ? threads : render_default_threads();
+    GeometryOptions geometry = {.threads = threads, .isa = session->isa};
+    Prepared *prepared = prepared_new(&session->scene, &geometry);
     if (!prepared || !film_init(&session->film, session->width, session->height)) {
         prepared_free(prepared);
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
@@ -281,7 +299,7 @@ rt_status rt_render(rt_session *session, int threads)
     session->prepare_seconds = session_clock() - start;
     start = session_clock();
     RenderOptions options = {
-        .threads = threads ? threads : render_default_threads(),
+        .threads = threads,
         .progress = session->callbacks.progress ? forward_progress : NULL,
         .client = session,
         .cancel = &session->cancel,

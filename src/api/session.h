@@ -31,6 +31,7 @@ struct rt_session {
     ARRAY(char *) include_paths;
     ARRAY(EvalDeclaration) declarations; // names are owned
     int width, height;
+    const char *isa; // of geometry_isa; NULL for the best
     Scene scene;
     bool loaded; // the scene is complete and valid
     Film film;

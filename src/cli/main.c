@@ -183,7 +183,8 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
     }
     if (!status) {
         progress_begin(progress, !options->quiet && options->format == RT_FORMAT_TEXT);
-        status = rt_render(session, options->threads);
+        status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
+        status = status ? status : rt_render(session, options->threads);
         progress_end(progress);
     }
     if (!status) {

@@ -71,6 +71,18 @@ static bool apply_threads(Options *options, const char *argument, const char **e
     return parse_integer(argument, 1, 1024, &options->threads);
 }
 
+static bool apply_isa(Options *options, const char *argument, const char **expected)
+{
+    *expected = "an instruction set of this processor: plain, or on x86-64 v2, v3 or v4";
+    for (size_t i = 0; rt_isa(i); i++) {
+        if (strcmp(argument, rt_isa(i)) == 0) {
+            options->isa = rt_isa(i);
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool apply_include_path(Options *options, const char *argument, const char **expected)
 {
     *expected = "a folder";
@@ -175,6 +187,8 @@ static const OptionRow rows[] = {
     {'W', "width", "PIXELS", apply_width, "width of the picture (default 320)"},
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
     {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
+    {0, "isa", "NAME", apply_isa,
+     "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
     {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},

@@ -29,7 +29,8 @@ typedef struct Options {
     const char *code; // ACTION_EXPLAIN
     const char *output; // NULL: the scene's name with .png in the current folder
     int width, height;
-    int threads; // 0: as many as the machine has
+    int threads;     // 0: as many as the machine has
+    const char *isa; // NULL: the best that the machine has
     rt_output encoding;
     const char **include_paths; // owned list
     int include_path_count;

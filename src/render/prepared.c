@@ -195,14 +195,14 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
     }
 }
 
-Prepared *prepared_new(const Scene *scene)
+Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
 {
     Prepared *p = calloc(1, sizeof *p);
     if (!p) {
         return NULL;
     }
     int exponent = scene_exponent(scene);
-    p->geometry = geometry_new(scene, exponent);
+    p->geometry = geometry_new_with(scene, exponent, options);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
     if (!p->geometry || !p->lights || !p->finishes || !texture_table_init(&p->textures, scene, exponent)) {

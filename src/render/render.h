@@ -16,11 +16,13 @@
 
 #include "base/attributes.h"
 #include "scene/scene.h"
+#include "trace/trace.h"
 
 typedef struct Prepared Prepared;
 
-// What is left of a valid scene for rendering; refers to the scene, which must outlive it. NULL when out of memory.
-Prepared *prepared_new(const Scene *scene) RT_MUST_CHECK;
+// What is left of a valid scene for rendering; refers to the scene, which must outlive it. The options say how geometry is
+// prepared and traced. NULL when out of memory.
+Prepared *prepared_new(const Scene *scene, const GeometryOptions *options) RT_MUST_CHECK;
 void prepared_free(Prepared *prepared);
 
 // Name of the kernel that was chosen, for example "spheres+shadows".

@@ -155,6 +155,10 @@ def test_threads():
         pictures = [rtlang("-q", "-t", threads, "-o", "-", scene).stdout for threads in ("1", "2", "7")]
         tap.ok(pictures[0][:4] == b"\x89PNG" and len(set(pictures)) == 1,
                os.path.basename(scene) + ": the same bytes from 1, 2 and 7 threads")
+        sets = [rtlang("-q", "--isa", name, "-o", "-", scene) for name in ("plain", "v2", "v3", "v4")]
+        there = [run.stdout for run in sets if run.returncode == 0]
+        tap.ok(there and all(picture == pictures[0] for picture in there),
+               os.path.basename(scene) + f": the same bytes from {len(there)} instruction sets")
 
 
 def test_size_and_values():

@@ -62,7 +62,7 @@ static void make_crowd(Scene *scene, double scale)
 static Film render(const Scene *scene, int width, int height, int threads, RenderStatistics *statistics)
 {
     Film film;
-    Prepared *prepared = prepared_new(scene);
+    Prepared *prepared = prepared_new(scene, &(GeometryOptions){.threads = 2});
     RenderOptions options = {.threads = threads};
     if (!prepared || !film_init(&film, width, height) ||
         render_film(prepared, &options, &film, statistics) != RENDER_OK) {
