@@ -175,7 +175,7 @@ static bool binning_init(Binning *binning, const Range *range)
     axis = extent[2] > extent[axis] ? 2 : axis;
     // Half of all ranges are short; for them the bins themselves would be most of the work.
     uint32_t refs = range->end - range->begin;
-    int count = refs >= 64 ? BIN_MOST : BIN_MOST / 2;
+    int count = refs >= 16 ? BIN_MOST : BIN_MOST / 2;
     *binning = (Binning){axis, count, range->centres.low[axis], (float)count / extent[axis]};
     return binning->bins_per_unit < INFINITY;
 }

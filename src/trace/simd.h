@@ -144,6 +144,41 @@ RT_ALWAYS_INLINE Doubles doubles_sqrt(Doubles a)
 #endif
 }
 
+// No component is NaN.
+RT_ALWAYS_INLINE Doubles doubles_min(Doubles a, Doubles b)
+{
+#if defined(__AVX512F__)
+    return _mm512_min_pd(a, b);
+#elif defined(__AVX__)
+    return _mm256_min_pd(a, b);
+#elif defined(__SSE2__)
+    return _mm_min_pd(a, b);
+#else
+    DoublesMask less = a < b;
+    return (Doubles)((less & (DoublesMask)a) | (~less & (DoublesMask)b));
+#endif
+}
+
+RT_ALWAYS_INLINE Doubles doubles_max(Doubles a, Doubles b)
+{
+    return -doubles_min(-a, -b);
+}
+
+// The least component.
+RT_ALWAYS_INLINE double doubles_least(Doubles a)
+{
+    double least = a[0];
+    for (int i = 1; i < DOUBLES; i++) {
+        least = a[i] < least ? a[i] : least;
+    }
+    return least;
+}
+
+RT_ALWAYS_INLINE double doubles_greatest(Doubles a)
+{
+    return -doubles_least(-a);
+}
+
 RT_ALWAYS_INLINE Doubles doubles_abs(Doubles a)
 {
     return (Doubles)((DoublesMask)a & INT64_MAX);

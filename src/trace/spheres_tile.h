@@ -20,7 +20,7 @@ typedef struct TileBeam {
     Vec3 axis;
     double spread;
     _Alignas(64) double row_axis[3][ROWS], row_spread[ROWS];
-    double limits[TILE_RAYS]; // nearest_limit of each ray
+    _Alignas(64) double limits[TILE_RAYS]; // nearest_limit of each ray
     Vec3 least, greatest;     // components of the directions by size
     bool has_signs;           // each component has one sign in all directions
 } TileBeam;
@@ -33,31 +33,30 @@ static Vec3 tile_direction(const SphereTile *tile, unsigned i)
     return vec3(tile->direction[0][i], tile->direction[1][i], tile->direction[2][i]);
 }
 
-// The axis of some rays, and how far they are from it.
-static double cone_of(const SphereTile *tile, unsigned begin, unsigned end, Vec3 *axis)
+// How far the directions of some rays are from an axis.
+RT_ALWAYS_INLINE double cone_spread(const SphereTile *tile, unsigned begin, unsigned end, Vec3 axis)
 {
-    Vec3 sum = vec3(0, 0, 0);
-    for (unsigned i = begin; i < end; i++) {
-        sum = vec3_add(sum, tile_direction(tile, i));
+    Doubles greatest = doubles_splat(0.0);
+    for (unsigned i = begin; i < end; i += DOUBLES) {
+        Doubles x = doubles_load(&tile->direction[0][i]) - axis.x;
+        Doubles y = doubles_load(&tile->direction[1][i]) - axis.y;
+        Doubles z = doubles_load(&tile->direction[2][i]) - axis.z;
+        greatest = doubles_max(greatest, x * x + y * y + z * z);
     }
-    *axis = vec3_normalize(sum);
-    double spread = 0.0;
-    for (unsigned i = begin; i < end; i++) {
-        double square = vec3_length_squared(vec3_sub(tile_direction(tile, i), *axis));
-        spread = square > spread ? square : spread;
-    }
-    return sqrt(spread) + CONE_MARGIN;
+    return sqrt(doubles_greatest(greatest)) + CONE_MARGIN;
 }
 
 // The least and the greatest by size; false when signs differ.
-static bool component_range(const double values[TILE_RAYS], double *least, double *greatest)
+RT_ALWAYS_INLINE bool component_range(const double values[TILE_RAYS], double *least, double *greatest)
 {
-    double low = values[0];
-    double high = values[0];
-    for (int i = 1; i < TILE_RAYS; i++) {
-        low = values[i] < low ? values[i] : low;
-        high = values[i] > high ? values[i] : high;
+    Doubles low_values = doubles_load(values);
+    Doubles high_values = low_values;
+    for (int i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
+        low_values = doubles_min(low_values, doubles_load(&values[i]));
+        high_values = doubles_max(high_values, doubles_load(&values[i]));
     }
+    double low = doubles_least(low_values);
+    double high = doubles_greatest(high_values);
     bool is_negative = high < 0.0;
     *least = is_negative ? high : low;
     *greatest = is_negative ? low : high;
@@ -66,10 +65,14 @@ static bool component_range(const double values[TILE_RAYS], double *least, doubl
 
 static void beam_init(TileBeam *beam, const SphereTile *tile, const Nearest nearest[TILE_RAYS])
 {
-    beam->spread = cone_of(tile, 0, TILE_RAYS, &beam->axis);
+    enum { MIDDLE = TILE_RAYS / 2 - TILE_ROW / 2 };
+    beam->axis = vec3_normalize(vec3_add(tile_direction(tile, MIDDLE - 1), tile_direction(tile, MIDDLE + TILE_ROW)));
+    beam->spread = cone_spread(tile, 0, TILE_RAYS, beam->axis);
     for (unsigned row = 0; row < ROWS; row++) {
-        Vec3 axis;
-        beam->row_spread[row] = cone_of(tile, row * TILE_ROW, (row + 1) * TILE_ROW, &axis);
+        unsigned begin = row * TILE_ROW;
+        Vec3 axis = vec3_normalize(
+            vec3_add(tile_direction(tile, begin + TILE_ROW / 2 - 1), tile_direction(tile, begin + TILE_ROW / 2)));
+        beam->row_spread[row] = cone_spread(tile, begin, begin + TILE_ROW, axis);
         beam->row_axis[0][row] = axis.x;
         beam->row_axis[1][row] = axis.y;
         beam->row_axis[2][row] = axis.z;
@@ -93,8 +96,10 @@ static unsigned beam_spheres(const TileBeam *beam, const SphereTile *tile, const
         Doubles fz = tile->origin.z - doubles_load(&block->z[i]);
         Doubles along = fx * beam->axis.x + fy * beam->axis.y + fz * beam->axis.z;
         Doubles f_squared = fx * fx + fy * fy + fz * fz;
-        Doubles reach = doubles_sqrt(f_squared) * beam->spread + doubles_sqrt(doubles_load(&block->radius_squared[i]));
-        touched |= doubles_ge(reach * reach, f_squared - along * along) << i;
+        Doubles radius_squared = doubles_load(&block->radius_squared[i]);
+        Doubles reach = doubles_sqrt(f_squared) * beam->spread + doubles_sqrt(radius_squared);
+        unsigned apart = doubles_ge(f_squared - along * along, reach * reach); // never where squares overflow
+        touched |= (doubles_ge(radius_squared, doubles_splat(0.0)) & ~apart) << i;
     }
     return touched;
 }
@@ -103,14 +108,14 @@ static unsigned beam_spheres(const TileBeam *beam, const SphereTile *tile, const
 static unsigned beam_rows(const TileBeam *beam, Vec3 f, double f_squared, double radius)
 {
     double distance = sqrt(f_squared);
-    unsigned touched = 0;
+    unsigned apart = 0; // never where squares overflow
     for (int i = 0; i < ROWS; i += DOUBLES) {
         Doubles along = f.x * doubles_load(&beam->row_axis[0][i]) + f.y * doubles_load(&beam->row_axis[1][i]) +
                         f.z * doubles_load(&beam->row_axis[2][i]);
         Doubles reach = distance * doubles_load(&beam->row_spread[i]) + radius;
-        touched |= doubles_ge(reach * reach, f_squared - along * along) << i;
+        apart |= doubles_ge(f_squared - along * along, reach * reach) << i;
     }
-    return touched;
+    return ~apart & ((1u << ROWS) - 1);
 }
 
 // What a sphere is to all rays of the tile.
@@ -191,11 +196,11 @@ static void tile_sphere(const SphereTable *table, const SphereTile *tile, TileBe
 
 static double beam_limit(const TileBeam *beam)
 {
-    double limit = beam->limits[0];
-    for (int i = 1; i < TILE_RAYS; i++) {
-        limit = beam->limits[i] > limit ? beam->limits[i] : limit;
+    Doubles limit = doubles_load(beam->limits);
+    for (int i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
+        limit = doubles_max(limit, doubles_load(&beam->limits[i]));
     }
-    return limit;
+    return doubles_greatest(limit);
 }
 
 static bool tile_closest(const SphereTable *table, const SphereTile *tile, Nearest nearest[TILE_RAYS])
@@ -228,8 +233,10 @@ static bool tile_closest(const SphereTable *table, const SphereTile *tile, Neare
         limit = bvh_walk_limit(&walk, beam_limit(&beam));
     }
     for (unsigned i = 0; i < TILE_RAYS; i++) {
-        SphereRay ray = sphere_tile_ray(tile, i);
-        nearest_settle(table, &ray, &nearest[i]);
+        if (nearest[i].is_rough) {
+            SphereRay ray = sphere_tile_ray(tile, i);
+            nearest_settle(table, &ray, &nearest[i]);
+        }
     }
     return true;
 }
