@@ -202,6 +202,16 @@ static bool vector_number(Eval *ev, const AstNode *node, Value *value)
     return give_number(value, node->symbol == W_vlength ? vec3_length(a[0]) : vec3_dot(a[0], a[1]));
 }
 
+// With the sine of 180 degrees that is not quite 0, as the function gives it and transforms do not.
+static Transform rotation_as_povray(Vec3 degrees)
+{
+    Vec3 r = vec3(number_radians(degrees.x), number_radians(degrees.y), number_radians(degrees.z));
+    Transform about_x = {{{1, 0, 0}, {0, cos(r.x), sin(r.x)}, {0, -sin(r.x), cos(r.x)}}};
+    Transform about_y = {{{cos(r.y), 0, -sin(r.y)}, {0, 1, 0}, {sin(r.y), 0, cos(r.y)}}};
+    Transform about_z = {{{cos(r.z), sin(r.z), 0}, {-sin(r.z), cos(r.z), 0}, {0, 0, 1}}};
+    return transform_compose(transform_compose(about_x, about_y), about_z);
+}
+
 static bool vector_vector(Eval *ev, const AstNode *node, Value *value)
 {
     Vec3 a[2];
@@ -212,7 +222,7 @@ static bool vector_vector(Eval *ev, const AstNode *node, Value *value)
         return give_vector(value, vec3_cross(a[0], a[1]));
     }
     if (node->symbol == W_vrotate) {
-        Transform rotation = transform_rotate(a[1]);
+        Transform rotation = rotation_as_povray(a[1]);
         return give_vector(value, transform_direction(&rotation, a[0]));
     }
     double length = vec3_length(a[0]);
@@ -220,10 +230,10 @@ static bool vector_vector(Eval *ev, const AstNode *node, Value *value)
         eval_warn(ev, DIAG_W0303, node->span, "a vector of length zero has no direction; it stays zero");
         return give_vector(value, a[0]);
     }
-    return give_vector(value, vec3(a[0].x / length, a[0].y / length, a[0].z / length));
+    return give_vector(value, vec3_scale(1.0 / length, a[0]));
 }
 
-// Rodrigues' formula.
+// The rotation matrix of Rodrigues' formula, in the order of operations that gives POV-Ray's digits.
 static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
 {
     Vec3 a[2];
@@ -232,12 +242,14 @@ static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
     if (!eval_number(ev, node->a->next->next, &angle) || !fine) {
         return false;
     }
-    double length = vec3_length(a[1]);
-    Vec3 axis = vec3(a[1].x / length, a[1].y / length, a[1].z / length);
-    double sine = sin(number_radians(angle)), cosine = cos(number_radians(angle));
-    Vec3 turned = vec3_scale(cosine, a[0]);
-    turned = vec3_add_scaled(turned, sine, vec3_cross(axis, a[0]));
-    return give_vector(value, vec3_add_scaled(turned, (1.0 - cosine) * vec3_dot(axis, a[0]), axis));
+    Vec3 n = vec3_scale(1.0 / vec3_length(a[1]), a[1]);
+    double s = sin(number_radians(angle)), c = cos(number_radians(angle)), u = 1.0 - c;
+    Transform rotation = {{
+        {n.x * n.x + c * (1.0 - n.x * n.x), n.x * n.y * u + n.z * s, n.x * n.z * u - n.y * s},
+        {n.x * n.y * u - n.z * s, n.y * n.y + c * (1.0 - n.y * n.y), n.y * n.z * u + n.x * s},
+        {n.x * n.z * u + n.y * s, n.y * n.z * u - n.x * s, n.z * n.z + c * (1.0 - n.z * n.z)},
+    }};
+    return give_vector(value, transform_direction(&rotation, a[0]));
 }
 
 // ---- names, arrays, files
