@@ -107,6 +107,7 @@ test_scripts = \
   %D%/format/check_format.py %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
   %D%/povray/check_pictures.py %D%/povray/check_includes.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
+  %D%/povray/check_programs.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py %D%/povray/check_survey.py
 
 TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
@@ -131,5 +132,7 @@ update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_d
 
 # What takes too long for every day.
 .PHONY: check-long
-check-long: tests/unit/test_trace_certified$(EXEEXT)
+check-long: rtlang$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000 "$$(date +%s)"
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
+	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py

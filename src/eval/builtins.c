@@ -223,7 +223,7 @@ static bool vector_vector(Eval *ev, const AstNode *node, Value *value)
     }
     if (node->symbol == W_vrotate) {
         Transform rotation = rotation_as_povray(a[1]);
-        return give_vector(value, transform_direction(&rotation, a[0]));
+        return give_vector(value, transform_point(&rotation, a[0])); // whose sums have no negative zero, as POV-Ray's
     }
     double length = vec3_length(a[0]);
     if (length == 0.0) {
@@ -249,7 +249,7 @@ static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
         {n.x * n.y * u - n.z * s, n.y * n.y + c * (1.0 - n.y * n.y), n.y * n.z * u + n.x * s},
         {n.x * n.z * u + n.y * s, n.y * n.z * u - n.x * s, n.z * n.z + c * (1.0 - n.z * n.z)},
     }};
-    return give_vector(value, transform_direction(&rotation, a[0]));
+    return give_vector(value, transform_point(&rotation, a[0])); // whose sums have no negative zero, as POV-Ray's
 }
 
 // ---- names, arrays, files

@@ -212,7 +212,9 @@ class Expressions:
 
     def inline(self, depth):
         """A directive that stands for a value, or adds to one, in parentheses."""
+        self.has_inline = False
         condition = f"#if ({self.relation(depth)})"
+        self.has_inline = True
         choices = [f"({condition} {self.number(depth)} #else {self.number(depth)} #end)"]
         return self.dice.choice(choices if not HAS_TORN_VALUES else choices + [
             f"({self.atom()} #for ({self.name('i')}, 1, {self.dice.randrange(4)}) + {self.number(0)} #end)"])
@@ -254,7 +256,8 @@ class Expressions:
     def vector3(self, depth):
         """What a vector of three can be given as."""
         kind = self.dice.choice("3333321")
-        return self.vector(kind, depth - 1) if kind != "1" else self.number(0)
+        # A component times a vector of two has a third component for POV-Ray (docs/language.md).
+        return self.vector(kind, depth - 1 if kind == "3" else 0) if kind != "1" else self.number(0)
 
     def colour(self, depth):
         """The right side of a declaration that makes a colour; no operand."""
@@ -563,7 +566,8 @@ class Program(Expressions):
         self.statements(0 if result else 1, 4)
         if result:
             text = self.value(result, 2)
-            self.add(f"({text})" if result in "12345" and self.chance(0.7) else text)
+            # A sign at the beginning would go on with what stands before.
+            self.add(f"({text})" if result in "12345" and (text[0] in "+-" or self.chance(0.7)) else text)
         elif self.chance(0.2):
             self.add("#break")
             self.add(f"#debug \"not reached\\n\"")
