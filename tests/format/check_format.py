@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""rtlang --format: the rules, the command line, and every text at hand: examples, tests, POV-Ray's own files, random tokens and random layouts.
+"""rtlang --format: the rules, the command line, and every text at hand.
 
+Those are the examples, the tests, POV-Ray's own files, random tokens and random layouts.
 Of each text: nothing but white space changes, the tokens stay the same, the layout of the layout is the same text byte for
 byte, and what can be evaluated evaluates to the same scene. The examples are in the layout. Prints TAP.
 

@@ -10,15 +10,12 @@ import sys
 
 # Types: "1" a number, "2" to "5" a vector of so many, "C" a colour, "S" a string, "R" a random stream.
 VECTORS = "2345"
-HAS_FUNCTIONS = False    # functions and splines as values
-HAS_TORN_VALUES = False  # a loop in the middle of a sum
 DEPTH = 3        # nesting of expressions
 BLOCK_DEPTH = 3  # nesting of directives
 SETTINGS = ("frame_number", "initial_frame", "final_frame", "clock_delta")
 
-# Functions and constants that the programs leave out: of traced objects, of patterns, of the clock on the wall, and those
-# that only functions have.
-LEFT_OUT = {"trace", "inside", "min_extent", "max_extent", "vturbulence", "datetime", "now", "internal", "sum", "prod"}
+# Functions and constants that the programs leave out: of objects, of patterns, and of the clock on the wall.
+LEFT_OUT = {"trace", "inside", "min_extent", "max_extent", "vturbulence", "datetime", "now", "internal"}
 
 
 class Scope:
@@ -92,7 +89,7 @@ class Expressions:
             lambda: self.of_number(d), lambda: self.of_number(d), lambda: self.of_numbers(d), lambda: self.of_vector(d),
             lambda: self.of_string(d), lambda: self.component(d), lambda: self.element("1"), lambda: self.call("1", d),
             self.of_name, self.random_number, *([lambda: self.inline(d)] if self.has_inline else [])]
-        return self.one_of(*choices, *([lambda: self.function_call(d)] if HAS_FUNCTIONS else []))
+        return self.one_of(*choices, lambda: self.function_call(d))
 
     def arithmetic(self, depth):
         if self.chance(0.25):
@@ -211,13 +208,11 @@ class Expressions:
         return f"{name}({', '.join(self.number(depth) for _ in range(self.scope.functions[name]))})"
 
     def inline(self, depth):
-        """A directive that stands for a value, or adds to one, in parentheses."""
+        """A directive that stands for a value, in parentheses."""
         self.has_inline = False
         condition = f"#if ({self.relation(depth)})"
         self.has_inline = True
-        choices = [f"({condition} {self.number(depth)} #else {self.number(depth)} #end)"]
-        return self.dice.choice(choices if not HAS_TORN_VALUES else choices + [
-            f"({self.atom()} #for ({self.name('i')}, 1, {self.dice.randrange(4)}) + {self.number(0)} #end)"])
+        return f"({condition} {self.number(depth)} #else {self.number(depth)} #end)"
 
     # ---- vectors and colours
 
@@ -373,7 +368,7 @@ class Program(Expressions):
                   self.set_element, self.undefine]
         blocks = [self.if_, self.ifdef, self.switch, self.for_, self.while_, self.call_statement]
         top = [self.macro, self.macro, self.array, self.array, self.include, self.redeclare, self.recursion,
-               self.version] + [self.function, self.spline] * HAS_FUNCTIONS
+               self.version, self.function, self.spline]
         choices = simple + (blocks if self.level < BLOCK_DEPTH else []) + (top if self.level == 0 else [])
         self.dice.choice(choices)()
 
@@ -608,7 +603,8 @@ class Program(Expressions):
 
     def include(self):
         file = f"{self.prefix}_{len(self.files)}.inc"
-        self.add(f'#include {self.dice.choice([self.quoted(file), f"concat({self.quoted(file[:-4])}, {self.quoted(file[-4:])})"])}')
+        spliced = f"concat({self.quoted(file[:-4])}, {self.quoted(file[-4:])})"
+        self.add(f"#include {self.dice.choice([self.quoted(file), spliced])}")
         before, self.lines, outer = self.lines, [], self.scope
         self.scope = Scope(outer)
         inner = self.name("L")
@@ -635,7 +631,8 @@ class Program(Expressions):
             return self.dice.choice([
                 f"{a} + {b}", f"({a}) * ({b})", f"({a}) - {b}", f"sin({a})", f"cos({b})", f"abs({a})", f"-({a})",
                 f"sqrt(abs({a}))", f"max({a}, {b})", f"min({a}, {b})", f"select({a}, {b}, 1)", f"floor({a})",
-                f"pow(abs({a}) + 1, 2)", f"({a}) / (abs({b}) + 1)", f"({a} < {b})", f"exp(sin({a}))", f"mod({a}, 7)"])
+                f"pow(abs({a}) + 1, 2)", f"({a}) / (abs({b}) + 1)", f"({a} < {b})", f"exp(sin({a}))", f"mod({a}, 7)",
+                f"sum(i, 1, 3, i * ({a}))", f"prod(i, 1, 2, i + sin({a}))"])
 
         head = f"({', '.join(parameters)})" if parameters else ""
         self.add(f"#declare {name} = function{head} {{ {term(2)} }}")
