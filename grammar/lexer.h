@@ -87,6 +87,7 @@ typedef struct GrammarState {
     unsigned held_count;
     int last_read;           // kind of the last token from the scanner
     int start;               // the token that says what is parsed: delivered first, then 0
+    uint64_t head_end;   // where the parentheses of a directive ended last
     bool skips;          // a fault was reported: skip before the next token
     unsigned unknown_directives; // not guessed; an #end may belong to each
     bool past_directive; // the fault is a directive inside an expression: skip all of it

@@ -221,6 +221,7 @@ void grammar_track(GrammarState *state, const Token *token)
     case ')':
         pop_opener(state, '(');
         if (state->openers.count > 0 && grammar_is_directive(grammar_innermost(state)->kind)) {
+            state->head_end = grammar_innermost(state)->header_done ? state->head_end : token->span.end;
             grammar_innermost(state)->header_done = true;
         }
         break;
@@ -411,7 +412,7 @@ static bool is_doubtful_sign(const GrammarState *state)
     case TOKEN_STRING:
     case ';': return true;
     case ')':
-        return count > 0 && grammar_is_directive(open[count - 1].kind) && open[count - 1].kind != TOKEN_HASH_MACRO;
+        return count > 0 && state->previous.span.end == state->head_end && open[count - 1].kind != TOKEN_HASH_MACRO;
     default: return false;
     }
 }

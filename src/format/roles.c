@@ -17,7 +17,7 @@ typedef struct Open {
     size_t head_of; // of a `(`: the directive whose head it is, or NO_PIECE
     size_t segment; // of a #switch: its present case, or NO_PIECE
     bool has_relations;
-    bool is_torn;    // of a directive: a brace in it has its other end elsewhere
+    bool is_torn;    // of a directive: a brace in it has its other end elsewhere; of a block: begun in such a directive
     unsigned closes; // of a directive: braces in the present branch whose other ends are before it
 } Open;
 
@@ -168,7 +168,9 @@ static void close_block(Reader *reader)
     }
     Open *open = innermost(reader);
     if (open_role(reader, open) == PIECE_OPENS_BLOCK) {
-        join(reader, open->piece, reader->at);
+        if (!open->is_torn) {
+            join(reader, open->piece, reader->at);
+        }
         reader->open.count--;
     } else if (open != NULL) {
         open->is_torn = true;
@@ -230,7 +232,8 @@ static void end_of_group(Reader *reader)
     }
     for (size_t i = at + 1; i < reader->open.count; i++) {
         if (open_role(reader, &reader->open.items[i]) == PIECE_OPENS_BLOCK) {
-            reader->open.items[kept++] = reader->open.items[i];
+            reader->open.items[kept] = reader->open.items[i];
+            reader->open.items[kept++].is_torn = true;
         }
     }
     reader->open.count = kept;
