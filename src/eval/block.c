@@ -22,7 +22,8 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_TRANSFORM] = transform_action,    [ACTION_TEXTURE] = texture_action,
     [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
     [ACTION_PATTERN] = pattern_action,        [ACTION_WAVE] = pattern_wave_action,
-    [ACTION_MAP] = pattern_map_action,
+    [ACTION_MAP] = pattern_map_action,        [ACTION_INTERIOR] = interior_action,
+    [ACTION_MATERIAL] = material_action,
     [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
 };

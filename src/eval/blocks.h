@@ -99,11 +99,15 @@ bool pattern_close(Block *block) RT_MUST_CHECK; // of a pigment or texture
 bool block_begins_like_colour(Block *block, const AstNode *item);
 
 // material.c
-// The scene's record of a texture that is moved by `outer`.
-bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer, Span span,
-                    MaterialIndex *index) RT_MUST_CHECK;
+// The scene's record of a texture that is moved by `outer`, and of what is inside (NULL: nothing was said).
+bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
+                    const InteriorBlueprint *interior, Span span, MaterialIndex *index) RT_MUST_CHECK;
 
 // texture.c
+// Where an object or a material keeps its texture; NULL for other blocks.
+const TextureBlueprint **texture_place(Block *block);
+bool interior_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool material_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // Moves a texture with all that lies below it.
 void texture_transform(TextureBlueprint *texture, const Transform *transform);
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

@@ -160,16 +160,35 @@ static bool add_texture(const Builder *builder, const TextureBlueprint *texture,
     return is_added;
 }
 
-bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer, Span span,
-                    MaterialIndex *index)
+// The interior, with what an old finish says of it; a plain one is none.
+static bool add_interior(const Builder *builder, const TextureBlueprint *texture, const InteriorBlueprint *blueprint,
+                         uint32_t *index)
 {
+    static const Interior empty = {.ior = 1.0};
+    Interior interior = blueprint ? blueprint->interior : empty;
+    interior.ior = texture->ior > 0.0 ? texture->ior : interior.ior > 0.0 ? interior.ior : 1.0;
+    if (interior.fade_power == 0.0 || interior.fade_distance == 0.0) {
+        interior.fade_power = interior.fade_distance = 0.0;
+        interior.fade_colour = rgb_grey(0.0);
+    }
+    *index = RECORD_NONE;
+    return (interior.ior == 1.0 && interior.fade_power == 0.0) ||
+           scene_add_interior(builder->ev->scene, &interior, index) || no_memory(builder);
+}
+
+bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
+                    const InteriorBlueprint *interior, Span span, MaterialIndex *index)
+{
+    Builder builder = {ev, span};
+    Compound compound;
+    if (!add_interior(&builder, texture, interior, &compound.interior)) {
+        return false;
+    }
     bool is_plain = texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE;
-    if (is_plain && (!texture->below || hides_all(texture))) {
+    if (is_plain && (!texture->below || hides_all(texture)) && compound.interior == RECORD_NONE) {
         return scene_add_material(ev->scene, texture->pigment.colour, &texture->finish, index) ||
                eval_no_memory(ev, span);
     }
-    Builder builder = {ev, span};
-    Compound compound;
     if (!add_texture(&builder, texture, outer, &compound.texture)) {
         return false;
     }

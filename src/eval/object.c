@@ -166,6 +166,7 @@ typedef struct Placement {
     Transform outer;
     const TextureBlueprint *texture; // of the nearest object around that has one, else #default's
     Transform texture_outer;         // of the texture
+    const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
 } Placement;
 
 static bool flattened(Eval *ev, const ObjectPart *part)
@@ -238,7 +239,7 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
         ev->stop = true; // only now: nothing is reported after it
         return false;
     }
-    if (!material_place(ev, placement->texture, &placement->texture_outer, part->span, &index)) {
+    if (!material_place(ev, placement->texture, &placement->texture_outer, placement->interior, part->span, &index)) {
         return false;
     }
     return kind == KIND_SPHERE ? place_sphere(ev, object, &placement->outer, index)
@@ -256,6 +257,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .outer = transform_compose(part->transform, outer->outer),
         .texture = part->texture ? part->texture : outer->texture,
         .texture_outer = part->texture ? outer->outer : outer->texture_outer,
+        .interior = part->interior ? part->interior : outer->interior,
     };
     if (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius == 0.0) {
         eval_warn(ev, DIAG_W0348, part->span, "a sphere of radius 0 is not drawn");
@@ -275,7 +277,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
 static bool place_object(Eval *ev, SchemaKind kind, const void *object)
 {
     Transform identity = transform_identity();
-    Placement world = {identity, ev->objects->defaults, identity};
+    Placement world = {identity, ev->objects->defaults, identity, NULL};
     return place(ev, kind, object, &world);
 }
 

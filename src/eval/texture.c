@@ -55,10 +55,13 @@ static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlue
     SchemaKind is;
     block_defaults(ev, KIND_FINISH, &record);
     record.finish.finish = texture->finish;
+    record.finish.ior = texture->ior;
+    record.finish.is_fresnel = texture->finish.flags & FINISH_FRESNEL;
     if (!block_read(ev, item, KIND_FINISH, arena, &record, &is)) {
         return false;
     }
     texture->finish = record.finish.finish;
+    texture->ior = record.finish.ior;
     return true;
 }
 
@@ -95,6 +98,13 @@ static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const Text
     return true;
 }
 
+const TextureBlueprint **texture_place(Block *block)
+{
+    return block->kind == KIND_MATERIAL ? &block->record->material.texture
+           : schema_kind(block->is)->is_object && block->is != KIND_LIGHT_SOURCE ? &block->record->part.texture
+                                                                                  : NULL;
+}
+
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     Eval *ev = block->ev;
@@ -103,14 +113,13 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
         return property->action == ACTION_PIGMENT ? read_pigment(ev, item, block->arena, texture)
                                                   : read_finish(ev, item, block->arena, texture);
     }
-    ObjectPart *part = &block->record->part;
-    TextureBlueprint *texture =
-        arena_copy(block->arena, part->texture ? part->texture : ev->objects->defaults, sizeof *texture);
+    const TextureBlueprint **place = texture_place(block);
+    const TextureBlueprint *before = *place;
+    TextureBlueprint *texture = arena_copy(block->arena, before ? before : ev->objects->defaults, sizeof *texture);
     if (!texture) {
         return eval_no_memory(ev, item->span);
     }
-    const TextureBlueprint *before = part->texture;
-    part->texture = texture;
+    *place = texture;
     switch (property->action) {
     case ACTION_PIGMENT: return read_pigment(ev, item, block->arena, texture);
     case ACTION_FINISH: return read_finish(ev, item, block->arena, texture);
@@ -137,6 +146,7 @@ bool reflection_action(Block *block, const SchemaProperty *property, const AstNo
         return false;
     }
     *finish = record.finish.finish;
+    block->record->finish.is_fresnel = record.finish.is_fresnel;
     return true;
 }
 
@@ -170,6 +180,7 @@ bool finish_close(Block *block)
     if (record->conserve_energy) {
         finish->flags |= FINISH_CONSERVE_ENERGY;
     }
+    finish->flags = record->is_fresnel ? finish->flags | FINISH_FRESNEL : finish->flags & ~(uint64_t)FINISH_FRESNEL;
     record->diffuse_is_albedo = record->phong_is_albedo = record->specular_is_albedo = false;
     double sum = finish->diffuse + finish->diffuse_back + finish->phong + finish->specular;
     return block_finite(block, sum, block->node->span, "albedo");

@@ -39,14 +39,14 @@ static bool apply(Block *block, const Transform *transform)
         return true;
     }
     block->record->transform = transform_compose(block->record->transform, *transform);
-    ObjectPart *part = &block->record->part;
-    if (schema_kind(block->is)->is_object && part->texture) {
-        TextureBlueprint *texture = arena_copy(block->arena, part->texture, sizeof *texture);
+    const TextureBlueprint **place = texture_place(block);
+    if (place && *place) {
+        TextureBlueprint *texture = arena_copy(block->arena, *place, sizeof *texture);
         if (!texture) {
             return eval_no_memory(block->ev, block->node->span);
         }
         texture_transform(texture, transform);
-        part->texture = texture;
+        *place = texture;
     }
     return true;
 }

@@ -44,8 +44,20 @@ struct TextureBlueprint {
     PatternPart part; // a pattern of textures
     PigmentBlueprint pigment;
     Finish finish;
+    double ior; // said in the finish, as before version 3.1; 0: not
     const TextureBlueprint *below;
 };
+
+typedef struct InteriorBlueprint {
+    Interior interior;
+} InteriorBlueprint;
+
+// The two together.
+typedef struct MaterialBlueprint {
+    Transform transform; // of the texture
+    const TextureBlueprint *texture;   // NULL: none was given
+    const InteriorBlueprint *interior; // likewise
+} MaterialBlueprint;
 
 typedef struct PatternEntry {
     double at;
@@ -63,6 +75,7 @@ struct PatternMap {
 typedef struct ObjectPart {
     Transform transform;
     bool hollow, split_union;
+    const InteriorBlueprint *interior; // of its own; NULL: taken over
     const TextureBlueprint *texture; // of its own, as it is moved with the object; NULL: taken over
     Span span;
 } ObjectPart;
@@ -122,6 +135,8 @@ typedef struct SettingsBlueprint {
 
 typedef struct FinishBlueprint {
     Finish finish;
+    double ior; // as in TextureBlueprint
+    bool is_fresnel;
     // The share was given as an albedo; resolved and false again once the finish is complete.
     bool diffuse_is_albedo, phong_is_albedo, specular_is_albedo;
     bool conserve_energy;
@@ -155,6 +170,8 @@ typedef union Blueprint {
     PatternPart patterned; // of a pigment or texture
     PatternMap map;
     TextureBlueprint texture;
+    InteriorBlueprint interior;
+    MaterialBlueprint material;
     TransformBlueprint transformation;
     UnsupportedBlueprint unsupported;
 } Blueprint;

@@ -25,7 +25,7 @@ void dump_vector(TextBuffer *out, const char *before, Vec3 vector)
     dump_numbers(out, (double[]){vector.x, vector.y, vector.z}, 3);
 }
 
-static void dump_rgb(TextBuffer *out, const char *before, Rgb colour)
+void dump_rgb(TextBuffer *out, const char *before, Rgb colour)
 {
     text_printf(out, "%srgb ", before);
     dump_numbers(out, (double[]){colour.red, colour.green, colour.blue}, 3);
@@ -107,7 +107,13 @@ static void dump_finish(const Finish *finish, size_t number, TextBuffer *out)
     dump_number(out, " falloff ", finish->reflection_falloff);
     dump_number(out, " exponent ", finish->reflection_exponent);
     dump_number(out, " metallic ", finish->reflection_metallic);
-    text_append(out, finish->flags & FINISH_CONSERVE_ENERGY ? " }\n  conserve_energy\n}\n" : " }\n}\n");
+    text_append(out, finish->flags & FINISH_FRESNEL ? " fresnel" : "");
+    if (finish->refraction != 1.0) {
+        dump_number(out, " }\n  refraction ", finish->refraction);
+    } else {
+        text_append(out, " }");
+    }
+    text_append(out, finish->flags & FINISH_CONSERVE_ENERGY ? "\n  conserve_energy\n}\n" : "\n}\n");
 }
 
 static void dump_material(const Material *material, size_t number, TextBuffer *out)
@@ -122,7 +128,11 @@ static void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer 
 {
     if (material & MATERIAL_COMPOUND) {
         const Compound *compound = &scene->compounds.items[material & ~MATERIAL_COMPOUND];
-        text_printf(out, " texture { T%lu } }\n", (unsigned long)compound->texture + 1);
+        text_printf(out, " texture { T%lu }", (unsigned long)compound->texture + 1);
+        if (compound->interior != RECORD_NONE) {
+            text_printf(out, " interior { I%lu }", (unsigned long)compound->interior + 1);
+        }
+        text_append(out, " }\n");
     } else {
         text_printf(out, " texture { M%lu } }\n", (unsigned long)material + 1);
     }

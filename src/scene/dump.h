@@ -10,11 +10,12 @@
 // Each writes `before`, then a value in a form that reads back as the same bits.
 void dump_number(TextBuffer *out, const char *before, double number);
 void dump_vector(TextBuffer *out, const char *before, Vec3 vector);
+void dump_rgb(TextBuffer *out, const char *before, Rgb colour);
 void dump_rgbft(TextBuffer *out, const char *before, Rgbft colour);
 // `<…>`
 void dump_numbers(TextBuffer *out, const double *numbers, size_t count);
 
-// Declarations of all patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its finishes.
+// Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its finishes.
 void dump_textures(const Scene *scene, TextBuffer *out);
 
 #endif

@@ -101,8 +101,21 @@ static void dump_texture_pattern(const Scene *scene, const Texture *record, size
     text_append(out, "}\n");
 }
 
+static void dump_interior(const Interior *interior, size_t number, TextBuffer *out)
+{
+    text_printf(out, "#declare I%zu = interior {", number);
+    dump_number(out, " ior ", interior->ior);
+    dump_number(out, " fade_distance ", interior->fade_distance);
+    dump_number(out, " fade_power ", interior->fade_power);
+    dump_rgb(out, " fade_color ", interior->fade_colour);
+    text_append(out, " }\n");
+}
+
 void dump_textures(const Scene *scene, TextBuffer *out)
 {
+    for (size_t i = 0; i < scene->interiors.count; i++) {
+        dump_interior(&scene->interiors.items[i], i + 1, out);
+    }
     for (size_t i = 0; i < scene->patterns.count; i++) {
         dump_pigment(scene, &scene->patterns.items[i], i + 1, out);
     }

@@ -12,7 +12,7 @@ _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * si
 _Static_assert(sizeof(PatternedPigment) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(Pattern) + 4 * sizeof(uint32_t),
                "no padding in a texture");
-_Static_assert(sizeof(Finish) == 23 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
+_Static_assert(sizeof(Finish) == 24 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
 
 void scene_init(Scene *scene)
 {
@@ -45,6 +45,7 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->patterns);
     ARRAY_FREE(&scene->texture_entries);
     ARRAY_FREE(&scene->textures);
+    ARRAY_FREE(&scene->interiors);
     ARRAY_FREE(&scene->compounds);
     ARRAY_FREE(&scene->spheres);
     ARRAY_FREE(&scene->ellipsoids);
@@ -55,6 +56,7 @@ void scene_fini(Scene *scene)
     unique_fini(&scene->pattern_index);
     unique_fini(&scene->texture_entry_index);
     unique_fini(&scene->texture_index);
+    unique_fini(&scene->interior_index);
     unique_fini(&scene->compound_index);
     scene_init(scene);
 }
@@ -89,6 +91,11 @@ bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *
 bool scene_add_texture(Scene *scene, const Texture *texture, uint32_t *index)
 {
     return ADD_ONCE(&scene->textures, &scene->texture_index, texture, index);
+}
+
+bool scene_add_interior(Scene *scene, const Interior *interior, uint32_t *index)
+{
+    return ADD_ONCE(&scene->interiors, &scene->interior_index, interior, index);
 }
 
 bool scene_add_compound(Scene *scene, const Compound *compound, MaterialIndex *index)

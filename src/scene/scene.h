@@ -43,7 +43,10 @@ typedef struct Light {
     Span span;
 } Light;
 
-enum { FINISH_CONSERVE_ENERGY = 1 }; // what is let through loses what is reflected
+enum {
+    FINISH_CONSERVE_ENERGY = 1, // what is let through loses what is reflected
+    FINISH_FRESNEL = 2,         // the way from reflection_min to reflection_max is that of the interior's surface
+};
 
 // As resolved: no albedo forms are left, and nothing is clamped (negative shares are for the shading to ignore or use).
 typedef struct Finish {
@@ -59,7 +62,8 @@ typedef struct Finish {
     double reflection_falloff;          // exponent of the way from min to max, 1 if nothing was said
     double reflection_exponent;         // of the reflected light, 1 if nothing was said
     double reflection_metallic;
-    uint64_t flags; // FINISH_CONSERVE_ENERGY
+    double refraction; // share of what is let through that goes on, 1 if nothing was said
+    uint64_t flags;    // FINISH_…
 } Finish;
 
 // Index into Scene.finishes.
@@ -111,9 +115,18 @@ typedef struct TextureEntry {
     uint32_t texture, next;
 } TextureEntry;
 
+// What a shape is filled with.
+typedef struct Interior {
+    double ior;           // index of refraction, 1 for none
+    double fade_distance; // light is halved on this way; 0: none is lost
+    double fade_power;    // 1 / (1 + (way / distance)^power), from 1000 on exp(-way / distance)
+    Rgb fade_colour;      // what is left in the end
+} Interior;
+
 // What is more than a plain material.
 typedef struct Compound {
-    uint32_t texture; // Scene.textures
+    uint32_t texture;  // Scene.textures
+    uint32_t interior; // Scene.interiors, or RECORD_NONE
 } Compound;
 
 // Index into Scene.materials, or into Scene.compounds when MATERIAL_COMPOUND is set.
@@ -173,17 +186,18 @@ typedef struct Scene {
     ARRAY(Light) lights;
     ARRAY(Finish) finishes;    // each different one once
     ARRAY(Material) materials; // each different one once
-    ARRAY(PigmentEntry) pigment_entries; // of these five, too, each different one once
+    ARRAY(PigmentEntry) pigment_entries; // of these six, too, each different one once
     ARRAY(PatternedPigment) patterns;
     ARRAY(TextureEntry) texture_entries;
     ARRAY(Texture) textures;
+    ARRAY(Interior) interiors;
     ARRAY(Compound) compounds;
     ARRAY(Sphere) spheres;
     ARRAY(Ellipsoid) ellipsoids;
     ARRAY(Plane) planes;
     uint32_t shape_count;                 // spheres, ellipsoids and planes
     UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, texture_entry_index, texture_index,
-        compound_index;
+        interior_index, compound_index;
 } Scene;
 
 // An empty scene with the language's defaults. Nothing is allocated.
@@ -206,6 +220,7 @@ bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *
 bool scene_add_pattern(Scene *scene, const PatternedPigment *pattern, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_texture(Scene *scene, const Texture *texture, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_interior(Scene *scene, const Interior *interior, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_compound(Scene *scene, const Compound *compound, MaterialIndex *index) RT_MUST_CHECK;
 
 // A colour that is the same everywhere, and back.

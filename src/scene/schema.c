@@ -61,6 +61,8 @@ static const SchemaProperty object_modifiers[] = {
     {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; a second one is laid over the first"},
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "the texture's pigment"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
+    {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what it is filled with"},
+    {"material", TYPE_BLOCK, ACTION_MATERIAL, .doc = "a texture and an interior"},
     {"hollow", TYPE_SWITCH, AT(ObjectPart, hollow), .doc = "accepted; changes no picture without media"},
 };
 
@@ -186,6 +188,9 @@ static const SchemaProperty finish_properties[] = {
     {"reflection", TYPE_ACTION, ACTION_REFLECTION, .doc = "a colour, or `{ [min,] max … }`, see below"},
     {"reflection_exponent", TYPE_NUMBER, FINISH_AT(reflection_exponent), .range = POSITIVE,
      .doc = "the same as `exponent` in `reflection { }`"},
+    {"refraction", TYPE_NUMBER, FINISH_AT(refraction), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "old: share of the light let through that goes on"},
+    {"ior", TYPE_NUMBER, AT(FinishBlueprint, ior), .range = POSITIVE, .doc = "old: the `ior` of the interior, before it"},
     {"conserve_energy", TYPE_FLAG, AT(FinishBlueprint, conserve_energy),
      .doc = "what is let through loses what is reflected"},
 };
@@ -199,6 +204,8 @@ static const SchemaProperty reflection_properties[] = {
     {"falloff", TYPE_NUMBER, FINISH_AT(reflection_falloff), .doc = "exponent of the way from `min` to `max`"},
     {"exponent", TYPE_NUMBER, FINISH_AT(reflection_exponent), .range = POSITIVE,
      .doc = "the reflected light is raised to 1 / exponent"},
+    {"fresnel", TYPE_SWITCH, AT(FinishBlueprint, is_fresnel),
+     .doc = "from `min` to `max` as a surface with the interior's `ior` reflects"},
     {"metallic", TYPE_OPTIONAL_NUMBER, FINISH_AT(reflection_metallic), .bare = 1.0,
      .doc = "the mirror image takes the pigment's colour"},
 };
@@ -206,7 +213,7 @@ static const SchemaProperty reflection_properties[] = {
 #define FINISH_DEFAULTS                                                                                                \
     {                                                                                                                  \
         .ambient = GREY(0.1f), .diffuse = 0.6, .brilliance = 1.0, .phong_size = 40.0, .roughness = 0.05,               \
-        .reflection_falloff = 1.0, .reflection_exponent = 1.0                                                          \
+        .reflection_falloff = 1.0, .reflection_exponent = 1.0, .refraction = 1.0                                       \
     }
 
 static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
@@ -219,6 +226,24 @@ static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
 static const PigmentBlueprint pigment_defaults = {.part = PATTERN_PART};
 static const TextureBlueprint texture_defaults = {
     .part = PATTERN_PART, .pigment = {.part = PATTERN_PART}, .finish = FINISH_DEFAULTS};
+static const SchemaProperty interior_properties[] = {
+    {"ior", TYPE_NUMBER, AT(InteriorBlueprint, interior.ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "index of refraction; 0 is 1"},
+    {"fade_distance", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_distance), .doc = "the way that halves the light"},
+    {"fade_power", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_power),
+     .doc = "1 / (1 + (way / distance) ^ power); from 1000 on exp(-way / distance); 0: no fading"},
+    {"fade_color", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "what the light fades to"},
+    {"fade_colour", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "the same"},
+};
+
+static const InteriorBlueprint interior_defaults = {.interior = {.ior = 1.0}};
+
+static const SchemaProperty material_properties[] = {
+    {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; a second one is laid over the first"},
+    {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what is inside"},
+};
+
+static const MaterialBlueprint material_defaults = {.transform = IDENTITY};
 static const PatternMap map_defaults = {NULL, 0};
 
 static const SchemaProperty transform_properties[] = {
@@ -325,6 +350,18 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                           .defaults = &map_defaults,
                           .is_declarable = true,
                           .doc = "`[value texture]`, the texture being what may stand in `texture { }`."},
+    [KIND_INTERIOR] = {.word = "interior",
+                       .size = sizeof(InteriorBlueprint),
+                       .defaults = &interior_defaults,
+                       .is_declarable = true,
+                       .groups = {LIST(interior_properties)},
+                       .doc = "What a shape is filled with: rays are bent at its surface and fade inside."},
+    [KIND_MATERIAL] = {.word = "material",
+                       .size = sizeof(MaterialBlueprint),
+                       .defaults = &material_defaults,
+                       .is_declarable = true,
+                       .groups = {LIST(material_properties), TRANSFORMS},
+                       .doc = "A texture and an interior in one."},
     [KIND_REFLECTION] = {.word = "reflection",
                          .size = sizeof(FinishBlueprint),
                          .defaults = &finish_defaults,
@@ -382,10 +419,7 @@ static const SchemaUnsupported unsupported[] = {
     {"triangle", true, NULL},
     {"area_light", false, "a point light is as near as it comes"},
     {"bounded_by", false, "leave it out: it is not needed"},
-    {"fresnel", false, "give `reflection { min, max }`"},
     {"inverse", false, "leave it out: both sides of a surface look alike"},
-    {"ior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
-    {"interior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
     {"no_shadow", false, "a light may be `shadowless`"},
     {"spotlight", false, "a point light is as near as it comes"},
 };

@@ -30,6 +30,8 @@ typedef enum SchemaKind {
     KIND_COLOUR_MAP,
     KIND_PIGMENT_MAP,
     KIND_TEXTURE_MAP,
+    KIND_INTERIOR,
+    KIND_MATERIAL,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
@@ -64,6 +66,8 @@ typedef enum SchemaAction {
     ACTION_PATTERN,
     ACTION_WAVE,
     ACTION_MAP,
+    ACTION_INTERIOR,
+    ACTION_MATERIAL,
     ACTION_REFLECTION,
     ACTION_ANGLE,
     ACTION_POINT_AT,
