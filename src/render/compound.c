@@ -12,6 +12,7 @@ typedef struct LayerSum {
     double weight; // of the ray
     ShadeOnward *onward;
     RenderStatistics *statistics;
+    double refraction; // the least of the layers
     Rgb light;
 } LayerSum;
 
@@ -39,6 +40,7 @@ static void add_layer(void *client, const TextureLayer *layer)
     ShadeMaterial material = shade_material(sum->p, features, layer->pigment, layer->finish);
     add_mirror(sum, layer, &material);
     sum->onward->conserves_energy |= material.finish->conserves_energy;
+    sum->refraction = fmin(sum->refraction, material.finish->refraction);
     Rgb light = shade_local(sum->p, features, &material, sum->at, sum->statistics);
     sum->light = rgb_add(sum->light, rgb_mul(rgb_scale(layer->part, layer->above), light));
 }
@@ -47,9 +49,9 @@ Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, Shade
                    RenderStatistics *statistics)
 {
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
-    LayerSum sum = {p, at, weight, onward, statistics, rgb_grey(0.0)};
+    LayerSum sum = {p, at, weight, onward, statistics, HUGE_VAL, rgb_grey(0.0)};
     TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
-    onward->through = through.light;
-    onward->through_weight = through.weight;
+    onward->through = rgb_scale(sum.refraction, through.light);
+    onward->through_weight = sum.refraction * through.weight;
     return sum.light;
 }

@@ -19,7 +19,8 @@ typedef enum RenderFeature {
     RENDER_TRANSPARENCY = 1 << 12, // filter or transmit, in shadows too
     RENDER_EXPONENT = 1 << 13,     // reflected light raised to a power
     RENDER_TEXTURES = 1 << 14,     // patterns or layers
-    RENDER_ALL_FEATURES = 0x7f << 8,
+    RENDER_INTERIORS = 1 << 15,    // refraction, fading, Fresnel's mirror
+    RENDER_ALL_FEATURES = 0xff << 8,
 } RenderFeature;
 
 // Pixels left <= x < right, top <= y < bottom.

@@ -127,7 +127,9 @@ static PreparedFinish prepare_finish(const Finish *finish, const Settings *setti
         .reflection_weight = fmax(rgb_max(finish->reflection_min), rgb_max(finish->reflection_max)),
         .shines = finish->phong > 0.0 || finish->specular > 0.0,
         .reflects = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max),
+        .refraction = finish->refraction,
         .conserves_energy = finish->flags & FINISH_CONSERVE_ENERGY,
+        .is_fresnel = finish->flags & FINISH_FRESNEL,
     };
 }
 
@@ -138,6 +140,7 @@ static unsigned finish_features(const PreparedFinish *finish)
     bool is_lambertian = finish->diffuse_back == 0.0 && (finish->diffuse == 0.0 || finish->brilliance == 1.0);
     return (finish->shines ? (unsigned)RENDER_HIGHLIGHTS : 0) | (is_lambertian ? 0 : (unsigned)RENDER_BRILLIANCE) |
            (finish->reflects ? (unsigned)RENDER_REFLECTION : 0) |
+           (finish->reflects && finish->is_fresnel ? (unsigned)RENDER_INTERIORS : 0) |
            (finish->reflects && finish->reflection_exponent != 1.0 ? (unsigned)RENDER_EXPONENT : 0);
 }
 
@@ -171,10 +174,47 @@ static unsigned needed_features(const Prepared *p, const Scene *scene)
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
     }
     features |= scene->compounds.count ? (unsigned)RENDER_TEXTURES : 0;
+    features |= scene->interiors.count ? (unsigned)RENDER_INTERIORS : 0;
     for (size_t i = 0; i < p->finish_count; i++) {
         features |= finish_features(&p->finishes[i]);
     }
     return features;
+}
+
+// ---- where rays start
+
+static uint32_t interior_of(const Scene *scene, MaterialIndex material)
+{
+    return material & MATERIAL_COMPOUND ? scene->compounds.items[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
+}
+
+// Shapes without an interior change nothing here: rays that start inside of them are in empty space.
+void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside)
+{
+    const Scene *scene = prepared->scene;
+    Vec3 at = vec3_scale(prepared->textures.scale, point);
+    inside->count = 0;
+    for (size_t i = 0; scene->interiors.count > 0 && i < scene->spheres.count; i++) {
+        const Sphere *sphere = &scene->spheres.items[i];
+        uint32_t interior = interior_of(scene, sphere->material);
+        if (interior != RECORD_NONE && vec3_length(vec3_sub(at, sphere->centre)) < sphere->radius) {
+            inside_enter(inside, sphere->order, interior);
+        }
+    }
+    for (size_t i = 0; scene->interiors.count > 0 && i < scene->ellipsoids.count; i++) {
+        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
+        uint32_t interior = interior_of(scene, ellipsoid->material);
+        if (interior != RECORD_NONE && vec3_length(transform_point(&ellipsoid->to_object, at)) < 1.0) {
+            inside_enter(inside, ellipsoid->order, interior);
+        }
+    }
+    for (size_t i = 0; scene->interiors.count > 0 && i < scene->planes.count; i++) {
+        const Plane *plane = &scene->planes.items[i];
+        uint32_t interior = interior_of(scene, plane->material);
+        if (interior != RECORD_NONE && vec3_dot(plane->normal, at) < plane->distance) {
+            inside_enter(inside, plane->order, interior);
+        }
+    }
 }
 
 // ---- the whole
@@ -189,6 +229,8 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
     }
     p->materials = scene->materials.items;
     p->compounds = scene->compounds.items;
+    p->interiors = scene->interiors.items;
+    p->scene = scene;
     p->finish_count = scene->finishes.count;
     for (size_t i = 0; i < p->finish_count; i++) {
         p->finishes[i] = prepare_finish(&scene->finishes.items[i], &scene->settings);
@@ -215,6 +257,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->adc_bailout = scene->settings.adc_bailout;
     p->crossings_max = 2 * (uint64_t)scene->shape_count;
     prepare_lists(p, scene, exponent);
+    prepared_inside(p, p->camera.location, &p->start);
     p->features = needed_features(p, scene);
     p->kernel = kernel_choose(p->features);
     return p;

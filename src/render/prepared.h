@@ -9,6 +9,7 @@
 
 #include "math/colour.h"
 #include "math/vec3.h"
+#include "render/inside.h"
 #include "render/kernel.h"
 #include "render/render.h"
 #include "render/texture.h"
@@ -38,7 +39,8 @@ typedef struct PreparedFinish {
     Rgb reflection_min, reflection_max;
     double reflection_falloff, reflection_exponent, reflection_metallic;
     double reflection_weight; // the greatest component of both
-    bool shines, reflects, conserves_energy;
+    double refraction;        // share of what is let through that goes on
+    bool shines, reflects, conserves_energy, is_fresnel;
 } PreparedFinish;
 
 struct Prepared {
@@ -49,14 +51,20 @@ struct Prepared {
     size_t light_count;
     const Material *materials; // the scene's
     const Compound *compounds; // the scene's
+    const Interior *interiors; // the scene's
     TextureTable textures;
     PreparedFinish *finishes;
     size_t finish_count;
+    const Scene *scene;
+    Inside start; // what the eye is inside of; orthographic: of no use
     int max_trace_level;
     double adc_bailout;
     uint64_t crossings_max; // no line meets more surfaces
     unsigned features; // TraceFeature and RenderFeature bits that the scene needs
     const Kernel *kernel;
 };
+
+// What a ray that starts at a point of prepared space is inside of, in the order of declaration.
+void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside);
 
 #endif

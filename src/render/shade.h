@@ -11,6 +11,7 @@
 
 #include "base/attributes.h"
 #include "base/limits.h"
+#include "render/inside.h"
 #include "render/kernel.h"
 #include "render/prepared.h"
 #include "render/texture.h"
@@ -36,6 +37,7 @@ enum { PENDING_MAX = 2 * TRACE_LEVEL_MAX + 4 };
 typedef struct Pending {
     int count, open;
     PendingRay rays[PENDING_MAX];
+    Inside inside[PENDING_MAX]; // of each ray, where there are interiors
     Rgb sums[TRACE_LEVEL_MAX + 1];
 } Pending;
 
@@ -45,6 +47,10 @@ typedef struct ShadePoint {
     Vec3 direction; // of the ray that found it
     ShapeId shape;
     MaterialIndex material;
+    uint32_t order;    // of the shape, in the order of declaration
+    uint32_t interior; // of the shape
+    double ior_ratio;  // index of refraction behind the surface over the one before it
+    double way;        // of the ray that found it, in the scene's lengths; where there are interiors
     bool inside;
 } ShadePoint;
 
@@ -83,6 +89,19 @@ RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned featur
         out.opaque = rgb_scale(1.0 - pigment.filter - pigment.transmit, colour);
     }
     return out;
+}
+
+RT_ALWAYS_INLINE uint32_t shade_interior(const Prepared *p, MaterialIndex material)
+{
+    return material & MATERIAL_COMPOUND ? p->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
+}
+
+// What an interior leaves of light that comes out of it.
+RT_ALWAYS_INLINE Rgb shade_faded(const Prepared *p, uint32_t interior, double way)
+{
+    return interior != RECORD_NONE && p->interiors[interior].fade_power != 0.0
+               ? inside_fade(&p->interiors[interior], way)
+               : rgb_grey(1.0);
 }
 
 // What a surface multiplies light with that goes through it.
@@ -126,6 +145,9 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, R
             return rgb_grey(0.0);
         }
         share = rgb_mul(share, through);
+        if ((features & RENDER_INTERIORS) && hit.inside) {
+            share = rgb_mul(share, shade_faded(p, shade_interior(p, surface.material), hit.t * p->textures.scale));
+        }
         ray.origin = surface.point;
         t_max -= hit.t;
         start = (RayStart){hit.shape, !hit.inside};
@@ -215,10 +237,13 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
 }
 
 // The reflected share at an angle with cosine N·V.
-RT_ALWAYS_INLINE Rgb shade_reflectance(const ShadeMaterial *material, double cosine)
+RT_ALWAYS_INLINE Rgb shade_reflectance(unsigned features, const ShadeMaterial *material, double cosine,
+                                       double ior_ratio)
 {
     const PreparedFinish *finish = material->finish;
-    double grazing = shade_power(fmax(1.0 - cosine, 0.0), finish->reflection_falloff);
+    double grazing = (features & RENDER_INTERIORS) && finish->is_fresnel
+                         ? inside_fresnel(cosine, ior_ratio)
+                         : shade_power(fmax(1.0 - cosine, 0.0), finish->reflection_falloff);
     Rgb span = rgb_add_scaled(finish->reflection_max, -1.0, finish->reflection_min);
     Rgb share = rgb_add_scaled(finish->reflection_min, grazing, span);
     if (finish->reflection_metallic > 0.0) {
@@ -280,20 +305,79 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
     };
 }
 
-// The rays that go on from a hit; the reflected one will be traced first.
-RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                  const ShadePoint *at, const PendingRay *from, Pending *pending,
-                                  RenderStatistics *statistics)
+// Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind it.
+RT_ALWAYS_INLINE void shade_cross(const Prepared *p, ShadePoint *at, const Inside *before, Inside *behind)
 {
-    int before = pending->count;
-    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(onward->through)) {
-        shade_transmit(p, onward, at, from, pending);
-        statistics->transmitted_rays += (uint64_t)(pending->count - before);
+    inside_copy(behind, before);
+    if (at->inside) {
+        inside_leave(behind, at->order);
+    } else {
+        inside_enter(behind, at->order, at->interior);
     }
-    before = pending->count;
-    if ((features & RENDER_REFLECTION) && onward->reflection_weight != 0.0) {
+    at->ior_ratio = inside_ior(p->interiors, behind) / inside_ior(p->interiors, before);
+}
+
+// The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to the
+// next level.
+RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, const ShadeOnward *onward, const ShadePoint *at,
+                                 const PendingRay *from, const Inside *before, const Inside *behind, Pending *pending)
+{
+    Vec3 direction;
+    bool is_bent = inside_bend(at->direction, at->normal, at->ior_ratio, &direction);
+    int place = pending->count;
+    if (is_bent) {
+        shade_transmit(p, onward, at, from, pending);
+    } else if (from->level < p->max_trace_level) {
+        pending->rays[pending->count++] = *from;
+        direction = vec3_normalize(vec3_reflect(at->direction, at->normal));
+    }
+    if (pending->count > place) {
+        PendingRay *ray = &pending->rays[place];
+        ray->ray = (Ray){at->point, direction};
+        ray->start = (RayStart){at->shape, is_bent != at->inside};
+        ray->level = from->level + 1;
+        ray->passed = 0;
+        ray->known = NULL;
+        inside_copy(&pending->inside[place], is_bent ? behind : before);
+    }
+    return !is_bent;
+}
+
+// What goes through; true when all of it is mirrored instead.
+RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                       const ShadePoint *at, const PendingRay *from, const Inside *before,
+                                       const Inside *behind, Pending *pending)
+{
+    int place = pending->count;
+    if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
+        return shade_bend(p, onward, at, from, before, behind, pending);
+    }
+    shade_transmit(p, onward, at, from, pending);
+    if ((features & RENDER_INTERIORS) && pending->count > place) {
+        inside_copy(&pending->inside[place], behind);
+    }
+    return false;
+}
+
+// The rays that go on from a hit; the reflected one will be traced first. `before` and `behind` are what the ray is inside
+// of on both sides of the surface, where there are interiors.
+RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                  const ShadePoint *at, const PendingRay *from, const Inside *before,
+                                  const Inside *behind, Pending *pending, RenderStatistics *statistics)
+{
+    int place = pending->count;
+    bool is_total = false;
+    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(onward->through)) {
+        is_total = shade_go_through(p, features, onward, at, from, before, behind, pending);
+        statistics->transmitted_rays += (uint64_t)(pending->count - place);
+    }
+    place = pending->count;
+    if ((features & RENDER_REFLECTION) && onward->reflection_weight != 0.0 && !is_total) {
         shade_reflect(p, features, onward, at, from, pending);
-        statistics->reflected_rays += pending->count > before;
+        statistics->reflected_rays += pending->count > place;
+        if ((features & RENDER_INTERIORS) && pending->count > place) {
+            inside_copy(&pending->inside[pending->count - 1], before);
+        }
     }
 }
 
@@ -315,7 +399,7 @@ RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *mater
     if (!(features & RENDER_REFLECTION) || !material->finish->reflects) {
         return false;
     }
-    *reflectance = shade_reflectance(material, -vec3_dot(at->normal, at->direction));
+    *reflectance = shade_reflectance(features, material, -vec3_dot(at->normal, at->direction), at->ior_ratio);
     return true;
 }
 
@@ -331,7 +415,7 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
         onward->reflection_exponent = material.finish->reflection_exponent;
     }
     if (features & RENDER_TRANSPARENCY) {
-        onward->through = shade_pigment_through(pigment);
+        onward->through = rgb_scale(material.finish->refraction, shade_pigment_through(pigment));
         onward->conserves_energy = material.finish->conserves_energy;
     }
     return shade_local(p, features, &material, at, statistics);
@@ -362,12 +446,17 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
     }
     Surface surface = geometry_surface(p->geometry, features, now->ray, hit);
     Vec3 normal = hit.inside ? vec3_neg(surface.normal) : surface.normal;
+    bool has_interiors = features & RENDER_INTERIORS;
     *at = (ShadePoint){.point = surface.point,
                        .normal = normal,
                        .outward = surface.normal,
                        .direction = now->ray.direction,
                        .shape = hit.shape,
                        .material = surface.material,
+                       .order = surface.order,
+                       .interior = has_interiors ? shade_interior(p, surface.material) : RECORD_NONE,
+                       .ior_ratio = 1.0,
+                       .way = has_interiors ? hit.t * p->textures.scale : 0.0,
                        .inside = hit.inside};
     return true;
 }
@@ -388,17 +477,30 @@ RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const Pend
     pending.open = 0;
     pending.rays[0] = *first;
     pending.sums[0] = rgb_grey(0.0);
+    if (features & RENDER_INTERIORS) {
+        if (p->camera.type == CAMERA_PERSPECTIVE) {
+            inside_copy(&pending.inside[0], &p->start);
+        } else {
+            prepared_inside(p, first->ray.origin, &pending.inside[0]);
+        }
+    }
     while (pending.count > 0) {
         PendingRay now = pending.rays[--pending.count];
         ShadePoint at;
         ShadeOnward onward;
+        Inside before, behind;
         if ((features & RENDER_EXPONENT) && now.closes) {
             Rgb light = shade_rgb_power(pending.sums[pending.open--], now.exponent);
             pending_add(&pending, &now, light);
         } else if (shade_find(p, features, &now, &at)) {
+            if (features & RENDER_INTERIORS) {
+                inside_copy(&before, &pending.inside[pending.count]);
+                shade_cross(p, &at, &before, &behind);
+                now.share = at.inside ? rgb_mul(now.share, shade_faded(p, at.interior, at.way)) : now.share;
+            }
             // Its own light first: a reflected ray may open a sum of its own.
             pending_add(&pending, &now, shade_surface(p, features, &at, now.weight, &onward, statistics));
-            shade_go_on(p, features, &onward, &at, &now, &pending, statistics);
+            shade_go_on(p, features, &onward, &at, &now, &before, &behind, &pending, statistics);
         } else {
             pending_add(&pending, &now, p->background);
         }
@@ -417,7 +519,8 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, co
     }
     ShadePoint at;
     ShadeOnward onward;
-    return shade_find(p, features, &first, &at) ? shade_surface(p, features, &at, 1.0, &onward, statistics) : p->background;
+    return shade_find(p, features, &first, &at) ? shade_surface(p, features, &at, 1.0, &onward, statistics)
+                                                : p->background;
 }
 
 #endif

@@ -190,7 +190,8 @@ static const SchemaProperty finish_properties[] = {
      .doc = "the same as `exponent` in `reflection { }`"},
     {"refraction", TYPE_NUMBER, FINISH_AT(refraction), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "old: share of the light let through that goes on"},
-    {"ior", TYPE_NUMBER, AT(FinishBlueprint, ior), .range = POSITIVE, .doc = "old: the `ior` of the interior, before it"},
+    {"ior", TYPE_NUMBER, AT(FinishBlueprint, ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "old: the `ior` of the interior; 0: as the interior says"},
     {"conserve_energy", TYPE_FLAG, AT(FinishBlueprint, conserve_energy),
      .doc = "what is let through loses what is reflected"},
 };

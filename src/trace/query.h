@@ -182,18 +182,19 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
     ShapeKind kind = shape_kind(hit.shape);
     if ((features & TRACE_PLANES) && kind == SHAPE_PLANE) {
         const PlaneEntry *plane = &g->planes[index];
-        return (Surface){plane_point(&plane->shape, ray, hit.t), plane->shape.normal, plane->info.material};
+        return (Surface){plane_point(&plane->shape, ray, hit.t), plane->shape.normal, plane->info.material,
+                         plane->info.order};
     }
     if ((features & TRACE_ELLIPSOIDS) && kind == SHAPE_ELLIPSOID) {
         const EllipsoidEntry *ellipsoid = &g->ellipsoids[index];
-        Surface surface = {.material = ellipsoid->info.material};
+        Surface surface = {.material = ellipsoid->info.material, .order = ellipsoid->info.order};
         ellipsoid_surface(&ellipsoid->shape, ray, hit.t, &surface.point, &surface.normal);
         return surface;
     }
     Ball ball = sphere_table_ball(&g->spheres, index);
     Vec3 normal = sphere_normal(ray, &ball, hit.t);
     Vec3 point = vec3_add_scaled(ball.centre, sqrt(ball.radius_squared), normal);
-    return (Surface){point, normal, g->spheres.info[index].material};
+    return (Surface){point, normal, g->spheres.info[index].material, g->spheres.info[index].order};
 }
 
 #endif

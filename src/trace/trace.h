@@ -69,6 +69,7 @@ typedef struct Surface {
     Vec3 point;
     Vec3 normal; // unit, outward, whatever side was hit
     MaterialIndex material;
+    uint32_t order; // of the shape, in the order of declaration
 } Surface;
 
 typedef struct Geometry Geometry;

@@ -10,7 +10,7 @@
 
 static const Finish plain_finish = {
     .ambient = {0.1, 0.1, 0.1}, .diffuse = 0.6, .brilliance = 1.0, .phong_size = 40.0, .roughness = 0.05,
-    .reflection_falloff = 1.0, .reflection_exponent = 1.0,
+    .reflection_falloff = 1.0, .reflection_exponent = 1.0, .refraction = 1.0,
 };
 
 static void add_ball(Scene *scene, Vec3 centre, double radius, Rgbft pigment, const Finish *finish)
