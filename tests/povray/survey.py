@@ -126,8 +126,17 @@ def need(blocker):
     return GROUP_OF.get(word, "directives that tear items apart" if code == "E0109" else blocker)
 
 
-def needs_of_text(path, seen):
-    """The groups whose words stand in a file and in the files beside it that it includes."""
+def supported():
+    """The words of blocks that the reference of the language lists: their tables are printed by rtlang's own schema."""
+    reference = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "language.md")
+    with open(reference, encoding="utf-8") as file:
+        tables = file.read().split("<!-- schema:begin -->")[1].split("<!-- schema:end -->")[0]
+    rows = re.findall(r"^\| (`[^|]*) \|", tables, re.MULTILINE)
+    return set(re.findall(r"^### (\w+)", tables, re.MULTILINE)).union(*(re.findall(r"`(\w+)`", row) for row in rows))
+
+
+def needs_of_text(path, seen, known):
+    """The groups of which a word that is not known stands in a file, or in the files beside it that it includes."""
     seen.add(path)
     with open(path, encoding="latin-1") as file:
         tokens = [token for token in TOKEN.findall(file.read()) if not token.startswith(("//", "/*"))]
@@ -136,13 +145,13 @@ def needs_of_text(path, seen):
         word = "".join(token.split())
         included = os.path.join(os.path.dirname(path), following.strip('"'))
         if word == "#include" and included not in seen and os.path.isfile(included):
-            needs |= needs_of_text(included, seen)
-        elif word in GROUP_OF:
+            needs |= needs_of_text(included, seen, known)
+        elif word in GROUP_OF and word not in known:
             needs.add(GROUP_OF[word])
     return needs
 
 
-def read(scene, options, folders):
+def read(scene, options, folders, known):
     """One scene's record: name, outcome, blockers in the order in which they were met."""
     name, path = scene
     command = [os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", *(f"-I{place}" for place in folders)]
@@ -165,7 +174,7 @@ def read(scene, options, folders):
             if blocker not in record["blockers"] and (fault["code"] not in FOLLOWERS or not record["blockers"]):
                 record["blockers"].append(blocker)
     if record["outcome"] != "accepted":
-        record["needs"] = sorted(needs_of_text(path, set()) | {need(blocker) for blocker in record["blockers"]})
+        record["needs"] = sorted(needs_of_text(path, set(), known) | {need(blocker) for blocker in record["blockers"]})
     return record
 
 
@@ -231,14 +240,14 @@ def print_pictures(records):
 
 
 def survey(options, paths, copies):
-    folders = pictures.include_folders()
+    folders, known = pictures.include_folders(), supported()
     scenes = []
     for path in paths:
         copy = unpacked(os.path.dirname(os.path.abspath(path)), copies)
         name = os.path.relpath(path, EXAMPLES) if path.startswith(EXAMPLES) else path
         scenes.append((name, os.path.join(copy, os.path.basename(path).removesuffix(".gz"))))
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        records = list(pool.map(lambda scene: read(scene, options, folders), scenes))
+        records = list(pool.map(lambda scene: read(scene, options, folders, known), scenes))
         if options.render:
             accepted = [record for record in records if record["outcome"] == "accepted"]
             list(pool.map(lambda record: render(record, options, folders), accepted))
