@@ -278,7 +278,7 @@ static AstNode *make_if(Bench *bench, unsigned depth)
 static AstNode *make_directive(Bench *bench, unsigned depth)
 {
     AstNode *name = make_name(bench);
-    switch (below(&bench->random, 11)) {
+    switch (below(&bench->random, 14)) {
     case 0:
         return make(bench, AST_DECLARE, below(&bench->random, 2) ? AST_OP_DECLARE : AST_OP_LOCAL, 0,
                     make_target(bench, depth), make_value(bench, depth), NULL);
@@ -294,7 +294,7 @@ static AstNode *make_directive(Bench *bench, unsigned depth)
     case 4:
         return make(bench, AST_INCLUDE, AST_OP_NONE, 0, name, NULL, NULL);
     case 5:
-        return make(bench, AST_MESSAGE, AST_OP_DEBUG, 0, make_expression(bench, depth), NULL, NULL);
+        return make(bench, AST_MESSAGE, (AstOp)(AST_OP_DEBUG + below(&bench->random, 5)), 0, make_expression(bench, depth), NULL, NULL);
     case 6:
         return make_list(bench, AST_DEFAULT, AST_OP_NONE, 0, make_items(bench, depth, false), (AstList){0},
                          (AstList){0});
@@ -304,6 +304,12 @@ static AstNode *make_directive(Bench *bench, unsigned depth)
         return make_list(bench, AST_WRITE, AST_OP_NONE, 0, one(name), make_values(bench, depth, 1, 2), (AstList){0});
     case 9:
         return make(bench, AST_VERSION, AST_OP_NONE, 0, make_expression(bench, depth), NULL, NULL);
+    case 10: // not AST_UNDEF: an entry behind it would be an index
+        return make(bench, AST_BREAK, AST_OP_NONE, 0, NULL, NULL, NULL);
+    case 11:
+        return make(bench, AST_FCLOSE, AST_OP_NONE, 0, name, NULL, NULL);
+    case 12:
+        return make_list(bench, AST_READ, AST_OP_NONE, 0, one(name), one(make_target(bench, depth)), (AstList){0});
     default:
         return make_if(bench, depth);
     }
