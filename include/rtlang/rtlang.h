@@ -75,6 +75,21 @@ RT_API void rt_session_free(rt_session *session);
 
 /* Settings; call before rt_load_*. */
 RT_API rt_status rt_add_include_path(rt_session *session, const char *folder);
+/* Let the scene read files below this folder too. It reads below its own folder and the include paths. */
+RT_API rt_status rt_allow_read(rt_session *session, const char *folder);
+/* The scene's `clock`, 0 by default; `clock_on` is then true. */
+RT_API rt_status rt_set_clock(rt_session *session, double clock);
+
+/* How far a scene may go; beyond, a message says where it was, and the status is RT_FAULT_LIMIT. */
+typedef enum rt_limit {
+    RT_LIMIT_STEPS,   /* turns of loops and macro calls, 30 000 000 */
+    RT_LIMIT_DEPTH,   /* nesting of expressions, blocks, calls and includes, 1 to 1000; calls and includes nest less */
+    RT_LIMIT_OBJECTS, /* shapes, 1 000 000 000 */
+    RT_LIMIT_TEXT,    /* bytes of text in all files, 64 GiB */
+    RT_LIMIT_MEMORY   /* bytes of what is read, declared and prepared, and of the picture; the machine's memory */
+} rt_limit;
+/* Sets a limit, at least 1; the defaults stand above. */
+RT_API rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value);
 /* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
 RT_API rt_status rt_declare(rt_session *session, const char *name_value);
 /* Which warnings are told, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with "no-"
@@ -88,7 +103,7 @@ RT_API void rt_set_format(rt_session *session, rt_format format);
  * Default 320 x 240. */
 RT_API rt_status rt_set_size(rt_session *session, int width, int height);
 
-/* Read and evaluate a scene: the first step. A session loads one scene. */
+/* Read and evaluate a scene: the first step. A session loads one scene. The path "-" is standard input. */
 RT_API rt_status rt_load_file(rt_session *session, const char *path);
 RT_API rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length);
 
@@ -122,7 +137,7 @@ RT_API const char *rt_isa(size_t i);
 RT_API rt_status rt_set_isa(rt_session *session, const char *name);
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
-/* Makes a running rt_render stop soon. The only call that may be made from another thread or a signal handler. */
+/* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread or a signal handler. */
 RT_API void rt_cancel(rt_session *session);
 
 /* How the picture is written. */
@@ -138,7 +153,7 @@ typedef struct rt_output {
     double file_gamma; /* 0: sRGB; otherwise the power, 1 writes linear values */
 } rt_output;
 
-/* Whether a picture could be written to this path, asked before a long run. */
+/* Whether a picture of this size fits the memory limit and could be written to this path, asked before a long run. */
 RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output);
 /* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);

@@ -26,7 +26,8 @@ rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path,
         return session_status(session, false);
     }
     Arena arena;
-    arena_init(&arena, session->limits.arena_bytes);
+    MemoryBudget memory = {.limit = session->limits.memory_bytes};
+    arena_init_shared(&arena, &memory);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL};
     AstDump dump = {session->names, &session->dump};
     bool fine = stage == RT_SYNTAX_TOKENS ? grammar_dump_tokens(&context, source, session->sources, &session->dump)

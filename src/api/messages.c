@@ -81,6 +81,9 @@ rt_status session_status(rt_session *session, bool fine)
     if (fine) {
         return RT_OK;
     }
+    if (session->diags.class == CLASS_NONE && atomic_load(&session->cancel)) {
+        return RT_CANCELLED;
+    }
     // Without a recorded class there was no memory even for the record.
     return session->diags.class == CLASS_NONE ? RT_FAULT_LIMIT : (rt_status)session->diags.class;
 }

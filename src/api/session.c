@@ -7,21 +7,22 @@
 #include "api/session.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "ast/words.h"
-#include "base/number.h"
 #include "image/image.h"
 
 #ifndef PACKAGE_VERSION
 #error "PACKAGE_VERSION comes from configure"
 #endif
 
-enum { WIDTH_DEFAULT = 320, HEIGHT_DEFAULT = 240, SIZE_MAX_PIXELS = 65535 };
+enum { WIDTH_DEFAULT = 320, HEIGHT_DEFAULT = 240 };
 
 double session_clock(void)
 {
@@ -35,6 +36,17 @@ const char *rt_version(void)
     return PACKAGE_VERSION;
 }
 
+// The defaults, with as much memory as the machine has.
+static Limits limits_of_machine(void)
+{
+    Limits limits = LIMITS_DEFAULT;
+    long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
+    if (pages > 0 && page_bytes > 0) {
+        limits.memory_bytes = (size_t)pages * (size_t)page_bytes;
+    }
+    return limits;
+}
+
 rt_session *rt_session_new(const rt_callbacks *callbacks)
 {
     rt_session *session = calloc(1, sizeof *session);
@@ -44,7 +56,7 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     if (callbacks) {
         session->callbacks = *callbacks;
     }
-    session->limits = LIMITS_DEFAULT;
+    session->limits = limits_of_machine();
     session->width = WIDTH_DEFAULT;
     session->height = HEIGHT_DEFAULT;
     session->kernel = "";
@@ -52,8 +64,11 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     text_init(&session->dump);
     text_init(&session->said);
     session->sources = source_map_new();
-    session->names = intern_new(session->limits.arena_bytes);
+    session->names = intern_new(session->limits.memory_bytes);
     diag_init(&session->diags, session->sources);
+    if (session->sources) {
+        source_map_set_cancel(session->sources, &session->cancel);
+    }
     if (!session->sources || !session->names || !words_intern(session->names)) {
         rt_session_free(session);
         return NULL;
@@ -69,10 +84,14 @@ void rt_session_free(rt_session *session)
     for (size_t i = 0; i < session->include_paths.count; i++) {
         free(session->include_paths.items[i]);
     }
+    for (size_t i = 0; i < session->read_folders.count; i++) {
+        free(session->read_folders.items[i]);
+    }
     for (size_t i = 0; i < session->declarations.count; i++) {
         free((char *)session->declarations.items[i].name);
     }
     ARRAY_FREE(&session->include_paths);
+    ARRAY_FREE(&session->read_folders);
     ARRAY_FREE(&session->declarations);
     film_fini(&session->film);
     scene_fini(&session->scene);
@@ -84,99 +103,46 @@ void rt_session_free(rt_session *session)
     free(session);
 }
 
-// ---- settings
-
-rt_status rt_add_include_path(rt_session *session, const char *folder)
-{
-    char *copy = strdup(folder);
-    if (!copy || !ARRAY_PUSH(&session->include_paths, copy)) {
-        free(copy);
-        return RT_FAULT_LIMIT;
-    }
-    return RT_OK;
-}
-
-static bool is_declared(const rt_session *session, const char *name)
-{
-    for (size_t i = 0; i < session->declarations.count; i++) {
-        if (strcmp(session->declarations.items[i].name, name) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// An identifier of the language that is not reserved.
-static bool is_identifier(const rt_session *session, const char *name, size_t length)
-{
-    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
-    return length > 0 && strspn(name, allowed) >= length && !(name[0] >= '0' && name[0] <= '9') &&
-           word_class(intern_find(session->names, name, length)) == WORD_IDENTIFIER;
-}
-
-rt_status rt_declare(rt_session *session, const char *name_value)
-{
-    const char *equals = strchr(name_value, '=');
-    if (!equals || !is_identifier(session, name_value, (size_t)(equals - name_value))) {
-        return RT_FAULT_USAGE;
-    }
-    const char *digits = equals + 1;
-    bool negative = *digits == '-';
-    digits += negative || *digits == '+';
-    double value;
-    if (number_parse(digits, strlen(digits), &value) != NUMBER_OK) {
-        return RT_FAULT_USAGE;
-    }
-    char *name = strndup(name_value, (size_t)(equals - name_value));
-    if (!name) {
-        return RT_FAULT_LIMIT;
-    }
-    EvalDeclaration declaration = {.name = name, .number = negative ? -value : value};
-    if (is_declared(session, name)) {
-        free(name);
-        return RT_OK;
-    }
-    if (!ARRAY_PUSH(&session->declarations, declaration)) {
-        free(name);
-        return RT_FAULT_LIMIT;
-    }
-    return RT_OK;
-}
-
-rt_status rt_set_size(rt_session *session, int width, int height)
-{
-    if (width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS) {
-        return RT_FAULT_USAGE;
-    }
-    session->width = width;
-    session->height = height;
-    return RT_OK;
-}
-
 // ---- the scene
+
+// Text that is kept takes memory.
+static SourceResult open_standard_input(rt_session *session, Source **source, int *error_number)
+{
+    uint64_t limit = session->limits.text_bytes;
+    limit = limit < session->limits.memory_bytes ? limit : session->limits.memory_bytes;
+    return source_open_stream(session->sources, "<stdin>", STDIN_FILENO, limit, source, error_number);
+}
 
 bool session_open(rt_session *session, const char *path, Source **source)
 {
     int error_number = 0;
-    SourceResult result = source_open_file(session->sources, path, session->limits.text_bytes, source, &error_number);
+    uint64_t limit = session->limits.text_bytes;
+    bool is_stream = strcmp(path, "-") == 0;
+    SourceResult result = is_stream ? open_standard_input(session, source, &error_number)
+                                    : source_open_file(session->sources, path, limit, source, &error_number);
+    const char *name = is_stream ? "<stdin>" : path;
     switch (result) {
     case SOURCE_OK:
         return true;
+    case SOURCE_CANCELLED:
+        break;
     case SOURCE_NOT_FOUND:
-        diag_report(&session->diags, DIAG_E0501, SPAN_NONE, "scene file `%s` not found", path);
+        diag_report(&session->diags, DIAG_E0501, SPAN_NONE, "scene file `%s` not found", name);
         break;
     case SOURCE_NOT_READABLE:
-        diag_report(&session->diags, DIAG_E0502, SPAN_NONE, "cannot read `%s`: %s", path, strerror(error_number));
+        diag_report(&session->diags, DIAG_E0502, SPAN_NONE, "cannot read `%s`: %s", name, strerror(error_number));
         break;
     case SOURCE_IS_DIRECTORY:
-        diag_report(&session->diags, DIAG_E0503, SPAN_NONE, "`%s` is a directory, not a scene", path);
+        diag_report(&session->diags, DIAG_E0503, SPAN_NONE, "`%s` is a directory, not a scene", name);
         break;
     case SOURCE_TOO_LARGE:
-        diag_report(&session->diags, DIAG_E0504, SPAN_NONE, "`%s` is larger than %llu bytes", path,
-                    (unsigned long long)session->limits.text_bytes);
+        if (diag_report(&session->diags, DIAG_E0504, SPAN_NONE, "`%s` is larger than %llu bytes", name,
+                        (unsigned long long)limit)) {
+            diag_suggest(&session->diags, "`--max-text` allows more%s", is_stream ? ", and `--max-memory`" : "");
+        }
         break;
     case SOURCE_NO_MEMORY:
-        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", path);
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", name);
         break;
     }
     return false;
@@ -203,10 +169,15 @@ static rt_status load(rt_session *session, Source *source, double start)
         .limits = &session->limits,
         .include_paths = (const char *const *)session->include_paths.items,
         .include_path_count = session->include_paths.count,
+        .read_folders = (const char *const *)session->read_folders.items,
+        .read_folder_count = session->read_folders.count,
         .declarations = session->declarations.items,
         .declaration_count = session->declarations.count,
         .image_width = session->width,
         .image_height = session->height,
+        .clock = session->clock,
+        .clock_on = session->clock_on,
+        .cancel = &session->cancel,
         .message = forward_message,
         .client = session,
     };
@@ -281,10 +252,41 @@ rt_status rt_set_isa(rt_session *session, const char *name)
     return RT_FAULT_USAGE;
 }
 
+// What the tree and the copies of the shapes take, which are made from the records: at most that much for a shape.
+enum { PREPARED_BYTES_PER_SHAPE = 256 };
+
+// Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken.
+static bool memory_suffices(rt_session *session)
+{
+    uint64_t film = (uint64_t)session->width * (uint64_t)session->height * 3 * sizeof(float);
+    uint64_t scene = scene_bytes(&session->scene);
+    uint64_t prepared = (uint64_t)session->scene.shape_count * PREPARED_BYTES_PER_SHAPE;
+    char needed[LIMITS_BYTES_TEXT], limit[LIMITS_BYTES_TEXT];
+    if (film + scene + prepared <= session->limits.memory_bytes) {
+        return true;
+    }
+    limits_bytes_text(session->limits.memory_bytes, limit);
+    bool is_film = film > scene + prepared;
+    limits_bytes_text(is_film ? film : scene + prepared, needed);
+    bool kept = is_film ? diag_report(&session->diags, DIAG_E0608, SPAN_NONE,
+                                      "a picture of %d x %d pixels needs %s of memory, and the limit is %s",
+                                      session->width, session->height, needed, limit)
+                        : diag_report(&session->diags, DIAG_E0607, SPAN_NONE,
+                                      "preparing %llu shapes needs %s of memory, and the limit is %s",
+                                      (unsigned long long)session->scene.shape_count, needed, limit);
+    if (kept) {
+        diag_suggest(&session->diags, "`--max-memory` allows more");
+    }
+    return false;
+}
+
 rt_status rt_render(rt_session *session, int threads)
 {
     if (!session->loaded || session->rendered || threads < 0) {
         return RT_FAULT_USAGE;
+    }
+    if (!memory_suffices(session)) {
+        return session_status(session, false);
     }
     double start = session_clock();
     threads = threads ? threads : render_default_threads();
@@ -331,26 +333,28 @@ rt_status session_image_fault(rt_session *session, ImageStatus status, const cha
         DiagCode code;
         const char *format; // of path and detail
     } faults[] = {
-        [IMAGE_NO_MEMORY] = {DIAG_E0602, "out of memory writing `%s`%s"},
-        [IMAGE_UNKNOWN_FORMAT] = {DIAG_E0701, "the ending of `%s` is that of no picture format%s"},
-        [IMAGE_BAD_DEPTH] = {DIAG_E0702, "`%s` cannot have the wanted depth%s"},
-        [IMAGE_NO_MODULE] = {DIAG_E0507, "`%s` needs OpenImageIO, which cannot be loaded%s"},
-        [IMAGE_IO] = {DIAG_E0505, "cannot write `%s`%s"},
-        [IMAGE_NOT_A_PICTURE] = {DIAG_E0505, "cannot write `%s`%s"},
-        [IMAGE_TOO_LARGE] = {DIAG_E0505, "cannot write `%s`%s"},
+        [IMAGE_NO_MEMORY] = {DIAG_E0602, "out of memory writing %s%s"},
+        [IMAGE_UNKNOWN_FORMAT] = {DIAG_E0701, "the ending of %s is that of no picture format%s"},
+        [IMAGE_BAD_DEPTH] = {DIAG_E0702, "%s cannot have the wanted depth%s"},
+        [IMAGE_NO_MODULE] = {DIAG_E0507, "%s needs OpenImageIO, which cannot be loaded%s"},
+        [IMAGE_IO] = {DIAG_E0505, "cannot write %s%s"},
+        [IMAGE_NOT_A_PICTURE] = {DIAG_E0505, "cannot write %s%s"},
+        [IMAGE_TOO_LARGE] = {DIAG_E0505, "cannot write %s%s"},
     };
     if (status == IMAGE_OK) {
         return session_status(session, true);
     }
     // The system's words begin with the path where the system was asked; again it would say nothing new.
-    const char *detail = error->detail;
-    size_t length = strlen(path);
-    if (strncmp(detail, path, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
+    bool is_stream = strcmp(path, "-") == 0;
+    const char *detail = error->detail, *said = is_stream ? "standard output" : path;
+    size_t length = strlen(said);
+    if (strncmp(detail, said, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
         detail += length + 2;
     }
-    char more[sizeof error->detail + 2];
+    char more[sizeof error->detail + 2], name[PATH_MAX];
     snprintf(more, sizeof more, "%s%s", detail[0] ? ": " : "", detail);
-    diag_report(&session->diags, faults[status].code, SPAN_NONE, faults[status].format, path, more);
+    snprintf(name, sizeof name, is_stream ? "%s" : "`%s`", is_stream ? "standard output" : path);
+    diag_report(&session->diags, faults[status].code, SPAN_NONE, faults[status].format, name, more);
     return session_status(session, false);
 }
 
@@ -376,6 +380,9 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
     ImageError error = {""};
     if (!is_output(output)) {
         return RT_FAULT_USAGE;
+    }
+    if (!memory_suffices(session)) {
+        return session_status(session, false);
     }
     return session_image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
 }

@@ -29,7 +29,10 @@ struct rt_session {
     bool is_json;           // the form of messages
     TextBuffer said;        // in JSON: the scene's own line, not ended yet
     ARRAY(char *) include_paths;
+    ARRAY(char *) read_folders;
     ARRAY(EvalDeclaration) declarations; // names are owned
+    double clock;
+    bool clock_on;
     int width, height;
     const char *isa; // of geometry_isa; NULL for the best
     Scene scene;

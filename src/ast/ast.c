@@ -35,10 +35,13 @@ static AstNode *fail(AstBuilder *builder, DiagCode code, Span span)
     if (!builder->failed) {
         builder->failed = true;
         if (code == DIAG_E0601) {
-            diag_report(builder->diags, code, span, "expressions and blocks nest deeper than %u levels here",
-                        builder->depth_limit);
+            if (diag_report(builder->diags, code, span, "expressions and blocks nest deeper than %u levels here",
+                            builder->depth_limit) &&
+                builder->depth_limit < LIMIT_DEPTH_MAX) {
+                diag_suggest(builder->diags, "`--max-depth` allows more");
+            }
         } else {
-            diag_report(builder->diags, code, span, "out of memory while reading the scene");
+            limits_report_memory(builder->diags, span, builder->arena->shared, "reading the scene");
         }
     }
     builder->dummy = (AstNode){.span = span};

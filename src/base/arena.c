@@ -32,6 +32,9 @@ static void chunk_free(Arena *arena, ArenaChunk *chunk)
 {
     if (chunk) {
         arena->bytes_reserved -= chunk->size;
+        if (arena->shared) {
+            arena->shared->used -= chunk->size;
+        }
         free(chunk);
     }
 }
@@ -45,12 +48,25 @@ static void arena_use_chunk(Arena *arena, ArenaChunk *chunk, ArenaChunk *older)
     arena->end = (char *)chunk + chunk->size;
 }
 
+static size_t bytes_left(const Arena *arena)
+{
+    size_t left = arena->budget - arena->bytes_reserved;
+    if (!arena->shared) {
+        return left;
+    }
+    size_t shared = arena->shared->limit > arena->shared->used ? arena->shared->limit - arena->shared->used : 0;
+    return left < shared ? left : shared;
+}
+
 // A chunk for at least `least` bytes, header included: as much as the arena holds already, within bounds and budget.
 static ArenaChunk *chunk_new(Arena *arena, size_t least)
 {
-    size_t left = arena->budget - arena->bytes_reserved;
+    size_t left = bytes_left(arena);
     size_t size = arena->bytes_reserved;
     if (least > left) {
+        if (arena->shared) {
+            arena->shared->refused = true;
+        }
         return NULL;
     }
     size = size < CHUNK_LEAST ? CHUNK_LEAST : size > CHUNK_GREATEST ? CHUNK_GREATEST : size;
@@ -64,6 +80,9 @@ static ArenaChunk *chunk_new(Arena *arena, size_t least)
     if (chunk) {
         chunk->size = size;
         arena->bytes_reserved += size;
+        if (arena->shared) {
+            arena->shared->used += size;
+        }
     }
     return chunk;
 }
@@ -98,6 +117,11 @@ void arena_init(Arena *arena, size_t budget)
     *arena = (Arena){.budget = budget};
 }
 
+void arena_init_shared(Arena *arena, MemoryBudget *shared)
+{
+    *arena = (Arena){.budget = SIZE_MAX, .shared = shared};
+}
+
 void arena_fini(Arena *arena)
 {
     while (arena->chunk) {
@@ -106,7 +130,7 @@ void arena_fini(Arena *arena)
         chunk_free(arena, chunk->spare);
         chunk_free(arena, chunk);
     }
-    arena_init(arena, arena->budget);
+    *arena = (Arena){.budget = arena->budget, .shared = arena->shared};
 }
 
 void *arena_alloc(Arena *arena, size_t size)

@@ -8,11 +8,18 @@
 #ifndef BASE_ARENA_H
 #define BASE_ARENA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/attributes.h"
 
 typedef struct ArenaChunk ArenaChunk;
+
+// What several arenas may take together, and have taken.
+typedef struct MemoryBudget {
+    size_t limit, used;
+    bool refused; // something did not fit
+} MemoryBudget;
 
 typedef struct Arena {
     ArenaChunk *chunk;     // the newest chunk, which links to the older ones; NULL when empty
@@ -20,6 +27,7 @@ typedef struct Arena {
     char *end;             // one past its last byte
     size_t bytes_reserved; // bytes taken from the system by all chunks
     size_t budget;         // bytes_reserved never exceeds this
+    MemoryBudget *shared;  // counts the bytes of all arenas that share it; NULL: none does
 } Arena;
 
 // A place to come back to. Valid until the arena is rewound to an earlier mark or finished.
@@ -30,6 +38,9 @@ typedef struct ArenaMark {
 
 // Prepares an empty arena. `budget` is the greatest number of bytes it may take from the system.
 void arena_init(Arena *arena, size_t budget);
+
+// The same for an arena that shares a budget with others. The budget must outlive it.
+void arena_init_shared(Arena *arena, MemoryBudget *shared);
 
 // Gives all memory back; the arena is empty again and may be used again.
 void arena_fini(Arena *arena);

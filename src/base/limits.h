@@ -5,30 +5,47 @@
 #ifndef BASE_LIMITS_H
 #define BASE_LIMITS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-enum { TRACE_LEVEL_MAX = 256 }; // the language's own limit of max_trace_level
+#include "base/arena.h"
+#include "base/diag.h"
+
+enum {
+    TRACE_LEVEL_MAX = 256,     // the language's own limit of max_trace_level
+    LIMIT_DEPTH_MAX = 1000,    // greatest `ast_depth`: what the stack of a thread bears
+    LIMIT_INCLUDE_DEPTH = 31,  // POV-Ray refuses 32
+    LIMIT_CALL_DEPTH = 98,     // POV-Ray refuses 99
+};
 
 typedef struct Limits {
     unsigned ast_depth;     // nesting of expressions and blocks
-    unsigned include_depth; // nesting of #include; POV-Ray refuses 32
-    unsigned call_depth;    // nesting of macro calls; POV-Ray refuses 99
+    unsigned include_depth; // nesting of #include
+    unsigned call_depth;    // nesting of macro calls
     uint64_t steps;         // loop turns and macro calls, all together
     uint64_t objects;       // shapes in the scene
-    uint64_t text_bytes;    // bytes of scene text, all files together
-    size_t arena_bytes;     // memory of each arena
+    uint64_t text_bytes;    // bytes of scene text and data files, all together
+    size_t memory_bytes;    // what is read, declared and prepared, and the picture, together
 } Limits;
 
 #define LIMITS_DEFAULT                                                                                                 \
     ((Limits){                                                                                                         \
-        .ast_depth = 1000,                                                                                             \
-        .include_depth = 31,                                                                                           \
-        .call_depth = 98,                                                                                              \
+        .ast_depth = LIMIT_DEPTH_MAX,                                                                                  \
+        .include_depth = LIMIT_INCLUDE_DEPTH,                                                                          \
+        .call_depth = LIMIT_CALL_DEPTH,                                                                                \
         .steps = 30u * 1000 * 1000,                                                                                    \
         .objects = 1000u * 1000 * 1000,                                                                                \
         .text_bytes = (uint64_t)64 << 30,                                                                              \
-        .arena_bytes = (size_t)8 << 30,                                                                                \
+        .memory_bytes = (size_t)8 << 30,                                                                               \
     })
+
+// Reports at the span that memory is exhausted while doing something ("reading the scene"): the system's, E0602, or what
+// the budget of the arena allows, E0607. True when the record was kept.
+bool limits_report_memory(DiagSink *sink, Span span, const MemoryBudget *budget, const char *doing);
+
+// Bytes for people: "512 bytes", "1.5 MiB".
+enum { LIMITS_BYTES_TEXT = 32 };
+void limits_bytes_text(uint64_t bytes, char text[LIMITS_BYTES_TEXT]);
 
 #endif

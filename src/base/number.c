@@ -116,14 +116,11 @@ static const char *digits_read(const char *at, const char *end, uint64_t *mantis
     return at;
 }
 
-// Reads what follows the `e`; NULL when it is malformed.
+// Reads what follows the `e`, and says where it ends; an exponent without digits is 0.
 static const char *exponent_read(const char *at, const char *end, int64_t *exponent)
 {
     bool is_negative = at < end && *at == '-';
     at += at < end && (*at == '-' || *at == '+');
-    if (at == end || !is_digit(*at)) {
-        return NULL;
-    }
     int64_t value = 0;
     for (; at < end && is_digit(*at); at++) {
         value = value > POWER_GREATEST / 10 - 1 ? POWER_GREATEST : value * 10 + (*at - '0');
@@ -132,9 +129,9 @@ static const char *exponent_read(const char *at, const char *end, int64_t *expon
     return at;
 }
 
-static bool literal_read(const char *text, size_t length, Literal *literal)
+// Where the literal at the beginning of the text ends; NULL when there is none.
+static const char *literal_read(const char *text, const char *end, Literal *literal)
 {
-    const char *end = text + length;
     literal->mantissa = 0;
     literal->exponent = 0;
     literal->whole = text;
@@ -143,12 +140,9 @@ static bool literal_read(const char *text, size_t length, Literal *literal)
     literal->fraction = at;
     at = literal->fraction_end = digits_read(at, end, &literal->mantissa);
     if (literal->whole == literal->whole_end && literal->fraction == literal->fraction_end) {
-        return false;
+        return NULL;
     }
-    if (at < end && (*at == 'e' || *at == 'E')) {
-        at = exponent_read(at + 1, end, &literal->exponent);
-    }
-    return at == end;
+    return at < end && (*at == 'e' || *at == 'E') ? exponent_read(at + 1, end, &literal->exponent) : at;
 }
 
 // For literals of any length: their digits from the first that is not zero, as many as count, then a last 1 in place of
@@ -185,25 +179,42 @@ static double literal_by_strtod(const Literal *literal)
     return strtod(text, NULL);
 }
 
-NumberResult number_parse(const char *text, size_t length, double *value)
+static NumberResult literal_value(const Literal *literal, double *value)
 {
-    Literal literal;
-    if (!literal_read(text, length, &literal)) {
-        return NUMBER_MALFORMED;
-    }
-    const char *first = literal.whole;
-    ptrdiff_t fraction_digits = literal.fraction_end - literal.fraction;
-    ptrdiff_t digits = literal.whole_end - literal.whole + fraction_digits;
+    const char *first = literal->whole;
+    ptrdiff_t fraction_digits = literal->fraction_end - literal->fraction;
+    ptrdiff_t digits = literal->whole_end - literal->whole + fraction_digits;
     if (RT_UNLIKELY(digits > MANTISSA_DIGITS)) {
-        for (; first < literal.fraction_end && (*first == '0' || *first == '.'); first++) {
+        for (; first < literal->fraction_end && (*first == '0' || *first == '.'); first++) {
             digits -= *first == '0';
         }
     }
-    int64_t power = literal.exponent - fraction_digits;
+    int64_t power = literal->exponent - fraction_digits;
     if (RT_LIKELY(digits <= MANTISSA_DIGITS && power >= -1000 && power <= 1000)) {
-        *value = number_from_decimal(literal.mantissa, (int)power);
+        *value = number_from_decimal(literal->mantissa, (int)power);
     } else {
-        *value = literal_by_strtod(&literal);
+        *value = literal_by_strtod(literal);
     }
     return isinf(*value) ? NUMBER_OVERFLOW : NUMBER_OK;
+}
+
+NumberResult number_scan(const char *text, size_t length, double *value, size_t *used)
+{
+    Literal literal;
+    const char *end = literal_read(text, text + length, &literal);
+    if (end == NULL) {
+        return NUMBER_MALFORMED;
+    }
+    *used = (size_t)(end - text);
+    return literal_value(&literal, value);
+}
+
+NumberResult number_parse(const char *text, size_t length, double *value)
+{
+    Literal literal;
+    const char *end = literal_read(text, text + length, &literal);
+    if (end == NULL || end != text + length || (!is_digit(end[-1]) && end[-1] != '.')) {
+        return NUMBER_MALFORMED;
+    }
+    return literal_value(&literal, value);
 }

@@ -54,6 +54,7 @@ struct SourceMap {
     ARRAY(Source *) sources; // in order of base
     uint64_t next_base;
     uint64_t bytes_read;
+    const atomic_bool *cancel; // may be NULL
     const Source *again; // whose file is open in again_file
     int again_file;
     char block[BLOCK];
@@ -75,6 +76,11 @@ SourceMap *source_map_new(void)
         return NULL;
     }
     return map;
+}
+
+void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel)
+{
+    map->cancel = cancel;
 }
 
 static void file_close(int *file)
@@ -128,17 +134,26 @@ static Source *source_add(SourceMap *map, const char *name, int file, char *kept
     return source;
 }
 
-static ptrdiff_t read_retrying(int file, char *buffer, size_t size)
+static bool is_cancelled(const SourceMap *map)
+{
+    return map->cancel != NULL && atomic_load_explicit(map->cancel, memory_order_relaxed);
+}
+
+static ptrdiff_t read_retrying(const SourceMap *map, int file, char *buffer, size_t size)
 {
     ptrdiff_t got;
     do {
+        if (is_cancelled(map)) {
+            errno = ECANCELED;
+            return -1;
+        }
         got = read(file, buffer, size);
     } while (got < 0 && errno == EINTR);
     return got;
 }
 
 // Reads a pipe or a device to its end. The text is the caller's to free.
-static SourceResult pipe_read(int file, uint64_t limit_bytes, char **text, uint64_t *size)
+static SourceResult pipe_read(const SourceMap *map, int file, uint64_t limit_bytes, char **text, uint64_t *size)
 {
     ARRAY(char) bytes = {0};
     SourceResult result = SOURCE_OK;
@@ -147,9 +162,9 @@ static SourceResult pipe_read(int file, uint64_t limit_bytes, char **text, uint6
             result = SOURCE_NO_MEMORY;
             break;
         }
-        ptrdiff_t got = read_retrying(file, bytes.items + bytes.count, bytes.capacity - bytes.count);
+        ptrdiff_t got = read_retrying(map, file, bytes.items + bytes.count, bytes.capacity - bytes.count);
         if (got <= 0) {
-            result = got < 0 ? SOURCE_NOT_READABLE : SOURCE_OK;
+            result = got == 0 ? SOURCE_OK : errno == ECANCELED ? SOURCE_CANCELLED : SOURCE_NOT_READABLE;
             break;
         }
         bytes.count += (size_t)got;
@@ -192,7 +207,7 @@ static SourceResult source_enter(SourceMap *map, const char *path, int file, uin
             return SOURCE_TOO_LARGE;
         }
     } else {
-        SourceResult result = pipe_read(file, limit_bytes, &kept, &size);
+        SourceResult result = pipe_read(map, file, limit_bytes, &kept, &size);
         if (result != SOURCE_OK) {
             return result;
         }
@@ -211,15 +226,38 @@ SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_b
 {
     *source = NULL;
     *error_number = 0;
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    int file;
+    do { // opening a pipe waits for its writer
+        file = is_cancelled(map) ? NO_FILE : open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    } while (file < 0 && errno == EINTR && !is_cancelled(map));
     if (file < 0) {
         *error_number = errno;
-        return errno == ENOENT || errno == ENOTDIR ? SOURCE_NOT_FOUND : SOURCE_NOT_READABLE;
+        return is_cancelled(map) ? SOURCE_CANCELLED
+               : errno == ENOENT || errno == ENOTDIR ? SOURCE_NOT_FOUND : SOURCE_NOT_READABLE;
     }
     SourceResult result = source_enter(map, path, file, limit_bytes, source);
     *error_number = result == SOURCE_OK ? 0 : errno;
     if (!*source || (*source)->file == NO_FILE) {
         close(file);
+    }
+    return result;
+}
+
+SourceResult source_open_stream(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source,
+                                int *error_number)
+{
+    char *kept = NULL;
+    uint64_t size = 0;
+    *source = NULL;
+    errno = 0;
+    SourceResult result = pipe_read(map, file, limit_bytes, &kept, &size);
+    *error_number = result == SOURCE_OK ? 0 : errno;
+    if (result == SOURCE_OK) {
+        *source = source_add(map, name, NO_FILE, kept, size);
+        if (!*source) {
+            free(kept);
+            return SOURCE_NO_MEMORY;
+        }
     }
     return result;
 }
@@ -255,7 +293,7 @@ ptrdiff_t source_read(Source *source, char *buffer, size_t size)
         errno = EBADF;
         return -1;
     } else {
-        got = read_retrying(source->file, buffer, wanted);
+        got = read_retrying(source->map, source->file, buffer, wanted);
     }
     if (got > 0) {
         source->position += (uint64_t)got;

@@ -8,6 +8,7 @@
 #ifndef BASE_SOURCE_H
 #define BASE_SOURCE_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -45,6 +46,7 @@ typedef enum SourceResult {
     SOURCE_IS_DIRECTORY,
     SOURCE_TOO_LARGE, // over the limit of bytes that was given
     SOURCE_NO_MEMORY,
+    SOURCE_CANCELLED, // see source_map_set_cancel
 } SourceResult;
 
 // Where a span begins. Of a line longer than 200 bytes, some 200 around the span are kept, "..." where it was cut.
@@ -62,14 +64,21 @@ typedef struct SourceLocation {
 SourceMap *source_map_new(void) RT_MUST_CHECK; // NULL when out of memory
 void source_map_free(SourceMap *map);          // closes everything
 
+// When the flag turns true, opening and reading stop soon. It must outlive the map; NULL, as at first: never.
+void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel);
+
 // Opens a file for reading from its start. On success *source is set; on failure *error_number is an errno value or 0.
 SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_bytes, Source **source,
                               int *error_number) RT_MUST_CHECK;
 
+// The same for a stream that is open already, which is read to its end at once and stays the caller's.
+SourceResult source_open_stream(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source,
+                                int *error_number) RT_MUST_CHECK;
+
 // Makes a source of a text in memory, which is copied. NULL when out of memory.
 Source *source_open_text(SourceMap *map, const char *name, const char *text, size_t length) RT_MUST_CHECK;
 
-// Reads the next bytes: their number, 0 at the end, -1 on an error (errno is set).
+// Reads the next bytes: their number, 0 at the end, -1 on an error (errno is set; ECANCELED: cancelled).
 ptrdiff_t source_read(Source *source, char *buffer, size_t size) RT_MUST_CHECK;
 
 // Closes the stream; the name and the means to find a line again stay with the map.

@@ -276,6 +276,51 @@ void text_append_double(TextBuffer *buffer, double value)
     }
 }
 
+static void append_utf8(TextBuffer *out, unsigned point)
+{
+    if (point < 0x80) {
+        text_append_char(out, (char)point);
+    } else if (point < 0x800) {
+        text_append_char(out, (char)(0xc0 | point >> 6));
+        text_append_char(out, (char)(0x80 | (point & 0x3f)));
+    } else {
+        text_append_char(out, (char)(0xe0 | point >> 12));
+        text_append_char(out, (char)(0x80 | (point >> 6 & 0x3f)));
+        text_append_char(out, (char)(0x80 | (point & 0x3f)));
+    }
+}
+
+static bool parse_hex4(const char *text, unsigned *point)
+{
+    static const char digits[] = "0123456789abcdef";
+    *point = 0;
+    for (int i = 0; i < 4; i++) {
+        char c = text[i] >= 'A' && text[i] <= 'F' ? (char)(text[i] - 'A' + 'a') : text[i];
+        const char *digit = c != '\0' ? strchr(digits, c) : NULL;
+        if (digit == NULL) {
+            return false;
+        }
+        *point = *point << 4 | (unsigned)(digit - digits);
+    }
+    return true;
+}
+
+size_t text_append_escape(TextBuffer *buffer, const char *text, size_t length)
+{
+    static const char letters[] = "abfnrtv\\\"'", meanings[] = "\a\b\f\n\r\t\v\\\"'";
+    const char *letter = length >= 2 && text[1] != '\0' ? strchr(letters, text[1]) : NULL;
+    unsigned point;
+    if (letter != NULL) {
+        text_append_char(buffer, meanings[letter - letters]);
+        return 2;
+    }
+    if (length >= 6 && text[1] == 'u' && parse_hex4(text + 2, &point)) {
+        append_utf8(buffer, point);
+        return 6;
+    }
+    return 0;
+}
+
 const char *text_get(const TextBuffer *buffer)
 {
     return buffer->text ? buffer->text : "";

@@ -116,6 +116,9 @@ static rt_status rtlang_steps(rt_session *session, const Check *check, const cha
     for (int i = 0; status == RT_OK && i < options->include_path_count; i++) {
         status = rt_add_include_path(session, check->include_paths[i]);
     }
+    if (status == RT_OK && options->clock_given) {
+        status = rt_set_clock(session, options->clock);
+    }
     if (status == RT_OK) {
         status = rt_load_file(session, scene);
     }
@@ -156,6 +159,7 @@ static bool povray_make(const Check *check, const Files *files, Outcome *outcome
         .include_path_count = options->include_path_count,
         .width = options->width,
         .height = options->height,
+        .clock = options->clock_given ? &options->clock : NULL,
         .threads = options->threads,
     };
     double start = clock_seconds();

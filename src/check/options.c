@@ -69,6 +69,15 @@ static bool apply_height(Options *options, const char *argument)
     return parse_integer(argument, 1, 65535, &options->height);
 }
 
+static bool apply_clock(Options *options, const char *argument)
+{
+    char *end;
+
+    options->clock = strtod(argument, &end);
+    options->clock_given = true;
+    return end != argument && *end == '\0' && isfinite(options->clock);
+}
+
 static bool apply_threads(Options *options, const char *argument)
 {
     return parse_integer(argument, 1, 512, &options->threads);
@@ -112,6 +121,7 @@ static bool apply_json(Options *options, const char *argument)
 static const OptionRow rows[] = {
     {'W', "width", "PIXELS", apply_width, "a whole number from 1 to 65535", "width of the pictures (default 320)"},
     {'H', "height", "PIXELS", apply_height, "a whole number from 1 to 65535", "height of the pictures (default 240)"},
+    {'K', "clock", "NUMBER", apply_clock, "a number", "the scene's clock (default 0)"},
     {0, "threshold", "VALUE", apply_threshold, "a number or a quotient of two",
      "greatest difference of a pixel that counts as equal (default 2/65535)"},
     {0, "ties", "SHARE", apply_ties, "a number or a quotient of two",

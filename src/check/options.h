@@ -9,6 +9,8 @@
 // Pointers refer to argv.
 typedef struct Options {
     int width, height;
+    double clock;
+    bool clock_given;
     int threads;      // for both renderers; 0: as many as the machine has
     double threshold; // of a channel's difference, in linear light
     double ties;      // the share of pixels that may differ by more

@@ -101,6 +101,9 @@ static bool arguments_make(ArgumentList *list, const PovrayJob *job)
     if (job->threads > 0) {
         argument_add(list, "+WT%d", job->threads);
     }
+    if (job->clock != NULL) {
+        argument_add(list, "+K%.17g", *job->clock);
+    }
     for (int i = 0; i < job->include_path_count; i++) {
         argument_add(list, "+L\"%s\"", job->include_paths[i]);
     }

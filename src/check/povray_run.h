@@ -16,6 +16,7 @@ typedef struct PovrayJob {
     char *const *include_paths;
     int include_path_count;
     int width, height;
+    const double *clock; // NULL: none is given
     int threads; // 0: as many as the machine has
 } PovrayJob;
 

@@ -13,15 +13,24 @@
 #include "cli/progress.h"
 #include "rtlang/rtlang.h"
 
-// What an interrupt stops; the only file-scope variable, because a signal handler has no other way to it.
+// What an interrupt stops, and which one it was; file-scope variables, because a signal handler has no other way to them.
 static rt_session *volatile interrupted_session;
+static volatile sig_atomic_t interrupted_by;
 
 static void on_interrupt(int signal_number)
 {
-    (void)signal_number;
+    interrupted_by = signal_number;
     if (interrupted_session) {
         rt_cancel(interrupted_session);
     }
+}
+
+// Without SA_RESTART, so that waiting for a pipe ends; a second signal ends the program at once, as without a handler.
+static void hear_interrupts(void)
+{
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
 }
 
 static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
@@ -84,6 +93,15 @@ static rt_status configure(rt_session *session, const Options *options)
     if (!status && find_data_folder(data_folder, sizeof data_folder)) {
         status = rt_add_include_path(session, data_folder);
     }
+    for (int i = 0; !status && i < options->read_folder_count; i++) {
+        status = rt_allow_read(session, options->read_folders[i]);
+    }
+    for (int i = 0; !status && i < LIMIT_COUNT; i++) {
+        status = options->limits[i] ? rt_set_limit(session, (rt_limit)i, options->limits[i]) : RT_OK;
+    }
+    if (!status && options->clock_given) {
+        status = rt_set_clock(session, options->clock);
+    }
     for (int i = 0; !status && i < options->declaration_count; i++) {
         status = rt_declare(session, options->declarations[i]);
         if (status == RT_FAULT_USAGE) {
@@ -101,11 +119,13 @@ static rt_status configure(rt_session *session, const Options *options)
     return status;
 }
 
+// What stands in the buffer of standard output goes out, too.
 static rt_status print(rt_session *session, const char *text, rt_status status)
 {
-    if (fputs(text, stdout) == EOF || fflush(stdout) != 0) {
+    errno = 0;
+    if (fputs(text, stdout) == EOF || fflush(stdout) != 0 || ferror(stdout)) {
         char message[COMPLAINT_SIZE];
-        snprintf(message, sizeof message, "cannot write to standard output: %s", strerror(errno));
+        snprintf(message, sizeof message, "cannot write standard output: %s", strerror(errno ? errno : EIO));
         return rt_report(session, "E0505", message, NULL);
     }
     return status;
@@ -145,11 +165,11 @@ static rt_status format(rt_session *session, const Options *options)
     return status ? status : rt_write_text(session, options->output ? options->output : "-");
 }
 
-// The scene's name without folder and ending, with .png.
+// The scene's name without folder and ending, with .png; that of standard input is stdin.png.
 static void default_output(const char *scene, char *output, size_t size)
 {
     const char *base = strrchr(scene, '/');
-    base = base ? base + 1 : scene;
+    base = strcmp(scene, "-") == 0 ? "stdin" : base ? base + 1 : scene;
     const char *dot = strrchr(base, '.');
     int length = dot && dot != base ? (int)(dot - base) : (int)strlen(base);
     snprintf(output, size, "%.*s.png", length, base);
@@ -224,10 +244,6 @@ int main(int argc, char **argv)
 {
     Options options;
     OptionsResult parsed = options_parse(argc, argv, &options);
-    if (parsed == OPTIONS_DONE) {
-        options_fini(&options);
-        return RT_OK;
-    }
     Progress progress = {0};
     rt_callbacks callbacks = {&progress, on_diagnostic, on_message, on_progress};
     rt_session *session = rt_session_new(&callbacks);
@@ -235,9 +251,10 @@ int main(int argc, char **argv)
     if (session) {
         rt_set_format(session, options.format);
         interrupted_session = session;
-        signal(SIGINT, on_interrupt);
-        signal(SIGTERM, on_interrupt);
-        status = parsed == OPTIONS_WRONG ? fail_usage(session, options.complaint) : run(session, &options, &progress);
+        hear_interrupts();
+        status = parsed == OPTIONS_WRONG  ? fail_usage(session, options.complaint)
+                 : parsed == OPTIONS_DONE ? print(session, "", RT_OK)
+                                          : run(session, &options, &progress);
         interrupted_session = NULL;
         rt_session_free(session);
     } else {
@@ -247,7 +264,7 @@ int main(int argc, char **argv)
     options_fini(&options);
     if (status == RT_CANCELLED) {
         fputs(tells ? "rtlang: interrupted; nothing was written\n" : "", stderr);
-        return 128 + SIGINT;
+        return 128 + (int)interrupted_by;
     }
     return status;
 }

@@ -4,6 +4,7 @@
 #include "cli/options.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdarg.h>
@@ -95,6 +96,69 @@ static bool apply_declare(Options *options, const char *argument, const char **e
     *expected = "NAME=NUMBER, with a NAME that is not reserved";
     options->declarations[options->declaration_count++] = argument;
     return strchr(argument, '=') != NULL;
+}
+
+static bool apply_allow_read(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a folder";
+    options->read_folders[options->read_folder_count++] = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_clock(Options *options, const char *argument, const char **expected)
+{
+    char *end;
+    *expected = "a number";
+    options->clock = strtod(argument, &end);
+    options->clock_given = true;
+    return end != argument && !*end && isfinite(options->clock);
+}
+
+// A whole number; `units` are the letters that may follow, each 1024 times the one before.
+static bool parse_limit(const char *text, const char *units, uint64_t greatest, uint64_t *value)
+{
+    char *end;
+    errno = 0;
+    unsigned long long number = strtoull(text, &end, 10);
+    const char *unit = *end ? strchr(units, *end) : NULL;
+    unsigned shift = unit ? 10 * (unsigned)(unit - units + 1) : 0;
+    if (text[0] < '0' || text[0] > '9' || errno || number == 0 || number > greatest >> shift || end[unit != NULL]) {
+        return false;
+    }
+    *value = (uint64_t)number << shift;
+    return true;
+}
+
+static bool apply_max_steps(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1";
+    return parse_limit(argument, "", UINT64_MAX, &options->limits[RT_LIMIT_STEPS]);
+}
+
+static bool apply_max_depth(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 1000";
+    return parse_limit(argument, "", 1000, &options->limits[RT_LIMIT_DEPTH]);
+}
+
+static bool apply_max_objects(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1";
+    return parse_limit(argument, "", UINT64_MAX, &options->limits[RT_LIMIT_OBJECTS]);
+}
+
+static const char bytes_expected[] = "a number of bytes, as 500K, 64M, 2G or 1T";
+
+static bool apply_max_text(Options *options, const char *argument, const char **expected)
+{
+    *expected = bytes_expected;
+    return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_TEXT]);
+}
+
+static bool apply_max_memory(Options *options, const char *argument, const char **expected)
+{
+    *expected = bytes_expected;
+    return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_MEMORY]);
 }
 
 static bool apply_depth(Options *options, const char *argument, const char **expected)
@@ -191,6 +255,14 @@ static const OptionRow rows[] = {
      "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
+    {'K', "clock", "NUMBER", apply_clock, "the scene's clock (default 0)"},
+    {0, "allow-read", "FOLDER", apply_allow_read,
+     "let the scene read files below FOLDER too, besides its own folder and those of -I; may repeat"},
+    {0, "max-steps", "N", apply_max_steps, "turns of loops and macro calls, all together (default 30000000)"},
+    {0, "max-depth", "N", apply_max_depth, "nesting of expressions, blocks, macro calls and includes (default 1000)"},
+    {0, "max-objects", "N", apply_max_objects, "shapes in the scene (default 1000000000)"},
+    {0, "max-text", "BYTES", apply_max_text, "text of all files of the scene (default 64G)"},
+    {0, "max-memory", "BYTES", apply_max_memory, "memory of scene and picture (default: the machine's)"},
     {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
     {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
@@ -216,7 +288,7 @@ static bool is_optional(const OptionRow *row)
 void options_print_help(FILE *out)
 {
     fprintf(out, "Usage: rtlang [OPTION]... SCENE\n"
-                 "Reads SCENE, traces it and writes a picture.\n\n");
+                 "Reads SCENE, traces it and writes a picture. A SCENE of - is standard input.\n\n");
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         char left[64];
         bool may_lack = is_optional(&rows[i]);
@@ -276,14 +348,34 @@ __attribute__((format(printf, 2, 3))) static OptionsResult complain(Options *opt
     return OPTIONS_WRONG;
 }
 
+// The long options that a word, `--name` or `--name=value`, may be short for, as text; false when there are fewer than
+// two.
+static bool list_candidates(const char *word, char *list, size_t size)
+{
+    size_t length = strcspn(word, "="), used = 0;
+    unsigned count = 0;
+    for (size_t i = 0; length > 2 && i < COUNT_OF(rows) && used < size; i++) {
+        if (strncmp(word, "--", 2) == 0 && strncmp(word + 2, rows[i].name, length - 2) == 0) {
+            used += (size_t)snprintf(list + used, size - used, "%s`--%s`", count > 0 ? ", " : "", rows[i].name);
+            count++;
+        }
+    }
+    return count > 1;
+}
+
 // What getopt could not make sense of.
 static OptionsResult complain_getopt(Options *options, int val, char **argv)
 {
     const OptionRow *row = find_row(optopt);
     const char *word = argv[optind - 1];
     char letter[3] = {'-', (char)optopt, '\0'};
+    char candidates[512];
     if (val == ':') {
-        return complain(options, "option `--%s` wants %s", row ? row->name : word, row ? row->argument : "an argument");
+        snprintf(candidates, sizeof candidates, "--%s=%s", row ? row->name : "", row ? row->argument : "");
+        return complain(options, "option `--%s` wants an argument: `%s`", row ? row->name : word, candidates);
+    }
+    if (!row && !optopt && list_candidates(word, candidates, sizeof candidates)) {
+        return complain(options, "option `%s` may be short for %s", word, candidates);
     }
     if (row) {
         return complain(options, "option `--%s` takes no argument", row->name);
@@ -347,7 +439,8 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);
     options->warnings = calloc((size_t)argc + 1, sizeof *options->warnings);
-    if (!options->include_paths || !options->declarations || !options->warnings) {
+    options->read_folders = calloc((size_t)argc + 1, sizeof *options->read_folders);
+    if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders) {
         return complain(options, "out of memory");
     }
     find_format(argc, argv, options);
@@ -373,4 +466,5 @@ void options_fini(Options *options)
     free(options->include_paths);
     free(options->declarations);
     free(options->warnings);
+    free(options->read_folders);
 }

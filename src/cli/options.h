@@ -22,10 +22,12 @@ typedef enum Action {
 
 enum { COMPLAINT_SIZE = 512 };
 
+enum { LIMIT_COUNT = RT_LIMIT_MEMORY + 1 };
+
 // Pointers refer to argv.
 typedef struct Options {
     Action action;
-    const char *scene;
+    const char *scene; // "-": standard input
     const char *code; // ACTION_EXPLAIN
     const char *output; // NULL: the scene's name with .png in the current folder
     int width, height;
@@ -39,13 +41,18 @@ typedef struct Options {
     const char **warnings; // owned list, as rt_set_warning takes them
     int warning_count;
     rt_format format; // of messages
+    const char **read_folders; // owned list
+    int read_folder_count;
+    double clock;
+    bool clock_given;
+    uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     bool quiet;
     char complaint[COMPLAINT_SIZE]; // OPTIONS_WRONG: what is wrong
 } Options;
 
 typedef enum OptionsResult {
     OPTIONS_GO,    // run
-    OPTIONS_DONE,  // --help or --version was printed
+    OPTIONS_DONE,  // --help or --version stands in the buffer of stdout
     OPTIONS_WRONG, // see complaint
 } OptionsResult;
 

@@ -283,7 +283,9 @@ static bool array_dimensions(Eval *ev, const AstNode *node, Value *value)
 static bool file_exists(Eval *ev, const AstNode *node, Value *value)
 {
     Value name;
-    return eval_string(ev, node->a, &name) && give_number(value, include_exists(ev, &name) ? 1.0 : 0.0);
+    bool is_there;
+    return eval_string(ev, node->a, &name) && file_is_there(ev, &name, node->a->span, &is_there) &&
+           give_number(value, is_there ? 1.0 : 0.0);
 }
 
 static bool not_supported(Eval *ev, const AstNode *node, Value *value)
@@ -399,7 +401,7 @@ static const struct {
     {W_x, 3, {1, 0, 0}},    {W_y, 3, {0, 1, 0}},   {W_z, 3, {0, 0, 1}},   {W_u, 2, {1, 0}},
     {W_v, 2, {0, 1}},       {W_t, 4, {0, 0, 0, 1}}, {W_pi, 0, {3.14159265358979323846}},
     {W_true, 0, {1}},       {W_yes, 0, {1}},       {W_on, 0, {1}},        {W_false, 0, {0}},
-    {W_no, 0, {0}},         {W_off, 0, {0}},       {W_clock, 0, {0}},     {W_clock_on, 0, {0}},
+    {W_no, 0, {0}},         {W_off, 0, {0}},
 };
 
 // Days since the first moment of the year 2000, universal time.
@@ -424,7 +426,9 @@ bool builtin_constant(Eval *ev, const AstNode *node, Value *value)
         }
         return true;
     }
-    return node->symbol == W_version ? give_number(value, ev->version)
-           : node->symbol == W_now   ? give_number(value, days_since_2000())
-                                     : not_supported(ev, node, value);
+    return node->symbol == W_version    ? give_number(value, ev->version)
+           : node->symbol == W_clock    ? give_number(value, ev->options.clock)
+           : node->symbol == W_clock_on ? give_number(value, ev->options.clock_on ? 1.0 : 0.0)
+           : node->symbol == W_now      ? give_number(value, days_since_2000())
+                                        : not_supported(ev, node, value);
 }

@@ -327,26 +327,14 @@ static void run_message(Cursor *cursor, const AstNode *node)
     }
 }
 
-// ---- files
-
-static void run_file(Cursor *cursor, const AstNode *node)
-{
-    const char *what = ast_kind_name((AstKind)node->kind);
-    if (node->kind == AST_WRITE) {
-        eval_fault(cursor->ev, DIAG_E0210, node->span, "`%s` is not supported: a scene writes no files", what);
-    } else {
-        eval_fault(cursor->ev, DIAG_E0210, node->span, "`%s` is not supported yet", what);
-    }
-}
-
 // ---- the table
 
 static const DirectiveFn directives[AST_KIND_COUNT] = {
     [AST_DECLARE] = run_declare, [AST_UNDEF] = run_undef,     [AST_IF] = run_if,         [AST_IFDEF] = run_ifdef,
     [AST_SWITCH] = run_switch,   [AST_BREAK] = run_break,     [AST_WHILE] = run_while,   [AST_FOR] = run_for,
     [AST_MACRO] = run_macro,     [AST_INCLUDE] = include_run, [AST_DEFAULT] = run_default, [AST_VERSION] = run_version,
-    [AST_MESSAGE] = run_message, [AST_FOPEN] = run_file,      [AST_FCLOSE] = run_file,   [AST_READ] = run_file,
-    [AST_WRITE] = run_file,
+    [AST_MESSAGE] = run_message, [AST_FOPEN] = data_file_run, [AST_FCLOSE] = data_file_run, [AST_READ] = data_file_run,
+    [AST_WRITE] = data_file_run,
 };
 
 bool directive_run(Cursor *cursor, const AstNode *node)

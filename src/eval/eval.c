@@ -69,7 +69,7 @@ static bool take_item(void *client, const AstNode *item)
 {
     Eval *ev = client;
     eval_item(ev, item);
-    return !ev->stop;
+    return !eval_cancelled(ev);
 }
 
 // ---- before the first item
@@ -96,10 +96,12 @@ static bool declare(Eval *ev, const EvalDeclaration *declaration)
 static bool declare_all(Eval *ev, const Source *source)
 {
     const EvalOptions *options = &ev->options;
+    // As in POV-Ray: the name without its folder.
+    const char *slash = strrchr(source_name(source), '/');
     const EvalDeclaration own[] = {
         {.name = "image_width", .number = options->image_width},
         {.name = "image_height", .number = options->image_height},
-        {.name = "input_file_name", .text = source_name(source)},
+        {.name = "input_file_name", .text = slash != NULL ? slash + 1 : source_name(source)},
     };
     bool fine = true;
     for (size_t i = 0; i < options->declaration_count; i++) {
@@ -120,15 +122,18 @@ static void init(Eval *ev, const EvalOptions *options, Scene *scene)
 {
     *ev = (Eval){.options = *options, .scene = scene, .version = 3.7, .inner = 1};
     ev->expression_depth_limit = options->limits->ast_depth * DEEPENING_PER_AST_LEVEL;
-    arena_init(&ev->parse, options->limits->arena_bytes);
-    arena_init(&ev->program, options->limits->arena_bytes);
-    arena_init(&ev->scratch, options->limits->arena_bytes);
+    ev->memory.limit = options->limits->memory_bytes;
+    arena_init_shared(&ev->parse, &ev->memory);
+    arena_init_shared(&ev->program, &ev->memory);
+    arena_init_shared(&ev->scratch, &ev->memory);
     text_init(&ev->line);
 }
 
 static void fini(Eval *ev)
 {
     objects_fini(ev);
+    data_files_fini(ev);
+    files_fini(ev);
     scope_fini(ev);
     text_fini(&ev->line);
     ARRAY_FREE(&ev->streams);
@@ -159,7 +164,7 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
     const DiagFrame *frame = options->diags->frame;
     init(&ev, options, scene);
     options->diags->frame = NULL;
-    if (!scope_init(&ev) || !objects_init(&ev) || !declare_all(&ev, source)) {
+    if (!scope_init(&ev) || !objects_init(&ev) || !files_init(&ev, source) || !declare_all(&ev, source)) {
         eval_no_memory(&ev, SPAN_NONE);
     } else {
         Splice reading;

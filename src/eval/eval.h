@@ -1,6 +1,6 @@
 // The evaluator: AST items become scene records.
 //
-// eval_file parses a scene through grammar's facade, one top-level item at a time, runs its directives, works out its
+// eval_source parses a scene through grammar's facade, one top-level item at a time, runs its directives, works out its
 // expressions and adds cameras, lights and shapes to a Scene. The language is pure: only scene text is read, nothing is
 // written or run. Faults are recorded where they are found; evaluation goes on to find more.
 // Knows nothing of rays or pictures.
@@ -9,6 +9,7 @@
 #ifndef EVAL_EVAL_H
 #define EVAL_EVAL_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -41,9 +42,14 @@ typedef struct EvalOptions {
     const Limits *limits;
     const char *const *include_paths; // folders, searched in order after the current one
     size_t include_path_count;
+    const char *const *read_folders; // where files may be read besides the scene's folder and the include paths
+    size_t read_folder_count;
     const EvalDeclaration *declarations;
     size_t declaration_count;
     int image_width, image_height; // for the scene's own arithmetic
+    double clock;
+    bool clock_on;             // a clock was given
+    const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console
     // does. What #warning and #error say is a diagnostic. May be NULL.
     void (*message)(void *client, EvalStream stream, const char *text, size_t length);

@@ -113,6 +113,9 @@ static bool eval_name(Eval *ev, const AstNode *node, Value *value)
         return eval_fault(ev, DIAG_E0208, node->span, "the macro `%s` is called without its parentheses",
                           eval_text(ev, node->symbol));
     }
+    if (RT_UNLIKELY(found->kind == VALUE_FILE)) {
+        return eval_fault(ev, DIAG_E0268, node->span, "`%s` is an open file, not a value", eval_text(ev, node->symbol));
+    }
     *value = *found;
     value->name = node->symbol;
     return true;

@@ -6,7 +6,8 @@
 //   cursor.c     items of a block, with directives run and macro calls expanded on the way
 //   colour.c     colour phrases                     macro.c     definitions, calls and their values
 //   function.c and the others of callable.h: functions and splines
-//   directive.c  what each directive does           include.c   finding and reading scene text
+//   directive.c  what each directive does           include.c   #include
+//   files.c      finding and opening files          datafile.c  #fopen, #read and #fclose
 //   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
 //   misfit.c     what is said of items that do not fit into a block
@@ -45,6 +46,7 @@ typedef enum ValueKind {
     VALUE_MACRO,
     VALUE_FUNCTION,
     VALUE_SPLINE,
+    VALUE_FILE,  // the name of a file that is open for #read
     VALUE_BLOCK, // a declared texture, sphere, camera, …: an immutable struct of its kind
 } ValueKind;
 
@@ -52,6 +54,7 @@ typedef struct ValueArray ValueArray; // below
 typedef struct Macro Macro;           // below
 typedef struct Function Function;     // callable.h
 typedef struct Spline Spline;
+typedef struct DataFile DataFile;     // datafile.c
 
 typedef struct Value {
     uint8_t kind;       // ValueKind
@@ -69,6 +72,7 @@ typedef struct Value {
         Macro *macro;
         const Function *function;
         const Spline *spline;
+        DataFile *file;
         const void *record; // of schema_kind(block)->size bytes, in the scene arena
     };
 } Value;
@@ -104,16 +108,20 @@ typedef struct PastedText {
 
 typedef struct Scope Scope;             // scope.c
 typedef struct CursorFrame CursorFrame; // cursor.c
+typedef struct FileState FileState;     // files.c
 typedef struct ObjectState ObjectState; // object.c: default texture, scratch of the objects
 
 typedef struct Eval {
     EvalOptions options;
     Scene *scene;
+    MemoryBudget memory; // of all arenas of the evaluation
     Arena parse;   // the AST of the current top-level item
     Arena program; // macros and everything declared, until the end
     Arena scratch; // temporaries of the current top-level item
     Scope *scope;
     ObjectState *objects;
+    FileState *files;
+    DataFile *data_files; // all that were opened
     const DiagFrame *frame; // also in options.diags->frame
     double version;
     bool version_given;           // a #version was run
@@ -121,6 +129,7 @@ typedef struct Eval {
     ARRAY(uint64_t) reported;     // a hash table of what was reported, see report.c
     size_t reported_count;
     bool include_is_missing; // a name that is not declared may be one that it declares
+    bool file_is_missing; // an #fopen had no file: what it should have opened is not open
     TextBuffer line;              // of #debug, not ended yet
     CursorFrame *free_frames;     // for reuse, in the program arena
     uint64_t steps;
@@ -153,6 +162,8 @@ Span eval_word_span(const Eval *ev, const AstNode *node);
 void eval_frame_enter(Eval *ev, DiagFrame *frame, const char *what, const char *name, Span span);
 void eval_frame_leave(Eval *ev);
 
+// True when evaluation must stop: something said so before, or the client has asked for it.
+bool eval_cancelled(Eval *ev);
 // Counts a turn of a loop or a call; false, with `stop` set, when there were too many.
 bool eval_step(Eval *ev, Span span) RT_MUST_CHECK;
 // Reports that evaluation nests too deeply and sets `stop`; returns false.
@@ -364,7 +375,22 @@ Source *include_enter(Eval *ev, CursorFrame *frame, const AstNode *node) RT_MUST
 bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds) RT_MUST_CHECK;
 bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
 bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
-bool include_exists(const Eval *ev, const Value *name);
+
+// ---- files
+
+typedef enum FileUse { FILE_INCLUDE, FILE_DATA } FileUse;
+
+bool files_init(Eval *ev, const Source *scene) RT_MUST_CHECK;
+void files_fini(Eval *ev);
+// Opens the file whose name the expression gives. What is not found, outside the folders that may be read, or not
+// readable is reported.
+bool file_open(Eval *ev, const AstNode *name, FileUse use, Source **source) RT_MUST_CHECK;
+// Whether there is such a file. False when it may not be asked for; that is reported.
+bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
+
+// #fopen, #fclose, #read and #write
+void data_file_run(Cursor *cursor, const AstNode *node);
+void data_files_fini(Eval *ev);
 
 // ---- macros
 

@@ -233,11 +233,20 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
 {
     const ObjectPart *part = object;
     MaterialIndex index;
+    if (eval_cancelled(ev)) {
+        return false;
+    }
     if (ev->scene->shape_count >= ev->options.limits->objects) {
-        eval_fault(ev, DIAG_E0490, part->span, "more than %llu shapes in the scene",
-                   (unsigned long long)ev->options.limits->objects);
+        if (eval_report(ev, DIAG_E0490, part->span, "more than %llu shapes in the scene",
+                        (unsigned long long)ev->options.limits->objects)) {
+            diag_suggest(ev->options.diags, "`--max-objects` allows more");
+        }
         ev->stop = true; // only now: nothing is reported after it
         return false;
+    }
+    if (ev->memory.used + scene_bytes(ev->scene) > ev->memory.limit) {
+        ev->memory.refused = true;
+        return eval_no_memory(ev, part->span);
     }
     if (!material_place(ev, placement->texture, &placement->texture_outer, placement->interior, part->span, &index)) {
         return false;

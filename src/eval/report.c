@@ -129,7 +129,9 @@ void eval_warn(Eval *ev, DiagCode code, Span span, const char *format, ...)
 
 bool eval_no_memory(Eval *ev, Span span)
 {
-    eval_fault(ev, DIAG_E0602, span, "out of memory while evaluating the scene");
+    if (!ev->stop) {
+        limits_report_memory(ev->options.diags, span, &ev->memory, "evaluating the scene");
+    }
     ev->stop = true;
     return false;
 }
@@ -147,14 +149,26 @@ void eval_frame_leave(Eval *ev)
     ev->options.diags->frame = ev->frame;
 }
 
+bool eval_cancelled(Eval *ev)
+{
+    const atomic_bool *cancel = ev->options.cancel;
+    ev->stop = ev->stop || (cancel != NULL && atomic_load_explicit(cancel, memory_order_relaxed));
+    return ev->stop;
+}
+
 bool eval_step(Eval *ev, Span span)
 {
+    if (RT_UNLIKELY(eval_cancelled(ev))) {
+        return false;
+    }
     if (RT_LIKELY(ev->steps < ev->options.limits->steps)) {
         ev->steps++;
         return true;
     }
-    eval_fault(ev, DIAG_E0605, span, "more than %llu loop turns and macro calls",
-               (unsigned long long)ev->options.limits->steps);
+    if (eval_report(ev, DIAG_E0605, span, "more than %llu loop turns and macro calls",
+                    (unsigned long long)ev->options.limits->steps)) {
+        diag_suggest(ev->options.diags, "if all of them are wanted, `--max-steps` allows more");
+    }
     ev->stop = true;
     return false;
 }

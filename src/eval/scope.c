@@ -42,7 +42,7 @@ bool scope_init(Eval *ev)
     if (ev->scope == NULL) {
         return false;
     }
-    arena_init(&ev->scope->arena, ev->options.limits->arena_bytes);
+    arena_init_shared(&ev->scope->arena, &ev->memory);
     return true;
 }
 
@@ -177,6 +177,10 @@ bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span s
     Binding *binding = find_or_make(ev, name, local, span);
     if (binding == NULL) {
         return false;
+    }
+    if (binding->variable->kind == VALUE_FILE) {
+        return eval_fault(ev, DIAG_E0268, span, "`%s` is an open file and cannot become %s", eval_text(ev, name),
+                          value_describe(value));
     }
     if (binding->variable->kind == VALUE_MACRO) {
         return eval_fault(ev, DIAG_E0206, span, "`%s` is a macro and cannot become %s", eval_text(ev, name),

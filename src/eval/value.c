@@ -41,6 +41,7 @@ const char *value_describe(const Value *value)
     case VALUE_MACRO: return "a macro";
     case VALUE_FUNCTION: return "a function";
     case VALUE_SPLINE: return "a spline";
+    case VALUE_FILE: return "an open file";
     case VALUE_BLOCK: return block_descriptions[value->block];
     }
     return "nothing";

@@ -100,20 +100,33 @@ static int open_named(const char *path, char **name)
     return -1;
 }
 
+// The new file has the permissions of the one that it replaces, from its first byte on. Where the file system has no
+// permissions this fails, and then nothing was to be kept.
+static void permissions_keep(const AtomicFile *file)
+{
+    struct stat status;
+    bool is_kept = stat(file->path, &status) != 0 || fchmod(file->fd, status.st_mode & 0777) == 0;
+
+    (void)is_kept;
+}
+
 static bool open_beside(AtomicFile *file)
 {
     file->fd = open_unnamed(file->path);
     if (file->fd < 0) {
         file->fd = open_named(file->path, &file->temporary);
-        return file->fd >= 0;
+    } else {
+        file->temporary = strdup("");
+        if (file->temporary == NULL) {
+            close(file->fd);
+            errno = ENOMEM;
+            return false;
+        }
     }
-    file->temporary = strdup("");
-    if (file->temporary == NULL) {
-        close(file->fd);
-        errno = ENOMEM;
-        return false;
+    if (file->fd >= 0) {
+        permissions_keep(file);
     }
-    return true;
+    return file->fd >= 0;
 }
 
 // Fills file->path and says whether the destination is replaced or written in place. False: errno says why.

@@ -125,6 +125,15 @@ Pigment pigment_of(Rgbft colour)
                      (float)colour.filter, (float)colour.transmit, RECORD_NONE};
 }
 
+size_t scene_bytes(const Scene *scene)
+{
+// A full list grows to twice its size, and the old one is there until it is copied.
+#define LIST_BYTES(list) (((list).count == (list).capacity ? 3 * (list).capacity : (list).capacity) * sizeof *(list).items)
+    return LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) + LIST_BYTES(scene->finishes) +
+           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes);
+#undef LIST_BYTES
+}
+
 bool scene_add_light(Scene *scene, const Light *light)
 {
     return ARRAY_PUSH(&scene->lights, *light);

@@ -204,6 +204,9 @@ typedef struct Scene {
 void scene_init(Scene *scene);
 void scene_fini(Scene *scene);
 
+// Bytes that its records take, counted as if each list that is full had grown already for one more.
+size_t scene_bytes(const Scene *scene);
+
 // The index of an equal material, added if there is none; the pigment is rounded to single precision. False when out of
 // memory.
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index) RT_MUST_CHECK;

@@ -218,7 +218,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     EvalDeclaration declarations[SECTIONS_MAX] = {{0}};
     static const char *const folders[] = {"lib"};
     SourceMap *sources = source_map_new();
-    InternTable *names = intern_new(limits->arena_bytes);
+    InternTable *names = intern_new(limits->memory_bytes);
     DiagSink diags;
     Scene scene;
     diag_init(&diags, sources);

@@ -1,0 +1,135 @@
+// Settings of a session: what is said before a scene is loaded.
+//
+// Turns calls of the client into the session's fields, and refuses what is out of range. Knows nothing of scenes.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/session.h"
+#include "ast/words.h"
+#include "base/number.h"
+
+enum { SIZE_MAX_PIXELS = 65535 };
+
+rt_status rt_add_include_path(rt_session *session, const char *folder)
+{
+    char *copy = strdup(folder);
+    if (!copy || !ARRAY_PUSH(&session->include_paths, copy)) {
+        free(copy);
+        return RT_FAULT_LIMIT;
+    }
+    return RT_OK;
+}
+
+rt_status rt_allow_read(rt_session *session, const char *folder)
+{
+    char *copy = strdup(folder);
+    if (!copy || !ARRAY_PUSH(&session->read_folders, copy)) {
+        free(copy);
+        return RT_FAULT_LIMIT;
+    }
+    return RT_OK;
+}
+
+rt_status rt_set_clock(rt_session *session, double clock)
+{
+    if (!isfinite(clock)) {
+        return RT_FAULT_USAGE;
+    }
+    session->clock = clock;
+    session->clock_on = true;
+    return RT_OK;
+}
+
+// Calls nest no deeper than POV-Ray lets them, whatever is asked for.
+static unsigned at_most(uint64_t value, unsigned greatest)
+{
+    return value < greatest ? (unsigned)value : greatest;
+}
+
+rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value)
+{
+    Limits *limits = &session->limits;
+    if (value == 0) {
+        return RT_FAULT_USAGE;
+    }
+    switch (limit) {
+    case RT_LIMIT_STEPS:
+        limits->steps = value;
+        return RT_OK;
+    case RT_LIMIT_DEPTH:
+        limits->ast_depth = at_most(value, LIMIT_DEPTH_MAX);
+        limits->include_depth = at_most(value, LIMIT_INCLUDE_DEPTH);
+        limits->call_depth = at_most(value, LIMIT_CALL_DEPTH);
+        return value <= LIMIT_DEPTH_MAX ? RT_OK : RT_FAULT_USAGE;
+    case RT_LIMIT_OBJECTS:
+        limits->objects = value;
+        return RT_OK;
+    case RT_LIMIT_TEXT:
+        limits->text_bytes = value;
+        return RT_OK;
+    case RT_LIMIT_MEMORY:
+        limits->memory_bytes = value < SIZE_MAX ? (size_t)value : SIZE_MAX;
+        return RT_OK;
+    }
+    return RT_FAULT_USAGE;
+}
+
+static bool is_declared(const rt_session *session, const char *name)
+{
+    for (size_t i = 0; i < session->declarations.count; i++) {
+        if (strcmp(session->declarations.items[i].name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// An identifier of the language that is not reserved.
+static bool is_identifier(const rt_session *session, const char *name, size_t length)
+{
+    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    return length > 0 && strspn(name, allowed) >= length && !(name[0] >= '0' && name[0] <= '9') &&
+           word_class(intern_find(session->names, name, length)) == WORD_IDENTIFIER;
+}
+
+rt_status rt_declare(rt_session *session, const char *name_value)
+{
+    const char *equals = strchr(name_value, '=');
+    if (!equals || !is_identifier(session, name_value, (size_t)(equals - name_value))) {
+        return RT_FAULT_USAGE;
+    }
+    const char *digits = equals + 1;
+    bool negative = *digits == '-';
+    digits += negative || *digits == '+';
+    double value;
+    if (number_parse(digits, strlen(digits), &value) != NUMBER_OK) {
+        return RT_FAULT_USAGE;
+    }
+    char *name = strndup(name_value, (size_t)(equals - name_value));
+    if (!name) {
+        return RT_FAULT_LIMIT;
+    }
+    EvalDeclaration declaration = {.name = name, .number = negative ? -value : value};
+    if (is_declared(session, name)) {
+        free(name);
+        return RT_OK;
+    }
+    if (!ARRAY_PUSH(&session->declarations, declaration)) {
+        free(name);
+        return RT_FAULT_LIMIT;
+    }
+    return RT_OK;
+}
+
+rt_status rt_set_size(rt_session *session, int width, int height)
+{
+    if (width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS) {
+        return RT_FAULT_USAGE;
+    }
+    session->width = width;
+    session->height = height;
+    return RT_OK;
+}

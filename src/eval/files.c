@@ -1,0 +1,344 @@
+// Files that a scene reads: where they are looked for, whether they may be read, and opening them.
+//
+// A name is looked for in the current folder and then in the include paths, never beside the including file, as in
+// POV-Ray. What is found must lie, all links resolved, below the scene's folder, an include path or a folder that was
+// allowed: a scene that somebody else wrote cannot look around. Owns the resolved folders. Knows nothing of what is in
+// the files.
+//
+// SPDX-License-Identifier: MIT
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/suggest.h"
+#include "eval/internal.h"
+
+struct FileState {
+    ARRAY(char *) roots; // real paths of the folders that may be read
+    TextBuffer checked;  // the path that was found readable last
+};
+
+// How files of each use are called, and what is looked for under a name that is not found.
+static const struct {
+    const char *what;
+    const char *ending; // POV-Ray adds it to a name that has none; NULL: it adds none
+} uses[] = {
+    [FILE_INCLUDE] = {"include file", ".inc"},
+    [FILE_DATA] = {"data file", NULL},
+};
+
+typedef struct Search {
+    const char *name;
+    TextBuffer path; // the file that was found
+} Search;
+
+// ---- folders that may be read
+
+static bool add_root(FileState *files, const char *folder)
+{
+    char *real = realpath(folder, NULL);
+    if (real == NULL) {
+        return errno != ENOMEM; // what is not there holds no files
+    }
+    if (!ARRAY_PUSH(&files->roots, real)) {
+        free(real);
+        return false;
+    }
+    return true;
+}
+
+static bool add_folder_of(FileState *files, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash == NULL ? strdup(".") : strndup(path, (size_t)(slash - path) + 1);
+    bool fine = folder != NULL && add_root(files, folder);
+    free(folder);
+    return fine;
+}
+
+bool files_init(Eval *ev, const Source *scene)
+{
+    const EvalOptions *options = &ev->options;
+    FileState *files = ev->files = calloc(1, sizeof *files);
+    if (files == NULL) {
+        return false;
+    }
+    text_init(&files->checked);
+    bool fine = add_folder_of(files, source_name(scene));
+    for (size_t i = 0; fine && i < options->include_path_count; i++) {
+        fine = add_root(files, options->include_paths[i]);
+    }
+    for (size_t i = 0; fine && i < options->read_folder_count; i++) {
+        fine = add_root(files, options->read_folders[i]);
+    }
+    return fine;
+}
+
+void files_fini(Eval *ev)
+{
+    FileState *files = ev->files;
+    if (files == NULL) {
+        return;
+    }
+    for (size_t i = 0; i < files->roots.count; i++) {
+        free(files->roots.items[i]);
+    }
+    ARRAY_FREE(&files->roots);
+    text_fini(&files->checked);
+    free(files);
+    ev->files = NULL;
+}
+
+static bool lies_below(const char *path, const char *root)
+{
+    size_t length = strlen(root);
+    length -= length > 0 && root[length - 1] == '/'; // the root of all
+    return strncmp(path, root, length) == 0 && (path[length] == '/' || path[length] == '\0');
+}
+
+// The folder of a path as it is written, or as it is when the path is a link that leads elsewhere; at most `size` bytes.
+static void folder_to_allow(const char *path, const char *real, char *folder, size_t size)
+{
+    const char *slash = strrchr(path, '/'), *real_slash = strrchr(real, '/');
+    size_t real_length = real_slash > real ? (size_t)(real_slash - real) : 1;
+    snprintf(folder, size, "%.*s", slash == NULL || slash == path ? 1 : (int)(slash - path), slash == NULL ? "." : path);
+    char *resolved = realpath(folder, NULL);
+    if (resolved == NULL || strlen(resolved) != real_length || strncmp(resolved, real, real_length) != 0) {
+        snprintf(folder, size, "%.*s", (int)real_length, real);
+    }
+    free(resolved);
+}
+
+static bool fault_outside(Eval *ev, const char *path, const char *real, Span span)
+{
+    char folder[PATH_MAX];
+    if (eval_report(ev, DIAG_E0508, span, "`%s` lies outside the folders that this scene may read", path)) {
+        diag_note(ev->options.diags, SPAN_NONE, "a scene reads below its own folder, the `-I` folders and what "
+                                                "`--allow-read` names, all links resolved");
+        folder_to_allow(path, real, folder, sizeof folder);
+        diag_suggest(ev->options.diags, "pass `--allow-read %s` to allow it", folder);
+    }
+    return false;
+}
+
+// A file that exists. The answer for a path holds until another is asked for, so that a file that is included a
+// million times is looked up once.
+static bool may_read(Eval *ev, const char *path, Span span)
+{
+    FileState *files = ev->files;
+    if (files->checked.length > 0 && strcmp(text_get(&files->checked), path) == 0) {
+        return true;
+    }
+    char *real = realpath(path, NULL);
+    if (real == NULL) {
+        return errno == ENOMEM ? eval_no_memory(ev, span)
+                               : eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(errno));
+    }
+    bool is_below = false;
+    for (size_t i = 0; i < files->roots.count; i++) {
+        is_below = is_below || lies_below(real, files->roots.items[i]);
+    }
+    is_below = is_below || fault_outside(ev, path, real, span);
+    free(real);
+    if (!is_below) {
+        return false;
+    }
+    text_clear(&files->checked);
+    text_append(&files->checked, path);
+    return true;
+}
+
+// ---- looking
+
+static bool is_absolute(const char *name)
+{
+    return name[0] == '/';
+}
+
+static bool has_ending(const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    return strchr(slash != NULL ? slash : name, '.') != NULL;
+}
+
+static bool exists(TextBuffer *path, const char *folder, const char *name, const char *ending)
+{
+    text_clear(path);
+    if (folder[0] != '\0') {
+        text_printf(path, "%s%s", folder, folder[strlen(folder) - 1] == '/' ? "" : "/");
+    }
+    text_printf(path, "%s%s", name, ending);
+    return !path->failed && access(text_get(path), F_OK) == 0;
+}
+
+static bool find_with(const Eval *ev, Search *search, const char *ending)
+{
+    size_t folders = is_absolute(search->name) ? 0 : ev->options.include_path_count;
+    if (exists(&search->path, "", search->name, ending)) {
+        return true;
+    }
+    for (size_t i = 0; i < folders; i++) {
+        if (exists(&search->path, ev->options.include_paths[i], search->name, ending)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool find(const Eval *ev, Search *search, const char *ending)
+{
+    return find_with(ev, search, "") ||
+           (ending != NULL && !has_ending(search->name) && find_with(ev, search, ending));
+}
+
+bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there)
+{
+    Search search = {.name = name->text};
+    text_init(&search.path);
+    *is_there = find(ev, &search, NULL);
+    bool fine = !*is_there || may_read(ev, text_get(&search.path), span);
+    text_fini(&search.path);
+    return fine;
+}
+
+// ---- a file that is not found
+
+static void offer_folder(Eval *ev, Suggest *suggest, const char *folder)
+{
+    DIR *directory = opendir(folder);
+    if (directory == NULL) {
+        return;
+    }
+    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;) {
+        char *name = arena_copy_text(&ev->scratch, entry->d_name, strlen(entry->d_name));
+        if (name != NULL && name[0] != '.') {
+            suggest_offer(suggest, name);
+        }
+    }
+    closedir(directory);
+}
+
+// The name stands in the text as it is when it is one string.
+static void suggest_near_name(Eval *ev, const char *name, const AstNode *node)
+{
+    Suggest suggest;
+    ArenaMark mark = arena_mark(&ev->scratch);
+    suggest_begin(&suggest, name);
+    offer_folder(ev, &suggest, ".");
+    for (size_t i = 0; i < ev->options.include_path_count; i++) {
+        offer_folder(ev, &suggest, ev->options.include_paths[i]);
+    }
+    if (suggest.best != NULL) {
+        diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
+        if (node->kind == AST_STRING) {
+            diag_replace(ev->options.diags, node->span, "\"%s\"", suggest.best);
+        }
+    }
+    arena_rewind(&ev->scratch, mark);
+}
+
+static void note_folders(Eval *ev)
+{
+    TextBuffer list;
+    text_init(&list);
+    text_append(&list, "searched in the current folder");
+    for (size_t i = 0; i < ev->options.include_path_count; i++) {
+        text_printf(&list, ", `%s`", ev->options.include_paths[i]);
+    }
+    diag_note(ev->options.diags, SPAN_NONE, "%s", text_get(&list));
+    text_fini(&list);
+}
+
+// The folder of the file in which the directive stands, if the wanted file is there.
+static bool suggest_own_folder(Eval *ev, Search *search, Span span)
+{
+    SourceLocation location;
+    bool is_there = false;
+    if (is_absolute(search->name) || !source_locate(ev->options.sources, span, &location)) {
+        return false;
+    }
+    const char *slash = strrchr(location.name, '/');
+    if (slash != NULL) {
+        char *folder = arena_copy_text(&ev->scratch, location.name, (size_t)(slash - location.name));
+        is_there = folder != NULL && exists(&search->path, folder, search->name, "");
+        if (is_there) {
+            diag_suggest(ev->options.diags, "it stands beside this file, where nothing is searched: add `-I %s`",
+                         folder);
+        }
+    }
+    return is_there;
+}
+
+static void report_missing(Eval *ev, Search *search, FileUse use, const AstNode *node)
+{
+    Span span = node->span;
+    ev->include_is_missing = ev->include_is_missing || use == FILE_INCLUDE;
+    if (eval_report(ev, DIAG_E0501, span, "%s `%s` not found", uses[use].what, search->name)) {
+        if (!is_absolute(search->name)) {
+            note_folders(ev);
+        }
+        if (!suggest_own_folder(ev, search, span)) {
+            suggest_near_name(ev, search->name, node);
+        }
+    }
+}
+
+// ---- opening
+
+static void report_result(Eval *ev, SourceResult result, const char *path, FileUse use, int error_number, Span span)
+{
+    switch (result) {
+    case SOURCE_OK: break;
+    case SOURCE_CANCELLED: ev->stop = true; break;
+    case SOURCE_NOT_FOUND: eval_fault(ev, DIAG_E0501, span, "%s `%s` not found", uses[use].what, path); break;
+    case SOURCE_NOT_READABLE:
+        eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(error_number));
+        break;
+    case SOURCE_IS_DIRECTORY: eval_fault(ev, DIAG_E0503, span, "`%s` is a directory, not a file", path); break;
+    case SOURCE_TOO_LARGE:
+        if (eval_report(ev, DIAG_E0504, span, "with `%s` the scene reads more than %llu bytes of text", path,
+                        (unsigned long long)ev->options.limits->text_bytes)) {
+            diag_suggest(ev->options.diags, "`--max-text` allows more");
+        }
+        ev->stop = true;
+        break;
+    case SOURCE_NO_MEMORY: eval_no_memory(ev, span); break;
+    }
+}
+
+static bool open_found(Eval *ev, const char *path, FileUse use, Span span, Source **source)
+{
+    int error_number = 0;
+    uint64_t read = source_bytes_read(ev->options.sources);
+    uint64_t limit = ev->options.limits->text_bytes;
+    SourceResult result = source_open_file(ev->options.sources, path, limit > read ? limit - read : 0, source,
+                                           &error_number);
+    report_result(ev, result, path, use, error_number, span);
+    return result == SOURCE_OK;
+}
+
+bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
+{
+    Value name;
+    if (!eval_string(ev, name_node, &name)) {
+        return false;
+    }
+    Search search = {.name = name.text};
+    text_init(&search.path);
+    bool is_found = find(ev, &search, uses[use].ending);
+    if (search.path.failed) {
+        eval_no_memory(ev, name_node->span);
+    } else if (!is_found) {
+        report_missing(ev, &search, use, name_node);
+    } else {
+        is_found = may_read(ev, text_get(&search.path), name_node->span) &&
+                   open_found(ev, text_get(&search.path), use, name_node->span, source);
+        ev->include_is_missing = ev->include_is_missing || (!is_found && use == FILE_INCLUDE);
+    }
+    text_fini(&search.path);
+    return is_found && !ev->stop;
+}
