@@ -115,7 +115,7 @@ AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
 lang_cases = \
   %D%/lang/arrays.test %D%/lang/camera.test %D%/lang/colours.test %D%/lang/declare.test %D%/lang/default.test \
-  %D%/lang/expressions.test %D%/lang/extents.test %D%/lang/faults.test %D%/lang/finish.test \
+  %D%/lang/expressions.test %D%/lang/extents.test %D%/lang/faults.test %D%/lang/files.test %D%/lang/finish.test \
   %D%/lang/functions.test %D%/lang/includes.test %D%/lang/interior.test %D%/lang/light.test %D%/lang/limits.test %D%/lang/loops.test \
   %D%/lang/macros.test %D%/lang/pattern.test %D%/lang/pigment.test %D%/lang/plane.test \
   %D%/lang/seeded_faults.test %D%/lang/settings.test %D%/lang/sphere.test %D%/lang/splice.test \

@@ -26,7 +26,7 @@ static bool read_all(rt_session *session, Source *source, TextBuffer *text)
 static bool lay_out(rt_session *session, Source *source, const TextBuffer *text)
 {
     Arena arena;
-    arena_init(&arena, session->limits.arena_bytes);
+    arena_init(&arena, session->limits.memory_bytes);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL};
     bool fine = format_source(&context, source, text_get(text), text->length, &session->dump);
     arena_fini(&arena);

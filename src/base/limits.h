@@ -40,8 +40,8 @@ typedef struct Limits {
         .memory_bytes = (size_t)8 << 30,                                                                               \
     })
 
-// Reports at the span that memory is exhausted while doing something ("reading the scene"): the system's, E0602, or what
-// the budget of the arena allows, E0607. True when the record was kept.
+// Reports at the span that memory is exhausted while doing something ("reading the scene"): the system's, E0602, or
+// what the budget allows, E0607. True when the record was kept.
 bool limits_report_memory(DiagSink *sink, Span span, const MemoryBudget *budget, const char *doing);
 
 // Bytes for people: "512 bytes", "1.5 MiB".

@@ -23,8 +23,8 @@ typedef enum NumberResult {
 // Up to 19 digits and a power of ten up to 27 make one exact integer operation; all others go to strtod.
 NumberResult number_parse(const char *text, size_t length, double *value) RT_MUST_CHECK;
 
-// The same for a number at the beginning of the text: *used is its length. `1e` and `1e+` are 1, as in scenes, and all of
-// their characters are used. NUMBER_MALFORMED when no number stands there.
+// The same for a number at the beginning of the text: *used is its length. `1e` and `1e+` are 1, as in scenes, and all
+// of their characters are used. NUMBER_MALFORMED when no number stands there.
 NumberResult number_scan(const char *text, size_t length, double *value, size_t *used) RT_MUST_CHECK;
 
 // The nearest double to mantissa * 10^power; HUGE_VAL when that is beyond the greatest double.

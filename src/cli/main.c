@@ -13,7 +13,7 @@
 #include "cli/progress.h"
 #include "rtlang/rtlang.h"
 
-// What an interrupt stops, and which one it was; file-scope variables, because a signal handler has no other way to them.
+// What an interrupt stops, and which one it was; at file scope, because a signal handler has no other way to them.
 static rt_session *volatile interrupted_session;
 static volatile sig_atomic_t interrupted_by;
 

@@ -374,7 +374,8 @@ typedef struct Place {
 
 static bool is_readable_into(const Value *value)
 {
-    return value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR || value->kind == VALUE_STRING;
+    return value->kind == VALUE_NUMBER || value->kind == VALUE_STRING ||
+           (value->kind == VALUE_VECTOR && value->components == 3); // as in POV-Ray
 }
 
 static bool fault_target(Eval *ev, const AstNode *target, const Value *value)

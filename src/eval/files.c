@@ -100,12 +100,13 @@ static bool lies_below(const char *path, const char *root)
     return strncmp(path, root, length) == 0 && (path[length] == '/' || path[length] == '\0');
 }
 
-// The folder of a path as it is written, or as it is when the path is a link that leads elsewhere; at most `size` bytes.
+// The folder of a path as it is written, or the one that it leads to when it is a link.
 static void folder_to_allow(const char *path, const char *real, char *folder, size_t size)
 {
     const char *slash = strrchr(path, '/'), *real_slash = strrchr(real, '/');
     size_t real_length = real_slash > real ? (size_t)(real_slash - real) : 1;
-    snprintf(folder, size, "%.*s", slash == NULL || slash == path ? 1 : (int)(slash - path), slash == NULL ? "." : path);
+    int length = slash == NULL || slash == path ? 1 : (int)(slash - path);
+    snprintf(folder, size, "%.*s", length, slash == NULL ? "." : path);
     char *resolved = realpath(folder, NULL);
     if (resolved == NULL || strlen(resolved) != real_length || strncmp(resolved, real, real_length) != 0) {
         snprintf(folder, size, "%.*s", (int)real_length, real);

@@ -125,10 +125,15 @@ Pigment pigment_of(Rgbft colour)
                      (float)colour.filter, (float)colour.transmit, RECORD_NONE};
 }
 
+// A full list grows to twice its size, and the old one is there until it is copied.
+static size_t list_bytes(size_t count, size_t capacity, size_t item_bytes)
+{
+    return (count == capacity ? 3 * capacity : capacity) * item_bytes;
+}
+
 size_t scene_bytes(const Scene *scene)
 {
-// A full list grows to twice its size, and the old one is there until it is copied.
-#define LIST_BYTES(list) (((list).count == (list).capacity ? 3 * (list).capacity : (list).capacity) * sizeof *(list).items)
+#define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
     return LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) + LIST_BYTES(scene->finishes) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes);
 #undef LIST_BYTES

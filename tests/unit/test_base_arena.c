@@ -83,6 +83,20 @@ static void test_budget(void)
     arena_fini(&arena);
 }
 
+static void test_shared_budget(void)
+{
+    MemoryBudget budget = {.limit = (size_t)300 * KIB};
+    Arena first, second;
+    arena_init_shared(&first, &budget);
+    arena_init_shared(&second, &budget);
+    tap_ok(arena_alloc(&first, (size_t)150 * KIB) && budget.used == first.bytes_reserved, "a shared budget counts");
+    tap_ok(!arena_alloc(&second, (size_t)200 * KIB) && budget.refused, "what the other arena took is not there");
+    arena_fini(&first);
+    tap_ok(budget.used == 0 && arena_alloc(&second, (size_t)200 * KIB), "what it gives back is");
+    arena_fini(&second);
+    tap_ok(budget.used == 0 && second.shared == &budget, "a finished arena keeps its share");
+}
+
 static void test_copies(void)
 {
     Arena arena;
@@ -184,6 +198,7 @@ int main(void)
     test_pieces_are_apart();
     test_growth();
     test_budget();
+    test_shared_budget();
     test_copies();
     for (size_t before = 0; before <= (size_t)200 * KIB; before += (size_t)100 * KIB) {
         test_mark_and_rewind(before, 100);

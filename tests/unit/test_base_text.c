@@ -122,6 +122,51 @@ static void test_parse_table(void)
     tap_ok(number_parse("12345", 2, &value) == NUMBER_OK && value == 12, "only `length` characters are read");
 }
 
+static void test_scan_table(void)
+{
+    static const struct {
+        const char *text;
+        size_t used; // 0: no number
+        double value;
+    } cases[] = {
+        {"12,3", 2, 12},       {"1.5.2", 3, 1.5},   {"5.,", 2, 5},        {".5>", 2, 0.5},    {"1e3\n", 3, 1000},
+        {"1e,", 2, 1},         {"2E+,", 3, 2},      {"3e-x", 3, 3},       {"0x10", 1, 0},     {"7", 1, 7},
+        {"0.1 0.2", 3, 0.1},   {"1-2", 1, 1},       {"", 0, 0},           {".", 0, 0},        {"e5", 0, 0},
+        {"-1", 0, 0},          {" 1", 0, 0},        {"nan", 0, 0},        {"1e-2e3", 4, 0.01}, {".5.5", 2, 0.5},
+    };
+    for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
+        double value = 0;
+        size_t used = 0;
+        NumberResult result = number_scan(cases[i].text, strlen(cases[i].text), &value, &used);
+        tap_ok(cases[i].used == 0 ? result == NUMBER_MALFORMED
+                                  : result == NUMBER_OK && used == cases[i].used && same_bits(value, cases[i].value),
+               "`%.4s` begins with %zu characters of a number", cases[i].text, cases[i].used);
+    }
+    double value;
+    size_t used;
+    tap_ok(number_scan("1e999,", 6, &value, &used) == NUMBER_OVERFLOW && used == 5, "an overflow has its length");
+    tap_ok(number_scan("12345", 2, &value, &used) == NUMBER_OK && value == 12, "no more than `length` is scanned");
+}
+
+static void test_escapes(void)
+{
+    static const struct {
+        const char *text, *meaning;
+        size_t used; // 0: means nothing
+    } cases[] = {
+        {"\\n", "\n", 2},       {"\\\\", "\\", 2},         {"\\\"x", "\"", 2},           {"\\u0041", "A", 6},
+        {"\\u00e9z", "\xc3\xa9", 6}, {"\\u20AC", "\xe2\x82\xac", 6}, {"\\u00g1", "", 0}, {"\\u12", "", 0},
+        {"\\q", "", 0},        {"\\", "", 0},
+    };
+    for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
+        TextBuffer buffer;
+        text_init(&buffer);
+        size_t used = text_append_escape(&buffer, cases[i].text, strlen(cases[i].text));
+        tap_ok(used == cases[i].used && strcmp(text_get(&buffer), cases[i].meaning) == 0, "escape `%s`", cases[i].text);
+        text_fini(&buffer);
+    }
+}
+
 // Literals of a million digits: a long run of zeros on either side, and a tie that the last digit breaks.
 static void test_parse_long(void)
 {
@@ -352,6 +397,8 @@ static void test_comma_locale(void)
         return;
     }
     test_parse_table();
+    test_scan_table();
+    test_escapes();
     test_append_table();
     setlocale(LC_ALL, "C");
 }

@@ -269,6 +269,9 @@ static void test_atomic_replace(const Image *image)
     tap_ok(file_save("target.png", "old") && image_write(image, &srgb_8, "link.png", &error) == IMAGE_OK &&
                lstat("link.png", &status) == 0 && S_ISLNK(status.st_mode) && files_equal("one.png", "target.png"),
            "a symbolic link stays one, what it names is replaced");
+    tap_ok(chmod("target.png", 0604) == 0 && image_write(image, &srgb_8, "target.png", &error) == IMAGE_OK &&
+               stat("target.png", &status) == 0 && (status.st_mode & 07777) == 0604,
+           "the permissions of the old file stay: %o", (unsigned)status.st_mode);
     tap_ok(symlink("new.png", "dangling.png") == 0 &&
                image_write(image, &srgb_8, "dangling.png", &error) == IMAGE_OK && files_equal("one.png", "new.png"),
            "a link to nothing makes what it names");
