@@ -35,6 +35,16 @@ sphere { 0, 1 pigment { rgb "red" } }
     "not_supported": b"torus { 1, 0.2 }\nsphere { 0, 1 pigment { checker } }\n",
     "not_finite": b"#declare A = 1e308 * 10;\nsphere { <A, 0, 0>, 1 }\n",
     "many_faults": b"".join(b"sphere { Name_%d, 1 }\n" % i for i in range(30)),
+    "data_file": b"""#fopen File "data.txt" read
+#while (defined(File)) #read (File, X, Y) #end
+#fopen File "absent.txt" read
+#fopen Out "out.txt" write
+""",
+    "outside_folders": b"""#include "/etc/passwd"
+#include "../outside.txt"
+#fopen File "link.txt" read
+#if (file_exists("/etc/passwd")) #end
+""",
     "error_directive": b'#error "stop here"\n',
     "messages": b'#debug "one\\n"\n#warning "two"\n#debug "three\\n"\n' + GOOD,
 }
@@ -45,6 +55,9 @@ FILES = {
     "loop_a.inc": b'#include "loop_b.inc"\n',
     "loop_b.inc": b'#include "loop_a.inc"\n',
     "plain_file": b"",
+    "data.txt": b"1, 2,\r\n3, 4\r\n5, 6\r\n",
+    "many.scn": b"#for (I, 1, 100000)\n  sphere { I, 1 }\n#end\n",
+    "deep.scn": b"#declare A = 1 + (2 * (3 + (4 * 5)));\n",
 }
 
 # Cases that end with a picture all the same.
@@ -64,6 +77,18 @@ COMMANDS = {
     "output_unknown_format": ["-o", "x.foo", "good.scn"],
     "output_depth": ["-o", "x.jpg", "--depth=16", "good.scn"],
     "output_name_empty": ["-o", "", "good.scn"],
+    "limit_steps": ["--max-steps=1000", "--check", "many.scn"],
+    "limit_depth": ["--max-depth=3", "--check", "deep.scn"],
+    "limit_objects": ["--max-objects=1000", "--check", "many.scn"],
+    "limit_text": ["--max-text=30", "--check", "many.scn"],
+    "limit_memory": ["--max-memory=2M", "--check", "many.scn"],
+    "limit_memory_picture": ["-W", "65535", "-H", "65535", "--max-memory=8G", "-o", "x.png", "good.scn"],
+    "limit_memory_shapes": ["-W", "8", "-H", "8", "--max-memory=16M", "-o", "x.png", "many.scn"],
+    "limit_zero": ["--max-steps=0", "good.scn"],
+    "limit_unit": ["--max-memory=1X", "good.scn"],
+    "limit_depth_great": ["--max-depth=1001", "good.scn"],
+    "clock_not_a_number": ["--clock=noon", "good.scn"],
+    "option_ambiguous": ["--d", "good.scn"],
     "unknown_option": ["--wat", "good.scn"],
     "unknown_letter": ["-x", "good.scn"],
     "argument_missing": ["good.scn", "-W"],
@@ -88,6 +113,8 @@ WANT_OPENIMAGEIO = {"output_unknown_format", "output_depth"}
 # As COMMANDS, with standard output on a full device.
 COMMANDS_FULL = {
     "output_full_device": ["-o", "-", "good.scn"],
+    "help_full_device": ["--help"],
+    "version_full_device": ["--version"],
     "dump_full_device": ["--dump=ast", "good.scn"],
 }
 

@@ -83,6 +83,28 @@ def tests(tap, program):
         tap.equal((process.returncode, message), (130, b"rtlang: interrupted; nothing was written\n"), "interrupted")
         check_untouched(before, "an interrupt leaves the old picture and nothing else")
 
+    def test_signals():
+        write("endless.scn", b"#while (1) #end\n")
+        write("long.scn", b"sphere { 0, 1 }\n" * 2000000)
+        write("block.scn", b"union {\n" + b"sphere { 0, 1 }\n" * 2000000 + b"}\n")
+        os.mkfifo("pipe.inc")
+        write("waits.scn", b'#include "pipe.inc"\n')
+        cases = [["--check", "--max-steps=1000000000000", "endless.scn"], ["--check", "long.scn"],
+                 ["--check", "block.scn"], ["--dump=ast", "long.scn"], ["--check", "-"], ["--check", "pipe.inc"],
+                 ["--check", "waits.scn"]]
+        for arguments in cases:
+            for number, code in (signal.SIGINT, 130), (signal.SIGTERM, 143):
+                process = subprocess.Popen([program, *arguments], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                           stderr=subprocess.PIPE)
+                time.sleep(0.3)
+                process.send_signal(number)
+                process.wait(timeout=60)
+                message = process.stderr.read()
+                process.stdin.close()
+                process.stderr.close()
+                tap.equal((process.returncode, message), (code, b"rtlang: interrupted; nothing was written\n"),
+                          "%s while it works on %s" % (number.name, " ".join(arguments)))
+
     def terminal_output(process, master, seconds, wanted):
         """What comes until `wanted` does, or for so many seconds. Then the process is interrupted."""
         text, end = b"", time.monotonic() + seconds
@@ -121,4 +143,4 @@ def tests(tap, program):
         peak = usage.ru_maxrss * 1024
         tap.ok(peak <= PEAK_BYTES, "in at most 400 MB of memory", "peak %d bytes" % peak)
 
-    return [test_kill, test_kill_at_any_time, test_interrupt, test_progress, test_million_spheres]
+    return [test_kill, test_kill_at_any_time, test_interrupt, test_signals, test_progress, test_million_spheres]

@@ -92,6 +92,8 @@ def test_messages():
         write(name, data)
     os.mkdir("folder.png")
     os.symlink("/dev/full", "full.png")
+    os.symlink("/etc/passwd", "link.txt")
+    write("../outside.txt", b"1")
     write("old.png", OLD_PICTURE)
     for name, scene in faults.SCENES.items():
         write(name + ".scn", scene)
@@ -204,6 +206,108 @@ def test_names_and_folders():
                   "-I and --include-path: first %s, then %s" % tuple(order))
 
 
+def test_data_files():
+    write("line_ends.scn", b"""#fopen File "data.txt" read
+#while (defined(File)) #read (File, X, Y) #debug concat(str(X, 0, 0), " ", str(Y, 0, 0), "\\n") #end
+""" + faults.GOOD)
+    for name, end in ("LF", b"\n"), ("CRLF", b"\r\n"), ("CR", b"\r"):
+        write("data.txt", b"1, 2," + end + b"3, -4" + end)
+        tap.equal(rtlang("--check", "line_ends.scn").stderr, b"1 2\n3 -4\n", "a data file with ends of lines " + name)
+    # Values that fall on the ends of the blocks in which a file is read.
+    values = [str(i / 7) for i in range(60000)]
+    for shift in range(0, 40, 3):
+        write("data.txt", b" " * shift + ", /* x */\n".join(values).encode())
+        write("sum.scn", b"""#fopen File "data.txt" read
+#declare Sum = 0; #declare N = 0;
+#while (defined(File)) #read (File, X) #declare Sum = Sum + X; #declare N = N + 1; #end
+#debug concat(str(N, 0, 0), " ", str(Sum, 0, 3), "\\n")
+""" + faults.GOOD)
+        total = 0.0
+        for value in values:
+            total += float(value)
+        tap.equal(rtlang("--check", "sum.scn").stderr.decode(), "60000 %.3f\n" % total,
+                  "sixty thousand values after %d blanks" % shift)
+
+
+def test_folders_that_may_be_read():
+    for folder in "scenes", "scenes/below", "library", "data":
+        os.mkdir(folder)
+        write(folder + "/here.inc", b'#debug "%s\\n"\n' % folder.encode())
+    write("cwd.inc", b'#debug "cwd\\n"\n')
+    os.symlink("../data", "scenes/link")
+    os.symlink("../../data/here.inc", "scenes/below/link.inc")
+    os.symlink("library", "library_link")
+    real = os.path.realpath("data")
+    cases = [  # name in the scene, options, what is said or the folder that is to be allowed
+        ("scenes/here.inc", [], "scenes"),
+        ("scenes/below/../here.inc", [], "scenes"),
+        ("scenes/below/here.inc", [], "scenes/below"),
+        (os.path.realpath("scenes") + "/here.inc", [], "scenes"),
+        ("cwd.inc", [], (".",)),
+        ("cwd.inc", ["-I", "."], "cwd"),
+        ("cwd.inc", ["--allow-read", "."], "cwd"),
+        ("here.inc", ["-I", "library"], "library"),
+        ("here.inc", ["-I", "library_link"], "library"),
+        ("data/here.inc", [], ("data",)),
+        ("scenes/../data/here.inc", [], ("scenes/../data",)),
+        ("scenes/link/here.inc", [], ("scenes/link",)),
+        ("scenes/below/link.inc", [], (real,)),
+        ("scenes/link/here.inc", ["--allow-read=nowhere", "--allow-read=data"], "data"),
+        ("scenes/below/link.inc", ["--allow-read=" + real], "data"),
+        ("library/here.inc", ["-I", "lib", "--allow-read", "librar"], ("library",)),
+        ("/dev/stdin", [], ("/dev",)),
+    ]
+    for name, options, wanted in cases:
+        for use in '#include "%s"\n', '#fopen File "%s" read\n', '#declare A = file_exists("%s");\n':
+            write("scenes/test.scn", (use % name).encode() + faults.GOOD)
+            result = rtlang("--check", *options, "scenes/test.scn")
+            said = result.stderr.decode()
+            if isinstance(wanted, tuple):
+                fine = result.returncode == 3 and "error[E0508]" in said and \
+                    "`--allow-read %s`" % wanted[0] in said
+            else:
+                fine = result.returncode == 0 and said == (wanted + "\n" if "include" in use else "")
+            tap.ok(fine, "%s with %s: %s" % (use.split()[0], name, " ".join(options)), said)
+
+
+def test_clock():
+    write("clock.scn", b"""#debug concat(str(clock, 0, 4), " ", str(clock_on, 0, 0), " ", input_file_name, "\\n")
+""" + faults.GOOD)
+    os.mkdir("folder")
+    shutil.copy("clock.scn", "folder/clock.scn")
+    for options, said in ([], "0.0000 0"), (["-K", "0.25"], "0.2500 1"), (["--clock=-2.5"], "-2.5000 1"), \
+            (["-K0"], "0.0000 1"), (["-K", "1", "-K", "1e-3"], "0.0010 1"):
+        tap.equal(rtlang("--check", *options, "folder/clock.scn").stderr.decode(), said + " clock.scn\n",
+                  "clock: " + " ".join(options))
+
+
+def test_standard_input():
+    whole = picture(faults.GOOD)
+    options = ["-q", "-W", "64", "-H", "48"]
+    tap.equal(rtlang(*options, "-o", "-", "-", stdin=None, input=faults.GOOD).stdout, whole, "a scene from a pipe")
+    write("good.scn", faults.GOOD)
+    with open("good.scn", "rb") as file:
+        result = rtlang(*options, "-", stdin=file)
+    tap.equal((result.returncode, read("stdin.png")), (0, whole), "a scene from a file: stdin.png")
+    write("here.inc", b'#debug concat(input_file_name, "\\n")\n')
+    result = rtlang("--check", "-", stdin=None, input=b'#include "here.inc"\nsphere { 0, x }\n')
+    tap.equal((result.returncode, result.stderr.split(b"\n")[:2]),
+              (1, [b"<stdin>", b"<stdin>:2:13: error[E0202]: expected a number, found a vector of 3"]),
+              "standard input: messages, and files of the current folder")
+    tap.equal(rtlang("--dump=ast", "-", stdin=None, input=faults.GOOD).stdout,
+              rtlang("--dump=ast", "good.scn").stdout, "a dump of standard input")
+
+
+def test_old_permissions():
+    write("good.scn", faults.GOOD)
+    for mode in 0o600, 0o640, 0o666:
+        write("old.png", OLD_PICTURE)
+        os.chmod("old.png", mode)
+        rtlang("-q", "-o", "old.png", "good.scn")
+        tap.equal((os.stat("old.png").st_mode & 0o7777, read("old.png")[:4]), (mode, b"\x89PNG"),
+                  "a picture of mode %o keeps it" % mode)
+
+
 def test_actions():
     write("good.scn", faults.GOOD)
     before = set(os.listdir())
@@ -223,7 +327,7 @@ def test_actions():
     tap.ok(version.returncode == 0 and re.fullmatch(rb"rtlang \d+\.\d+\.\d+\n", version.stdout), "--version", version)
     usage = rtlang("--help")
     tap.equal((usage.returncode, usage.stderr), (0, b""), "--help")
-    options = "output width height threads include-path declare depth file-gamma check dump quiet version help"
+    options = "clock allow-read max-steps max-depth max-objects max-text max-memory output width height threads include-path declare depth file-gamma check dump quiet version help"
     for option in options.split():
         tap.ok(b"--" + option.encode() in usage.stdout, "--help tells of --" + option)
 
@@ -238,7 +342,8 @@ def test_summary():
 
 
 TESTS = [test_messages, test_expected, test_permissions, test_output, test_threads, test_size_and_values,
-         test_names_and_folders, test_actions, test_summary]
+         test_names_and_folders, test_data_files, test_folders_that_may_be_read, test_clock, test_standard_input,
+         test_old_permissions, test_actions, test_summary]
 
 
 def main():
