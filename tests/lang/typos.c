@@ -49,7 +49,7 @@ static bool is_suggested(const char *before, const char *wrong, const char *afte
 {
     Limits limits = LIMITS_DEFAULT;
     SourceMap *sources = source_map_new();
-    InternTable *names = intern_new(limits.arena_bytes);
+    InternTable *names = intern_new(limits.memory_bytes);
     DiagSink diags;
     Scene scene;
     TextBuffer text;
@@ -205,7 +205,7 @@ static void try_properties(const InternTable *names, Tally *sums)
 
 int main(void)
 {
-    InternTable *names = intern_new(LIMITS_DEFAULT.arena_bytes);
+    InternTable *names = intern_new(LIMITS_DEFAULT.memory_bytes);
     if (names == NULL || !words_intern(names)) {
         return 1;
     }
