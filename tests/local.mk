@@ -31,7 +31,7 @@ unit_programs = \
   tests/unit/test_base_suggest tests/unit/test_base_text tests/unit/test_math tests/unit/test_trace_sphere \
   tests/unit/test_trace_certified \
   tests/unit/test_trace_geometry tests/unit/test_trace_tree tests/unit/test_trace_secondary tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
-  tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_values \
+  tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_png tests/unit/test_image_values \
   tests/unit/test_render
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
 
@@ -82,6 +82,9 @@ tests_unit_test_grammar_random_LDADD = $(UNIT_GRAMMAR)
 tests_unit_test_image_SOURCES = %D%/unit/test_image.c
 tests_unit_test_image_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
+tests_unit_test_image_png_SOURCES = %D%/unit/test_image_png.c
+tests_unit_test_image_png_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
+tests_unit_test_image_png_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_image_values_SOURCES = %D%/unit/test_image_values.c
 tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)

@@ -152,8 +152,7 @@ static void print_help(void)
         printf("  %c%c%c %-23s %s\n", rows[i].letter != 0 ? '-' : ' ', rows[i].letter != 0 ? rows[i].letter : ' ',
                rows[i].letter != 0 ? ',' : ' ', left, rows[i].help);
     }
-    printf("\nExit status: 0 every scene agrees, 1 one does not, 2 usage, 3 POV-Ray or the module that reads pictures\n"
-           "is missing.\n");
+    printf("\nExit status: 0 every scene agrees, 1 one does not, 2 usage, 3 POV-Ray is missing.\n");
 }
 
 static void getopt_tables_fill(struct option long_options[COUNT_OF(rows) + 1], char *short_options)

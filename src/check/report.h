@@ -15,7 +15,6 @@ typedef struct Outcome {
     const char *scene;
     bool compared; // both pictures were made and read
     bool agrees;
-    bool tool_missing; // pictures cannot be read at all
     ImageDifference difference;
     double rtlang_seconds, povray_seconds; // whole run of a renderer, from text to file
     char detail[REPORT_DETAIL];            // why nothing could be compared

@@ -16,6 +16,7 @@
 #include "image/encode.h"
 #include "image/image_error.h"
 #include "image/module.h"
+#include "image/png_read.h"
 #include "image/png_write.h"
 
 enum { ENDING_MAX = 8 };
@@ -177,43 +178,54 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
     return status;
 }
 
-// Only regular files are read: a pipe would block, and the readers seek.
-static bool path_is_readable(const char *path, ImageError *error)
+// Only regular files are read: a pipe would block, and the readers seek. NULL: the error says why.
+static FILE *open_readable(const char *path, ImageError *error)
 {
     struct stat status;
     int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    bool fine;
+    FILE *stream = NULL;
 
     if (fd < 0 || fstat(fd, &status) != 0) {
         image_error_system(error, path, errno);
-        if (fd >= 0) {
-            close(fd);
-        }
-        return false;
-    }
-    fine = S_ISREG(status.st_mode);
-    close(fd);
-    if (!fine) {
+    } else if (!S_ISREG(status.st_mode)) {
         image_error_set(error, "%s: not a regular file", path);
+    } else {
+        stream = fdopen(fd, "rb");
+        if (stream == NULL) {
+            image_error_system(error, path, errno);
+        }
     }
-    return fine;
+    if (stream == NULL && fd >= 0) {
+        close(fd);
+    }
+    return stream;
+}
+
+static ImageStatus read_by_module(const char *path, uint64_t pixel_limit, Image *image, ImageError *error)
+{
+    const OiioModule *module = module_load(error);
+
+    return module == NULL ? IMAGE_NO_MODULE : module->read(path, pixel_limit, image_init, image, error);
 }
 
 ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error)
 {
-    const OiioModule *module;
+    FILE *stream;
     ImageStatus status;
+    bool is_png;
 
     *image = (Image){0};
     image_error_clear(error);
-    if (!path_is_readable(path, error)) {
+    stream = open_readable(path, error);
+    if (stream == NULL) {
         return IMAGE_IO;
     }
-    module = module_load(error);
-    if (module == NULL) {
-        return IMAGE_NO_MODULE;
+    is_png = png_is_there(stream);
+    status = is_png ? png_read(stream, pixel_limit, image, error) : IMAGE_OK;
+    fclose(stream);
+    if (!is_png) {
+        status = read_by_module(path, pixel_limit, image, error);
     }
-    status = module->read(path, pixel_limit, image_init, image, error);
     if (status != IMAGE_OK) {
         image_fini(image);
     }

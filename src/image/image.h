@@ -1,7 +1,7 @@
 // Pictures as files: encoding, atomic writing, reading, and comparing.
 //
-// PNG goes through libpng. Every other format, and all reading, goes through OpenImageIO in a module that is loaded on
-// first use (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an
+// PNG goes through libpng. Every other format goes through OpenImageIO in a module that is loaded on first use
+// (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an
 // old picture is either kept or wholly replaced. The same picture and encoding give the same bytes.
 //
 // SPDX-License-Identifier: MIT
@@ -64,7 +64,8 @@ ImageDepth image_path_depth(const char *path);
 ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path,
                         ImageError *error) RT_MUST_CHECK;
 
-// Reads a picture to values as they are stored, 0..1 for integer formats; no transfer is undone.
+// Reads a picture to values as they are stored, 0..1 for integer formats; no transfer is undone. What begins as PNG does
+// is read as PNG, whatever the path's ending.
 ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error) RT_MUST_CHECK;
 
 // How two pictures of equal size differ, over the first three channels.
