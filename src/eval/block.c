@@ -26,12 +26,14 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_MATERIAL] = material_action,
     [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
+    [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
 };
 
 // Between the arguments and the properties.
 static const BlockHook bodies[KIND_COUNT] = {
-    [KIND_UNION] = object_members,
-    [KIND_OBJECT] = object_body,
+    [KIND_UNION] = object_members,        [KIND_MERGE] = object_members,   [KIND_INTERSECTION] = object_members,
+    [KIND_DIFFERENCE] = object_members,   [KIND_OBJECT] = object_body,     [KIND_CLIPPED_BY] = clip_body,
+    [KIND_BOUNDED_BY] = clip_body,
     [KIND_COLOUR_MAP] = pattern_map_body,
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,
@@ -40,6 +42,8 @@ static const BlockHook bodies[KIND_COUNT] = {
 // At the closing brace.
 static const BlockHook closings[KIND_COUNT] = {
     [KIND_CAMERA] = camera_close, [KIND_PLANE] = plane_close,           [KIND_UNION] = union_close,
+    [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
+    [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
     [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close,
 };
@@ -410,12 +414,12 @@ static void refuse_word(Block *block, const AstNode *item)
     SchemaKind kind = block_kind(block->ev, item);
     if (schema_kind(kind)->is_object) {
         block_fault(block, DIAG_E0256, item->span,
-                    block->kind == KIND_UNION ? "`%s` must stand before the properties of the union"
-                                              : "`%s` cannot stand here",
+                    object_is_group(block->kind) ? "`%s` must stand before the properties of the union"
+                                                 : "`%s` cannot stand here",
                     schema_kind(kind)->word);
     } else if (word_class(item->symbol) == WORD_COLOUR) {
         block_fault(block, DIAG_E0254, item->span, "no colour is expected here in %s", block_word(block));
-    } else if (item->kind == AST_BLOCK && item->symbol >= WORD_COUNT && block->kind == KIND_UNION) {
+    } else if (item->kind == AST_BLOCK && item->symbol >= WORD_COUNT && object_is_group(block->kind)) {
         block->has_fault = true;
         block_unknown(block->ev, item);
     } else if (item->symbol >= WORD_COUNT ||

@@ -136,7 +136,28 @@ bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, S
 // object.c
 bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
-bool plane_close(Block *block) RT_MUST_CHECK;
 bool union_close(Block *block) RT_MUST_CHECK;
+bool object_is_group(SchemaKind kind); // a union, merge, intersection or difference
+
+// clip.c
+bool clip_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool inverse_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool clip_body(Block *block) RT_MUST_CHECK; // of clipped_by and bounded_by
+// Moves what clips or bounds an object along with it.
+bool clips_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
+
+// shape.c
+bool plane_close(Block *block) RT_MUST_CHECK;
+bool cylinder_close(Block *block) RT_MUST_CHECK;
+bool cone_close(Block *block) RT_MUST_CHECK;
+typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
+// A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. SHAPE_NOTHING,
+// with a warning, for one of no extent.
+ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part);
+// A fault: the transforms leave nothing of a shape.
+bool shape_flattened(Eval *ev, const ObjectPart *part);
+
+// place.c: an object and all that is in it become scene records.
+bool object_place(Eval *ev, SchemaKind kind, const void *object) RT_MUST_CHECK;
 
 #endif

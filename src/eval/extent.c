@@ -114,6 +114,23 @@ static Extent object_extent(SchemaKind kind, const void *object)
     }
 }
 
+// POV-Ray's boxes of other shapes, and of what is clipped, are not known.
+static bool has_known_extent(SchemaKind kind, const void *object)
+{
+    const ObjectPart *part = object;
+    if (kind == KIND_LIGHT_SOURCE || kind == KIND_PLANE) {
+        return true;
+    }
+    if ((kind != KIND_SPHERE && kind != KIND_UNION) || part->clips || part->bounds || part->is_inverse) {
+        return false;
+    }
+    const UnionMember *member = kind == KIND_UNION ? ((const UnionBlueprint *)object)->members : NULL;
+    while (member && has_known_extent(member->kind, member->object)) {
+        member = member->next;
+    }
+    return !member;
+}
+
 bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
 {
     Value object;
@@ -131,6 +148,10 @@ bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
     if (object.kind != VALUE_BLOCK || !schema_kind((SchemaKind)object.block)->is_object) {
         return eval_fault(ev, DIAG_E0264, name->span, "expected the name of an object, found %s",
                           value_describe(&object));
+    }
+    if (!has_known_extent((SchemaKind)object.block, object.record)) {
+        return eval_fault(ev, DIAG_E0285, name->span,
+                          "the extent of objects other than spheres, planes and their unions is not supported");
     }
     Extent extent = object_extent((SchemaKind)object.block, object.record);
     *value = (Value){.kind = VALUE_VECTOR, .components = 3};

@@ -1,25 +1,19 @@
-// Objects: blocks of shapes become immutable trees, and trees become scene records.
+// Objects: blocks of shapes become immutable trees, which are kept or placed.
 //
-// Placing a tree composes the transforms on the way down, gives untextured shapes the texture of the nearest union or
-// of #default, and adds one record for each shape and light. A top-level object lives on the stack and in scratch memory.
-// Knows nothing of rays.
+// A top-level object lives on the stack and in scratch memory, a declared one in the program's. Knows nothing of how a
+// tree becomes scene records.
 //
 // SPDX-License-Identifier: MIT
-#include <math.h>
 #include <string.h>
 
 #include "eval/blocks.h"
 
-bool plane_close(Block *block)
-{
-    // Named: any object may have been the pattern.
-    if (block->is == KIND_PLANE && vec3_equal(block->record->plane.normal, vec3(0.0, 0.0, 0.0))) {
-        return block_fault(block, DIAG_E0342, block->node->span, "the normal of a plane cannot be <0, 0, 0>");
-    }
-    return true;
-}
-
 // ---- members of unions and objects
+
+bool object_is_group(SchemaKind kind)
+{
+    return kind >= KIND_UNION && kind <= KIND_DIFFERENCE;
+}
 
 typedef struct MemberList {
     UnionMember **end;
@@ -36,7 +30,7 @@ static bool add_member(Block *block, MemberList *list, SchemaKind kind, const vo
     *list->end = member;
     list->end = &member->next;
     list->count++;
-    if (kind == KIND_UNION) {
+    if (object_is_group(kind)) {
         uint32_t depth = ((const UnionBlueprint *)object)->depth;
         list->depth = depth > list->depth ? depth : list->depth;
     }
@@ -126,7 +120,7 @@ bool object_members(Block *block)
     group->count = list.count;
     group->depth = list.depth + 1;
     if (group->depth > block->ev->options.limits->ast_depth) {
-        return block_fault(block, DIAG_E0601, block->node->span, "unions are nested more than %u deep",
+        return block_fault(block, DIAG_E0601, block->node->span, "objects are nested more than %u deep",
                            block->ev->options.limits->ast_depth);
     }
     return is_fine;
@@ -135,7 +129,9 @@ bool object_members(Block *block)
 bool union_close(Block *block)
 {
     if (!block->has_name && !block->has_unsupported && block->record->group.count < 2) {
-        eval_warn(block->ev, DIAG_W0407, block->node->span, "a union should have at least two objects");
+        bool begins_with_vowel = block->kind == KIND_INTERSECTION;
+        eval_warn(block->ev, DIAG_W0407, block->node->span, "%s %s should have at least two objects",
+                  begins_with_vowel ? "an" : "a", schema_kind(block->kind)->word);
     }
     return true;
 }
@@ -160,136 +156,6 @@ bool object_body(Block *block)
     return is_read;
 }
 
-// ---- placing
-
-typedef struct Placement {
-    Transform outer;
-    const TextureBlueprint *texture; // of the nearest object around that has one, else #default's
-    Transform texture_outer;         // of the texture
-    const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
-} Placement;
-
-static bool flattened(Eval *ev, const ObjectPart *part)
-{
-    return eval_fault(ev, DIAG_E0345, part->span, "the transforms leave a flat or infinite shape");
-}
-
-// Adding 0 makes -0 a 0, so that a matrix that is written and read again is the same.
-static void make_zeros_positive(Transform *transform)
-{
-    for (int row = 0; row < 4; row++) {
-        for (int column = 0; column < 3; column++) {
-            transform->m[row][column] += 0.0;
-        }
-    }
-}
-
-static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Transform *transform, MaterialIndex material)
-{
-    double radius = sphere->radius;
-    double factor;
-    uint64_t source = sphere->part.span.begin;
-    Vec3 size = vec3(radius, radius, radius);
-    Transform whole = transform_compose(transform_compose(transform_scale(size), transform_translate(sphere->centre)),
-                                        *transform);
-    bool is_similar = transform_is_similarity(transform, &factor);
-    double image = is_similar ? radius * factor : 0.0;
-    if (is_similar || transform_is_similarity(&whole, &image)) {
-        Vec3 centre = transform_point(transform, sphere->centre);
-        if (!vec3_is_finite(centre) || !isfinite(image) || !(image > 0.0)) {
-            return flattened(ev, &sphere->part);
-        }
-        return scene_add_sphere(ev->scene, centre, image, material, source) || eval_no_memory(ev, sphere->part.span);
-    }
-    Transform back;
-    make_zeros_positive(&whole);
-    if (!transform_is_finite(&whole) || !transform_invert(&whole, &back)) {
-        return flattened(ev, &sphere->part);
-    }
-    return scene_add_ellipsoid(ev->scene, &whole, &back, material, source) || eval_no_memory(ev, sphere->part.span);
-}
-
-// The image of n·p = d under p' = p M + t is n'·p' = d' with n' = M^-1 n (as a row vector n M^-T) and d' = d + n'·t.
-static bool place_plane(Eval *ev, const PlaneBlueprint *plane, const Transform *transform, MaterialIndex material)
-{
-    Transform back;
-    if (!transform_invert(transform, &back)) {
-        return flattened(ev, &plane->part);
-    }
-    Vec3 normal = transform_normal(&back, vector_unit(plane->normal));
-    Vec3 origin = vec3(transform->m[3][0], transform->m[3][1], transform->m[3][2]);
-    double length = vector_length(normal);
-    Vec3 unit = vector_unit(normal);
-    // A length of 1 to rounding was left alone by vector_unit, so it does not divide the distance either.
-    double distance = (vec3_equal(unit, normal) ? plane->distance : plane->distance / length) + vec3_dot(unit, origin);
-    if (!vec3_is_finite(unit) || !isfinite(distance) || vec3_equal(unit, vec3(0.0, 0.0, 0.0))) {
-        return flattened(ev, &plane->part);
-    }
-    return scene_add_plane(ev->scene, unit, distance, material, plane->part.span.begin) ||
-           eval_no_memory(ev, plane->part.span);
-}
-
-static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Placement *placement)
-{
-    const ObjectPart *part = object;
-    MaterialIndex index;
-    if (eval_cancelled(ev)) {
-        return false;
-    }
-    if (ev->scene->shape_count >= ev->options.limits->objects) {
-        if (eval_report(ev, DIAG_E0490, part->span, "more than %llu shapes in the scene",
-                        (unsigned long long)ev->options.limits->objects)) {
-            diag_suggest(ev->options.diags, "`--max-objects` allows more");
-        }
-        ev->stop = true; // only now: nothing is reported after it
-        return false;
-    }
-    if (ev->memory.used + scene_bytes(ev->scene) > ev->memory.limit) {
-        ev->memory.refused = true;
-        return eval_no_memory(ev, part->span);
-    }
-    if (!material_place(ev, placement->texture, &placement->texture_outer, placement->interior, part->span, &index)) {
-        return false;
-    }
-    return kind == KIND_SPHERE ? place_sphere(ev, object, &placement->outer, index)
-                               : place_plane(ev, object, &placement->outer, index);
-}
-
-// Recursive: object_members keeps trees from growing deeper than the limit.
-static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer)
-{
-    if (kind == KIND_LIGHT_SOURCE) {
-        return light_place(ev, object, &outer->outer);
-    }
-    const ObjectPart *part = object;
-    Placement inner = {
-        .outer = transform_compose(part->transform, outer->outer),
-        .texture = part->texture ? part->texture : outer->texture,
-        .texture_outer = part->texture ? outer->outer : outer->texture_outer,
-        .interior = part->interior ? part->interior : outer->interior,
-    };
-    if (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius == 0.0) {
-        eval_warn(ev, DIAG_W0348, part->span, "a sphere of radius 0 is not drawn");
-        return true;
-    }
-    if (kind != KIND_UNION) {
-        return place_shape(ev, kind, object, &inner);
-    }
-    bool is_fine = true;
-    for (const UnionMember *member = ((const UnionBlueprint *)object)->members; member && !ev->stop;
-         member = member->next) {
-        is_fine = place(ev, member->kind, member->object, &inner) && is_fine;
-    }
-    return is_fine;
-}
-
-static bool place_object(Eval *ev, SchemaKind kind, const void *object)
-{
-    Transform identity = transform_identity();
-    Placement world = {identity, ev->objects->defaults, identity, NULL};
-    return place(ev, kind, object, &world);
-}
-
 // ---- statements and right-hand sides
 
 static bool place_record(Eval *ev, const AstNode *item, SchemaKind is, const Blueprint *record)
@@ -298,7 +164,7 @@ static bool place_record(Eval *ev, const AstNode *item, SchemaKind is, const Blu
     case KIND_CAMERA: return camera_place(ev, &record->camera, item->span);
     case KIND_BACKGROUND:
     case KIND_GLOBAL_SETTINGS: return settings_place(ev, is, record);
-    default: return place_object(ev, is, record);
+    default: return object_place(ev, is, record);
     }
 }
 
@@ -316,7 +182,7 @@ static bool place_name(Eval *ev, const AstNode *item)
         return eval_fault(ev, DIAG_E0258, item->span, "expected an object or a directive, found %s",
                           value_describe(&value));
     }
-    return place_object(ev, (SchemaKind)value.block, value.record);
+    return object_place(ev, (SchemaKind)value.block, value.record);
 }
 
 static bool may_be_statement(SchemaKind kind)
@@ -407,7 +273,7 @@ static void index_words(Eval *ev)
     ObjectState *objects = ev->objects;
     for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaProperty *property;
-        if (kind != KIND_REFLECTION) {
+        if (kind != KIND_CLIPPED_BY && kind != KIND_BOUNDED_BY && kind != KIND_REFLECTION) {
             objects->kinds[word_symbol(ev, schema_kind((SchemaKind)kind)->word)] = (uint8_t)kind;
         }
         for (size_t i = 0; (property = schema_property((SchemaKind)kind, i)); i++) {

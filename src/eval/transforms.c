@@ -31,7 +31,7 @@ Vec3 vector_unit(Vec3 vector)
     return vec3(scaled.x / length, scaled.y / length, scaled.z / length);
 }
 
-// An object's texture moves with it.
+// An object's texture moves with it, and so do its clips.
 static bool apply(Block *block, const Transform *transform)
 {
     if (block->is == KIND_LIGHT_SOURCE) {
@@ -48,7 +48,7 @@ static bool apply(Block *block, const Transform *transform)
         texture_transform(texture, transform);
         *place = texture;
     }
-    return true;
+    return !schema_kind(block->is)->is_object || clips_transform(block, transform);
 }
 
 static bool read_vector(Block *block, const char *word, Span word_span, Vec3 *vector, Span *span)

@@ -28,6 +28,25 @@ static void range_add_row(ExponentRange *range, const double row[3])
     range_add(range, fmax(fabs(row[0]), fmax(fabs(row[1]), fabs(row[2]))));
 }
 
+// A box has lengths of its own; the other fixed shapes are as large as 1.
+static void range_add_part(ExponentRange *range, const Part *part)
+{
+    if (part->kind == PART_PLANE) {
+        range_add(range, part->data[1].x);
+        return;
+    }
+    const double *low = &part->data[0].x, *high = &part->data[1].x;
+    for (int row = 0; row < 4; row++) {
+        const double *m = part->to_world.m[row];
+        double size = fmax(fabs(m[0]), fmax(fabs(m[1]), fabs(m[2])));
+        if (part->kind == PART_BOX && row < 3) {
+            range_add(range, size * fmax(fabs(low[row]), fabs(high[row])));
+            size *= high[row] - low[row];
+        }
+        range_add(range, size);
+    }
+}
+
 // The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of the
 // greatest and the least are as far from overflow as from underflow. A scene times 2^k has an exponent greater by k, so
 // both become the same numbers. (The direction and screen of a perspective camera have no length that matters.)
@@ -45,6 +64,9 @@ static int scene_exponent(const Scene *scene)
     }
     for (size_t i = 0; i < scene->planes.count; i++) {
         range_add(&range, scene->planes.items[i].distance);
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        range_add_part(&range, &scene->parts.items[i]);
     }
     for (size_t i = 0; i < scene->lights.count; i++) {
         range_add(&range, vec3_max_abs(scene->lights.items[i].position));
@@ -255,7 +277,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->background = rgb_scale(1.0 - scene->background.transmit, rgbft_rgb(scene->background));
     p->max_trace_level = scene->settings.max_trace_level;
     p->adc_bailout = scene->settings.adc_bailout;
-    p->crossings_max = 2 * (uint64_t)scene->shape_count;
+    p->crossings_max = 2 * ((uint64_t)scene->shape_count + scene->parts.count);
     prepare_lists(p, scene, exponent);
     prepared_inside(p, p->camera.location, &p->start);
     p->features = needed_features(p, scene);

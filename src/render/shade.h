@@ -150,7 +150,7 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, R
         }
         ray.origin = surface.point;
         t_max -= hit.t;
-        start = (RayStart){hit.shape, !hit.inside};
+        start = (RayStart){hit.shape, !hit.inside, HIDDEN_SHADOW};
     }
     return share;
 }
@@ -160,7 +160,7 @@ RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, cons
                                       double distance, RenderStatistics *statistics)
 {
     Ray ray = {at->point, towards};
-    RayStart start = {at->shape, vec3_dot(at->outward, towards) < 0.0};
+    RayStart start = {at->shape, vec3_dot(at->outward, towards) < 0.0, HIDDEN_SHADOW};
     statistics->shadow_rays++;
     if (features & RENDER_TRANSPARENCY) {
         return shade_light_through(p, features, ray, start, distance);
@@ -268,7 +268,7 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
     }
     PendingRay ray = {
         .ray = {at->point, vec3_normalize(vec3_reflect(at->direction, at->normal))},
-        .start = {at->shape, at->inside},
+        .start = {at->shape, at->inside, HIDDEN_MIRROR},
         .share = rgb_mul(from->share, onward->reflectance),
         .weight = weight,
         .level = from->level + 1,
@@ -297,7 +297,7 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
     }
     pending->rays[pending->count++] = (PendingRay){
         .ray = {at->point, at->direction},
-        .start = {at->shape, !at->inside},
+        .start = {at->shape, !at->inside, from->start.use},
         .share = rgb_mul(from->share, through),
         .weight = weight,
         .level = from->level,
@@ -334,7 +334,7 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, const ShadeOnward *onward, c
     if (pending->count > place) {
         PendingRay *ray = &pending->rays[place];
         ray->ray = (Ray){at->point, direction};
-        ray->start = (RayStart){at->shape, is_bent != at->inside};
+        ray->start = (RayStart){at->shape, is_bent != at->inside, from->start.use};
         ray->level = from->level + 1;
         ray->passed = 0;
         ray->known = NULL;
@@ -512,8 +512,12 @@ RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const Pend
 RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, const Hit *known,
                                RenderStatistics *statistics)
 {
-    PendingRay first = {
-        .ray = ray, .start = RAY_START_FREE, .share = rgb_grey(1.0), .weight = 1.0, .level = 1, .known = known};
+    PendingRay first = {.ray = ray,
+                        .start = RAY_START_CAMERA,
+                        .share = rgb_grey(1.0),
+                        .weight = 1.0,
+                        .level = 1,
+                        .known = known};
     if (features & (RENDER_REFLECTION | RENDER_TRANSPARENCY)) {
         return shade_path(p, features, &first, statistics);
     }

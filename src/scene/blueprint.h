@@ -71,11 +71,24 @@ struct PatternMap {
     size_t count;
 };
 
+// One object of a clipped_by or bounded_by, moved by the transforms that came after it.
+typedef struct Clip Clip;
+struct Clip {
+    const Clip *next;
+    const void *object; // the blueprint of its kind
+    SchemaKind kind;
+    Transform transform;
+};
+
 // Common to everything that may be an object.
 typedef struct ObjectPart {
     Transform transform;
     bool hollow, split_union;
     const InteriorBlueprint *interior; // of its own; NULL: taken over
+    bool is_inverse;
+    bool no_shadow, no_image, no_reflection;
+    bool ignored; // what changes no picture
+    const Clip *clips, *bounds; // in order
     const TextureBlueprint *texture; // of its own, as it is moved with the object; NULL: taken over
     Span span;
 } ObjectPart;
@@ -100,6 +113,43 @@ typedef struct PlaneBlueprint {
     double distance;
 } PlaneBlueprint;
 
+typedef struct BoxBlueprint {
+    ObjectPart part;
+    Vec3 corner, other_corner;
+} BoxBlueprint;
+
+typedef struct CylinderBlueprint {
+    ObjectPart part;
+    Vec3 base, cap;
+    double radius;
+    bool is_open;
+} CylinderBlueprint;
+
+typedef struct ConeBlueprint {
+    ObjectPart part;
+    Vec3 base;
+    double base_radius;
+    Vec3 cap;
+    double cap_radius;
+    bool is_open;
+} ConeBlueprint;
+
+typedef struct DiscBlueprint {
+    ObjectPart part;
+    Vec3 centre, normal;
+    double radius, hole;
+} DiscBlueprint;
+
+typedef struct TriangleBlueprint {
+    ObjectPart part;
+    Vec3 corners[3];
+} TriangleBlueprint;
+
+typedef struct SmoothTriangleBlueprint {
+    ObjectPart part;
+    Vec3 corners[3], normals[3];
+} SmoothTriangleBlueprint;
+
 typedef struct UnionMember UnionMember;
 struct UnionMember {
     UnionMember *next;
@@ -114,12 +164,14 @@ struct UnionStep {
     const UnionStep *earlier;
 };
 
+// A union, merge, intersection or difference; the objects in clipped_by or bounded_by.
 typedef struct UnionBlueprint {
     ObjectPart part;
     const UnionStep *steps; // the last one first
     const UnionMember *members;
     uint32_t count;
-    uint32_t depth; // of the unions inside, this one included
+    uint32_t depth;       // of the unions inside, this one included
+    bool is_other_block;  // `clipped_by { bounded_by }` or the other way round
 } UnionBlueprint;
 
 typedef struct BackgroundBlueprint {
@@ -162,6 +214,12 @@ typedef union Blueprint {
     LightBlueprint light;
     SphereBlueprint sphere;
     PlaneBlueprint plane;
+    BoxBlueprint box;
+    CylinderBlueprint cylinder;
+    ConeBlueprint cone;
+    DiscBlueprint disc;
+    TriangleBlueprint triangle;
+    SmoothTriangleBlueprint smooth_triangle;
     UnionBlueprint group;
     BackgroundBlueprint background;
     SettingsBlueprint settings;

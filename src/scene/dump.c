@@ -1,13 +1,12 @@
 // The printable form of scene records: `.scn` text that evaluates to the same records again.
 //
-// Turns numbers into their shortest decimal forms, which read back as the same bits, and colours into phrases that keep
+// Shapes that are not plain ones are in dump_part.c. Turns numbers into their shortest decimal forms, which read back as the same bits, and colours into phrases that keep
 // all components. Knows only what it writes of the language.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
 #include "scene/dump.h"
-#include "scene/scene.h"
 
 void dump_numbers(TextBuffer *out, const double *numbers, size_t count)
 {
@@ -124,7 +123,7 @@ static void dump_material(const Material *material, size_t number, TextBuffer *o
 }
 
 // The texture of a shape, which is its last property.
-static void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer *out)
+void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer *out)
 {
     if (material & MATERIAL_COMPOUND) {
         const Compound *compound = &scene->compounds.items[material & ~MATERIAL_COMPOUND];
@@ -159,17 +158,22 @@ static void dump_plane(const Scene *scene, const Plane *plane, TextBuffer *out)
     dump_texture(scene, plane->material, out);
 }
 
-// Each array is in the order of declaration, so the three are merged.
+// Each array is in the order of declaration, so they are merged.
 static void dump_shapes(const Scene *scene, TextBuffer *out)
 {
-    size_t sphere = 0, ellipsoid = 0, plane = 0;
+    size_t sphere = 0, ellipsoid = 0, plane = 0, part = 0, composite = 0;
     for (uint32_t order = 0; order < scene->shape_count; order++) {
         if (sphere < scene->spheres.count && scene->spheres.items[sphere].order == order) {
             dump_sphere(scene, &scene->spheres.items[sphere++], out);
         } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
             dump_plane(scene, &scene->planes.items[plane++], out);
-        } else {
+        } else if (ellipsoid < scene->ellipsoids.count && scene->ellipsoids.items[ellipsoid].order == order) {
             dump_ellipsoid(scene, &scene->ellipsoids.items[ellipsoid++], out);
+        } else if (composite < scene->composites.count && scene->composites.items[composite].order == order) {
+            part += scene->composites.items[composite].part_count;
+            dump_composite(scene, &scene->composites.items[composite++], out);
+        } else {
+            dump_part(scene, &scene->parts.items[part++], out);
         }
     }
 }

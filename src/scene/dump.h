@@ -17,5 +17,11 @@ void dump_numbers(TextBuffer *out, const double *numbers, size_t count);
 
 // Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its finishes.
 void dump_textures(const Scene *scene, TextBuffer *out);
+// The texture of a shape, which is its last property, and its end.
+void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer *out);
+
+// Shapes that are not plain ones.
+void dump_part(const Scene *scene, const Part *part, TextBuffer *out);
+void dump_composite(const Scene *scene, const Composite *composite, TextBuffer *out);
 
 #endif

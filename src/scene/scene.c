@@ -50,6 +50,9 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->spheres);
     ARRAY_FREE(&scene->ellipsoids);
     ARRAY_FREE(&scene->planes);
+    ARRAY_FREE(&scene->parts);
+    ARRAY_FREE(&scene->nodes);
+    ARRAY_FREE(&scene->composites);
     unique_fini(&scene->finish_index);
     unique_fini(&scene->material_index);
     unique_fini(&scene->pigment_entry_index);
@@ -135,7 +138,8 @@ size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
     return LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) + LIST_BYTES(scene->finishes) +
-           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes);
+           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
+           LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites);
 #undef LIST_BYTES
 }
 
@@ -173,4 +177,67 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
     }
     scene->shape_count++;
     return true;
+}
+
+bool scene_add_part(Scene *scene, const Part *part)
+{
+    if (scene->shape_count == UINT32_MAX || !ARRAY_PUSH(&scene->parts, *part)) {
+        return false;
+    }
+    Part *added = &scene->parts.items[scene->parts.count - 1];
+    added->node = NODE_NONE;
+    added->order = scene->shape_count++;
+    return true;
+}
+
+bool scene_begin_composite(Scene *scene, uint8_t hidden, uint64_t source)
+{
+    Composite composite = {
+        .first_node = (uint32_t)scene->nodes.count,
+        .first_part = (uint32_t)scene->parts.count,
+        .hidden = hidden,
+        .order = scene->shape_count,
+        .source = source,
+    };
+    if (scene->shape_count == UINT32_MAX || !ARRAY_PUSH(&scene->composites, composite)) {
+        return false;
+    }
+    scene->shape_count++;
+    return true;
+}
+
+bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, uint64_t source, uint32_t *index)
+{
+    Node node = {
+        .op = op,
+        .is_inverse = is_inverse,
+        .parent = parent,
+        .first_part = (uint32_t)scene->parts.count,
+        .source = source,
+    };
+    *index = (uint32_t)scene->nodes.count;
+    if (!ARRAY_PUSH(&scene->nodes, node)) {
+        return false;
+    }
+    if (parent != NODE_NONE) {
+        scene->nodes.items[parent].child_count++;
+    }
+    return true;
+}
+
+bool scene_add_leaf(Scene *scene, const Part *part)
+{
+    if (!ARRAY_PUSH(&scene->parts, *part)) {
+        return false;
+    }
+    scene->parts.items[scene->parts.count - 1].order = scene->shape_count - 1;
+    scene->nodes.items[part->node].child_count++;
+    return true;
+}
+
+void scene_end_composite(Scene *scene)
+{
+    Composite *composite = &scene->composites.items[scene->composites.count - 1];
+    composite->node_count = (uint32_t)scene->nodes.count - composite->first_node;
+    composite->part_count = (uint32_t)scene->parts.count - composite->first_part;
 }

@@ -160,6 +160,75 @@ typedef struct Plane {
     uint64_t source;
 } Plane;
 
+// A shape of any other kind, or one that not all rays see, alone or as a leaf of a composite. Each but the plane is a
+// fixed shape under an affine map:
+//   ball            the unit sphere
+//   plane           all points p with p·data[0] = data[1].x, in the scene itself; inside is where p·data[0] is less
+//   box             from data[0] to data[1], each coordinate of data[0] no greater
+//   cone            z from 0 to 1, of radius 1 + (data[0].x - 1) z; a cylinder when data[0].x = 1, which is the greatest
+//   disc            z = 0, from radius data[0].x to 1
+//   triangle        <0,0,0>, <1,0,0>, <0,1,0>
+//   smooth triangle the same, with normals data[0..2] at the corners that are of length 1 in the scene itself
+typedef enum PartKind {
+    PART_BALL,
+    PART_PLANE,
+    PART_BOX,
+    PART_CONE,
+    PART_DISC,
+    PART_TRIANGLE,
+    PART_SMOOTH_TRIANGLE,
+} PartKind;
+
+typedef enum PartFlag {
+    PART_INVERSE = 1, // inside and outside change places
+    PART_OPEN = 2,    // a cone without the two discs at its ends
+    PART_UNSEEN = 4,  // clips others, has no surface itself
+} PartFlag;
+
+// Rays that pass a shape as if it were not there.
+typedef enum HiddenFrom { HIDDEN_CAMERA = 1, HIDDEN_SHADOW = 2, HIDDEN_MIRROR = 4 } HiddenFrom;
+
+#define NODE_NONE UINT32_MAX
+
+typedef struct Part {
+    PartKind kind;
+    uint8_t flags, hidden;  // PartFlag, HiddenFrom bits; hidden counts only outside of composites
+    uint32_t node;          // of the scene, that it is a leaf of; NODE_NONE alone
+    MaterialIndex material; // of no meaning when unseen
+    uint32_t order;         // of a leaf: the composite's
+    uint64_t source;
+    Transform to_world, to_object; // inverse of each other
+    Vec3 data[3];
+} Part;
+
+typedef enum NodeOp {
+    NODE_UNION,        // inside where some child is; all surfaces are seen
+    NODE_MERGE,        // likewise; no surface inside of another child is seen
+    NODE_INTERSECTION, // inside where all children are
+    NODE_CLIP,         // likewise; all children but the first are unseen
+} NodeOp;
+
+typedef struct Node {
+    NodeOp op;
+    bool is_inverse;
+    uint32_t parent; // NODE_NONE: the root
+    uint32_t child_count;
+    uint32_t first_part; // parts that stand before it in the scene
+    uint64_t source;
+} Node;
+
+// A ray keeps a few words for each leaf of a composite on its stack.
+enum { COMPOSITE_PARTS_MOST = 10000 };
+
+// A tree of nodes over parts. Nodes and parts stand in the order of the text, a node before what is in it.
+typedef struct Composite {
+    uint32_t first_node, node_count; // the root first
+    uint32_t first_part, part_count;
+    uint8_t hidden; // HiddenFrom bits
+    uint32_t order;
+    uint64_t source;
+} Composite;
+
 // How the values of the picture relate to light, see docs/language.md, "Gamma".
 typedef enum GammaModel {
     GAMMA_LINEAR, // the working space is linear light
@@ -195,7 +264,10 @@ typedef struct Scene {
     ARRAY(Sphere) spheres;
     ARRAY(Ellipsoid) ellipsoids;
     ARRAY(Plane) planes;
-    uint32_t shape_count;                 // spheres, ellipsoids and planes
+    ARRAY(Part) parts;
+    ARRAY(Node) nodes;
+    ARRAY(Composite) composites;
+    uint32_t shape_count; // spheres, ellipsoids, planes, composites and parts that stand alone
     UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, texture_entry_index, texture_index,
         interior_index, compound_index;
 } Scene;
@@ -240,6 +312,17 @@ bool scene_add_ellipsoid(Scene *scene, const Transform *to_world, const Transfor
                          uint64_t source) RT_MUST_CHECK;
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material,
                      uint64_t source) RT_MUST_CHECK;
+
+// Adds a part that stands alone.
+bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
+
+// A composite begins, then come its nodes and leaves in their order, each with its parent; scene_end_composite sets what
+// is counted. A leaf's `node` and a node's `parent` are indices into Scene.nodes.
+bool scene_begin_composite(Scene *scene, uint8_t hidden, uint64_t source) RT_MUST_CHECK;
+bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, uint64_t source,
+                    uint32_t *index) RT_MUST_CHECK;
+bool scene_add_leaf(Scene *scene, const Part *part) RT_MUST_CHECK;
+void scene_end_composite(Scene *scene);
 
 // Checks what only the whole scene can tell (a camera is missing, …) and what the renderer relies on. False when a
 // fault was reported; the renderer may then not be called.

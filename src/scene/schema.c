@@ -1,4 +1,4 @@
-// The schema's tables, and their Markdown form.
+// The schema's tables.
 //
 // Turns nothing into anything by itself: constant data that the evaluator walks. Knows nothing of tokens or values.
 //
@@ -6,7 +6,6 @@
 #include "scene/schema.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/attributes.h"
 #include "scene/blueprint.h"
@@ -63,7 +62,14 @@ static const SchemaProperty object_modifiers[] = {
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
     {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what it is filled with"},
     {"material", TYPE_BLOCK, ACTION_MATERIAL, .doc = "a texture and an interior"},
+    {"clipped_by", TYPE_BLOCK, ACTION_CLIP, .doc = "`{ objects }`: only what is inside of all of them is seen"},
+    {"bounded_by", TYPE_BLOCK, ACTION_CLIP, .doc = "`{ objects }`: accepted; changes no picture of what is inside of them"},
+    {"inverse", TYPE_ACTION, ACTION_INVERSE, .doc = "alone: inside and outside change places"},
+    {"no_shadow", TYPE_FLAG, AT(ObjectPart, no_shadow), .doc = "takes no light from others"},
+    {"no_image", TYPE_FLAG, AT(ObjectPart, no_image), .doc = "is not seen by the camera, nor through others"},
+    {"no_reflection", TYPE_FLAG, AT(ObjectPart, no_reflection), .doc = "is not seen in mirrors"},
     {"hollow", TYPE_SWITCH, AT(ObjectPart, hollow), .doc = "accepted; changes no picture without media"},
+    {"no_radiosity", TYPE_FLAG, AT(ObjectPart, ignored), .doc = "accepted; changes no picture"},
 };
 
 // ---- kinds
@@ -120,11 +126,76 @@ static const SchemaProperty plane_arguments[] = {
 
 static const PlaneBlueprint plane_defaults = {.part = OBJECT_PART, .normal = {0, 1, 0}};
 
-static const SchemaProperty union_properties[] = {
-    {"split_union", TYPE_SWITCH, AT(ObjectPart, split_union), .doc = "accepted; changes no picture"},
+static const SchemaProperty box_arguments[] = {
+    {"corner", TYPE_VECTOR, AT(BoxBlueprint, corner), .doc = "one of its corners"},
+    {"other corner", TYPE_VECTOR, AT(BoxBlueprint, other_corner), .doc = "the one opposite"},
 };
 
-static const UnionBlueprint union_defaults = {.part = OBJECT_PART};
+static const BoxBlueprint box_defaults = {.part = OBJECT_PART};
+
+// POV-Ray takes the absolute value of a negative radius of a cylinder, and draws a cone of one upside down.
+#define RADIUS {RANGE_FAULT, false, 0.0, INFINITY}
+
+static const SchemaProperty cylinder_arguments[] = {
+    {"base", TYPE_VECTOR, AT(CylinderBlueprint, base), .doc = "the middle of one end"},
+    {"cap", TYPE_VECTOR, AT(CylinderBlueprint, cap), .doc = "the middle of the other end"},
+    {"radius", TYPE_NUMBER, AT(CylinderBlueprint, radius), .range = RADIUS, .doc = "0: not drawn"},
+};
+
+static const SchemaProperty cylinder_properties[] = {
+    {"open", TYPE_FLAG, AT(CylinderBlueprint, is_open), .is_first = true, .doc = "without the discs at its ends"},
+};
+
+static const CylinderBlueprint cylinder_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty cone_arguments[] = {
+    {"base", TYPE_VECTOR, AT(ConeBlueprint, base), .doc = "the middle of one end"},
+    {"base radius", TYPE_NUMBER, AT(ConeBlueprint, base_radius), .range = RADIUS, .doc = "there"},
+    {"cap", TYPE_VECTOR, AT(ConeBlueprint, cap), .doc = "the middle of the other end"},
+    {"cap radius", TYPE_NUMBER, AT(ConeBlueprint, cap_radius), .range = RADIUS, .doc = "there; both 0: not drawn"},
+};
+
+static const SchemaProperty cone_properties[] = {
+    {"open", TYPE_FLAG, AT(ConeBlueprint, is_open), .is_first = true, .doc = "without the discs at its ends"},
+};
+
+static const ConeBlueprint cone_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty disc_arguments[] = {
+    {"centre", TYPE_VECTOR, AT(DiscBlueprint, centre), .doc = "its middle"},
+    {"normal", TYPE_VECTOR, AT(DiscBlueprint, normal), .doc = "at right angles to it; any length, 0: not drawn"},
+    {"radius", TYPE_NUMBER, AT(DiscBlueprint, radius), .range = RADIUS, .doc = "0: not drawn"},
+    {"hole", TYPE_NUMBER, AT(DiscBlueprint, hole), .is_optional = true, .range = RADIUS,
+     .doc = "radius of a hole; not less than the radius: not drawn"},
+};
+
+static const DiscBlueprint disc_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty triangle_arguments[] = {
+    {"first corner", TYPE_VECTOR, AT(TriangleBlueprint, corners[0]), .doc = "in any order"},
+    {"second corner", TYPE_VECTOR, AT(TriangleBlueprint, corners[1]), .doc = "likewise"},
+    {"third corner", TYPE_VECTOR, AT(TriangleBlueprint, corners[2]), .doc = "on one line with the others: not drawn"},
+};
+
+static const TriangleBlueprint triangle_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty smooth_triangle_arguments[] = {
+    {"first corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[0]), .doc = "in any order"},
+    {"first normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[0]), .doc = "there; 0: not drawn"},
+    {"second corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[1]), .doc = "likewise"},
+    {"second normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[1]), .doc = "likewise"},
+    {"third corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[2]), .doc = "on one line with the others: not drawn"},
+    {"third normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[2]), .doc = "likewise"},
+};
+
+static const SmoothTriangleBlueprint smooth_triangle_defaults = {.part = OBJECT_PART};
+
+static const SchemaProperty union_properties[] = {
+    {"split_union", TYPE_SWITCH, AT(ObjectPart, split_union),
+     .doc = "off: `no_image` and the like count for the union alone, not for its members"},
+};
+
+static const UnionBlueprint union_defaults = {.part = {.transform = IDENTITY, .split_union = true}};
 
 static const SchemaProperty background_arguments[] = {
     {"colour", TYPE_COLOUR, AT(BackgroundBlueprint, colour), .is_optional = true, .doc = "seen where nothing is hit"},
@@ -292,6 +363,54 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .arguments = LIST(plane_arguments),
                     .groups = {OBJECT_GROUPS},
                     .doc = "An endless plane."},
+    [KIND_BOX] = {.word = "box",
+                  .size = sizeof(BoxBlueprint),
+                  .defaults = &box_defaults,
+                  .is_object = true,
+                  .is_declarable = true,
+                  .arguments = LIST(box_arguments),
+                  .groups = {OBJECT_GROUPS},
+                  .doc = "Six faces, along the axes until it is transformed. It may be flat."},
+    [KIND_CYLINDER] = {.word = "cylinder",
+                       .size = sizeof(CylinderBlueprint),
+                       .defaults = &cylinder_defaults,
+                       .is_object = true,
+                       .is_declarable = true,
+                       .arguments = LIST(cylinder_arguments),
+                       .groups = {LIST(cylinder_properties), OBJECT_GROUPS},
+                       .doc = "Round, of one radius, between two points that differ."},
+    [KIND_CONE] = {.word = "cone",
+                   .size = sizeof(ConeBlueprint),
+                   .defaults = &cone_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .arguments = LIST(cone_arguments),
+                   .groups = {LIST(cone_properties), OBJECT_GROUPS},
+                   .doc = "Round, with a radius at each of two points that differ."},
+    [KIND_DISC] = {.word = "disc",
+                   .size = sizeof(DiscBlueprint),
+                   .defaults = &disc_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .arguments = LIST(disc_arguments),
+                   .groups = {OBJECT_GROUPS},
+                   .doc = "Round and flat, without an inside: not for merge, intersection, difference and `clipped_by`."},
+    [KIND_TRIANGLE] = {.word = "triangle",
+                       .size = sizeof(TriangleBlueprint),
+                       .defaults = &triangle_defaults,
+                       .is_object = true,
+                       .is_declarable = true,
+                       .arguments = LIST(triangle_arguments),
+                       .groups = {OBJECT_GROUPS},
+                       .doc = "Flat, without an inside: not for merge, intersection, difference and `clipped_by`."},
+    [KIND_SMOOTH_TRIANGLE] = {.word = "smooth_triangle",
+                              .size = sizeof(SmoothTriangleBlueprint),
+                              .defaults = &smooth_triangle_defaults,
+                              .is_object = true,
+                              .is_declarable = true,
+                              .arguments = LIST(smooth_triangle_arguments),
+                              .groups = {OBJECT_GROUPS},
+                              .doc = "A triangle that is lit as if its normal went over from corner to corner."},
     [KIND_UNION] = {.word = "union",
                     .size = sizeof(UnionBlueprint),
                     .defaults = &union_defaults,
@@ -299,6 +418,27 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .is_declarable = true,
                     .groups = {LIST(union_properties), OBJECT_GROUPS},
                     .doc = "Objects first, then what holds for all of them. Its texture is for those that have none."},
+    [KIND_MERGE] = {.word = "merge",
+                    .size = sizeof(UnionBlueprint),
+                    .defaults = &union_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .groups = {LIST(union_properties), OBJECT_GROUPS},
+                    .doc = "A union without the surfaces inside of it."},
+    [KIND_INTERSECTION] = {.word = "intersection",
+                           .size = sizeof(UnionBlueprint),
+                           .defaults = &union_defaults,
+                           .is_object = true,
+                           .is_declarable = true,
+                           .groups = {OBJECT_GROUPS},
+                           .doc = "What is inside of all its objects."},
+    [KIND_DIFFERENCE] = {.word = "difference",
+                         .size = sizeof(UnionBlueprint),
+                         .defaults = &union_defaults,
+                         .is_object = true,
+                         .is_declarable = true,
+                         .groups = {OBJECT_GROUPS},
+                         .doc = "What is inside of the first object and of none of the others."},
     [KIND_OBJECT] = {.word = "object",
                      .size = sizeof(UnionBlueprint),
                      .defaults = &union_defaults,
@@ -363,6 +503,14 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                        .is_declarable = true,
                        .groups = {LIST(material_properties), TRANSFORMS},
                        .doc = "A texture and an interior in one."},
+    [KIND_CLIPPED_BY] = {.word = "clipped_by",
+                         .size = sizeof(UnionBlueprint),
+                         .defaults = &union_defaults,
+                         .doc = "In an object: solids without textures, or the word `bounded_by` for what stands there."},
+    [KIND_BOUNDED_BY] = {.word = "bounded_by",
+                         .size = sizeof(UnionBlueprint),
+                         .defaults = &union_defaults,
+                         .doc = "In an object: likewise, or the word `clipped_by`."},
     [KIND_REFLECTION] = {.word = "reflection",
                          .size = sizeof(FinishBlueprint),
                          .defaults = &finish_defaults,
@@ -384,21 +532,14 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 static const SchemaUnsupported unsupported[] = {
     {"bicubic_patch", true, NULL},
     {"blob", true, "use a `union` of spheres"},
-    {"box", true, "use planes, or a `union` of spheres"},
-    {"cone", true, "use a `union` of spheres"},
     {"cubic", true, NULL},
-    {"cylinder", true, "use a `union` of spheres, or a sphere with `scale`"},
-    {"difference", true, NULL},
-    {"disc", true, "use a sphere with `scale`"},
     {"fog", true, NULL},
     {"height_field", true, NULL},
-    {"intersection", true, NULL},
     {"isosurface", true, NULL},
     {"julia_fractal", true, NULL},
     {"lathe", true, NULL},
     {"light_group", true, "use a `union`"},
     {"media", true, NULL},
-    {"merge", true, "use a `union`"},
     {"mesh", true, NULL},
     {"mesh2", true, NULL},
     {"ovus", true, "use a sphere with `scale`"},
@@ -411,17 +552,16 @@ static const SchemaUnsupported unsupported[] = {
     {"quartic", true, NULL},
     {"rainbow", true, NULL},
     {"sky_sphere", true, "use `background`"},
-    {"smooth_triangle", true, NULL},
     {"sor", true, NULL},
     {"sphere_sweep", true, "use a `union` of spheres"},
     {"superellipsoid", true, "use a sphere with `scale`"},
     {"text", true, NULL},
     {"torus", true, "use a `union` of spheres"},
-    {"triangle", true, NULL},
     {"area_light", false, "a point light is as near as it comes"},
-    {"bounded_by", false, "leave it out: it is not needed"},
     {"inverse", false, "leave it out: both sides of a surface look alike"},
     {"no_shadow", false, "a light may be `shadowless`"},
+    {"fresnel", false, "give `reflection { min, max }`"},
+    {"ior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
     {"spotlight", false, "a point light is as near as it comes"},
 };
 
@@ -452,162 +592,21 @@ const SchemaUnsupported *schema_unsupported(size_t index)
     return index < RT_COUNT_OF(unsupported) ? &unsupported[index] : NULL;
 }
 
-static const struct {
-    const char *name; // in the reference
-    const char *need; // in messages
-} types[] = {
-    [TYPE_FLAG] = {"alone", "nothing"},
-    [TYPE_SWITCH] = {"alone, or a truth value", "a truth value"},
-    [TYPE_NUMBER] = {"number", "a number"},
-    [TYPE_OPTIONAL_NUMBER] = {"alone, or a number", "a number"},
-    [TYPE_SHARE] = {"[`albedo`] number", "a number"},
-    [TYPE_SHARE_PAIR] = {"[`albedo`] number [, number]", "a number"},
-    [TYPE_INTEGER] = {"whole number", "a number"},
-    [TYPE_VECTOR] = {"vector", "a vector"},
-    [TYPE_COLOUR] = {"colour", "a colour"},
-    [TYPE_RGB] = {"colour, rgb", "a colour"},
-    [TYPE_BLOCK] = {"`{ … }`", "braces"},
-    [TYPE_ACTION] = {"see right", "a value"},
-};
-
 const char *schema_type_need(SchemaType type)
 {
-    return types[type].need;
-}
-
-// ---- the reference
-
-// A default as it is written: the shortest number that is the same in the precision the blueprint has.
-static void write_numbers(TextBuffer *out, const double *numbers, size_t count, bool is_single)
-{
-    text_append(out, count > 1 ? "<" : "");
-    for (size_t i = 0; i < count; i++) {
-        text_append(out, i ? ", " : "");
-        if (is_single) {
-            text_printf(out, "%.7g", numbers[i]);
-        } else {
-            text_append_double(out, numbers[i]);
-        }
-    }
-    text_append(out, count > 1 ? ">" : "");
-}
-
-static void write_default(TextBuffer *out, const SchemaBlock *kind, const SchemaProperty *property)
-{
-    const char *at = (const char *)kind->defaults + property->at;
-    double numbers[5];
-    bool flag;
-    int integer;
-    switch (property->type) {
-    case TYPE_FLAG:
-    case TYPE_SWITCH:
-        memcpy(&flag, at, sizeof flag);
-        text_append(out, flag ? "on" : "off");
-        break;
-    case TYPE_NUMBER:
-    case TYPE_OPTIONAL_NUMBER:
-    case TYPE_SHARE:
-    case TYPE_SHARE_PAIR:
-        memcpy(numbers, at, sizeof *numbers);
-        write_numbers(out, numbers, 1, false);
-        break;
-    case TYPE_INTEGER:
-        memcpy(&integer, at, sizeof integer);
-        text_printf(out, "%d", integer);
-        break;
-    case TYPE_VECTOR:
-        memcpy(numbers, at, 3 * sizeof *numbers);
-        write_numbers(out, numbers, 3, false);
-        break;
-    case TYPE_RGB:
-        memcpy(numbers, at, 3 * sizeof *numbers);
-        write_numbers(out, numbers, 3, true);
-        break;
-    case TYPE_COLOUR:
-        memcpy(numbers, at, 5 * sizeof *numbers);
-        write_numbers(out, numbers, 5, true);
-        break;
-    case TYPE_BLOCK:
-    case TYPE_ACTION: break;
-    }
-}
-
-static void write_range(TextBuffer *out, const SchemaRange *range)
-{
-    static const char *const policies[] = {
-        [RANGE_ANY] = "", [RANGE_FAULT] = "error", [RANGE_WARN] = "warning", [RANGE_CLAMP] = "warning, nearest"};
-    if (range->policy == RANGE_ANY) {
-        return;
-    }
-    text_append(out, range->low_is_open ? "> " : ">= ");
-    text_append_double(out, range->low);
-    if (isfinite(range->high)) {
-        text_append(out, ", <= ");
-        text_append_double(out, range->high);
-    }
-    text_printf(out, " (else %s)", policies[range->policy]);
-}
-
-static void write_row(TextBuffer *out, const SchemaBlock *kind, const SchemaProperty *property, bool is_argument)
-{
-    text_printf(out, is_argument ? "| *%s* | %s | " : "| `%s` | %s | ", property->word, types[property->type].name);
-    if (!is_argument) {
-        write_default(out, kind, property);
-    } else {
-        text_append(out, property->is_optional ? "may be left out" : "needed");
-    }
-    text_append(out, " | ");
-    write_range(out, &property->range);
-    text_printf(out, " | %s%s |\n", property->is_first ? "stands first; " : "", property->doc);
-}
-
-static bool is_shared(const SchemaList *list)
-{
-    return list->items == transforms || list->items == object_modifiers || list->items == pattern_modifiers;
-}
-
-static void write_kind(TextBuffer *out, const SchemaBlock *kind)
-{
-    text_printf(out, "### %s\n\n%s", kind->word, kind->doc);
-    for (size_t i = 0; i < SCHEMA_GROUPS; i++) {
-        if (kind->groups[i].items == object_modifiers) {
-            text_append(out, " Takes object modifiers.");
-        } else if (kind->groups[i].items == pattern_modifiers) {
-            text_append(out, " Takes patterns.");
-        } else if (kind->groups[i].items == transforms) {
-            text_append(out, " Takes transforms.");
-        }
-    }
-    text_append(out, "\n\n");
-    size_t own = is_shared(&kind->groups[0]) ? 0 : kind->groups[0].count;
-    if (kind->arguments.count + own == 0) {
-        return;
-    }
-    text_append(out, "| word | takes | default | range | |\n|---|---|---|---|---|\n");
-    for (size_t i = 0; i < kind->arguments.count; i++) {
-        write_row(out, kind, &kind->arguments.items[i], true);
-    }
-    for (size_t i = 0; i < own; i++) {
-        write_row(out, kind, &kind->groups[0].items[i], false);
-    }
-    text_append(out, "\n");
-}
-
-static void write_group(TextBuffer *out, const char *title, const SchemaProperty *items, size_t count)
-{
-    text_printf(out, "### %s\n\n| word | |\n|---|---|\n", title);
-    for (size_t i = 0; i < count; i++) {
-        text_printf(out, "| `%s` | %s |\n", items[i].word, items[i].doc);
-    }
-    text_append(out, "\n");
-}
-
-void schema_write_reference(TextBuffer *out)
-{
-    for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
-        write_kind(out, &kinds[kind]);
-    }
-    write_group(out, "Object modifiers", object_modifiers, RT_COUNT_OF(object_modifiers));
-    write_group(out, "Patterns", pattern_modifiers, RT_COUNT_OF(pattern_modifiers));
-    write_group(out, "Transforms", transforms, RT_COUNT_OF(transforms));
+    static const char *const needs[] = {
+        [TYPE_FLAG] = "nothing",
+        [TYPE_SWITCH] = "a truth value",
+        [TYPE_NUMBER] = "a number",
+        [TYPE_OPTIONAL_NUMBER] = "a number",
+        [TYPE_SHARE] = "a number",
+        [TYPE_SHARE_PAIR] = "a number",
+        [TYPE_INTEGER] = "a number",
+        [TYPE_VECTOR] = "a vector",
+        [TYPE_COLOUR] = "a colour",
+        [TYPE_RGB] = "a colour",
+        [TYPE_BLOCK] = "braces",
+        [TYPE_ACTION] = "a value",
+    };
+    return needs[type];
 }

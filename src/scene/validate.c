@@ -108,6 +108,24 @@ static bool shapes_are_valid(const Scene *scene, DiagSink *diags)
     return valid;
 }
 
+static bool parts_are_valid(const Scene *scene, DiagSink *diags)
+{
+    bool valid = true;
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        const Part *part = &scene->parts.items[i];
+        bool is_finite = transform_is_finite(&part->to_world) && transform_is_finite(&part->to_object);
+        for (int k = 0; k < 3; k++) {
+            is_finite = is_finite && vec3_is_finite(part->data[k]);
+        }
+        bool is_seen = !(part->flags & PART_UNSEEN);
+        if (!is_finite || (is_seen && !has_material(scene, part->material)) ||
+            (part->node != NODE_NONE && part->node >= scene->nodes.count)) {
+            valid = fault(diags, DIAG_E0413, part->source, "the shape cannot be represented");
+        }
+    }
+    return valid;
+}
+
 static void warn_of_what_is_missing(const Scene *scene, DiagSink *diags)
 {
     if (!scene->has_camera) {
@@ -127,5 +145,6 @@ bool scene_validate(const Scene *scene, DiagSink *diags)
     bool valid = camera_is_valid(&scene->camera, diags);
     valid = lights_are_valid(scene, diags) && valid;
     valid = materials_are_valid(scene, diags) && valid;
+    valid = parts_are_valid(scene, diags) && valid;
     return shapes_are_valid(scene, diags) && valid;
 }

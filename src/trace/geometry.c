@@ -92,12 +92,14 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     }
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels || !sphere_table_init(&geometry->spheres, scene, exponent, options->threads) ||
-        !ellipsoids_init(geometry, scene, exponent) || !planes_init(geometry, scene, exponent)) {
+        !ellipsoids_init(geometry, scene, exponent) || !planes_init(geometry, scene, exponent) ||
+        !shapes_init(&geometry->shapes, scene, exponent, options->threads)) {
         geometry_free(geometry);
         return NULL;
     }
     uint32_t loose = geometry->spheres.loose_count;
     geometry->features |= geometry->spheres.count > loose ? TRACE_SPHERE_BVH : loose > 0 ? TRACE_SPHERES : 0u;
+    geometry->features |= scene->parts.count > 0 ? (unsigned)TRACE_PARTS : 0;
     return geometry;
 }
 
@@ -112,6 +114,7 @@ void geometry_free(Geometry *geometry)
         sphere_table_fini(&geometry->spheres);
         free(geometry->ellipsoids);
         free(geometry->planes);
+        shapes_fini(&geometry->shapes);
         free(geometry);
     }
 }
@@ -126,5 +129,5 @@ size_t geometry_bytes(const Geometry *geometry)
     const SphereTable *spheres = &geometry->spheres;
     return sizeof(*geometry) + spheres->block_count * (sizeof(SphereBlock) + SPHERE_BLOCK * sizeof(ShapeInfo)) +
            spheres->bvh.node_count * sizeof(BvhNode) + geometry->ellipsoid_count * sizeof(EllipsoidEntry) +
-           geometry->plane_count * sizeof(PlaneEntry);
+           geometry->plane_count * sizeof(PlaneEntry) + shapes_bytes(&geometry->shapes);
 }

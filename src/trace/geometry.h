@@ -10,6 +10,7 @@
 
 #include "trace/ellipsoid.h"
 #include "trace/plane.h"
+#include "trace/shapes.h"
 #include "trace/spheres.h"
 #include "trace/trace.h"
 
@@ -31,6 +32,7 @@ struct Geometry {
     uint32_t ellipsoid_count;
     PlaneEntry *planes;
     uint32_t plane_count;
+    ShapeTable shapes; // everything else
 };
 
 #endif

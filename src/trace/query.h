@@ -102,6 +102,9 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
             nearest_offer(nearest, t, shape_id(SHAPE_ELLIPSOID, i), inside, g->ellipsoids[i].info.order);
         }
     }
+    if (features & TRACE_PARTS) {
+        shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, nearest);
+    }
 }
 
 // The nearest hit with 0 < t < t_max, which may be INFINITY. Of equal distances the shape declared first.
@@ -140,9 +143,9 @@ RT_ALWAYS_INLINE void geometry_closest_tile(const Geometry *g, unsigned features
     for (unsigned i = 0; i < TILE_RAYS; i++) {
         if (is_done) {
             SphereRay ray = sphere_tile_ray(&tile, i);
-            query_others_closest(g, features, &ray, RAY_START_FREE, &nearest[i]);
+            query_others_closest(g, features, &ray, RAY_START_CAMERA, &nearest[i]);
             hits[i] = nearest[i].hit;
-        } else if (!geometry_closest(g, features, rays[i], RAY_START_FREE, (double)INFINITY, &hits[i])) {
+        } else if (!geometry_closest(g, features, rays[i], RAY_START_CAMERA, (double)INFINITY, &hits[i])) {
             hits[i].shape = SHAPE_NONE;
         }
     }
@@ -172,7 +175,10 @@ RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ra
             }
         }
     }
-    return (features & TRACE_ANY_SPHERES) && query_spheres_occluded(g, features, &sphere_ray, start, t_max);
+    if ((features & TRACE_ANY_SPHERES) && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
+        return true;
+    }
+    return (features & TRACE_PARTS) && shapes_occluded(&g->shapes, &ray, start, t_max);
 }
 
 // Where the ray hit: the point put back onto the surface, its normal and its material.
@@ -190,6 +196,9 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
         Surface surface = {.material = ellipsoid->info.material, .order = ellipsoid->info.order};
         ellipsoid_surface(&ellipsoid->shape, ray, hit.t, &surface.point, &surface.normal);
         return surface;
+    }
+    if ((features & TRACE_PARTS) && kind == SHAPE_PART) {
+        return shapes_surface(&g->shapes, &ray, &hit);
     }
     Ball ball = sphere_table_ball(&g->spheres, index);
     Vec3 normal = sphere_normal(ray, &ball, hit.t);

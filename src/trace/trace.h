@@ -26,13 +26,15 @@ typedef enum TraceFeature {
     TRACE_SPHERE_BVH = 1 << 1, // many spheres, in a tree (then TRACE_SPHERES is not set)
     TRACE_ELLIPSOIDS = 1 << 2,
     TRACE_PLANES = 1 << 3,
-    TRACE_ALL_FEATURES = (1 << 4) - 1,
+    TRACE_PARTS = 1 << 4, // any other shape
+    TRACE_ALL_FEATURES = (1 << 5) - 1,
 } TraceFeature;
 
-// A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below.
+// A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below. A part's index is followed
+// by the side of it that was met, in PART_SIDE_BITS.
 typedef uint32_t ShapeId;
-enum { SHAPE_INDEX_BITS = 30 };
-typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_ELLIPSOID, SHAPE_PLANE } ShapeKind;
+enum { SHAPE_INDEX_BITS = 30, PART_SIDE_BITS = 3 };
+typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_ELLIPSOID, SHAPE_PLANE, SHAPE_PART } ShapeKind;
 #define SHAPE_NONE UINT32_MAX
 
 static inline ShapeId shape_id(ShapeKind kind, uint32_t index)
@@ -50,13 +52,15 @@ static inline uint32_t shape_index(ShapeId id)
     return id & ((1u << SHAPE_INDEX_BITS) - 1);
 }
 
-// Where a ray starts: free in space (SHAPE_NONE), or on a shape, leaving to its outer side or into it.
+// Where a ray starts: free in space (SHAPE_NONE), or on a shape, leaving to its outer side or into it; and what it is for.
 typedef struct RayStart {
     ShapeId shape;
     bool inward;
+    uint8_t use; // the HiddenFrom bit that makes a part invisible to it; 0: it sees all
 } RayStart;
 
-#define RAY_START_FREE ((RayStart){SHAPE_NONE, false})
+#define RAY_START_FREE   ((RayStart){SHAPE_NONE, false, 0})
+#define RAY_START_CAMERA ((RayStart){SHAPE_NONE, false, HIDDEN_CAMERA})
 
 typedef struct Hit {
     double t;      // in units of the ray's direction; > 0

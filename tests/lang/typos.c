@@ -169,7 +169,7 @@ static void try_kinds(const InternTable *names, Tally *sums)
     Tally tally = {0};
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);
-        if (kind == KIND_REFLECTION) {
+        if (kind == KIND_REFLECTION || kind == KIND_CLIPPED_BY || kind == KIND_BOUNDED_BY) {
             continue; // a property of finish
         }
         Place place = {schema->is_declarable ? "#declare A = " : "", "", " { }"};
@@ -183,7 +183,10 @@ static void try_properties(const InternTable *names, Tally *sums)
     static const char *const arguments[KIND_COUNT] = {
         [KIND_SPHERE] = "0, 1",   [KIND_PLANE] = "y, 1",         [KIND_LIGHT_SOURCE] = "0, 1",
         [KIND_OBJECT] = "sphere { 0, 1 }", [KIND_BACKGROUND] = "rgb 1", [KIND_REFLECTION] = "1",
-        [KIND_UNION] = "sphere { 0, 1 } sphere { 0, 1 }",
+        [KIND_UNION] = "sphere { 0, 1 } sphere { 0, 1 }", [KIND_MERGE] = "sphere { 0, 1 } sphere { 0, 1 }",
+        [KIND_INTERSECTION] = "sphere { 0, 1 } sphere { 0, 1 }", [KIND_DIFFERENCE] = "sphere { 0, 1 } sphere { 0, 1 }",
+        [KIND_BOX] = "0, 1",      [KIND_CYLINDER] = "0, y, 1",   [KIND_CONE] = "0, 1, y, 0",
+        [KIND_DISC] = "0, y, 1",  [KIND_TRIANGLE] = "0, x, y",   [KIND_SMOOTH_TRIANGLE] = "0, z, x, z, y, z",
     };
     Tally tally = {0};
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {

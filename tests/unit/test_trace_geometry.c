@@ -24,21 +24,21 @@ static void test_shapes(void)
         bool met;
         Hit hit;
     } cases[] = {
-        {"sphere", {{0, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false}, 9, true, {4, 0u << 30, false}},
-        {"sphere, interval open at its end", {{0, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false}, 4, false, {0, 0, false}},
-        {"sphere from inside", {{0, 0, 0}, {0, 0, 1}}, {SHAPE_NONE, false}, 9, true, {1, 0u << 30, true}},
-        {"sphere, leaving outward", {{0, 0, 1}, {0, 0, 1}}, {0, false}, 9, false, {0, 0, false}},
-        {"sphere, leaving inward", {{0, 0, -1}, {0, 0, 1}}, {0, true}, 9, true, {2, 0, true}},
-        {"sphere, inward but not going in", {{0, 0, 1}, {0, 0, 1}}, {0, true}, 9, false, {0, 0, false}},
-        {"ellipsoid", {{10, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false}, 9, true, {3, 1u << 30, false}},
-        {"ellipsoid across", {{15, 0, 0}, {-1, 0, 0}}, {SHAPE_NONE, false}, 9, true, {4, 1u << 30, false}},
-        {"ellipsoid, leaving outward", {{10, 0, 2}, {0, 0, 1}}, {1u << 30, false}, 9, false, {0, 0, false}},
-        {"ellipsoid, leaving inward", {{10, 0, -2}, {0, 0, 1}}, {1u << 30, true}, 9, true, {4, 1u << 30, true}},
-        {"plane from its outer side", {{3, 0, 3}, {0, -1, 0}}, {SHAPE_NONE, false}, 9, true, {3, 2u << 30, false}},
-        {"plane from its inner side", {{3, -5, 3}, {0, 1, 0}}, {SHAPE_NONE, false}, 9, true, {2, 2u << 30, true}},
-        {"plane, leaving it", {{3, -3.0000001, 3}, {0, 1, 0}}, {2u << 30, false}, 9, false, {0, 0, false}},
-        {"plane, along it", {{3, -3, 3}, {1, 0, 0}}, {SHAPE_NONE, false}, 9, false, {0, 0, false}},
-        {"plane behind", {{3, 0, 3}, {0, 1, 0}}, {SHAPE_NONE, false}, 9, false, {0, 0, false}},
+        {"sphere", {{0, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false, 0}, 9, true, {4, 0u << 30, false}},
+        {"sphere, interval open at its end", {{0, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false, 0}, 4, false, {0, 0, false}},
+        {"sphere from inside", {{0, 0, 0}, {0, 0, 1}}, {SHAPE_NONE, false, 0}, 9, true, {1, 0u << 30, true}},
+        {"sphere, leaving outward", {{0, 0, 1}, {0, 0, 1}}, {0, false, 0}, 9, false, {0, 0, false}},
+        {"sphere, leaving inward", {{0, 0, -1}, {0, 0, 1}}, {0, true, 0}, 9, true, {2, 0, true}},
+        {"sphere, inward but not going in", {{0, 0, 1}, {0, 0, 1}}, {0, true, 0}, 9, false, {0, 0, false}},
+        {"ellipsoid", {{10, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false, 0}, 9, true, {3, 1u << 30, false}},
+        {"ellipsoid across", {{15, 0, 0}, {-1, 0, 0}}, {SHAPE_NONE, false, 0}, 9, true, {4, 1u << 30, false}},
+        {"ellipsoid, leaving outward", {{10, 0, 2}, {0, 0, 1}}, {1u << 30, false, 0}, 9, false, {0, 0, false}},
+        {"ellipsoid, leaving inward", {{10, 0, -2}, {0, 0, 1}}, {1u << 30, true, 0}, 9, true, {4, 1u << 30, true}},
+        {"plane from its outer side", {{3, 0, 3}, {0, -1, 0}}, {SHAPE_NONE, false, 0}, 9, true, {3, 2u << 30, false}},
+        {"plane from its inner side", {{3, -5, 3}, {0, 1, 0}}, {SHAPE_NONE, false, 0}, 9, true, {2, 2u << 30, true}},
+        {"plane, leaving it", {{3, -3.0000001, 3}, {0, 1, 0}}, {2u << 30, false, 0}, 9, false, {0, 0, false}},
+        {"plane, along it", {{3, -3, 3}, {1, 0, 0}}, {SHAPE_NONE, false, 0}, 9, false, {0, 0, false}},
+        {"plane behind", {{3, 0, 3}, {0, 1, 0}}, {SHAPE_NONE, false, 0}, 9, false, {0, 0, false}},
     };
     Geometry *geometry = prepare(&scene, 0);
     for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
@@ -94,7 +94,7 @@ static void test_equal_distances(void)
         Vec3 normal = random_direction(&random);
         for (size_t k = 0; k < RT_COUNT_OF(equals); k++) {
             self_hits += geometry_occluded(geometry, TRACE_SPHERES, (Ray){normal, normal},
-                                           (RayStart){equals[k], false}, (double)INFINITY);
+                                           (RayStart){equals[k], false, 0}, (double)INFINITY);
         }
     }
     tap_ok(self_hits == 0, "a sphere does not shade its equal");

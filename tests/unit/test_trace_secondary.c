@@ -18,7 +18,7 @@ static bool exits_rightly(const Geometry *geometry, Ray ray, Hit hit, Surface su
 {
     Ray within = {surface.point, ray.direction};
     Hit exit;
-    if (!closest(geometry, within, (RayStart){hit.shape, true}, (double)INFINITY, &exit) || exit.shape != hit.shape ||
+    if (!closest(geometry, within, (RayStart){hit.shape, true, 0}, (double)INFINITY, &exit) || exit.shape != hit.shape ||
         !exit.inside) {
         return false;
     }
@@ -31,7 +31,7 @@ static bool exits_rightly(const Geometry *geometry, Ray ray, Hit hit, Surface su
     Ray beyond = {far_side.point, ray.direction};
     Hit none;
     return fabs(exit.t - expected) <= uncertainty &&
-           !closest(geometry, beyond, (RayStart){exit.shape, false}, (double)INFINITY, &none);
+           !closest(geometry, beyond, (RayStart){exit.shape, false, 0}, (double)INFINITY, &none);
 }
 
 static void secondary_case(Random *random, double scale, SecondaryCounts *counts)
@@ -54,7 +54,7 @@ static void secondary_case(Random *random, double scale, SecondaryCounts *counts
         Surface surface = geometry_surface(geometry, TRACE_SPHERES, ray, hit);
         Vec3 grazing = random_perpendicular(random, surface.normal);
         grazing = vec3_normalize(vec3_add_scaled(grazing, pow(10.0, random_between(random, -15, -1)), surface.normal));
-        RayStart leaving = {hit.shape, false};
+        RayStart leaving = {hit.shape, false, 0};
         counts->false_shadows += geometry_occluded(geometry, TRACE_SPHERES, (Ray){surface.point, grazing}, leaving,
                                                    (double)INFINITY);
         counts->wrong_exits += !exits_rightly(geometry, ray, hit, surface, radius);

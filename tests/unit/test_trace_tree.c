@@ -112,7 +112,7 @@ static void test_tree_is_brute_force(size_t family, int count, int rays)
             hits++;
             Surface surface = geometry_surface(geometry, TRACE_ALL_FEATURES, ray, hit);
             Vec3 direction = random_direction(&random);
-            RayStart start = {hit.shape, vec3_dot(direction, surface.normal) < 0.0};
+            RayStart start = {hit.shape, vec3_dot(direction, surface.normal) < 0.0, 0};
             Ray next = {surface.point, direction};
             different += !same_hit(&scene, geometry, next, start, (double)INFINITY, &met, &hit);
         }

@@ -1,0 +1,362 @@
+// Placing: an object and all that is in it become scene records.
+//
+// Transforms are composed on the way down, untextured shapes take the texture of the nearest object around them or of
+// #default. The members of a union stand for themselves; a sphere or plane with nothing special about it becomes the
+// plainest record there is, any other shape a part, and what cuts shapes with one another a composite. Knows nothing of
+// rays.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "eval/blocks.h"
+#include "scene/part.h"
+
+// The clips of the unions around an object, the innermost first.
+typedef struct ClipChain ClipChain;
+struct ClipChain {
+    const ClipChain *next;
+    const Clip *clips;
+    const Transform *outer; // of all around the object that they clip
+};
+
+typedef struct Placement {
+    Transform outer;
+    const TextureBlueprint *texture; // of the nearest object around that has one, else #default's
+    Transform texture_outer;         // of the texture
+    const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
+    const ClipChain *clips;
+    uint8_t hidden;
+    bool is_hidden_fixed; // what members say of no_image and the like does not count
+} Placement;
+
+// Where a part of a composite goes.
+typedef struct Branch {
+    Placement placement;
+    uint32_t parent; // node
+    bool is_inverse; // one of those that a difference takes away
+    bool is_unseen;
+} Branch;
+
+static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer);
+static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *branch);
+
+static bool may_add(Eval *ev, Span span)
+{
+    if (eval_cancelled(ev)) {
+        return false;
+    }
+    if ((uint64_t)ev->scene->shape_count + ev->scene->parts.count >= ev->options.limits->objects) {
+        if (eval_report(ev, DIAG_E0490, span, "more than %llu shapes in the scene",
+                        (unsigned long long)ev->options.limits->objects)) {
+            diag_suggest(ev->options.diags, "`--max-objects` allows more");
+        }
+        ev->stop = true; // only now: nothing is reported after it
+        return false;
+    }
+    if (ev->memory.used + scene_bytes(ev->scene) > ev->memory.limit) {
+        ev->memory.refused = true;
+        return eval_no_memory(ev, span);
+    }
+    return true;
+}
+
+// ---- plain spheres and planes
+
+// A sphere that is one after its transforms too. False in *is_round: it is not.
+static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placement *inner, bool *is_round)
+{
+    const Transform *transform = &inner->outer;
+    double radius = sphere->radius;
+    double factor, image;
+    Span span = sphere->part.span;
+    MaterialIndex material;
+    *is_round = true;
+    if (transform_is_similarity(transform, &factor)) {
+        image = radius * factor;
+    } else {
+        Transform whole = transform_compose(transform_scale(vec3(radius, radius, radius)), *transform);
+        *is_round = transform_is_similarity(&whole, &image);
+    }
+    if (!*is_round || !may_add(ev, span) || !material_place(ev, inner->texture, &inner->texture_outer, inner->interior, span, &material)) {
+        return !*is_round;
+    }
+    Vec3 centre = transform_point(transform, sphere->centre);
+    if (!vec3_is_finite(centre) || !isfinite(image) || !(image > 0.0)) {
+        return shape_flattened(ev, &sphere->part);
+    }
+    return scene_add_sphere(ev->scene, centre, image, material, span.begin) || eval_no_memory(ev, span);
+}
+
+static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner, const Part *part)
+{
+    MaterialIndex material;
+    Scene *scene = ev->scene;
+    Span span = common->span;
+    bool is_added;
+    if (!may_add(ev, span) || !material_place(ev, inner->texture, &inner->texture_outer, inner->interior, span, &material)) {
+        return false;
+    }
+    if (is_plain && part->kind == PART_BALL) {
+        is_added = scene_add_ellipsoid(scene, &part->to_world, &part->to_object, material, part->source);
+    } else if (is_plain && part->kind == PART_PLANE) {
+        is_added = scene_add_plane(scene, part->data[0], part->data[1].x, material, part->source);
+    } else {
+        Part alone = *part;
+        alone.material = material;
+        alone.hidden = inner->hidden;
+        alone.flags |= common->is_inverse ? PART_INVERSE : 0;
+        is_added = scene_add_part(scene, &alone);
+    }
+    return is_added || eval_no_memory(ev, span);
+}
+
+// ---- clips
+
+// True when a clip is a box or plane that all of the shape is inside of, so that it clips nothing.
+static bool clip_is_idle(Eval *ev, const Clip *clip, const Transform *outer, const Part *shape)
+{
+    const ObjectPart *common = clip->object;
+    Part part;
+    if ((clip->kind != KIND_BOX && clip->kind != KIND_PLANE) || common->is_inverse || common->clips) {
+        return false;
+    }
+    Transform whole = transform_compose(transform_compose(common->transform, clip->transform), *outer);
+    return shape_make(ev, clip->kind, clip->object, &whole, &part) == SHAPE_MADE && part_contains(&part, shape);
+}
+
+// Whether anything is left to clip `shape`; NULL for what has no end or is not a single shape.
+static bool clips_matter(Eval *ev, const ClipChain *chain, const Part *shape)
+{
+    for (; chain; chain = chain->next) {
+        for (const Clip *clip = chain->clips; clip; clip = clip->next) {
+            if (!shape || !clip_is_idle(ev, clip, chain->outer, shape)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// ---- composites
+
+static bool add_node(Eval *ev, NodeOp op, bool is_inverse, uint32_t parent, Span span, uint32_t *index)
+{
+    return scene_add_node(ev->scene, op, is_inverse, parent, span.begin, index) || eval_no_memory(ev, span);
+}
+
+static bool grow_clips(Eval *ev, const ClipChain *chain, const Part *shape, const Branch *object_branch, uint32_t node)
+{
+    for (; chain; chain = chain->next) {
+        for (const Clip *clip = chain->clips; clip; clip = clip->next) {
+            if (shape && clip_is_idle(ev, clip, chain->outer, shape)) {
+                continue;
+            }
+            Branch branch = *object_branch;
+            branch.parent = node;
+            branch.is_inverse = false;
+            branch.is_unseen = true;
+            branch.placement.clips = NULL;
+            branch.placement.outer = transform_compose(clip->transform, *chain->outer);
+            if (!grow(ev, clip->kind, clip->object, &branch)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// A sphere of radius 0 is an empty union: nothing is inside of it. With any other shape without extent POV-Ray draws
+// nothing of the whole.
+static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, const Branch *branch)
+{
+    uint32_t node;
+    if (kind != KIND_SPHERE) {
+        return eval_fault(ev, DIAG_E0364, part->span, "a %s without extent cannot be cut with other shapes",
+                          schema_kind(kind)->word);
+    }
+    return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch->parent, part->span, &node);
+}
+
+static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
+{
+    const ObjectPart *common = object;
+    const Placement *around = &branch->placement;
+    const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
+    Part part;
+    ShapeResult result = shape_make(ev, kind, object, &around->outer, &part);
+    if (result != SHAPE_MADE) {
+        return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
+    }
+    // Flat ones may be clipped, which is their first node then.
+    const Node *parent = &ev->scene->nodes.items[branch->parent];
+    bool is_clipped_alone = parent->op == NODE_CLIP && parent->child_count == 0 && parent->parent == NODE_NONE;
+    if (part.kind >= PART_DISC && !is_clipped_alone) {
+        return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it",
+                          kind == KIND_DISC ? "disc" : "triangle");
+    }
+    if (ev->scene->parts.count - composite->first_part >= COMPOSITE_PARTS_MOST) {
+        return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",
+                          COMPOSITE_PARTS_MOST);
+    }
+    part.node = branch->parent;
+    part.flags |= (common->is_inverse != branch->is_inverse ? PART_INVERSE : 0) | (branch->is_unseen ? PART_UNSEEN : 0);
+    if (!may_add(ev, common->span) ||
+        (!branch->is_unseen && !material_place(ev, around->texture, &around->texture_outer, around->interior,
+                                               common->span, &part.material))) {
+        return false;
+    }
+    return scene_add_leaf(ev->scene, &part) || eval_no_memory(ev, common->span);
+}
+
+static bool grow_members(Eval *ev, SchemaKind kind, const UnionBlueprint *group, const Branch *outer, NodeOp op)
+{
+    Branch branch = *outer;
+    branch.is_inverse = false;
+    if (!add_node(ev, op, group->part.is_inverse != outer->is_inverse, outer->parent, group->part.span,
+                  &branch.parent)) {
+        return false;
+    }
+    bool is_fine = true;
+    for (const UnionMember *member = group->members; member && !ev->stop; member = member->next) {
+        is_fine = grow(ev, member->kind, member->object, &branch) && is_fine;
+        branch.is_inverse = kind == KIND_DIFFERENCE;
+    }
+    return is_fine;
+}
+
+// The object without the clips around it.
+static bool grow_object(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
+{
+    switch (kind) {
+    case KIND_UNION: return grow_members(ev, kind, object, branch, NODE_UNION);
+    case KIND_MERGE: return grow_members(ev, kind, object, branch, NODE_MERGE);
+    case KIND_INTERSECTION:
+    case KIND_DIFFERENCE: return grow_members(ev, kind, object, branch, NODE_INTERSECTION);
+    default: return grow_leaf(ev, kind, object, branch);
+    }
+}
+
+// Recursive, as `place` is.
+static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *outer)
+{
+    if (kind == KIND_LIGHT_SOURCE) {
+        return light_place(ev, object, &outer->placement.outer);
+    }
+    const ObjectPart *part = object;
+    Branch branch = *outer;
+    ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer};
+    const ClipChain *clips = part->clips ? &own : outer->placement.clips;
+    branch.placement.clips = NULL;
+    branch.placement.outer = transform_compose(part->transform, outer->placement.outer);
+    if (part->texture) {
+        branch.placement.texture = part->texture;
+        branch.placement.texture_outer = outer->placement.outer;
+    }
+    branch.placement.interior = part->interior ? part->interior : outer->placement.interior;
+    if (!clips) {
+        return grow_object(ev, kind, object, &branch);
+    }
+    Part shape;
+    // A clip is not turned round with what it clips: what is outside of a shape reaches beyond any clip.
+    bool is_known = !object_is_group(kind) && part->is_inverse == branch.is_inverse &&
+                    shape_make(ev, kind, object, &branch.placement.outer, &shape) == SHAPE_MADE;
+    const Part *known = is_known ? &shape : NULL;
+    if (!clips_matter(ev, clips, known)) {
+        return grow_object(ev, kind, object, &branch);
+    }
+    uint32_t node;
+    if (!add_node(ev, NODE_CLIP, false, branch.parent, part->span, &node)) {
+        return false;
+    }
+    branch.parent = node;
+    return grow_object(ev, kind, object, &branch) && grow_clips(ev, clips, known, &branch, node);
+}
+
+static bool place_composite(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, uint8_t hidden)
+{
+    const ObjectPart *part = object;
+    Branch root = {.placement = *outer, .parent = NODE_NONE};
+    if (!may_add(ev, part->span)) {
+        return false;
+    }
+    if (!scene_begin_composite(ev->scene, hidden, part->span.begin)) {
+        return eval_no_memory(ev, part->span);
+    }
+    bool is_grown = grow(ev, kind, object, &root);
+    scene_end_composite(ev->scene);
+    return is_grown;
+}
+
+// ---- anything
+
+static uint8_t hidden_of(const ObjectPart *part)
+{
+    return (uint8_t)((part->no_image ? HIDDEN_CAMERA : 0) | (part->no_shadow ? HIDDEN_SHADOW : 0) |
+                     (part->no_reflection ? HIDDEN_MIRROR : 0));
+}
+
+static bool place_members(Eval *ev, const UnionBlueprint *group, const Placement *inner)
+{
+    bool is_fine = true;
+    for (const UnionMember *member = group->members; member && !ev->stop; member = member->next) {
+        is_fine = place(ev, member->kind, member->object, inner) && is_fine;
+    }
+    return is_fine;
+}
+
+static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
+{
+    const ObjectPart *common = object;
+    bool is_plain = !common->is_inverse && !inner->hidden;
+    bool may_be_round = kind == KIND_SPHERE && is_plain && ((const SphereBlueprint *)object)->radius > 0.0;
+    bool is_round = false, is_placed = false;
+    if (may_be_round && !inner->clips) {
+        is_placed = place_sphere(ev, object, inner, &is_round);
+    }
+    if (is_round) {
+        return is_placed;
+    }
+    Part shape;
+    ShapeResult result = shape_make(ev, kind, object, &inner->outer, &shape);
+    if (result != SHAPE_MADE) {
+        return result == SHAPE_NOTHING;
+    }
+    if (clips_matter(ev, inner->clips, common->is_inverse ? NULL : &shape)) {
+        return place_composite(ev, kind, object, outer, inner->hidden);
+    }
+    if (may_be_round && inner->clips) {
+        is_placed = place_sphere(ev, object, inner, &is_round);
+    }
+    return is_round ? is_placed : place_single(ev, common, is_plain, inner, &shape);
+}
+
+// Recursive: object_members keeps trees from growing deeper than the limit.
+static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer)
+{
+    if (kind == KIND_LIGHT_SOURCE) {
+        return light_place(ev, object, &outer->outer);
+    }
+    const ObjectPart *part = object;
+    ClipChain own = {outer->clips, part->clips, &outer->outer};
+    Placement inner = {
+        .outer = transform_compose(part->transform, outer->outer),
+        .texture = part->texture ? part->texture : outer->texture,
+        .texture_outer = part->texture ? outer->outer : outer->texture_outer,
+        .interior = part->interior ? part->interior : outer->interior,
+        .clips = part->clips ? &own : outer->clips,
+        .hidden = outer->hidden | (outer->is_hidden_fixed ? 0 : hidden_of(part)),
+        .is_hidden_fixed = outer->is_hidden_fixed || !part->split_union || part->clips || part->bounds,
+    };
+    if (kind == KIND_UNION && !part->is_inverse) {
+        return place_members(ev, object, &inner);
+    }
+    return object_is_group(kind) ? place_composite(ev, kind, object, outer, inner.hidden)
+                                 : place_shape(ev, kind, object, outer, &inner);
+}
+
+bool object_place(Eval *ev, SchemaKind kind, const void *object)
+{
+    Transform identity = transform_identity();
+    Placement world = {.outer = identity, .texture = ev->objects->defaults, .texture_outer = identity};
+    return place(ev, kind, object, &world);
+}

@@ -1,0 +1,108 @@
+// The printable form of parts and composites: each part as its fixed shape under a matrix, each node as the block that makes
+// it.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/dump.h"
+
+static void dump_form(const Part *part, TextBuffer *out)
+{
+    static const char *const heads[] = {
+        [PART_BALL] = "sphere { 0, 1",          [PART_PLANE] = "plane { ",
+        [PART_BOX] = "box { ",                  [PART_CONE] = "cone { 0, 1, z, ",
+        [PART_DISC] = "disc { 0, z, 1, ",       [PART_TRIANGLE] = "triangle { 0, x, y",
+        [PART_SMOOTH_TRIANGLE] = "smooth_triangle { 0, ",
+    };
+    text_append(out, heads[part->kind]);
+    switch (part->kind) {
+    case PART_BALL:
+    case PART_TRIANGLE: break;
+    case PART_PLANE:
+        dump_vector(out, "", part->data[0]);
+        dump_number(out, ", ", part->data[1].x);
+        break;
+    case PART_BOX:
+        dump_vector(out, "", part->data[0]);
+        dump_vector(out, ", ", part->data[1]);
+        break;
+    case PART_CONE:
+    case PART_DISC: dump_number(out, "", part->data[0].x); break;
+    case PART_SMOOTH_TRIANGLE:
+        dump_vector(out, "", part->data[0]);
+        dump_vector(out, ", x, ", part->data[1]);
+        dump_vector(out, ", y, ", part->data[2]);
+        break;
+    }
+}
+
+static void dump_hidden(uint8_t hidden, TextBuffer *out)
+{
+    text_append(out, hidden & HIDDEN_CAMERA ? " no_image" : "");
+    text_append(out, hidden & HIDDEN_SHADOW ? " no_shadow" : "");
+    text_append(out, hidden & HIDDEN_MIRROR ? " no_reflection" : "");
+}
+
+void dump_part(const Scene *scene, const Part *part, TextBuffer *out)
+{
+    dump_form(part, out);
+    text_append(out, part->flags & PART_OPEN ? " open" : "");
+    if (part->kind != PART_PLANE) {
+        text_append(out, " matrix ");
+        dump_numbers(out, &part->to_world.m[0][0], 12);
+    }
+    text_append(out, part->flags & PART_INVERSE ? " inverse" : "");
+    dump_hidden(part->hidden, out);
+    if (part->flags & PART_UNSEEN) {
+        text_append(out, " }\n");
+    } else {
+        dump_texture(scene, part->material, out);
+    }
+}
+
+// Where the dump stands in a composite.
+typedef struct Walk {
+    const Scene *scene;
+    uint32_t node, node_end;
+    uint32_t part;
+} Walk;
+
+static void dump_node(Walk *walk, uint8_t hidden, TextBuffer *out);
+
+// The next child of a node: the next node of all, or the next part, whichever was declared first.
+static void dump_child(Walk *walk, uint32_t parent, TextBuffer *out)
+{
+    const Node *node = walk->node < walk->node_end ? &walk->scene->nodes.items[walk->node] : NULL;
+    if (node && node->parent == parent && node->first_part <= walk->part) {
+        dump_node(walk, 0, out);
+    } else {
+        dump_part(walk->scene, &walk->scene->parts.items[walk->part++], out);
+    }
+}
+
+// Recursive, as deep as the language lets objects nest. The object that is clipped comes first, then each of its clips.
+static void dump_node(Walk *walk, uint8_t hidden, TextBuffer *out)
+{
+    static const char *const heads[] = {
+        [NODE_UNION] = "union {\n",
+        [NODE_MERGE] = "merge {\n",
+        [NODE_INTERSECTION] = "intersection {\n",
+        [NODE_CLIP] = "object {\n",
+    };
+    uint32_t at = walk->node++;
+    const Node *node = &walk->scene->nodes.items[at];
+    text_append(out, heads[node->op]);
+    for (uint32_t i = 0; i < node->child_count; i++) {
+        bool is_clip = node->op == NODE_CLIP && i > 0;
+        text_append(out, is_clip ? "clipped_by { " : "");
+        dump_child(walk, at, out);
+        text_append(out, is_clip ? "}\n" : "");
+    }
+    text_append(out, node->is_inverse ? "inverse" : "");
+    dump_hidden(hidden, out);
+    text_append(out, "}\n");
+}
+
+void dump_composite(const Scene *scene, const Composite *composite, TextBuffer *out)
+{
+    Walk walk = {scene, composite->first_node, composite->first_node + composite->node_count, composite->first_part};
+    dump_node(&walk, composite->hidden, out);
+}

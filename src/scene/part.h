@@ -1,0 +1,21 @@
+// How far a part reaches: the support function of its convex hull, and what follows from it.
+//
+// Serves bounding boxes and the question whether one shape contains another. Knows nothing of rays.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_PART_H
+#define SCENE_PART_H
+
+#include "scene/scene.h"
+
+// The greatest p·direction over the part's points, inverse or not; INFINITY for a plane, save against its own normal.
+double part_support(const Part *part, Vec3 direction);
+
+// The sum of the magnitudes of all terms of part_support, which bounds its rounding error; see docs/numerics.md.
+double part_reach(const Part *part, Vec3 direction);
+
+// True when every point of `inner` is surely inside of `outer`, a box or plane. False for all other kinds, and where it
+// is within rounding.
+bool part_contains(const Part *outer, const Part *inner);
+
+#endif

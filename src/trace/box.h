@@ -1,0 +1,43 @@
+// A ray against a box with its faces along the axes. Sides 0 to 5: low and high x, low and high y, low and high z.
+//
+// The bounds are used as they stand, not as a middle and a size, so that faces of two boxes at one coordinate are met at
+// one t, bit for bit. Knows nothing of transforms.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_BOX_H
+#define TRACE_BOX_H
+
+#include "trace/chord.h"
+
+RT_ALWAYS_INLINE bool box_chord(Vec3 low, Vec3 high, Vec3 o, Vec3 d, uint8_t left_side, Chord *chord)
+{
+    Chord y, z;
+    if (!chord_slab(o.x, d.x, low.x, high.x, 0, left_side, chord) ||
+        !chord_slab(o.y, d.y, low.y, high.y, 2, left_side, &y) ||
+        !chord_slab(o.z, d.z, low.z, high.z, 4, left_side, &z)) {
+        return false;
+    }
+    chord_meet(chord, &y);
+    chord_meet(chord, &z);
+    return chord->enter <= chord->leave;
+}
+
+RT_ALWAYS_INLINE Vec3 box_normal(uint8_t side)
+{
+    double sign = side & 1 ? 1.0 : -1.0;
+    return vec3(side / 2 == 0 ? sign : 0.0, side / 2 == 1 ? sign : 0.0, side / 2 == 2 ? sign : 0.0);
+}
+
+// A point near the side, put onto it.
+RT_ALWAYS_INLINE Vec3 box_point(Vec3 low, Vec3 high, Vec3 point, uint8_t side)
+{
+    Vec3 bound = side & 1 ? high : low;
+    switch (side / 2) {
+    case 0: point.x = bound.x; break;
+    case 1: point.y = bound.y; break;
+    default: point.z = bound.z; break;
+    }
+    return point;
+}
+
+#endif

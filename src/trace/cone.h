@@ -1,0 +1,106 @@
+// A ray against a cone or cylinder about z: 0 <= z <= 1, radius 1 + (ratio - 1) z, 0 <= ratio <= 1. Side 0 is round, 1 the
+// disc at z = 0, 2 the one at z = 1.
+//
+// With o and d the ray in x and y, p + q t the radius at its z: |o + t d|² = (p + q t)² has the discriminant
+// |p d - q o|² - (o × d)², which compares lengths where b² - ac would cancel. Knows nothing of transforms.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_CONE_H
+#define TRACE_CONE_H
+
+#include "trace/chord.h"
+
+enum { CONE_ROUND, CONE_BASE, CONE_CAP };
+
+// a t² + 2 b t + c <= 0 is inside of the cone or of its mirror image beyond the tip.
+typedef struct ConeRoots {
+    double a, b, c, discriminant;
+    double q; // growth of the radius along the ray
+} ConeRoots;
+
+RT_ALWAYS_INLINE ConeRoots cone_roots(double ratio, Vec3 o, Vec3 d)
+{
+    double p = 1.0 + (ratio - 1.0) * o.z;
+    double q = (ratio - 1.0) * d.z;
+    double cross = o.x * d.y - o.y * d.x;
+    double wx = p * d.x - q * o.x, wy = p * d.y - q * o.y;
+    return (ConeRoots){
+        .a = d.x * d.x + d.y * d.y - q * q,
+        .b = o.x * d.x + o.y * d.y - p * q,
+        .c = o.x * o.x + o.y * o.y - p * p,
+        .discriminant = wx * wx + wy * wy - cross * cross,
+        .q = q,
+    };
+}
+
+// The line inside the round side, on the tip's own side only where the discs' planes decide. A line steeper than the
+// side (a < 0) is inside of both images in turn and never leaves the one that widens.
+RT_ALWAYS_INLINE bool cone_round_chord(const ConeRoots *r, Chord *chord)
+{
+    *chord = (Chord){-(double)INFINITY, (double)INFINITY, CONE_ROUND, CONE_ROUND};
+    if (r->a == 0.0 && r->b == 0.0) {
+        return r->c <= 0.0;
+    }
+    // Negative for a < 0 by rounding alone, where the line goes through the tip.
+    if (!(r->discriminant >= 0.0) && !(r->a < 0.0)) {
+        return false;
+    }
+    double sum = -(r->b + copysign(sqrt(fmax(r->discriminant, 0.0)), r->b)); // terms of one sign
+    double first = sum / r->a, second = r->c / sum;
+    if (r->a > 0.0) {
+        chord->enter = fmin(first, second);
+        chord->leave = fmax(first, second);
+    } else if (r->a == 0.0) {
+        *(r->b < 0.0 ? &chord->enter : &chord->leave) = second;
+    } else if (r->q > 0.0) {
+        chord->enter = fmax(first, second);
+    } else {
+        chord->leave = fmin(first, second);
+    }
+    return !isnan(chord->enter) && !isnan(chord->leave);
+}
+
+// The same for a ray that starts on the round side and goes in: c = 0 leaves -2 b / a.
+RT_ALWAYS_INLINE bool cone_round_chord_inward(const ConeRoots *r, Chord *chord)
+{
+    *chord = (Chord){-(double)INFINITY, (double)INFINITY, CONE_ROUND, CONE_ROUND};
+    if (r->a > 0.0) {
+        chord->leave = -2.0 * r->b / r->a;
+    }
+    return chord->leave > 0.0;
+}
+
+RT_ALWAYS_INLINE bool cone_chord(double ratio, Vec3 o, Vec3 d, uint8_t left_side, Chord *chord)
+{
+    Chord slab;
+    ConeRoots roots = cone_roots(ratio, o, d);
+    if (!(left_side == CONE_ROUND ? cone_round_chord_inward(&roots, chord) : cone_round_chord(&roots, chord)) ||
+        !chord_slab(o.z, d.z, 0.0, 1.0, CONE_BASE, left_side, &slab)) {
+        return false;
+    }
+    chord_meet(chord, &slab);
+    return chord->enter <= chord->leave;
+}
+
+// The outward normal at a point of the side, not of unit length.
+RT_ALWAYS_INLINE Vec3 cone_normal(double ratio, Vec3 point, uint8_t side)
+{
+    if (side != CONE_ROUND) {
+        return vec3(0.0, 0.0, side == CONE_CAP ? 1.0 : -1.0);
+    }
+    double radius = hypot(point.x, point.y);
+    return radius > 0.0 ? vec3(point.x / radius, point.y / radius, 1.0 - ratio) : vec3(0.0, 0.0, 1.0);
+}
+
+// A point near the side, put onto it.
+RT_ALWAYS_INLINE Vec3 cone_point(double ratio, Vec3 point, uint8_t side)
+{
+    if (side != CONE_ROUND) {
+        return vec3(point.x, point.y, side == CONE_CAP ? 1.0 : 0.0);
+    }
+    double radius = hypot(point.x, point.y);
+    double factor = radius > 0.0 ? (1.0 + (ratio - 1.0) * point.z) / radius : 1.0;
+    return vec3(factor * point.x, factor * point.y, point.z);
+}
+
+#endif

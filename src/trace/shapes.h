@@ -1,0 +1,89 @@
+// The other shapes of a Geometry: parts that stand alone and composites, in a tree of their boxes.
+//
+// One function for each query, not inline: a kernel of a scene that has none of these holds a call it never reaches, or
+// no call at all. Knows nothing of spheres and planes that are kept in arrays of their own.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SHAPES_H
+#define TRACE_SHAPES_H
+
+#include "trace/bvh.h"
+#include "trace/solid.h"
+#include "trace/spheres.h"
+#include "trace/trace.h"
+
+static inline ShapeId part_shape(uint32_t index, uint8_t side)
+{
+    return shape_id(SHAPE_PART, index << PART_SIDE_BITS | side);
+}
+
+static inline uint32_t part_index(ShapeId shape)
+{
+    return shape_index(shape) >> PART_SIDE_BITS;
+}
+
+static inline uint8_t part_side(ShapeId shape)
+{
+    return shape & ((1u << PART_SIDE_BITS) - 1);
+}
+
+static inline bool starts_on_part(RayStart start)
+{
+    return start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_PART;
+}
+
+// A node of a composite's tree; see scene.h.
+typedef struct TreeNode {
+    NodeOp op;
+    bool is_inverse;
+    uint32_t parent;      // of the geometry; NODE_NONE: the root
+    uint32_t child_count;
+    uint32_t needed;      // it is inside (before is_inverse) when so many children are
+    uint32_t idle_inside; // children that a line is inside of when it crosses no leaf
+} TreeNode;
+
+typedef struct Assembly {
+    uint32_t first_node, node_count;
+    uint32_t first_solid, solid_count;
+    uint8_t hidden;
+    uint32_t order;
+} Assembly;
+
+// What stands for itself: a solid, or an assembly when the number is not below solid_count.
+typedef uint32_t ShapeItem;
+
+typedef struct ShapeTable {
+    Solid *solids;
+    uint32_t solid_count;
+    TreeNode *nodes;
+    Assembly *assemblies;
+    uint32_t node_count, assembly_count;
+    ShapeItem *items; // unbounded ones first, then those of the tree in its order
+    uint32_t unbounded_count, bounded_count;
+    Bvh tree; // of the bounded ones; its leaves are runs of their items
+} ShapeTable;
+
+// Takes over the scene's parts and composites, lengths multiplied by 2^-exponent. False when out of memory; the table
+// may then be given to shapes_fini.
+bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads) RT_MUST_CHECK;
+void shapes_fini(ShapeTable *table);
+size_t shapes_bytes(const ShapeTable *table);
+
+// Brings `nearest` up to date.
+void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart start, Nearest *nearest);
+
+// True when anything is met at 0 < t < t_max.
+bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double t_max);
+
+// Where the ray hit. The normal points out of what the solid is in.
+Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);
+
+// composite.c: the nearest crossing of an assembly that is seen.
+void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
+                      Nearest *nearest);
+
+// Offers a crossing of a side of a solid, into it or out of it, as the nearest hit.
+void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, uint8_t side, bool leaves,
+                 Nearest *nearest);
+
+#endif

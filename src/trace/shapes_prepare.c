@@ -1,0 +1,222 @@
+// Scene parts and composites made ready for rays: lengths scaled, boxes found, the bounded ones put into a tree.
+//
+// SPDX-License-Identifier: MIT
+#include <float.h>
+#include <stdlib.h>
+
+#include "scene/part.h"
+#include "trace/bounds.h"
+#include "trace/shapes.h"
+
+static Solid solid_of(const Part *part, int exponent)
+{
+    Solid solid = {
+        .kind = part->kind,
+        .flags = part->flags,
+        .hidden = part->hidden,
+        .flips = part->flags & PART_INVERSE,
+        .node = part->node,
+        .composite = NODE_NONE,
+        .material = part->material,
+        .order = part->order,
+        .data = {part->data[0], part->data[1], part->data[2]},
+    };
+    if (part->kind == PART_PLANE) {
+        solid.data[1].x = ldexp(part->data[1].x, -exponent);
+        return solid;
+    }
+    const double *origin = part->to_world.m[3];
+    solid.centre = vec3(ldexp(origin[0], -exponent), ldexp(origin[1], -exponent), ldexp(origin[2], -exponent));
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++) {
+            solid.to_world.m[row][column] = ldexp(part->to_world.m[row][column], -exponent);
+            solid.to_object.m[row][column] = ldexp(part->to_object.m[row][column], exponent);
+        }
+    }
+    return solid;
+}
+
+// The box of a part, moved outward by the error of its support (see scene/part.c).
+static Bounds part_bounds(const Part *part, int exponent)
+{
+    if (part->kind == PART_PLANE || (part->flags & PART_INVERSE)) {
+        return BOUNDS_ALL;
+    }
+    double low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        Vec3 n = vec3(axis == 0, axis == 1, axis == 2);
+        double error = 12.0 * (DBL_EPSILON / 2) * part_reach(part, n);
+        high[axis] = ldexp(part_support(part, n) + error, -exponent);
+        low[axis] = ldexp(-part_support(part, vec3_neg(n)) - error, -exponent);
+    }
+    return (Bounds){vec3(low[0], low[1], low[2]), vec3(high[0], high[1], high[2])};
+}
+
+// ---- composites
+
+static void node_take(const TreeNode *node, Bounds *bounds, const Bounds *child)
+{
+    bool joins = node->op == NODE_UNION || node->op == NODE_MERGE;
+    *bounds = joins ? bounds_join(*bounds, *child) : bounds_meet(*bounds, *child);
+}
+
+// What the nodes count of children, from the leaves up, and their boxes. Children stand behind their parents.
+static Bounds assembly_measure(ShapeTable *table, const Assembly *assembly, const Bounds *solid_bounds,
+                               Bounds *node_bounds)
+{
+    uint32_t first = assembly->first_node;
+    for (uint32_t i = first; i < first + assembly->node_count; i++) {
+        const TreeNode *node = &table->nodes[i];
+        node_bounds[i] = node->op == NODE_UNION || node->op == NODE_MERGE ? BOUNDS_NONE : BOUNDS_ALL;
+    }
+    for (uint32_t i = assembly->first_solid; i < assembly->first_solid + assembly->solid_count; i++) {
+        TreeNode *node = &table->nodes[table->solids[i].node];
+        node->idle_inside += table->solids[i].flags & PART_INVERSE ? 1 : 0;
+        node_take(node, &node_bounds[table->solids[i].node], &solid_bounds[i]);
+    }
+    for (uint32_t i = first + assembly->node_count; i-- > first + 1;) {
+        const TreeNode *node = &table->nodes[i];
+        TreeNode *parent = &table->nodes[node->parent];
+        Bounds bounds = node->is_inverse ? BOUNDS_ALL : node_bounds[i];
+        parent->idle_inside += (node->idle_inside >= node->needed) != node->is_inverse;
+        node_take(parent, &node_bounds[node->parent], &bounds);
+    }
+    return table->nodes[first].is_inverse ? BOUNDS_ALL : node_bounds[first];
+}
+
+static void assembly_init(ShapeTable *table, const Composite *composite, uint32_t index)
+{
+    table->assemblies[index] = (Assembly){composite->first_node, composite->node_count, composite->first_part,
+                                          composite->part_count, composite->hidden,     composite->order};
+    for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
+        Solid *solid = &table->solids[i];
+        solid->composite = index;
+        for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
+            solid->flips = solid->flips != table->nodes[at].is_inverse;
+        }
+    }
+}
+
+static void nodes_init(ShapeTable *table, const Scene *scene)
+{
+    for (uint32_t i = 0; i < table->node_count; i++) {
+        const Node *node = &scene->nodes.items[i];
+        bool is_any = node->op == NODE_UNION || node->op == NODE_MERGE;
+        table->nodes[i] =
+            (TreeNode){node->op, node->is_inverse, node->parent, node->child_count, is_any ? 1 : node->child_count, 0};
+    }
+}
+
+// ---- the tree
+
+typedef struct Work {
+    Bounds *solids, *nodes, *in_tree;
+    ShapeItem *bounded;
+} Work;
+
+static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds *bounds)
+{
+    if (bounds_are_finite(*bounds)) {
+        work->in_tree[table->bounded_count] = *bounds;
+        work->bounded[table->bounded_count++] = item;
+    } else if (!bounds_are_empty(*bounds)) {
+        table->items[table->unbounded_count++] = item;
+    }
+}
+
+static bool tree_init(ShapeTable *table, const Work *work, int threads)
+{
+    Bounds all = BOUNDS_NONE;
+    BvhRef *refs = malloc(table->bounded_count * sizeof *refs);
+    if (!refs) {
+        return false;
+    }
+    for (uint32_t i = 0; i < table->bounded_count; i++) {
+        all = bounds_join(all, work->in_tree[i]);
+    }
+    bvh_place(&table->tree, all.low, all.high);
+    for (uint32_t i = 0; i < table->bounded_count; i++) {
+        refs[i] = bvh_ref(&table->tree, work->in_tree[i].low, work->in_tree[i].high, i);
+    }
+    bool done = bvh_build(&table->tree, refs, table->bounded_count, threads);
+    for (uint32_t i = 0; done && i < table->bounded_count; i++) {
+        table->items[table->unbounded_count + i] = work->bounded[bvh_ref_index(&refs[i])];
+    }
+    free(refs);
+    return done;
+}
+
+static bool items_init(ShapeTable *table, Work *work, int threads)
+{
+    for (uint32_t i = 0; i < table->solid_count; i++) {
+        if (table->solids[i].node == NODE_NONE) {
+            add_item(table, work, i, &work->solids[i]);
+        }
+    }
+    for (uint32_t i = 0; i < table->assembly_count; i++) {
+        Bounds bounds = assembly_measure(table, &table->assemblies[i], work->solids, work->nodes);
+        if (table->assemblies[i].solid_count > 0) {
+            add_item(table, work, table->solid_count + i, &bounds);
+        }
+    }
+    return table->bounded_count == 0 || tree_init(table, work, threads);
+}
+
+bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads)
+{
+    *table = (ShapeTable){
+        .solid_count = (uint32_t)scene->parts.count,
+        .node_count = (uint32_t)scene->nodes.count,
+        .assembly_count = (uint32_t)scene->composites.count,
+    };
+    if (table->solid_count == 0) {
+        return true;
+    }
+    size_t most = scene->parts.count + scene->composites.count;
+    Work work = {
+        .solids = malloc(scene->parts.count * sizeof *work.solids),
+        .nodes = malloc((scene->nodes.count + 1) * sizeof *work.nodes),
+        .in_tree = malloc(most * sizeof *work.in_tree),
+        .bounded = malloc(most * sizeof *work.bounded),
+    };
+    table->solids = malloc(scene->parts.count * sizeof *table->solids);
+    table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
+    table->assemblies = malloc((scene->composites.count + 1) * sizeof *table->assemblies);
+    table->items = malloc(most * sizeof *table->items);
+    bool done = work.solids && work.nodes && work.in_tree && work.bounded && table->solids && table->nodes &&
+                table->assemblies && table->items;
+    if (done) {
+        for (uint32_t i = 0; i < table->solid_count; i++) {
+            table->solids[i] = solid_of(&scene->parts.items[i], exponent);
+            work.solids[i] = part_bounds(&scene->parts.items[i], exponent);
+        }
+        nodes_init(table, scene);
+        for (uint32_t i = 0; i < table->assembly_count; i++) {
+            assembly_init(table, &scene->composites.items[i], i);
+        }
+        done = items_init(table, &work, threads);
+    }
+    free(work.solids);
+    free(work.nodes);
+    free(work.in_tree);
+    free(work.bounded);
+    return done;
+}
+
+void shapes_fini(ShapeTable *table)
+{
+    free(table->solids);
+    free(table->nodes);
+    free(table->assemblies);
+    free(table->items);
+    bvh_fini(&table->tree);
+    *table = (ShapeTable){0};
+}
+
+size_t shapes_bytes(const ShapeTable *table)
+{
+    return table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
+           table->assembly_count * sizeof *table->assemblies +
+           (table->unbounded_count + table->bounded_count) * sizeof *table->items +
+           table->tree.node_count * sizeof *table->tree.nodes;
+}

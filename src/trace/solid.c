@@ -1,0 +1,172 @@
+// Parts of each kind behind one interface: a switch over kinds, each case a shape's own header.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/solid.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "trace/box.h"
+#include "trace/cone.h"
+#include "trace/flat.h"
+#include "trace/plane.h"
+#include "trace/sphere.h"
+
+Ray solid_ray(const Solid *solid, const Ray *ray)
+{
+    if (solid->kind == PART_PLANE) {
+        return *ray;
+    }
+    return (Ray){transform_direction(&solid->to_object, vec3_sub(ray->origin, solid->centre)),
+                 transform_direction(&solid->to_object, ray->direction)};
+}
+
+// Of the unit sphere; the roots are those of trace/sphere.h, both of them.
+static bool ball_chord(const Ray *object, uint8_t left_side, Chord *chord)
+{
+    SphereRay ray = sphere_ray_make(object->origin, object->direction);
+    Vec3 f = ray.origin;
+    double t_middle = -vec3_dot(f, ray.dual);
+    *chord = (Chord){-(double)INFINITY, 2.0 * t_middle, 0, 0};
+    if (left_side == 0) {
+        return chord->leave > 0.0;
+    }
+    Vec3 l = vec3_add_scaled(f, t_middle, ray.direction);
+    double discriminant = 1.0 - vec3_length_squared(l);
+    if (!(discriminant >= 0.0)) {
+        return false;
+    }
+    double sum = t_middle + copysign(sqrt(discriminant * ray.inverse_square), t_middle);
+    double product = (vec3_length_squared(f) - 1.0) * ray.inverse_square;
+    chord->enter = t_middle > 0.0 ? product / sum : sum;
+    chord->leave = t_middle > 0.0 ? sum : product / sum;
+    return chord->enter <= chord->leave;
+}
+
+// The half space below a plane; a ray that leaves it inward never comes back.
+static bool plane_chord(const Solid *solid, const Ray *ray, uint8_t left_side, Chord *chord)
+{
+    PlaneShape plane = {solid->data[0], solid->data[1].x};
+    double rise = vec3_dot(plane.normal, ray->direction);
+    *chord = CHORD_ALL;
+    if (left_side == 0) {
+        return true;
+    }
+    if (rise == 0.0) {
+        return vec3_dot(plane.normal, ray->origin) <= plane.distance;
+    }
+    double t = plane_root(&plane, ray->origin, ray->direction);
+    *(rise > 0.0 ? &chord->leave : &chord->enter) = t;
+    *(rise > 0.0 ? &chord->leave_side : &chord->enter_side) = 0;
+    return !isnan(t);
+}
+
+bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord *chord)
+{
+    switch (solid->kind) {
+    case PART_BALL: return ball_chord(object, left_side, chord);
+    case PART_PLANE: return plane_chord(solid, object, left_side, chord);
+    case PART_BOX:
+        return box_chord(solid->data[0], solid->data[1], object->origin, object->direction, left_side, chord);
+    case PART_CONE: return cone_chord(solid->data[0].x, object->origin, object->direction, left_side, chord);
+    case PART_DISC:
+    case PART_TRIANGLE:
+    case PART_SMOOTH_TRIANGLE: break; // flat
+    }
+    return false;
+}
+
+bool solid_flat_root(const Solid *solid, const Ray *object, double *t)
+{
+    double x, y;
+    return flat_root(object->origin, object->direction, t, &x, &y) &&
+           (solid->kind == PART_DISC ? disc_has(solid->data[0].x, x, y) : triangle_has(x, y));
+}
+
+// Where the normals at the corners cancel, that of the first.
+static Vec3 smooth_normal(const Solid *solid, Vec3 point)
+{
+    Vec3 n = vec3_scale(1.0 - point.x - point.y, solid->data[0]);
+    n = vec3_add_scaled(vec3_add_scaled(n, point.x, solid->data[1]), point.y, solid->data[2]);
+    return vec3_equal(n, vec3(0.0, 0.0, 0.0)) ? solid->data[0] : n;
+}
+
+static Vec3 object_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    switch (solid->kind) {
+    case PART_BALL: return point;
+    case PART_PLANE: return solid->data[0];
+    case PART_BOX: return box_normal(side);
+    case PART_CONE: return cone_normal(solid->data[0].x, point, side);
+    case PART_SMOOTH_TRIANGLE: return smooth_normal(solid, point);
+    case PART_DISC:
+    case PART_TRIANGLE: break;
+    }
+    return vec3(0.0, 0.0, 1.0);
+}
+
+static Vec3 object_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    switch (solid->kind) {
+    case PART_BALL: return vec3_normalize(point);
+    case PART_BOX: return box_point(solid->data[0], solid->data[1], point, side);
+    case PART_CONE: return cone_point(solid->data[0].x, point, side);
+    case PART_PLANE: break; // has no space of its own
+    case PART_DISC:
+    case PART_TRIANGLE:
+    case PART_SMOOTH_TRIANGLE: return vec3(point.x, point.y, 0.0);
+    }
+    return point;
+}
+
+// |n|·R for a normal n of the solid's space, R being per coordinate the sum of the magnitudes of all terms that make the
+// coordinate of p(t).
+static double normal_reach(const Solid *solid, Vec3 n, const Ray *ray, double t)
+{
+    Vec3 f = solid->kind == PART_PLANE ? ray->origin : vec3_sub(ray->origin, solid->centre);
+    double part[3] = {fabs(f.x) + fabs(t * ray->direction.x), fabs(f.y) + fabs(t * ray->direction.y),
+                      fabs(f.z) + fabs(t * ray->direction.z)};
+    if (solid->kind == PART_PLANE) {
+        return fabs(n.x) * part[0] + fabs(n.y) * part[1] + fabs(n.z) * part[2] + fabs(solid->data[1].x);
+    }
+    double sum = 0.0;
+    double size = solid->kind == PART_BOX ? fmax(vec3_max_abs(solid->data[0]), vec3_max_abs(solid->data[1])) : 1.0;
+    double normal[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    for (int axis = 0; axis < 3; axis++) {
+        double reach = size;
+        for (int from = 0; from < 3; from++) {
+            reach += fabs(solid->to_object.m[from][axis]) * part[from];
+        }
+        sum += normal[axis] * reach;
+    }
+    return sum;
+}
+
+// 48 u: a coordinate in the solid's space is a difference and a product of three terms (4 u), its matrix is the inverse
+// (6 u) of up to six transforms (5 u each, as in transform_is_similarity), and the root itself adds at most 8 u.
+double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side)
+{
+    Vec3 n = object_normal(solid, ray_at(*object, t), side);
+    return 48.0 * (DBL_EPSILON / 2) * normal_reach(solid, n, ray, t) / fabs(vec3_dot(n, object->direction));
+}
+
+void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal)
+{
+    if (solid->kind == PART_PLANE) {
+        PlaneShape plane = {solid->data[0], solid->data[1].x};
+        *point = plane_point(&plane, *ray, t);
+        *normal = plane.normal;
+        return;
+    }
+    Ray object = solid_ray(solid, ray);
+    Vec3 own = object_point(solid, ray_at(object, t), side);
+    *point = vec3_add(solid->centre, transform_direction(&solid->to_world, own));
+    *normal = vec3_normalize(transform_normal(&solid->to_object, object_normal(solid, own, side)));
+}
+
+bool solid_equal(const Solid *a, const Solid *b)
+{
+    return a->kind == b->kind && vec3_equal(a->centre, b->centre) &&
+           memcmp(&a->to_object, &b->to_object, sizeof a->to_object) == 0 &&
+           memcmp(a->data, b->data, sizeof a->data) == 0;
+}

@@ -1,0 +1,52 @@
+// A ray against any part: prepared parts, their chords, and surfaces at a hit.
+//
+// The ray is taken into the part's own space, where its parameter means the same. Knows nothing of composites.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SOLID_H
+#define TRACE_SOLID_H
+
+#include "math/ray.h"
+#include "math/transform.h"
+#include "scene/scene.h"
+#include "trace/chord.h"
+
+// A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
+// the origin.
+typedef struct Solid {
+    PartKind kind;
+    uint8_t flags, hidden; // of the composite, if it is in one
+    bool flips;            // the outside of what the part is in is this part's inside
+    uint32_t node;         // of the geometry; NODE_NONE alone
+    uint32_t composite;    // NODE_NONE alone
+    MaterialIndex material;
+    uint32_t order;
+    Vec3 centre;
+    Transform to_world, to_object; // linear parts; the last rows are 0
+    Vec3 data[3];
+} Solid;
+
+RT_ALWAYS_INLINE bool solid_is_flat(const Solid *solid)
+{
+    return solid->kind >= PART_DISC;
+}
+
+// The ray in the solid's own space; for a plane as it is.
+Ray solid_ray(const Solid *solid, const Ray *ray);
+
+// The line inside a solid that is not flat; `object` is the ray in its space. `left_side`: as in chord.h.
+bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord *chord) RT_MUST_CHECK;
+
+// Where the line meets a flat solid.
+bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
+
+// How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
+double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side);
+
+// The point of a hit put back onto the side, and the solid's own outward unit normal there.
+void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal);
+
+// True when two solids are the same surface, declared twice.
+bool solid_equal(const Solid *a, const Solid *b);
+
+#endif
