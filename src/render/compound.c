@@ -23,7 +23,7 @@ static void add_mirror(LayerSum *sum, const TextureLayer *layer, const ShadeMate
     if (!shade_mirror(RENDER_ALL_FEATURES, material, sum->at, &reflectance)) {
         return;
     }
-    double weight = rgb_luminance(layer->above) * material->finish->reflection_weight;
+    double weight = rgb_luminance(layer->above) * shade_mirror_weight(RENDER_ALL_FEATURES, material->finish, reflectance);
     if (sum->weight * weight < sum->p->adc_bailout) {
         return;
     }

@@ -287,10 +287,12 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
                                      const PendingRay *from, Pending *pending)
 {
     Rgb through = onward->through;
-    if (onward->conserves_energy) {
-        through = rgb_mul(through, rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance));
-    }
     double weight = from->weight * (onward->through_weight > 0.0 ? onward->through_weight : rgb_max(through));
+    if (onward->conserves_energy) {
+        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance);
+        through = rgb_mul(through, left);
+        weight *= rgb_max(left);
+    }
     if (from->level >= p->max_trace_level || weight < p->adc_bailout || from->passed >= p->crossings_max ||
         (onward->through_weight == 0.0 && rgb_luminance(through) < p->adc_bailout)) {
         return;
@@ -349,6 +351,12 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
                                        const Inside *behind, Pending *pending)
 {
     int place = pending->count;
+    ShadeOnward faded = *onward;
+    if ((features & RENDER_INTERIORS) && at->inside) {
+        // Only what comes out of it; light that the surface gives off or mirrors back is not dimmed. Measured.
+        faded.through = rgb_mul(onward->through, shade_faded(p, at->interior, at->way));
+        onward = &faded;
+    }
     if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
         return shade_bend(p, onward, at, from, before, behind, pending);
     }
@@ -403,6 +411,13 @@ RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *mater
     return true;
 }
 
+// By how much the weight of a mirrored ray falls: by the greatest share of any angle, but with Fresnel by that of its own.
+// Measured.
+RT_ALWAYS_INLINE double shade_mirror_weight(unsigned features, const PreparedFinish *finish, Rgb reflectance)
+{
+    return (features & RENDER_INTERIORS) && finish->is_fresnel ? rgb_max(reflectance) : finish->reflection_weight;
+}
+
 // The light of a surface of one material, and what it sends on.
 RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadePoint *at, ShadeOnward *onward,
                                  RenderStatistics *statistics)
@@ -411,7 +426,7 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
     Rgbft pigment = material_pigment(plain);
     ShadeMaterial material = shade_material(p, features, pigment, plain->finish);
     if (shade_mirror(features, &material, at, &onward->reflectance)) {
-        onward->reflection_weight = material.finish->reflection_weight;
+        onward->reflection_weight = shade_mirror_weight(features, material.finish, onward->reflectance);
         onward->reflection_exponent = material.finish->reflection_exponent;
     }
     if (features & RENDER_TRANSPARENCY) {
@@ -496,7 +511,6 @@ RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const Pend
             if (features & RENDER_INTERIORS) {
                 inside_copy(&before, &pending.inside[pending.count]);
                 shade_cross(p, &at, &before, &behind);
-                now.share = at.inside ? rgb_mul(now.share, shade_faded(p, at.interior, at.way)) : now.share;
             }
             // Its own light first: a reflected ray may open a sum of its own.
             pending_add(&pending, &now, shade_surface(p, features, &at, now.weight, &onward, statistics));
