@@ -203,42 +203,6 @@ static unsigned needed_features(const Prepared *p, const Scene *scene)
     return features;
 }
 
-// ---- where rays start
-
-static uint32_t interior_of(const Scene *scene, MaterialIndex material)
-{
-    return material & MATERIAL_COMPOUND ? scene->compounds.items[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
-}
-
-// Shapes without an interior change nothing here: rays that start inside of them are in empty space.
-void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside)
-{
-    const Scene *scene = prepared->scene;
-    Vec3 at = vec3_scale(prepared->textures.scale, point);
-    inside->count = 0;
-    for (size_t i = 0; scene->interiors.count > 0 && i < scene->spheres.count; i++) {
-        const Sphere *sphere = &scene->spheres.items[i];
-        uint32_t interior = interior_of(scene, sphere->material);
-        if (interior != RECORD_NONE && vec3_length(vec3_sub(at, sphere->centre)) < sphere->radius) {
-            inside_enter(inside, sphere->order, interior);
-        }
-    }
-    for (size_t i = 0; scene->interiors.count > 0 && i < scene->ellipsoids.count; i++) {
-        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
-        uint32_t interior = interior_of(scene, ellipsoid->material);
-        if (interior != RECORD_NONE && vec3_length(transform_point(&ellipsoid->to_object, at)) < 1.0) {
-            inside_enter(inside, ellipsoid->order, interior);
-        }
-    }
-    for (size_t i = 0; scene->interiors.count > 0 && i < scene->planes.count; i++) {
-        const Plane *plane = &scene->planes.items[i];
-        uint32_t interior = interior_of(scene, plane->material);
-        if (interior != RECORD_NONE && vec3_dot(plane->normal, at) < plane->distance) {
-            inside_enter(inside, plane->order, interior);
-        }
-    }
-}
-
 // ---- the whole
 
 static void prepare_lists(Prepared *p, const Scene *scene, int exponent)

@@ -64,7 +64,7 @@ struct Prepared {
     const Kernel *kernel;
 };
 
-// What a ray that starts at a point of prepared space is inside of, in the order of declaration.
+// What a ray that starts at a point of prepared space is inside of, the outermost first.
 void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside);
 
 #endif

@@ -321,7 +321,7 @@ RT_ALWAYS_INLINE void shade_cross(const Prepared *p, ShadePoint *at, const Insid
 
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to the
 // next level.
-RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, const ShadeOnward *onward, const ShadePoint *at,
+RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, const ShadeOnward *onward, Rgb fade, const ShadePoint *at,
                                  const PendingRay *from, const Inside *before, const Inside *behind, Pending *pending)
 {
     Vec3 direction;
@@ -330,7 +330,8 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, const ShadeOnward *onward, c
     if (is_bent) {
         shade_transmit(p, onward, at, from, pending);
     } else if (from->level < p->max_trace_level) {
-        pending->rays[pending->count++] = *from;
+        pending->rays[pending->count] = *from;
+        pending->rays[pending->count++].share = rgb_mul(from->share, fade);
         direction = vec3_normalize(vec3_reflect(at->direction, at->normal));
     }
     if (pending->count > place) {
@@ -352,13 +353,16 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
 {
     int place = pending->count;
     ShadeOnward faded = *onward;
+    Rgb fade = rgb_grey(1.0);
     if ((features & RENDER_INTERIORS) && at->inside) {
-        // Only what comes out of it; light that the surface gives off or mirrors back is not dimmed. Measured.
-        faded.through = rgb_mul(onward->through, shade_faded(p, at->interior, at->way));
+        // Only what comes out of it or is mirrored for want of a way out; not what the surface's finish gives off or
+        // mirrors. Measured.
+        fade = shade_faded(p, at->interior, at->way);
+        faded.through = rgb_mul(onward->through, fade);
         onward = &faded;
     }
     if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
-        return shade_bend(p, onward, at, from, before, behind, pending);
+        return shade_bend(p, onward, fade, at, from, before, behind, pending);
     }
     shade_transmit(p, onward, at, from, pending);
     if ((features & RENDER_INTERIORS) && pending->count > place) {

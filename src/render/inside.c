@@ -1,0 +1,78 @@
+// What a ray that starts at a point is inside of.
+//
+// Follows a line from the point to where there is nothing more: what it leaves without having entered it is what the
+// point is in, the innermost first. One function with all features, for it runs once for each place of the eye.
+//
+// SPDX-License-Identifier: MIT
+#include "render/prepared.h"
+#include "trace/query.h"
+
+// Of unit length, and along nothing that people like to build along.
+static const Vec3 odd_direction = {0.36, 0.80, 0.48};
+
+// What the line goes on from: the other side of the surface that was hit.
+static void go_through(const Geometry *geometry, Ray *ray, RayStart *start, const Hit *hit, uint32_t *order,
+                       MaterialIndex *material)
+{
+    Surface surface = geometry_surface(geometry, TRACE_ALL_FEATURES, *ray, *hit);
+    *order = surface.order;
+    *material = surface.material;
+    ray->origin = surface.point;
+    *start = (RayStart){hit->shape, !hit->inside, 0};
+}
+
+static void put_below(Inside *inside, uint32_t order, uint32_t interior)
+{
+    if (inside->count < INSIDE_MAX) {
+        for (uint32_t i = inside->count++; i > 0; i--) {
+            inside->entries[i] = inside->entries[i - 1];
+        }
+        inside->entries[0] = (InsideEntry){order, interior};
+    }
+}
+
+static bool holds(const Inside *inside, uint32_t order)
+{
+    for (uint32_t i = 0; i < inside->count; i++) {
+        if (inside->entries[i].order == order) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// What is left along one way from the point, put below what is known already.
+static void walk(const Prepared *prepared, Ray ray, Inside *inside)
+{
+    RayStart start = RAY_START_FREE;
+    Inside entered = {.count = 0};
+    Hit hit;
+    for (uint64_t passed = 0; passed <= prepared->crossings_max; passed++) {
+        uint32_t order;
+        MaterialIndex material;
+        if (!geometry_closest(prepared->geometry, TRACE_ALL_FEATURES, ray, start, (double)INFINITY, &hit)) {
+            return;
+        }
+        go_through(prepared->geometry, &ray, &start, &hit, &order, &material);
+        uint32_t interior =
+            material & MATERIAL_COMPOUND ? prepared->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
+        if (!hit.inside) {
+            inside_enter(&entered, order, interior);
+        } else if (holds(&entered, order)) {
+            inside_leave(&entered, order);
+        } else if (interior != RECORD_NONE && !holds(inside, order)) {
+            // Shapes without an interior change nothing here: rays that start inside of them are in empty space.
+            put_below(inside, order, interior);
+        }
+    }
+}
+
+// Both ways, for an endless shape is left on one of them only.
+void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside)
+{
+    inside->count = 0;
+    if (prepared->scene->interiors.count > 0) {
+        walk(prepared, (Ray){point, odd_direction}, inside);
+        walk(prepared, (Ray){point, vec3_neg(odd_direction)}, inside);
+    }
+}
