@@ -27,6 +27,8 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
+    [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
+    [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
 };
 
 // Between the arguments and the properties.
@@ -45,7 +47,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
     [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
-    [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close,
+    [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close,     [KIND_LIGHT_SOURCE] = light_close,
 };
 
 SchemaKind block_kind(const Eval *ev, const AstNode *node)

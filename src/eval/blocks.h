@@ -121,6 +121,11 @@ bool camera_close(Block *block) RT_MUST_CHECK;
 bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span) RT_MUST_CHECK;
 
 // light.c
+bool light_type_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool light_shadowless_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool light_cone_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool light_area_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool light_close(Block *block) RT_MUST_CHECK;
 bool light_point_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 void light_transform(LightBlueprint *light, const Transform *transform);
 bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer) RT_MUST_CHECK;

@@ -6,36 +6,130 @@
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
 
+enum { AREA_SIZE_MAX = 1024 }; // rows, and lights in each
+
+static bool has_cone(const LightBlueprint *light)
+{
+    return light->spotlight || light->cylinder;
+}
+
+// The last of the three words counts; what a shadowless light was before is forgotten, but the direction of its rays.
+static void forget_cone(LightBlueprint *light)
+{
+    light->parallel |= light->cylinder;
+    light->spotlight = light->cylinder = false;
+}
+
+bool light_shadowless_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    (void)property;
+    (void)item;
+    forget_cone(&block->record->light);
+    block->record->light.shadowless = true;
+    return true;
+}
+
+bool light_type_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    LightBlueprint *light = &block->record->light;
+    if (has_cone(light)) {
+        return block_fault(block, DIAG_E0293, item->span, "a light is one `spotlight` or one `cylinder`");
+    }
+    light->shadowless = false;
+    light->cylinder = property->word[0] == 'c';
+    light->spotlight = !light->cylinder;
+    light->radius = light->cylinder ? 0.75 : 30.0;
+    light->falloff = light->cylinder ? 1.0 : 45.0;
+    return true;
+}
+
+bool light_cone_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    SchemaProperty number = {property->word, TYPE_NUMBER, ACTION_NONE, .at = property->at};
+    if (!has_cone(&block->record->light) && !block->has_fault) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` needs `spotlight` or `cylinder` before it",
+                           property->word);
+    }
+    return block_value(block, &number, item->span);
+}
+
 bool light_point_at_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     static const SchemaProperty vector = {"point_at", TYPE_VECTOR, ACTION_NONE,
                                           .at = offsetof(LightBlueprint, point_at)};
+    const LightBlueprint *light = &block->record->light;
     (void)property;
-    if (!block->record->light.parallel && !block->has_fault) {
-        return block_fault(block, DIAG_E0256, item->span, "`point_at` needs `parallel` before it");
+    if (!light->parallel && !has_cone(light) && !block->has_fault) {
+        return block_fault(block, DIAG_E0256, item->span,
+                           "`point_at` needs `parallel`, `spotlight` or `cylinder` before it");
     }
     return block_value(block, &vector, item->span);
+}
+
+bool light_area_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty values[] = {
+        {"area_light", TYPE_VECTOR, ACTION_NONE, .at = offsetof(LightBlueprint, area.axis1)},
+        {"area_light", TYPE_VECTOR, ACTION_NONE, .at = offsetof(LightBlueprint, area.axis2)},
+        {"area_light", TYPE_INTEGER, ACTION_NONE, .at = offsetof(LightBlueprint, area.size1),
+         .range = {RANGE_FAULT, false, 1.0, AREA_SIZE_MAX}},
+        {"area_light", TYPE_INTEGER, ACTION_NONE, .at = offsetof(LightBlueprint, area.size2),
+         .range = {RANGE_FAULT, false, 1.0, AREA_SIZE_MAX}},
+    };
+    (void)property;
+    for (size_t i = 0; i < RT_COUNT_OF(values); i++) {
+        if (!block_value(block, &values[i], item->span)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// POV-Ray refuses a circular light of one row.
+bool light_close(Block *block)
+{
+    const LightArea *area = &block->record->light.area;
+    bool is_line = area->size1 < 2 || area->size2 < 2;
+    return !area->circular || !is_line ||
+           block_fault(block, DIAG_E0294, block->node->span,
+                       "`circular` needs an `area_light` of at least two rows and two columns");
 }
 
 void light_transform(LightBlueprint *light, const Transform *transform)
 {
     light->position = transform_point(transform, light->position);
     light->point_at = transform_point(transform, light->point_at);
+    light->area.axis1 = transform_direction(transform, light->area.axis1);
+    light->area.axis2 = transform_direction(transform, light->area.axis2);
+}
+
+static LightType light_type(const LightBlueprint *light)
+{
+    // The rays of a parallel spotlight are all as on its axis.
+    return light->cylinder ? LIGHT_CYLINDER : light->parallel ? LIGHT_PARALLEL : light->spotlight ? LIGHT_SPOT : LIGHT_POINT;
 }
 
 bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer)
 {
     LightBlueprint moved = *light;
     light_transform(&moved, outer);
+    bool fades = light->fade_distance > 0.0 && light->fade_power > 0.0;
     Light record = {
-        .type = light->parallel ? LIGHT_PARALLEL : LIGHT_POINT,
+        .type = light_type(light),
         .shadowless = light->shadowless,
         .position = moved.position,
         .point_at = moved.point_at,
         .colour = rgbft_rgb(light->colour),
+        .radius = light->radius,
+        .falloff = light->falloff,
+        .tightness = light->tightness,
+        .fade_distance = fades ? light->fade_distance : 0.0,
+        .fade_power = fades ? light->fade_power : 0.0,
+        .area = moved.area,
         .span = light->part.span,
     };
-    if (!vec3_is_finite(record.position) || !vec3_is_finite(record.point_at)) {
+    if (!vec3_is_finite(record.position) || !vec3_is_finite(record.point_at) ||
+        !vec3_is_finite(record.area.axis1) || !vec3_is_finite(record.area.axis2)) {
         return eval_fault(ev, DIAG_E0340, light->part.span, "the light leaves the range of numbers");
     }
     return scene_add_light(ev->scene, &record) || eval_no_memory(ev, light->part.span);

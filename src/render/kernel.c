@@ -74,8 +74,10 @@ RT_ALWAYS_INLINE void trace_tile(const Prepared *p, unsigned features, Tile tile
     X(many_any, "tree+planes+shadows+mirrors+transparency", GEOMETRY_MANY, SHADING_ANY)                                \
     X(many_textures, "tree+planes+textures", GEOMETRY_MANY, SHADING_ANY | RENDER_TEXTURES)                             \
     X(many_glass, "tree+planes+textures+glass", GEOMETRY_MANY, SHADING_ANY | RENDER_TEXTURES | RENDER_INTERIORS)       \
+    X(many_lights, "tree+planes+lights", GEOMETRY_MANY, SHADING_ANY | RENDER_LIGHTS)                                   \
     X(any_shadows, "all shapes+shadows", GEOMETRY_ANY, SHADING_SHADOWS)                                                \
-    X(any_any, "everything", GEOMETRY_ANY, SHADING_ANY | RENDER_EXPONENT | RENDER_TEXTURES | RENDER_INTERIORS)
+    X(any_any, "everything", GEOMETRY_ANY,                                                                             \
+      SHADING_ANY | RENDER_EXPONENT | RENDER_TEXTURES | RENDER_INTERIORS | RENDER_LIGHTS)
 
 #define DEFINE_KERNEL(name, text, geometry, shading)                                                                   \
     static void trace_##name(const Prepared *p, Tile tile, Film *film, RenderStatistics *statistics)                   \

@@ -20,7 +20,8 @@ typedef enum RenderFeature {
     RENDER_EXPONENT = 1 << 13,     // reflected light raised to a power
     RENDER_TEXTURES = 1 << 14,     // patterns or layers
     RENDER_INTERIORS = 1 << 15,    // refraction, fading, Fresnel's mirror
-    RENDER_ALL_FEATURES = 0xff << 8,
+    RENDER_LIGHTS = 1 << 16,       // lights of one place, direction or distance: spotlight, fading, area
+    RENDER_ALL_FEATURES = 0x1ff << 8,
 } RenderFeature;
 
 // Pixels left <= x < right, top <= y < bottom.

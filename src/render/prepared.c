@@ -6,6 +6,8 @@
 #include <limits.h>
 #include <stdlib.h>
 
+static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
+
 // ---- the exact scale
 
 // Least and greatest binary exponent of the lengths that rays meet. Zero, infinite and NaN lengths do not count.
@@ -118,14 +120,26 @@ static PreparedCamera prepare_camera(const Camera *camera, int exponent)
 static PreparedLight prepare_light(const Light *light, int exponent)
 {
     PreparedLight out = {
-        .parallel = light->type == LIGHT_PARALLEL,
+        .parallel = light->type == LIGHT_PARALLEL || light->type == LIGHT_CYLINDER,
         .shadowless = light->shadowless,
+        .is_plain = (light->type == LIGHT_POINT || light->type == LIGHT_PARALLEL) && light->fade_power == 0.0 &&
+                    light->area.size1 == 0,
         .position = vec3_ldexp(light->position, -exponent),
         .colour = light->colour,
+        .type = light->type,
+        .tightness = light->tightness,
+        .fade_distance = ldexp(light->fade_distance, -exponent),
+        .fade_power = light->fade_power,
+        .area = light->area,
     };
-    if (out.parallel) {
+    if (light->type != LIGHT_POINT) {
         out.towards = unit(vec3_sub(light->position, light->point_at));
     }
+    bool is_spot = light->type == LIGHT_SPOT;
+    out.radius = is_spot ? cos(light->radius * radians_per_degree) : ldexp(light->radius, -exponent);
+    out.falloff = is_spot ? cos(light->falloff * radians_per_degree) : ldexp(light->falloff, -exponent);
+    out.area.axis1 = vec3_ldexp(light->area.axis1, -exponent);
+    out.area.axis2 = vec3_ldexp(light->area.axis2, -exponent);
     return out;
 }
 
@@ -194,6 +208,7 @@ static unsigned needed_features(const Prepared *p, const Scene *scene)
     unsigned features = geometry_features(p->geometry) | pigments_features(scene);
     for (size_t i = 0; i < p->light_count; i++) {
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
+        features |= p->lights[i].is_plain ? 0 : (unsigned)RENDER_LIGHTS;
     }
     features |= scene->compounds.count ? (unsigned)RENDER_TEXTURES : 0;
     features |= scene->interiors.count ? (unsigned)RENDER_INTERIORS : 0;
@@ -210,7 +225,8 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
     // A light that sends out nothing lights nothing.
     for (size_t i = 0; i < scene->lights.count; i++) {
         if (!rgb_is_black(scene->lights.items[i].colour)) {
-            p->lights[p->light_count++] = prepare_light(&scene->lights.items[i], exponent);
+            p->lights[p->light_count] = prepare_light(&scene->lights.items[i], exponent);
+            p->lights[p->light_count++].number = i;
         }
     }
     p->materials = scene->materials.items;

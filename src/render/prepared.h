@@ -23,9 +23,16 @@ typedef struct PreparedCamera {
 
 typedef struct PreparedLight {
     bool parallel, shadowless;
+    bool is_plain; // neither of what stands below `colour`
     Vec3 position;
-    Vec3 towards; // parallel: unit vector to the light
+    Vec3 towards; // parallel: unit vector to the light; of a spotlight: against its axis, of unit length
     Rgb colour;
+    LightType type;
+    double radius, falloff; // of a spotlight: cosines
+    double tightness;
+    double fade_distance, fade_power; // 0: no fading
+    LightArea area;
+    uint64_t number; // among the scene's lights, for `jitter`
 } PreparedLight;
 
 // A finish with everything worked out that does not depend on pigment and ray.

@@ -13,6 +13,7 @@
 #include "base/limits.h"
 #include "render/inside.h"
 #include "render/kernel.h"
+#include "render/light.h"
 #include "render/prepared.h"
 #include "render/texture.h"
 #include "trace/query.h"
@@ -114,24 +115,6 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
     return shade_pigment_through(material_pigment(&p->materials[surface->material]));
 }
 
-// base^exponent, by multiplications for whole exponents, so that the bits do not depend on a machine's pow.
-RT_ALWAYS_INLINE double shade_power(double base, double exponent)
-{
-    if (exponent == 1.0) {
-        return base;
-    }
-    if (!(exponent >= 0.0 && exponent <= 4096.0 && exponent == (double)(int)exponent)) {
-        return pow(base, exponent);
-    }
-    double result = 1.0;
-    for (unsigned n = (unsigned)exponent; n; n >>= 1, base *= base) {
-        if (n & 1) {
-            result *= base;
-        }
-    }
-    return result;
-}
-
 // The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
 // multiplies it, the first that does not ends it.
 RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, Ray ray, RayStart start, double t_max)
@@ -166,6 +149,39 @@ RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, cons
         return shade_light_through(p, features, ray, start, distance);
     }
     return rgb_grey(geometry_occluded(p->geometry, features, ray, start, distance) ? 0.0 : 1.0);
+}
+
+// The share of the light of one of an area's lights that reaches the point.
+RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at,
+                                    const PreparedLight *light, int i, int j, RenderStatistics *statistics)
+{
+    Vec3 offset = vec3_sub(vec3_add(light->position, light_area_offset(light, at->point, i, j)), at->point);
+    double distance = vec3_length(offset);
+    return shade_visibility(p, features, at, vec3_scale(1.0 / distance, offset), distance, statistics);
+}
+
+// The mean over an area light, see render/light.h.
+RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
+                                const PreparedLight *light, RenderStatistics *statistics)
+{
+    LightParts parts;
+    Rgb sum = rgb_grey(0.0);
+    light_parts_begin(&parts, &light->area);
+    while (parts.count > 0) {
+        LightPart part = parts.waiting[--parts.count];
+        Rgb corners[4], mean = rgb_grey(0.0);
+        for (int corner = 0; corner < 4; corner++) {
+            int i = corner & 1 ? part.right : part.left, j = corner & 2 ? part.bottom : part.top;
+            int same = (part.right == part.left ? corner & 2 : corner) & (part.bottom == part.top ? 1 : 3);
+            corners[corner] =
+                same < corner ? corners[same] : shade_area_one(p, features, at, light, i, j, statistics);
+            mean = rgb_add(mean, corners[corner]);
+        }
+        if (!light_part_divides(&parts, &light->area, part, corners)) {
+            sum = rgb_add_scaled(sum, 0.25 * part.weight, mean);
+        }
+    }
+    return sum;
 }
 
 // Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
@@ -217,9 +233,18 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
         return rgb_grey(0.0);
     }
     Rgb arriving = light->colour;
+    if ((features & RENDER_LIGHTS) && !light->is_plain) {
+        double strength = light_strength(light, offset, distance);
+        if (!(strength > 0.0)) {
+            return rgb_grey(0.0);
+        }
+        arriving = rgb_scale(strength, arriving);
+    }
     // Beyond the plane of a parallel light nothing throws a shadow.
     if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
-        Rgb share = shade_visibility(p, features, at, towards, distance, statistics);
+        Rgb share = (features & RENDER_LIGHTS) && light->area.size1 > 0
+                        ? shade_area(p, features, at, light, statistics)
+                        : shade_visibility(p, features, at, towards, distance, statistics);
         if (rgb_is_black(share)) {
             return share;
         }

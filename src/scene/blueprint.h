@@ -97,7 +97,10 @@ typedef struct LightBlueprint {
     ObjectPart part; // of a declared light that is used; a light has no material
     Vec3 position, point_at;
     Rgbft colour;
-    bool parallel, shadowless;
+    double radius, falloff, tightness, fade_distance, fade_power;
+    LightArea area;
+    bool parallel, spotlight, cylinder, shadowless;
+    bool is_ignored; // words that change no picture here
 } LightBlueprint;
 
 typedef struct SphereBlueprint {

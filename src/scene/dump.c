@@ -75,13 +75,41 @@ static void dump_camera(const Camera *camera, TextBuffer *out)
     text_append(out, "\n}\n");
 }
 
+static void dump_area(const LightArea *area, TextBuffer *out)
+{
+    if (area->size1 == 0) {
+        return;
+    }
+    dump_vector(out, " area_light ", area->axis1);
+    dump_vector(out, ", ", area->axis2);
+    text_printf(out, ", %d, %d", area->size1, area->size2);
+    if (area->is_adaptive) {
+        text_printf(out, " adaptive %d", area->adaptive);
+    }
+    text_append(out, area->circular ? " circular" : "");
+    text_append(out, area->jitter ? " jitter" : "");
+}
+
 static void dump_light(const Light *light, TextBuffer *out)
 {
     dump_vector(out, "light_source { ", light->position);
     dump_rgb(out, ", ", light->colour);
-    if (light->type == LIGHT_PARALLEL) {
-        dump_vector(out, " parallel point_at ", light->point_at);
+    static const char *const types[] = {[LIGHT_PARALLEL] = "parallel", [LIGHT_SPOT] = "spotlight",
+                                        [LIGHT_CYLINDER] = "cylinder"};
+    if (light->type != LIGHT_POINT) {
+        text_printf(out, " %s", types[light->type]);
+        dump_vector(out, " point_at ", light->point_at);
     }
+    if (light->type == LIGHT_SPOT || light->type == LIGHT_CYLINDER) {
+        dump_number(out, " radius ", light->radius);
+        dump_number(out, " falloff ", light->falloff);
+        dump_number(out, " tightness ", light->tightness);
+    }
+    if (light->fade_power != 0.0) {
+        dump_number(out, " fade_distance ", light->fade_distance);
+        dump_number(out, " fade_power ", light->fade_power);
+    }
+    dump_area(&light->area, out);
     text_append(out, light->shadowless ? " shadowless }\n" : " }\n");
 }
 

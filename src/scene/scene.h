@@ -32,14 +32,26 @@ typedef struct Camera {
     Span span;
 } Camera;
 
-typedef enum LightType { LIGHT_POINT, LIGHT_PARALLEL } LightType;
+typedef enum LightType { LIGHT_POINT, LIGHT_PARALLEL, LIGHT_SPOT, LIGHT_CYLINDER } LightType;
+
+// The point lights of an area light: rows and columns, in all axis1 by axis2, its middle at the light's position.
+typedef struct LightArea {
+    Vec3 axis1, axis2;
+    int size1, size2; // 0, 0: no area light
+    int adaptive; // how often it is halved before parts whose corners look alike are taken as a whole
+    bool circular, jitter, is_adaptive;
+} LightArea;
 
 typedef struct Light {
     LightType type;
     bool shadowless;
     Vec3 position;
-    Vec3 point_at; // LIGHT_PARALLEL: the light shines along point_at - position
+    Vec3 point_at; // but LIGHT_POINT: the light shines along point_at - position
     Rgb colour;
+    double radius, falloff; // LIGHT_SPOT: half angles in degrees; LIGHT_CYLINDER: lengths; of full light, and of any
+    double tightness;
+    double fade_distance, fade_power; // 2 / (1 + (distance / fade_distance)^fade_power), unless one of them is 0
+    LightArea area;
     Span span;
 } Light;
 

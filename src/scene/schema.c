@@ -105,8 +105,30 @@ static const SchemaProperty light_arguments[] = {
 
 static const SchemaProperty light_properties[] = {
     {"parallel", TYPE_FLAG, AT(LightBlueprint, parallel), .doc = "all its rays have the direction to `point_at`"},
-    {"point_at", TYPE_ACTION, ACTION_POINT_AT, AT(LightBlueprint, point_at), .doc = "where a `parallel` light shines"},
-    {"shadowless", TYPE_FLAG, AT(LightBlueprint, shadowless), .doc = "casts no shadows and makes no highlights"},
+    {"spotlight", TYPE_ACTION, ACTION_LIGHT_TYPE, .doc = "a cone of light"},
+    {"cylinder", TYPE_ACTION, ACTION_LIGHT_TYPE, .doc = "a cylinder of light; all its rays have one direction"},
+    {"point_at", TYPE_ACTION, ACTION_POINT_AT, AT(LightBlueprint, point_at),
+     .doc = "where a `parallel` light, a `spotlight` or a `cylinder` shines"},
+    {"radius", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, radius),
+     .doc = "of full light: of a `spotlight` half an angle in degrees, 30; of a `cylinder` a length, 0.75"},
+    {"falloff", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, falloff), .doc = "of any light, likewise: 45 and 1"},
+    {"tightness", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, tightness),
+     .doc = "how the light falls from the axis on: 0 not at all"},
+    {"fade_distance", TYPE_NUMBER, AT(LightBlueprint, fade_distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "where the light has its colour; it is brighter before and darker behind; 0: the same everywhere"},
+    {"fade_power", TYPE_NUMBER, AT(LightBlueprint, fade_power), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "the light falls with this power of the distance; 0: not"},
+    {"area_light", TYPE_ACTION, ACTION_AREA_LIGHT,
+     .doc = "two vectors, two numbers: so many rows of so many lights, for soft shadows"},
+    {"circular", TYPE_FLAG, AT(LightBlueprint, area.circular), .doc = "the lights of `area_light` lie in a disc"},
+    {"jitter", TYPE_FLAG, AT(LightBlueprint, area.jitter), .doc = "each of them is moved at random"},
+    {"adaptive", TYPE_INTEGER, AT(LightBlueprint, area.adaptive), GIVEN(LightBlueprint, area.is_adaptive),
+     .range = {RANGE_FAULT, false, 0.0, 20.0},
+     .doc = "not all of them are asked for, where after so many halvings the corners agree"},
+    {"media_interaction", TYPE_SWITCH, AT(LightBlueprint, is_ignored), .doc = "accepted; changes no picture"},
+    {"media_attenuation", TYPE_SWITCH, AT(LightBlueprint, is_ignored), .doc = "accepted; changes no picture"},
+    {"shadowless", TYPE_ACTION, ACTION_SHADOWLESS,
+     .doc = "casts no shadows and makes no highlights; takes back `spotlight` and `cylinder`, and they it"},
 };
 
 static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {0, 0, 1}};
@@ -346,7 +368,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                            .is_fixed = true,
                            .arguments = LIST(light_arguments),
                            .groups = {LIST(light_properties), TRANSFORMS},
-                           .doc = "A point light without falloff. Transforms move what stands before them."},
+                           .doc = "A point light, if nothing else is said. Transforms move what stands before them, but not `radius` and "
+                                  "`falloff`."},
     [KIND_SPHERE] = {.word = "sphere",
                      .size = sizeof(SphereBlueprint),
                      .defaults = &sphere_defaults,
@@ -557,12 +580,10 @@ static const SchemaUnsupported unsupported[] = {
     {"superellipsoid", true, "use a sphere with `scale`"},
     {"text", true, NULL},
     {"torus", true, "use a `union` of spheres"},
-    {"area_light", false, "a point light is as near as it comes"},
     {"inverse", false, "leave it out: both sides of a surface look alike"},
     {"no_shadow", false, "a light may be `shadowless`"},
     {"fresnel", false, "give `reflection { min, max }`"},
     {"ior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
-    {"spotlight", false, "a point light is as near as it comes"},
 };
 
 const SchemaBlock *schema_kind(SchemaKind kind)

@@ -39,7 +39,8 @@ static bool lights_are_valid(const Scene *scene, DiagSink *diags)
     bool valid = true;
     for (size_t i = 0; i < scene->lights.count; i++) {
         const Light *light = &scene->lights.items[i];
-        if (!vec3_is_finite(light->position) || !vec3_is_finite(light->point_at) || !rgb_is_finite(light->colour)) {
+        if (!vec3_is_finite(light->position) || !vec3_is_finite(light->point_at) || !rgb_is_finite(light->colour) ||
+            !vec3_is_finite(light->area.axis1) || !vec3_is_finite(light->area.axis2)) {
             diag_report(diags, DIAG_E0411, light->span, "the light has a number that is not finite");
             valid = false;
         }
