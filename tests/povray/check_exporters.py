@@ -108,8 +108,8 @@ def lacks(program):
 POINT_LIGHT = "area_light=None, point_lights=[[(2.0, 3.0, 40.0), 'White']]"
 # name, the program that it needs, how it is made, what is expected
 CASES = [
-    ("Open Babel, phenol, space-filling", "obabel", from_openbabel(PHENOL, "SPF"), "E0252 merge"),
-    ("Open Babel, ethane, ball and stick", "obabel", from_openbabel(ETHANE, "BAS"), "E0252 merge"),
+    ("Open Babel, phenol, space-filling", "obabel", from_openbabel(PHENOL, "SPF"), DRAWN),
+    ("Open Babel, ethane, ball and stick", "obabel", from_openbabel(ETHANE, "BAS"), DRAWN),
     ("Open Babel, phenol, its atoms placed one by one", "obabel", from_openbabel_atoms(PHENOL), DRAWN),
     ("PyMOL, benzene, spheres", "pymol", from_pymol("fragment benzene", "hide everything", "show spheres"), DRAWN),
     ("PyMOL, peptide of five residues, spheres", "pymol",
@@ -127,7 +127,7 @@ CASES = [
               ", camera_type='perspective', textures=['ase3', 'glass', 'jmol', 'simple'] * 16,"
               " transmittances=[0.0, 0.3] * 32", "show_unit_cell=0,"), DRAWN),
     ("ASE, benzene, its own area light", "python3-ase",
-     from_ase("molecule('C6H6')", "", "show_unit_cell=0,"), "E0251 light_source: area_light"),
+     from_ase("molecule('C6H6')", "", "show_unit_cell=0,"), DRAWN),
     ("ASE, copper and its cell", "python3-ase", from_ase("bulk('Cu') * (3, 3, 3)", POINT_LIGHT, "show_unit_cell=2,"),
      DRAWN),
 ]
