@@ -68,6 +68,7 @@ void eval_item(Eval *ev, const AstNode *item)
 static bool take_item(void *client, const AstNode *item)
 {
     Eval *ev = client;
+    lint_items(ev, item);
     eval_item(ev, item);
     return !eval_cancelled(ev);
 }
@@ -131,6 +132,7 @@ static void init(Eval *ev, const EvalOptions *options, Scene *scene)
 
 static void fini(Eval *ev)
 {
+    lint_fini(ev);
     objects_fini(ev);
     data_files_fini(ev);
     files_fini(ev);
@@ -164,7 +166,8 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
     const DiagFrame *frame = options->diags->frame;
     init(&ev, options, scene);
     options->diags->frame = NULL;
-    if (!scope_init(&ev) || !objects_init(&ev) || !files_init(&ev, source) || !declare_all(&ev, source)) {
+    if (!scope_init(&ev) || !objects_init(&ev) || !files_init(&ev, source) || !lint_init(&ev) ||
+        !declare_all(&ev, source)) {
         eval_no_memory(&ev, SPAN_NONE);
     } else {
         Splice reading;
@@ -173,6 +176,7 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
         splice_fini(&reading);
         ev.faulty = ev.faulty || !is_whole;
         settle_version(&ev);
+        lint_finish(&ev);
     }
     fini(&ev);
     options->diags->frame = frame;

@@ -9,6 +9,7 @@
 static bool take_item(void *client, const AstNode *item)
 {
     Eval *ev = client;
+    lint_items(ev, item);
     eval_item(ev, item);
     return !eval_cancelled(ev);
 }
@@ -65,6 +66,7 @@ static void splice(Cursor *cursor, Source *source, const GrammarContext *context
     frame->kind = FRAME_INCLUDE;
     bool is_torn = false;
     bool is_whole = grammar_parse_all(context, source, &items, &is_torn);
+    lint_items(ev, items.first);
     frame->next = items.first;
     if (is_torn) {
         splice_again(cursor, frame, source, context);

@@ -9,6 +9,7 @@
 //   directive.c  what each directive does           include.c   #include
 //   files.c      finding and opening files          datafile.c  #fopen, #read and #fclose
 //   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
+//   lint.c       what is suspicious in the text
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
 //   misfit.c     what is said of items that do not fit into a block
 //   block.c      a block's properties into a struct, driven by scene/schema.h
@@ -109,6 +110,7 @@ typedef struct PastedText {
 typedef struct Scope Scope;             // scope.c
 typedef struct CursorFrame CursorFrame; // cursor.c
 typedef struct FileState FileState;     // files.c
+typedef struct Lint Lint;               // lint.c
 typedef struct ObjectState ObjectState; // object.c: default texture, scratch of the objects
 
 typedef struct Eval {
@@ -122,6 +124,7 @@ typedef struct Eval {
     ObjectState *objects;
     FileState *files;
     DataFile *data_files; // all that were opened
+    Lint *lint; // NULL when nobody asked
     const DiagFrame *frame; // also in options.diags->frame
     double version;
     bool version_given;           // a #version was run
@@ -450,6 +453,16 @@ bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value) RT_MUST_C
 bool eval_place(Eval *ev, const AstNode *item) RT_MUST_CHECK;
 // #default { items }
 bool eval_default(Eval *ev, const AstNode *directive) RT_MUST_CHECK;
+
+// ---- what is suspicious
+
+bool lint_init(Eval *ev) RT_MUST_CHECK; // false when out of memory
+void lint_fini(Eval *ev);
+// Looks at items that are about to be evaluated, when a warning of this kind is on.
+void lint_items(Eval *ev, const AstNode *first);
+// Some text is not seen as items, so nothing can be told of unused names.
+void lint_give_up(Eval *ev);
+void lint_finish(Eval *ev); // after the last item
 
 bool objects_init(Eval *ev) RT_MUST_CHECK;
 void objects_fini(Eval *ev);

@@ -102,6 +102,7 @@ void macro_define(Eval *ev, const AstNode *node, const GrammarText *text)
         macro->is_unbalanced = !grammar_text_is_balanced(text);
         ev->has_unbalanced = ev->has_unbalanced || macro->is_unbalanced;
         macro->is_torn = node->b == NULL && !grammar_text_is_empty(text);
+        lint_give_up(ev);
     }
     if (is_kept) {
         macro->is_loose = macro->is_torn || is_loose(macro->body->b);

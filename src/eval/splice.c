@@ -35,7 +35,9 @@ static const Value *keep(Eval *ev, const Value *value, Span span)
 
 static Eval *eval_of(void *client)
 {
-    return ((Splice *)client)->cursor.ev;
+    Eval *ev = ((Splice *)client)->cursor.ev;
+    lint_give_up(ev); // the names in this text are not all seen as items
+    return ev;
 }
 
 static const void *capture(void *client, Symbol name, Span span)

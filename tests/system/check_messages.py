@@ -3,8 +3,10 @@
 
 SPDX-License-Identifier: MIT
 """
+import glob
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -125,6 +127,17 @@ def check_warnings(tap):
     tap.ok(status == 0 and not said, "-W64 is still a width")
 
 
+def check_clean_scenes(tap):
+    """Nothing is suspicious in scenes that are fine."""
+    top = os.environ["top_srcdir"]
+    for path in sorted(glob.glob(f"{top}/examples/*.scn") + glob.glob(f"{top}/tests/povray/*.scn")):
+        done = subprocess.run([PROGRAM, "-q", "-Wall", f"-I{top}/share/rtlang", "--check", os.path.basename(path)],
+                              cwd=os.path.dirname(path), stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                              check=False)
+        tap.ok(done.returncode == 0 and not re.search(r"W020[5-9]", done.stderr),
+               f"nothing suspicious in {os.path.basename(path)}", done.stderr)
+
+
 def check_counts(tap):
     status, said = run("--check", "-Wno-W0402", "-Wno-W0403", "-Wno-W0401", scene="sphere { 0, 0 }\n" * 1000)
     told = said.decode()
@@ -161,6 +174,7 @@ def main():
     tap = Tap()
     check_json(tap)
     check_warnings(tap)
+    check_clean_scenes(tap)
     check_counts(tap)
     check_explain(tap)
     return tap.done()
