@@ -113,6 +113,12 @@ test_scripts = \
   %D%/povray/check_programs.py \
   %D%/povray/check_colors.py %D%/povray/check_exporters.py %D%/povray/check_survey.py
 
+test_scripts += %D%/system/check_growth.py
+.PHONY: check-growth
+check-long: check-growth
+check-growth: rtlang$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_growth.py
+
 TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
@@ -124,6 +130,7 @@ lang_cases = \
   %D%/lang/seeded_faults.test %D%/lang/settings.test %D%/lang/sphere.test %D%/lang/splice.test \
   %D%/lang/splines.test %D%/lang/strings.test \
   %D%/lang/suggestions.test %D%/lang/texture.test %D%/lang/transforms.test %D%/lang/union.test
+lang_cases += %D%/lang/warnings.test
 EXTRA_DIST += $(test_scripts) $(lang_cases) %D%/format/layout.scn %D%/format/layout.expected %D%/golden %D%/system %D%/povray
 
 # Rewrite what the tests hold as expected; look at the difference before it is committed.

@@ -11,7 +11,7 @@
 #include "eval/internal.h"
 
 // So many names are looked at for suggestions in a run: a scene of a million names and faults gets no more.
-enum { LOOKED_AT_MOST = 1 << 28 };
+enum { LOOKED_AT_MOST = 1 << 26 };
 
 typedef struct Binding Binding;
 struct Binding {

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""Nothing costs more than in proportion: messages, names, included files, the length of a line.
+
+Instructions are counted by valgrind's cachegrind, so that no clock and no other load decides. The cost of ten times as much
+text may be GROWTH times as high; tables that double and caches of the allocator take the rest, and a quadratic part would make it
+100. CHECK_LONG=1 takes a million of each and a line of 100 MB; without it some hundreds and thousands. Prints TAP.
+SPDX-License-Identifier: MIT
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from tap import Tap
+
+PROGRAM = os.path.abspath(os.environ["RTLANG"])
+IS_LONG = bool(os.environ.get("CHECK_LONG"))
+SIZES = (100_000, 1_000_000) if IS_LONG else (400, 4_000)
+GROWTH = 13
+LINE_BYTES = 100_000_000
+DEEPEST = 31
+
+
+
+def deep_includes(count):
+    return ['#include "d0.inc"\n'] * (count // DEEPEST)
+
+
+def misspelt(count):
+    yield from (f"#declare scal{i} = 1;\n" for i in range(count))
+    yield "sphere { 0, 1 foo " + " ".join(f"scam{i}" for i in range(count)) + " }\n"
+
+
+# name -> (options, scene by count, exit code)
+CASES = {
+    "warnings that say the same": ((), lambda count: ["sphere { 0, 0 }\n"] * count, 0),
+    "warnings that say different things": ((), lambda count: (f'#warning "{i}"\n' for i in range(count)), 0),
+    "names": ((), lambda count: (f"#declare N{i} = {i};\n" for i in range(count)), 0),
+    "names that nothing uses": (("-Wall",), lambda count: (f"#declare N{i} = {i};\n" for i in range(count)), 0),
+    "locals of a macro": ((), lambda count: ["#macro M()\n", *(f"#local N{i} = {i};\n" for i in range(count)),
+                                             "#end\nM()\n"], 0),
+    "included files": ((), lambda count: ['#include "empty.inc"\n'] * count, 0),
+    "included files in a block": ((), lambda count: ["union { sphere { 0, 1 } sphere { 1, 1 }\n",
+                                                     *['#include "empty.inc"\n'] * count, "}\n"], 0),
+    "included files in each other": ((), deep_includes, 0),
+    "one line": ((), lambda count: ["sphere { 0, 1 } "] * count + ["sphere { 0, R }\n"], 1),
+    "unknown names after a missing file": ((), lambda count: ['#include "none.inc"\n'] +
+                                           [f"sphere {{ N{i}, 1 }}\n" for i in range(count)], 3),
+    "names that are nearly a property": ((), misspelt, 1),
+}
+
+
+def write_includes(folder):
+    for name, text in [("empty.inc", "")] + [
+            (f"d{i}.inc", f'#include "d{i + 1}.inc"\n' if i + 1 < DEEPEST else "") for i in range(DEEPEST)]:
+        with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+            file.write(text)
+
+
+def write_scene(folder, lines):
+    with open(os.path.join(folder, "s.scn"), "w", encoding="ascii") as file:
+        file.writelines(lines)
+
+
+def instructions(folder, options):
+    """(number of instructions, exit code) of a check of s.scn."""
+    log = os.path.join(folder, "log")
+    done = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null",
+                           f"--log-file={log}", "--error-exitcode=0", PROGRAM, "-q", *options, "--check", "s.scn"],
+                          cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          check=False)
+    with open(log, encoding="utf-8", errors="replace") as file:
+        counted = re.search(r"I\s+refs:\s+([\d,]+)", file.read())
+    return int(counted.group(1).replace(",", "")), done.returncode
+
+
+def check_case(tap, name, folder):
+    options, lines, status = CASES[name]
+    costs, codes = [], []
+    for count in (0, *SIZES):
+        write_scene(folder, lines(count))
+        cost, code = instructions(folder, options)
+        costs.append(cost)
+        codes.append(code)
+    growth = (costs[2] - costs[0]) / max(1, costs[1] - costs[0])
+    tap.ok(growth <= GROWTH and codes[1:] == [status] * 2,
+           f"{name}: ten times as many cost {growth:.1f} times as much", f"instructions {costs}, exit codes {codes}")
+
+
+def check_line(tap, folder):
+    """The message at the end of the longest line has its place and a piece of the line."""
+    text = "sphere { 0, 1 } "
+    write_scene(folder, [text] * (LINE_BYTES // len(text)) + ["sphere { 0, R }\n"])
+    done = subprocess.run([PROGRAM, "-q", "--check", "s.scn"], cwd=folder, stderr=subprocess.PIPE, check=False)
+    said = done.stderr.decode()
+    column = LINE_BYTES // len(text) * len(text) + len("sphere { 0, ") + 1
+    tap.ok(done.returncode == 1 and f"s.scn:1:{column}: error[E0201]" in said and len(said) < 1000,
+           "a message in a line of 100 MB", said)
+
+
+def main():
+    tap = Tap()
+    with tempfile.TemporaryDirectory() as folder:
+        write_includes(folder)
+        for name in CASES:
+            if shutil.which("valgrind"):
+                check_case(tap, name, folder)
+            else:
+                tap.skip(name, "valgrind is not installed")
+        if IS_LONG:
+            check_line(tap, folder)
+    return tap.done()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
