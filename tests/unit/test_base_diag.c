@@ -214,8 +214,10 @@ static void test_codes(void)
         DiagSink sink;
         diag_init(&sink, NULL);
         bool is_error = diag_code_name((DiagCode)i)[0] == 'E';
-        bool is_kept = diag_report(&sink, (DiagCode)i, SPAN_NONE, "m");
-        is_sound = is_sound && is_kept && sink.error_count == (is_error ? 1 : 0) &&
+        bool is_on = diag_report(&sink, (DiagCode)i, SPAN_NONE, "m");
+        is_sound = is_sound && is_on == !diag_code_is_extra((DiagCode)i) && diag_set_warning(&sink, "all") &&
+                   (is_on || diag_report(&sink, (DiagCode)i, SPAN_NONE, "m"));
+        is_sound = is_sound && sink.error_count == (is_error ? 1 : 0) &&
                    sink.warning_count == (is_error ? 0 : 1) && (sink.class == CLASS_NONE) == !is_error;
         diag_fini(&sink);
     }
