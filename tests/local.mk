@@ -30,7 +30,8 @@ unit_programs = \
   tests/unit/test_base_arena tests/unit/test_base_diag tests/unit/test_base_intern tests/unit/test_base_source \
   tests/unit/test_base_suggest tests/unit/test_base_text tests/unit/test_math tests/unit/test_trace_sphere \
   tests/unit/test_trace_certified \
-  tests/unit/test_trace_geometry tests/unit/test_trace_tree tests/unit/test_trace_secondary tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
+  tests/unit/test_trace_geometry tests/unit/test_trace_tree tests/unit/test_trace_secondary tests/unit/test_trace_shapes \
+  tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
   tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_png tests/unit/test_image_values \
   tests/unit/test_render
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
@@ -61,6 +62,8 @@ endif
 trace_headers = %D%/unit/trace_scenes.h $(unit_headers)
 tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c $(trace_headers)
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
+tests_unit_test_trace_shapes_SOURCES = %D%/unit/test_trace_shapes.c $(trace_headers)
+tests_unit_test_trace_shapes_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)
 tests_unit_test_trace_tree_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_secondary_SOURCES = %D%/unit/test_trace_secondary.c $(trace_headers)

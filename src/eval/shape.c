@@ -4,7 +4,6 @@
 // as the same records. Knows nothing of composites and textures.
 //
 // SPDX-License-Identifier: MIT
-#include <float.h>
 #include <math.h>
 
 #include "eval/blocks.h"
@@ -161,7 +160,7 @@ static ShapeResult smooth_triangle_form(Eval *ev, const void *object, Part *part
         if (vec3_equal(triangle->normals[i], vec3(0.0, 0.0, 0.0))) {
             return nothing(ev, triangle->part.span, "a smooth triangle with a normal of 0 is not drawn");
         }
-        part->data[i] = transform_normal(&part->to_world, vector_unit(triangle->normals[i]));
+        part->data[i] = transform_normal(&part->to_world, triangle->normals[i]);
     }
     return result;
 }
@@ -216,12 +215,13 @@ static void make_zeros_positive(Transform *transform)
     }
 }
 
-// The normals' lengths count where they are weighed against each other, in the scene itself.
+// The normals' lengths count where they are weighed against each other, in the scene itself. One that is 1 to 12 digits is
+// left alone, so that it stays the same when a dump is read; no picture tells.
 static void normalise_corners(Part *part)
 {
     for (int i = 0; part->kind == PART_SMOOTH_TRIANGLE && i < 3; i++) {
         double length = vector_length(transform_normal(&part->to_object, part->data[i]));
-        if (fabs(length - 1.0) > 16.0 * DBL_EPSILON) {
+        if (!(fabs(length - 1.0) < 1e-12)) {
             part->data[i] = vec3_scale(1.0 / length, part->data[i]);
         }
     }

@@ -1,0 +1,399 @@
+// Boxes, cones, discs, triangles and composites: hits lie on the surfaces, the tree finds what testing each shape finds,
+// rays that leave a shape meet what they must, composites are what their members' insides say, scale changes no bit.
+//
+// SPDX-License-Identifier: MIT
+#include <float.h>
+#include <string.h>
+
+#include "unit/tap.h"
+#include "unit/trace_scenes.h"
+
+static const PartKind solid_kinds[] = {PART_BALL, PART_BOX, PART_CONE};
+static const PartKind alone_kinds[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE};
+
+static Transform random_map(Random *random, double size)
+{
+    Vec3 stretch = vec3(exp(random_between(random, -2, 2)), exp(random_between(random, -2, 2)),
+                        exp(random_between(random, -2, 2)));
+    Vec3 turn = vec3(random_between(random, 0, 360), random_between(random, 0, 360), random_between(random, 0, 360));
+    Transform map = transform_compose(transform_scale(vec3_scale(size, stretch)), transform_rotate(turn));
+    map = transform_compose(map, transform_scale(vec3(1.0, 1.0, exp(random_between(random, -1, 1)))));
+    return transform_compose(map, transform_translate(random_point(random, size)));
+}
+
+static Part random_part(Random *random, PartKind kind, double size)
+{
+    Part part = {.kind = kind, .node = NODE_NONE, .to_world = random_map(random, size)};
+    if (!transform_invert(&part.to_world, &part.to_object)) {
+        abort();
+    }
+    if (kind == PART_BOX) {
+        part.data[0] = vec3(-1.0, -1.0, -1.0);
+        part.data[1] = vec3(random_between(random, 0, 1), 1.0, random_between(random, -0.5, 1));
+    } else if (kind == PART_CONE || kind == PART_DISC) {
+        part.data[0].x = random_bits(random) % 3 == 0 ? 1.0 : random_between(random, 0, 0.9);
+        part.data[0].x = kind == PART_DISC ? 0.5 * part.data[0].x : part.data[0].x;
+    }
+    return part;
+}
+
+static void add_part(Scene *scene, const Part *part)
+{
+    if (!scene_add_part(scene, part)) {
+        abort();
+    }
+}
+
+// How far inside of its fixed shape a point of the scene is, in units of that shape; negative outside.
+static double depth(const Part *part, Vec3 point)
+{
+    Vec3 p = transform_point(&part->to_object, point);
+    double round = hypot(p.x, p.y);
+    switch (part->kind) {
+    case PART_BALL: return 1.0 - vec3_length(p);
+    case PART_BOX: {
+        Vec3 low = vec3_sub(p, part->data[0]), high = vec3_sub(part->data[1], p);
+        return fmin(fmin(fmin(low.x, low.y), low.z), fmin(fmin(high.x, high.y), high.z));
+    }
+    case PART_CONE: return fmin(1.0 + (part->data[0].x - 1.0) * p.z - round, fmin(p.z, 1.0 - p.z));
+    case PART_DISC: return fmin(-fabs(p.z), fmin(1.0 - round, round - part->data[0].x));
+    default: return fmin(-fabs(p.z), fmin(fmin(p.x, p.y), 1.0 - p.x - p.y));
+    }
+}
+
+static Ray random_ray(Random *random, double size)
+{
+    Vec3 from = random_point(random, 8.0 * size);
+    Vec3 to = random_bits(random) % 4 ? random_point(random, 1.5 * size) : vec3_add(from, vec3(0.0, size, 0.0));
+    return (Ray){from, vec3_normalize(vec3_sub(to, from))};
+}
+
+// ---- alone
+
+static void test_on_surface(void)
+{
+    Random random = {1};
+    double worst = 0.0;
+    int hits = 0, wrong_sides = 0;
+    for (int i = 0; i < 4000; i++) {
+        Scene scene;
+        Part part = random_part(&random, alone_kinds[i % 4], 1.0);
+        scene_init(&scene);
+        add_part(&scene, &part);
+        Geometry *geometry = prepare(&scene, 0);
+        for (int k = 0; k < 20; k++) {
+            Ray ray = random_ray(&random, 1.0);
+            Hit hit;
+            if (!closest(geometry, ray, RAY_START_FREE, (double)INFINITY, &hit)) {
+                continue;
+            }
+            Surface surface = geometry_surface(geometry, TRACE_ALL_FEATURES, ray, hit);
+            worst = fmax(worst, fabs(depth(&part, surface.point)));
+            worst = fmax(worst, vec3_length(vec3_sub(surface.point, ray_at(ray, hit.t))));
+            wrong_sides += (vec3_dot(surface.normal, ray.direction) > 0.0) != hit.inside;
+            hits++;
+        }
+        geometry_free(geometry);
+        scene_fini(&scene);
+    }
+    printf("# %d hits, worst %.1e\n", hits, worst);
+    // Coordinates below 50, maps of a condition below 1000: 64 of them rounded.
+    tap_ok(hits > 10000 && worst < 64.0 * 50.0 * 1000.0 * DBL_EPSILON, "hits lie on the surfaces");
+    tap_ok(wrong_sides == 0, "normals point to the side that the hit tells");
+}
+
+static void test_tree(void)
+{
+    enum { COUNT = 700, RAYS = 3000 };
+    Random random = {2};
+    Scene scene;
+    Geometry *single[COUNT];
+    scene_init(&scene);
+    for (int i = 0; i < COUNT; i++) {
+        Part part = random_part(&random, alone_kinds[i % 4], 0.05);
+        Scene one;
+        scene_init(&one);
+        part.to_world = transform_compose(part.to_world, transform_translate(random_point(&random, 4.0)));
+        if (!transform_invert(&part.to_world, &part.to_object)) {
+            abort();
+        }
+        add_part(&scene, &part);
+        add_part(&one, &part);
+        single[i] = prepare(&one, 0);
+        scene_fini(&one);
+    }
+    Geometry *geometry = prepare(&scene, 0);
+    int differ = 0, met = 0, shadows_differ = 0;
+    for (int k = 0; k < RAYS; k++) {
+        Ray ray = random_ray(&random, 1.0);
+        double t = (double)INFINITY;
+        Hit hit;
+        for (int i = 0; i < COUNT; i++) {
+            t = closest(single[i], ray, RAY_START_FREE, t, &hit) ? hit.t : t;
+        }
+        bool is_met = closest(geometry, ray, RAY_START_FREE, (double)INFINITY, &hit);
+        differ += is_met != isfinite(t) || (is_met && hit.t != t);
+        shadows_differ += geometry_occluded(geometry, TRACE_ALL_FEATURES, ray, RAY_START_FREE, 5.0) != (t < 5.0);
+        met += is_met;
+    }
+    tap_ok(met > RAYS / 10 && differ == 0, "the tree finds what testing each shape finds (%d of %d differ)", differ, RAYS);
+    tap_ok(shadows_differ == 0, "and so it does for shadows");
+    geometry_free(geometry);
+    for (int i = 0; i < COUNT; i++) {
+        geometry_free(single[i]);
+    }
+    scene_fini(&scene);
+}
+
+static void test_secondary(double size)
+{
+    Random random = {3};
+    int false_hits = 0, wrong_exits = 0, rays = 0;
+    for (int i = 0; i < 1500; i++) {
+        Scene scene;
+        Part part = random_part(&random, i % 2 ? PART_BOX : PART_CONE, size);
+        scene_init(&scene);
+        add_part(&scene, &part);
+        Geometry *geometry = prepare(&scene, ilogb(size));
+        double unit = ldexp(1.0, -ilogb(size));
+        for (int k = 0; k < 20; k++) {
+            Ray ray = random_ray(&random, size * unit);
+            Hit hit, next;
+            if (!closest(geometry, ray, RAY_START_FREE, (double)INFINITY, &hit) || hit.inside) {
+                continue;
+            }
+            Surface surface = geometry_surface(geometry, TRACE_ALL_FEATURES, ray, hit);
+            Ray on = {surface.point, random_direction(&random)};
+            // Grazing as often as not.
+            double rise = vec3_dot(on.direction, surface.normal);
+            on.direction = vec3_normalize(vec3_add_scaled(on.direction, -rise * (k % 2 ? 1.0 - 1e-9 : 0.0), surface.normal));
+            rise = vec3_dot(on.direction, surface.normal);
+            bool inward = rise < 0.0;
+            bool met = closest(geometry, on, (RayStart){hit.shape, inward, 0}, (double)INFINITY, &next);
+            false_hits += !inward && met;
+            // Inward the far side is met, unless the ray only grazes.
+            if (inward && rise < -1e-6) {
+                Surface far_side = met ? geometry_surface(geometry, TRACE_ALL_FEATURES, on, next) : surface;
+                wrong_exits += !met || !next.inside || vec3_dot(far_side.normal, on.direction) < 0.0;
+            }
+            rays++;
+        }
+        geometry_free(geometry);
+        scene_fini(&scene);
+    }
+    tap_ok(rays > 5000 && false_hits == 0, "size %g: no shape meets itself outward (%d)", size, false_hits);
+    tap_ok(wrong_exits == 0, "size %g: every ray inward leaves on the far side (%d of %d)", size, wrong_exits, rays);
+}
+
+// ---- composites
+
+static void grow(Scene *scene, Random *random, uint32_t parent, int level)
+{
+    for (int i = 0; i < 3; i++) {
+        if (level < 3 && random_bits(random) % 3 == 0) {
+            uint32_t node;
+            NodeOp op = (NodeOp)(random_bits(random) % 3);
+            if (!scene_add_node(scene, op, random_bits(random) % 4 == 0, parent, 0, &node)) {
+                abort();
+            }
+            grow(scene, random, node, level + 1);
+        } else {
+            Part part = random_part(random, solid_kinds[random_bits(random) % 3], 1.0);
+            part.node = parent;
+            part.flags = random_bits(random) % 4 == 0 ? PART_INVERSE : 0;
+            if (!scene_add_leaf(scene, &part)) {
+                abort();
+            }
+        }
+    }
+}
+
+// Whether a point is inside, by the insides of the leaves; *doubt turns true near a surface.
+static bool is_inside(const Scene *scene, uint32_t at, Vec3 point, bool *doubt)
+{
+    const Node *node = &scene->nodes.items[at];
+    bool any = false, all = true;
+    for (size_t i = 0; i < scene->nodes.count; i++) {
+        if (scene->nodes.items[i].parent == at) {
+            bool inside = is_inside(scene, (uint32_t)i, point, doubt);
+            any = any || inside;
+            all = all && inside;
+        }
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        const Part *part = &scene->parts.items[i];
+        if (part->node == at) {
+            double deep = depth(part, point);
+            bool inside = (deep > 0.0) != (bool)(part->flags & PART_INVERSE);
+            *doubt = *doubt || fabs(deep) < 1e-9;
+            any = any || inside;
+            all = all && inside;
+        }
+    }
+    return (node->op == NODE_INTERSECTION ? all : any) != node->is_inverse;
+}
+
+static bool has_union(const Scene *scene)
+{
+    for (size_t i = 0; i < scene->nodes.count; i++) {
+        if (scene->nodes.items[i].op == NODE_UNION) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Follows a line through the composite. Without unions each crossing changes the inside, and nothing else does.
+static bool line_is_right(const Scene *scene, const Geometry *geometry, Ray ray, Random *random, int *crossings)
+{
+    RayStart start = RAY_START_FREE;
+    Hit hit;
+    for (int guard = 0; guard < 200; guard++) {
+        bool met = closest(geometry, ray, start, (double)INFINITY, &hit);
+        double length = met ? hit.t : 50.0;
+        bool doubt = false;
+        bool inside = is_inside(scene, 0, ray_at(ray, random_between(random, 0.0, length)), &doubt);
+        for (int k = 0; k < 5; k++) {
+            Vec3 point = ray_at(ray, random_between(random, 0.0, length));
+            bool same = is_inside(scene, 0, point, &doubt) == inside;
+            if (!doubt && !same) {
+                return false;
+            }
+        }
+        if (!doubt && met && hit.inside != inside) {
+            return false;
+        }
+        if (!met) {
+            return true;
+        }
+        (*crossings)++;
+        Surface surface = geometry_surface(geometry, TRACE_ALL_FEATURES, ray, hit);
+        ray.origin = surface.point;
+        start = (RayStart){hit.shape, !hit.inside, 0};
+    }
+    return false;
+}
+
+static void test_composites(void)
+{
+    Random random = {4};
+    int wrong = 0, lines = 0, crossings = 0;
+    for (int i = 0; i < 600; i++) {
+        Scene scene;
+        uint32_t root;
+        scene_init(&scene);
+        if (!scene_begin_composite(&scene, 0, 0) ||
+            !scene_add_node(&scene, (NodeOp)(1 + i % 2), false, NODE_NONE, 0, &root)) {
+            abort();
+        }
+        grow(&scene, &random, root, 0);
+        scene_end_composite(&scene);
+        if (!has_union(&scene)) {
+            Geometry *geometry = prepare(&scene, 0);
+            for (int k = 0; k < 50; k++, lines++) {
+                wrong += !line_is_right(&scene, geometry, random_ray(&random, 1.0), &random, &crossings);
+            }
+            geometry_free(geometry);
+        }
+        scene_fini(&scene);
+    }
+    printf("# %d lines, %d crossings\n", lines, crossings);
+    tap_ok(crossings > 5000 && wrong == 0, "the surfaces of composites are where the inside changes (%d of %d lines)", wrong,
+           lines);
+}
+
+// Two boxes with faces on one plane, under a turn that is rounded differently for each: the one taken away leaves no film.
+static void test_coincident(void)
+{
+    Random random = {5};
+    int films = 0, misses = 0;
+    for (int i = 0; i < 300; i++) {
+        Scene scene;
+        uint32_t root;
+        scene_init(&scene);
+        if (!scene_begin_composite(&scene, 0, 0) ||
+            !scene_add_node(&scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
+            abort();
+        }
+        Vec3 turn = vec3(random_between(&random, 0, 360), random_between(&random, 0, 360), 0.0);
+        Transform map = transform_compose(transform_rotate(turn), transform_translate(random_point(&random, 3.0)));
+        for (int k = 0; k < 2; k++) {
+            Part part = {.kind = PART_BOX, .node = root, .flags = k ? PART_INVERSE : 0};
+            double size = k ? 0.3 : 1.0;
+            Transform own = transform_compose(transform_scale(vec3(size, 1.0 / 3.0, size)), map);
+            part.data[0] = vec3(-1.0, -3.0, -1.0);
+            part.data[1] = vec3(1.0, 3.0, 1.0);
+            part.to_world = own;
+            if (!transform_invert(&own, &part.to_object) || !scene_add_leaf(&scene, &part)) {
+                abort();
+            }
+        }
+        scene_end_composite(&scene);
+        Geometry *geometry = prepare(&scene, 0);
+        Vec3 axis = transform_direction(&map, vec3(0.0, 1.0, 0.0));
+        for (int k = 0; k < 200; k++) {
+            bool is_hole = k % 2;
+            double reach = is_hole ? 0.29 : 0.65;
+            Vec3 own = vec3(random_between(&random, -reach, reach), 0.0, is_hole ? random_between(&random, -0.29, 0.29)
+                                                                                 : 0.65);
+            Vec3 target = transform_point(&map, own);
+            Ray ray = {vec3_add_scaled(target, 7.0, axis), vec3_neg(axis)};
+            Hit hit;
+            bool met = closest(geometry, ray, RAY_START_FREE, (double)INFINITY, &hit);
+            films += is_hole && met;
+            misses += !is_hole && !met;
+        }
+        geometry_free(geometry);
+        scene_fini(&scene);
+    }
+    tap_ok(films == 0 && misses == 0, "faces that coincide leave no film (%d) and no gap (%d)", films, misses);
+}
+
+static void test_scale(void)
+{
+    Random random = {6};
+    int differ = 0, hits = 0;
+    for (int i = 0; i < 200; i++) {
+        Scene scenes[2];
+        Part part = random_part(&random, alone_kinds[i % 4], 1.0);
+        int k = (int)random_between(&random, -400, 400);
+        Geometry *geometries[2];
+        for (int which = 0; which < 2; which++) {
+            Part one = part;
+            one.to_world = transform_compose(part.to_world, transform_scale(vec3(ldexp(1.0, which * k), ldexp(1.0, which * k),
+                                                                                 ldexp(1.0, which * k))));
+            scene_init(&scenes[which]);
+            if (!transform_invert(&one.to_world, &one.to_object)) {
+                abort();
+            }
+            add_part(&scenes[which], &one);
+            geometries[which] = prepare(&scenes[which], which * k);
+        }
+        for (int r = 0; r < 50; r++) {
+            Ray ray = random_ray(&random, 1.0);
+            Hit a, b;
+            bool met = closest(geometries[0], ray, RAY_START_FREE, (double)INFINITY, &a);
+            bool met_too = closest(geometries[1], ray, RAY_START_FREE, (double)INFINITY, &b);
+            differ += met != met_too || (met && (a.t != b.t || a.shape != b.shape));
+            hits += met;
+        }
+        for (int which = 0; which < 2; which++) {
+            geometry_free(geometries[which]);
+            scene_fini(&scenes[which]);
+        }
+    }
+    tap_ok(hits > 500 && differ == 0, "a power of two changes no bit (%d of %d differ)", differ, hits);
+}
+
+int main(void)
+{
+    test_on_surface();
+    test_tree();
+    test_secondary(1e-12);
+    test_secondary(1.0);
+    test_secondary(1e12);
+    test_composites();
+    test_coincident();
+    test_scale();
+    return tap_done();
+}
