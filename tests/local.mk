@@ -130,7 +130,7 @@ lang_cases = \
   %D%/lang/expressions.test %D%/lang/extents.test %D%/lang/faults.test %D%/lang/files.test %D%/lang/finish.test \
   %D%/lang/functions.test %D%/lang/includes.test %D%/lang/interior.test %D%/lang/light.test %D%/lang/limits.test %D%/lang/loops.test \
   %D%/lang/macros.test %D%/lang/pattern.test %D%/lang/pigment.test %D%/lang/plane.test \
-  %D%/lang/seeded_faults.test %D%/lang/settings.test %D%/lang/sphere.test %D%/lang/splice.test \
+  %D%/lang/seeded_faults.test %D%/lang/settings.test %D%/lang/shapes.test %D%/lang/sphere.test %D%/lang/splice.test \
   %D%/lang/splines.test %D%/lang/strings.test \
   %D%/lang/suggestions.test %D%/lang/texture.test %D%/lang/transforms.test %D%/lang/union.test
 lang_cases += %D%/lang/warnings.test

@@ -35,6 +35,7 @@ typedef struct Branch {
     uint32_t parent; // node
     bool is_inverse; // one of those that a difference takes away
     bool is_unseen;
+    bool is_in_merge;
 } Branch;
 
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer);
@@ -58,6 +59,12 @@ static bool may_add(Eval *ev, Span span)
         return eval_no_memory(ev, span);
     }
     return true;
+}
+
+static uint8_t hidden_of(const ObjectPart *part)
+{
+    return (uint8_t)((part->no_image ? HIDDEN_CAMERA : 0) | (part->no_shadow ? HIDDEN_SHADOW : 0) |
+                     (part->no_reflection ? HIDDEN_MIRROR : 0));
 }
 
 // ---- plain spheres and planes
@@ -212,6 +219,7 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionBlueprint *group,
 {
     Branch branch = *outer;
     branch.is_inverse = false;
+    branch.is_in_merge = op == NODE_MERGE || (op == NODE_UNION && outer->is_in_merge);
     if (!add_node(ev, op, group->part.is_inverse != outer->is_inverse, outer->parent, group->part.span,
                   &branch.parent)) {
         return false;
@@ -244,6 +252,10 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
     }
     const ObjectPart *part = object;
     Branch branch = *outer;
+    if (outer->is_in_merge && hidden_of(part)) {
+        return eval_fault(ev, DIAG_E0365, part->span,
+                          "a member of a merge that some rays do not see is not supported by rtlang");
+    }
     ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer};
     const ClipChain *clips = part->clips ? &own : outer->placement.clips;
     branch.placement.clips = NULL;
@@ -288,12 +300,6 @@ static bool place_composite(Eval *ev, SchemaKind kind, const void *object, const
 }
 
 // ---- anything
-
-static uint8_t hidden_of(const ObjectPart *part)
-{
-    return (uint8_t)((part->no_image ? HIDDEN_CAMERA : 0) | (part->no_shadow ? HIDDEN_SHADOW : 0) |
-                     (part->no_reflection ? HIDDEN_MIRROR : 0));
-}
 
 static bool place_members(Eval *ev, const UnionBlueprint *group, const Placement *inner)
 {

@@ -34,11 +34,18 @@ static void dump_form(const Part *part, TextBuffer *out)
     }
 }
 
-static void dump_hidden(uint8_t hidden, TextBuffer *out)
+// Each word with a blank before or behind it.
+static void dump_words(bool is_inverse, uint8_t hidden, const char *before, const char *behind, TextBuffer *out)
 {
-    text_append(out, hidden & HIDDEN_CAMERA ? " no_image" : "");
-    text_append(out, hidden & HIDDEN_SHADOW ? " no_shadow" : "");
-    text_append(out, hidden & HIDDEN_MIRROR ? " no_reflection" : "");
+    static const char *const words[] = {"no_image", "no_shadow", "no_reflection"}; // in the order of HiddenFrom
+    if (is_inverse) {
+        text_printf(out, "%sinverse%s", before, behind);
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        if (hidden & 1u << i) {
+            text_printf(out, "%s%s%s", before, words[i], behind);
+        }
+    }
 }
 
 void dump_part(const Scene *scene, const Part *part, TextBuffer *out)
@@ -49,8 +56,7 @@ void dump_part(const Scene *scene, const Part *part, TextBuffer *out)
         text_append(out, " matrix ");
         dump_numbers(out, &part->to_world.m[0][0], 12);
     }
-    text_append(out, part->flags & PART_INVERSE ? " inverse" : "");
-    dump_hidden(part->hidden, out);
+    dump_words(part->flags & PART_INVERSE, part->hidden, " ", "", out);
     if (part->flags & PART_UNSEEN) {
         text_append(out, " }\n");
     } else {
@@ -96,8 +102,7 @@ static void dump_node(Walk *walk, uint8_t hidden, TextBuffer *out)
         dump_child(walk, at, out);
         text_append(out, is_clip ? "}\n" : "");
     }
-    text_append(out, node->is_inverse ? "inverse" : "");
-    dump_hidden(hidden, out);
+    dump_words(node->is_inverse, hidden, "", " ", out);
     text_append(out, "}\n");
 }
 
