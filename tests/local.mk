@@ -15,7 +15,7 @@ AM_TESTS_ENVIRONMENT = \
   PRINT_DIAGNOSTICS='$(abs_top_builddir)/tests/unit/print_diagnostics'; export PRINT_DIAGNOSTICS; \
   POVRAY='$(POVRAY)'; export POVRAY; \
   VALGRIND='$(VALGRIND)'; export VALGRIND; \
-  COUNT_SPHERE_TESTS='$(abs_top_builddir)/tests/system/count_sphere_tests'; export COUNT_SPHERE_TESTS; \
+  COUNT_SPHERE_TESTS='$(abs_top_builddir)/tests/unit/count_sphere_tests'; export COUNT_SPHERE_TESTS; \
   CC='$(CC)'; export CC; \
   RTLANG_MODULE_DIR='$(abs_top_builddir)/.libs'; export RTLANG_MODULE_DIR; \
   top_srcdir='$(abs_top_srcdir)'; export top_srcdir; \
@@ -27,12 +27,27 @@ UNIT_TRACE = libtrace.la $(UNIT_SCENE)
 UNIT_GRAMMAR = libgrammar.la libast.la libbase.la
 
 unit_programs = \
-  tests/unit/test_base_arena tests/unit/test_base_diag tests/unit/test_base_intern tests/unit/test_base_source \
-  tests/unit/test_base_suggest tests/unit/test_base_text tests/unit/test_math tests/unit/test_trace_sphere \
+  tests/unit/test_base_arena \
+  tests/unit/test_base_diag \
+  tests/unit/test_base_intern \
+  tests/unit/test_base_source \
+  tests/unit/test_base_suggest \
+  tests/unit/test_base_text \
+  tests/unit/test_math \
+  tests/unit/test_trace_sphere \
   tests/unit/test_trace_certified \
-  tests/unit/test_trace_geometry tests/unit/test_trace_tree tests/unit/test_trace_secondary tests/unit/test_trace_shapes \
-  tests/unit/test_scene tests/unit/test_schema tests/unit/test_ast \
-  tests/unit/test_grammar tests/unit/test_grammar_random tests/unit/test_image tests/unit/test_image_png tests/unit/test_image_values \
+  tests/unit/test_trace_geometry \
+  tests/unit/test_trace_tree \
+  tests/unit/test_trace_secondary \
+  tests/unit/test_trace_shapes \
+  tests/unit/test_scene \
+  tests/unit/test_schema \
+  tests/unit/test_ast \
+  tests/unit/test_grammar \
+  tests/unit/test_grammar_random \
+  tests/unit/test_image \
+  tests/unit/test_image_png \
+  tests/unit/test_image_values \
   tests/unit/test_render
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
 
@@ -100,21 +115,35 @@ check_PROGRAMS += tests/lang/typos
 tests_lang_typos_SOURCES = %D%/lang/typos.c
 tests_lang_typos_LDADD = $(tests_lang_run_lang_LDADD)
 
-check_PROGRAMS += tests/system/count_sphere_tests
-tests_system_count_sphere_tests_SOURCES = %D%/system/count_sphere_tests.c
-tests_system_count_sphere_tests_LDADD = $(UNIT_TRACE)
+check_PROGRAMS += tests/unit/count_sphere_tests
+tests_unit_count_sphere_tests_SOURCES = %D%/unit/count_sphere_tests.c
+tests_unit_count_sphere_tests_LDADD = $(UNIT_TRACE)
 check_PROGRAMS += tests/fuzz/fuzz_scene
 tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
 tests_fuzz_fuzz_scene_LDADD = libapi.la
 
 test_scripts = \
-  %D%/fuzz/replay.sh %D%/lang/check_cases.sh \
-  %D%/check-layers.py %D%/check-headers.py %D%/check-globals.py %D%/check-diagnostics.py %D%/check-docs.py \
-  %D%/format/check_format.py %D%/golden/check_golden.py %D%/system/check_messages.py %D%/system/run_system.py %D%/system/check_instructions.py \
+  %D%/fuzz/replay.sh \
+  %D%/lang/check_cases.sh \
+  %D%/check-layers.py \
+  %D%/check-headers.py \
+  %D%/check-globals.py \
+  %D%/check-diagnostics.py \
+  %D%/check-docs.py \
+  %D%/format/check_format.py \
+  %D%/golden/check_golden.py \
+  %D%/system/check_messages.py \
+  %D%/system/run_system.py \
+  %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
-  %D%/povray/check_pictures.py %D%/povray/check_includes.py %D%/povray/check_lang.py %D%/povray/check_debug.py \
+  %D%/povray/check_pictures.py \
+  %D%/povray/check_includes.py \
+  %D%/povray/check_lang.py \
+  %D%/povray/check_debug.py \
   %D%/povray/check_programs.py \
-  %D%/povray/check_colors.py %D%/povray/check_exporters.py %D%/povray/check_survey.py
+  %D%/povray/check_colors.py \
+  %D%/povray/check_exporters.py \
+  %D%/povray/check_survey.py
 
 test_scripts += %D%/system/check_growth.py
 .PHONY: check-growth
@@ -126,15 +155,46 @@ TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
 lang_cases = \
-  %D%/lang/arrays.test %D%/lang/camera.test %D%/lang/colours.test %D%/lang/declare.test %D%/lang/default.test \
-  %D%/lang/expressions.test %D%/lang/extents.test %D%/lang/faults.test %D%/lang/files.test %D%/lang/finish.test \
-  %D%/lang/functions.test %D%/lang/includes.test %D%/lang/interior.test %D%/lang/light.test %D%/lang/limits.test %D%/lang/loops.test \
-  %D%/lang/macros.test %D%/lang/pattern.test %D%/lang/pigment.test %D%/lang/plane.test \
-  %D%/lang/seeded_faults.test %D%/lang/settings.test %D%/lang/shapes.test %D%/lang/sphere.test %D%/lang/splice.test \
-  %D%/lang/splines.test %D%/lang/strings.test \
-  %D%/lang/suggestions.test %D%/lang/texture.test %D%/lang/transforms.test %D%/lang/union.test
+  %D%/lang/arrays.test \
+  %D%/lang/camera.test \
+  %D%/lang/colours.test \
+  %D%/lang/declare.test \
+  %D%/lang/default.test \
+  %D%/lang/expressions.test \
+  %D%/lang/extents.test \
+  %D%/lang/faults.test \
+  %D%/lang/files.test \
+  %D%/lang/finish.test \
+  %D%/lang/functions.test \
+  %D%/lang/includes.test \
+  %D%/lang/interior.test \
+  %D%/lang/light.test \
+  %D%/lang/limits.test \
+  %D%/lang/loops.test \
+  %D%/lang/macros.test \
+  %D%/lang/pattern.test \
+  %D%/lang/pigment.test \
+  %D%/lang/plane.test \
+  %D%/lang/seeded_faults.test \
+  %D%/lang/settings.test \
+  %D%/lang/shapes.test \
+  %D%/lang/sphere.test \
+  %D%/lang/splice.test \
+  %D%/lang/splines.test \
+  %D%/lang/strings.test \
+  %D%/lang/suggestions.test \
+  %D%/lang/texture.test \
+  %D%/lang/transforms.test \
+  %D%/lang/union.test
 lang_cases += %D%/lang/warnings.test
-EXTRA_DIST += $(test_scripts) $(lang_cases) %D%/format/layout.scn %D%/format/layout.expected %D%/golden %D%/system %D%/povray
+EXTRA_DIST += \
+  $(test_scripts) \
+  $(lang_cases) \
+  %D%/format/layout.scn \
+  %D%/format/layout.expected \
+  %D%/golden \
+  %D%/system \
+  %D%/povray
 
 # Rewrite what the tests hold as expected; look at the difference before it is committed.
 .PHONY: update-golden update-docs
