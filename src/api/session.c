@@ -252,7 +252,7 @@ rt_status rt_set_isa(rt_session *session, const char *name)
     return RT_FAULT_USAGE;
 }
 
-// What the tree and the copies of the shapes take, which are made from the records: at most that much for a shape.
+// What the tree takes for a shape, at most; the prepared copies of the records take no more than the records.
 enum { PREPARED_BYTES_PER_SHAPE = 256 };
 
 // Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken.
@@ -260,7 +260,7 @@ static bool memory_suffices(rt_session *session)
 {
     uint64_t film = (uint64_t)session->width * (uint64_t)session->height * 3 * sizeof(float);
     uint64_t scene = scene_bytes(&session->scene);
-    uint64_t prepared = (uint64_t)session->scene.shape_count * PREPARED_BYTES_PER_SHAPE;
+    uint64_t prepared = scene + (uint64_t)session->scene.shape_count * PREPARED_BYTES_PER_SHAPE;
     char needed[LIMITS_BYTES_TEXT], limit[LIMITS_BYTES_TEXT];
     if (film + scene + prepared <= session->limits.memory_bytes) {
         return true;

@@ -138,6 +138,8 @@ size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
     return LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) + LIST_BYTES(scene->finishes) +
+           LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->texture_entries) +
+           LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites);
 #undef LIST_BYTES
