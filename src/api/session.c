@@ -252,15 +252,16 @@ rt_status rt_set_isa(rt_session *session, const char *name)
     return RT_FAULT_USAGE;
 }
 
-// What the tree takes for a shape, at most; the prepared copies of the records take no more than the records.
-enum { PREPARED_BYTES_PER_SHAPE = 256 };
+// What the tree takes for a shape, and the prepared forms of the records as a multiple of these: bounds that hold for
+// a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910).
+enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
 // Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken.
 static bool memory_suffices(rt_session *session)
 {
     uint64_t film = (uint64_t)session->width * (uint64_t)session->height * 3 * sizeof(float);
     uint64_t scene = scene_bytes(&session->scene);
-    uint64_t prepared = scene + (uint64_t)session->scene.shape_count * PREPARED_BYTES_PER_SHAPE;
+    uint64_t prepared = scene * PREPARED_PER_RECORD + (uint64_t)session->scene.shape_count * TREE_BYTES_PER_SHAPE;
     char needed[LIMITS_BYTES_TEXT], limit[LIMITS_BYTES_TEXT];
     if (film + scene + prepared <= session->limits.memory_bytes) {
         return true;
