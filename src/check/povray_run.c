@@ -19,7 +19,7 @@
 
 extern char **environ;
 
-enum { FIXED_ARGUMENTS = 12, TAIL_BYTES = 400 };
+enum { FIXED_ARGUMENTS = 12, TAIL_BYTES = 400, START_TRIES = 5 };
 
 typedef struct ArgumentList {
     char **items; // ends with NULL
@@ -178,6 +178,18 @@ static void log_tail(const char *path, char tail[static TAIL_BYTES])
     }
 }
 
+// On a machine that is busy, POV-Ray gives up before it begins: its threads have a time limit for their start.
+static bool has_not_begun(const PovrayJob *job, int status)
+{
+    char tail[TAIL_BYTES];
+
+    if (status == 0) {
+        return false;
+    }
+    log_tail(job->log, tail);
+    return strstr(tail, "Timed out waiting for worker thread startup") != NULL;
+}
+
 static bool outcome_judge(const PovrayJob *job, int status, char *detail, size_t detail_size)
 {
     struct stat output;
@@ -202,15 +214,22 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     char *folder = scene_folder(job->scene);
     bool fine = false;
     pid_t process;
-    int code;
+    int code = 0;
+    int status = -1;
 
     snprintf(detail, detail_size, "out of memory");
     if (arguments_make(&arguments, job) && folder != NULL) {
-        code = process_start(job, arguments.items, folder, &process);
+        for (int i = 0; i < START_TRIES; i++) {
+            code = process_start(job, arguments.items, folder, &process);
+            status = code == 0 ? process_wait(process) : -1;
+            if (code != 0 || !has_not_begun(job, status)) {
+                break;
+            }
+        }
         if (code != 0) {
             snprintf(detail, detail_size, "povray cannot be started: %s", strerror(code));
         } else {
-            fine = outcome_judge(job, process_wait(process), detail, detail_size);
+            fine = outcome_judge(job, status, detail, detail_size);
         }
     }
     arguments_fini(&arguments);

@@ -23,8 +23,7 @@ LINES_LEAST = 600  # what the whole folder must print at least
 
 
 def run(arguments, folder):
-    done = subprocess.run(arguments, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, timeout=120, check=False)
+    done = pictures.call(arguments, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=120)
     return done.returncode, done.stderr.decode("latin-1")
 
 

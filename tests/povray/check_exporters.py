@@ -149,15 +149,17 @@ def refusal(scene, folders):
 def counts(scene, folders):
     """((objects, lights) as rtlang counts them, as POV-Ray does)."""
     folder = os.path.dirname(scene)
-    small = {"cwd": folder, "stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE,
-             "timeout": 300, "check": True}
-    ours = subprocess.run([os.environ["RTLANG"], "-W4", "-H4", "-oours.png", *(f"-I{place}" for place in folders),
-                           scene], **small).stderr.decode("utf-8", "replace")
-    theirs = subprocess.run([pictures.povray(), f"+I{scene}", "-F", "+W4", "+H4", "-D",
-                             *(f"+L{place}" for place in folders)], **small).stderr.decode("utf-8", "replace")
-    summary = re.search(r"(\d+) objects?, (\d+) lights?", ours)
+    small = {"cwd": folder, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "timeout": 300}
+    ours = pictures.call([os.environ["RTLANG"], "-W4", "-H4", "-oours.png", *(f"-I{place}" for place in folders),
+                          scene], **small)
+    theirs = pictures.call([pictures.povray(), f"+I{scene}", "-F", "+W4", "+H4", "-D",
+                            *(f"+L{place}" for place in folders)], **small)
+    ours.check_returncode()
+    theirs.check_returncode()
+    summary = re.search(r"(\d+) objects?, (\d+) lights?", ours.stderr.decode("utf-8", "replace"))
     told = {name: int(number) for name, number in
-            re.findall(r"^(Finite Objects|Infinite Objects|Light Sources): +(\d+)", theirs, re.MULTILINE)}
+            re.findall(r"^(Finite Objects|Infinite Objects|Light Sources): +(\d+)",
+                       theirs.stderr.decode("utf-8", "replace"), re.MULTILINE)}
     return ((int(summary.group(1)), int(summary.group(2))),
             (told["Finite Objects"] + told["Infinite Objects"], told["Light Sources"]))
 

@@ -73,8 +73,7 @@ CALLS = [
 
 
 def run(program, arguments, folder):
-    done = subprocess.run([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, timeout=120, check=False)
+    done = pictures.call([program, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120)
     return done.returncode, done.stderr.decode("latin-1")
 
 

@@ -7,10 +7,13 @@ Usage: check_lang.py FILE.test...   Prints TAP; skips where there is no POV-Ray.
 
 import glob
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True  # the folder is distributed as it is
+import pictures  # noqa: E402
 
 # Keeps POV-Ray from warning about an empty scene; in one line, so that nothing else moves.
 PREFACE = "#version 3.7; global_settings { assumed_gamma 1 } sphere { 0, 1 }\n"
@@ -44,11 +47,10 @@ def run_povray(program, files, declared):
             os.makedirs(os.path.dirname(path), exist_ok=True)
             with open(path, "w", encoding="latin-1", newline="") as file:
                 file.write(text)
-        result = subprocess.run(
-            ["povray", "+Itest.pov", "+Llib", "-D", "+W320", "+H240", "+SR1", "+ER1", "+SC1", "+EC1", "-F",
+        result = pictures.call(
+            [pictures.povray(), "+Itest.pov", "+Llib", "-D", "+W320", "+H240", "+SR1", "+ER1", "+SC1", "+EC1", "-F",
              "+GDdebug.txt"] + declared,
-            cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=60,
-            check=False)
+            cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=120)
         try:
             with open(os.path.join(folder, "debug.txt"), encoding="latin-1", newline="") as file:
                 debug = file.read()
@@ -64,7 +66,7 @@ def comment(title, text):
 
 
 def main():
-    if shutil.which("povray") is None:
+    if pictures.povray() is None:
         print("1..0 # SKIP povray is not installed")
         return 0
     number = failed = 0

@@ -84,9 +84,17 @@ def include_folders():
     return [place for place in places if os.path.exists(os.path.join(place, "colors.inc"))]
 
 
+def call(arguments, **how):
+    """subprocess.run, once more when POV-Ray gave up before it began, as it does on a machine that is busy."""
+    for _ in range(5):
+        done = subprocess.run(arguments, stdin=subprocess.DEVNULL, check=False, **how)
+        if done.returncode == 0 or b"Timed out waiting for worker thread startup" not in (done.stderr or done.stdout):
+            break
+    return done
+
+
 def run(program, arguments, folder=None):
-    done = subprocess.run(arguments, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, timeout=300, check=False)
+    done = call(arguments, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
     if done.returncode:
         raise RunFailed(program, done.returncode, done.stdout.decode("utf-8", "replace"))
 

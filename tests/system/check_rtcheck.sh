@@ -27,6 +27,8 @@ stand_in() {
     chmod +x "$work/$1"
 }
 stand_in same 'cp "$ours" "$output"'
+stand_in busy '[ -e "$TMPDIR/../tried" ] || { : > "$TMPDIR/../tried"; echo "Timed out waiting for worker thread startup"; exit 1; }
+cp "$ours" "$output"'
 stand_in other 'cp "${ours%/*}/01-a scene.scn.rtlang.png" "$output"'
 stand_in fails 'echo the reason is here >&2; exit 7'
 stand_in lazy 'echo nothing to do >&2'
@@ -51,6 +53,7 @@ expect() {
 }
 
 expect 'equal pictures agree' 0 '"a scene.scn: max 0, "*" beyond 0 "*": ok"' -W 16 -H 8 --povray "$work/same" 'a scene.scn'
+expect 'a start that failed for want of time is tried again' 0 '*": ok"' -W 16 -H 8 --povray "$work/busy" 'a scene.scn'
 expect 'different pictures do not' 1 '*"includes.scn: max "*": FAIL"' \
     -W 16 -H 8 -I ../include --povray "$work/other" 'a scene.scn' includes.scn
 expect 'unless so many may differ' 0 '*"includes.scn: "*": ok"' \
