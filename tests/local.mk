@@ -175,6 +175,7 @@ lang_cases = \
   %D%/lang/pattern.test \
   %D%/lang/pigment.test \
   %D%/lang/plane.test \
+  %D%/lang/range.test \
   %D%/lang/seeded_faults.test \
   %D%/lang/settings.test \
   %D%/lang/shapes.test \

@@ -179,14 +179,19 @@ static void print_summary(const rt_session *session, const char *output)
 {
     rt_summary s;
     rt_get_summary(session, &s);
+    char warnings[64] = "";
+    if (s.warnings > 0) {
+        snprintf(warnings, sizeof warnings, "; %llu warning%s", (unsigned long long)s.warnings,
+                 s.warnings == 1 ? "" : "s");
+    }
     fprintf(stderr,
             "%s: %dx%d, %llu object%s, %llu light%s; rays: %llu camera, %llu shadow, %llu reflected, %llu transmitted; "
-            "seconds: parse %.3f, prepare %.3f, trace %.3f, write %.3f\n",
+            "seconds: parse %.3f, prepare %.3f, trace %.3f, write %.3f%s\n",
             strcmp(output, "-") == 0 ? "standard output" : output, s.width, s.height, (unsigned long long)s.objects,
             s.objects == 1 ? "" : "s", (unsigned long long)s.lights, s.lights == 1 ? "" : "s",
             (unsigned long long)s.camera_rays, (unsigned long long)s.shadow_rays, (unsigned long long)s.reflected_rays,
             (unsigned long long)s.transmitted_rays, s.parse_seconds, s.prepare_seconds, s.trace_seconds,
-            s.write_seconds);
+            s.write_seconds, warnings);
 }
 
 static rt_status render(rt_session *session, const Options *options, Progress *progress)

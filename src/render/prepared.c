@@ -3,83 +3,11 @@
 // SPDX-License-Identifier: MIT
 #include "render/prepared.h"
 
-#include <limits.h>
 #include <stdlib.h>
 
+#include "scene/range.h"
+
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
-
-// ---- the exact scale
-
-// Least and greatest binary exponent of the lengths that rays meet. Zero, infinite and NaN lengths do not count.
-typedef struct ExponentRange {
-    int least, greatest;
-} ExponentRange;
-
-static void range_add(ExponentRange *range, double length)
-{
-    if (length == 0.0 || !isfinite(length)) {
-        return;
-    }
-    int exponent = ilogb(length);
-    range->least = exponent < range->least ? exponent : range->least;
-    range->greatest = exponent > range->greatest ? exponent : range->greatest;
-}
-
-static void range_add_row(ExponentRange *range, const double row[3])
-{
-    range_add(range, fmax(fabs(row[0]), fmax(fabs(row[1]), fabs(row[2]))));
-}
-
-// A box has lengths of its own; the other fixed shapes are as large as 1.
-static void range_add_part(ExponentRange *range, const Part *part)
-{
-    if (part->kind == PART_PLANE) {
-        range_add(range, part->data[1].x);
-        return;
-    }
-    const double *low = &part->data[0].x, *high = &part->data[1].x;
-    for (int row = 0; row < 4; row++) {
-        const double *m = part->to_world.m[row];
-        double size = fmax(fabs(m[0]), fmax(fabs(m[1]), fabs(m[2])));
-        if (part->kind == PART_BOX && row < 3) {
-            range_add(range, size * fmax(fabs(low[row]), fabs(high[row])));
-            size *= high[row] - low[row];
-        }
-        range_add(range, size);
-    }
-}
-
-// The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of the
-// greatest and the least are as far from overflow as from underflow. A scene times 2^k has an exponent greater by k, so
-// both become the same numbers. (The direction and screen of a perspective camera have no length that matters.)
-static int scene_exponent(const Scene *scene)
-{
-    ExponentRange range = {INT_MAX, INT_MIN};
-    for (size_t i = 0; i < scene->spheres.count; i++) {
-        range_add(&range, vec3_max_abs(scene->spheres.items[i].centre));
-        range_add(&range, scene->spheres.items[i].radius);
-    }
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        for (int row = 0; row < 4; row++) {
-            range_add_row(&range, scene->ellipsoids.items[i].to_world.m[row]);
-        }
-    }
-    for (size_t i = 0; i < scene->planes.count; i++) {
-        range_add(&range, scene->planes.items[i].distance);
-    }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        range_add_part(&range, &scene->parts.items[i]);
-    }
-    for (size_t i = 0; i < scene->lights.count; i++) {
-        range_add(&range, vec3_max_abs(scene->lights.items[i].position));
-    }
-    range_add(&range, vec3_max_abs(scene->camera.location));
-    if (range.least > range.greatest) {
-        return 0;
-    }
-    int sum = range.least + range.greatest;
-    return (sum - (sum < 0)) / 2; // rounded down, also below 0
-}
 
 static Vec3 vec3_ldexp(Vec3 a, int exponent)
 {

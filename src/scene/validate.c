@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
-#include "scene/scene.h"
+#include "scene/range.h"
 
 static Span source_span(uint64_t source)
 {
@@ -147,5 +147,14 @@ bool scene_validate(const Scene *scene, DiagSink *diags)
     valid = lights_are_valid(scene, diags) && valid;
     valid = materials_are_valid(scene, diags) && valid;
     valid = parts_are_valid(scene, diags) && valid;
-    return shapes_are_valid(scene, diags) && valid;
+    valid = shapes_are_valid(scene, diags) && valid;
+    if (!valid) {
+        return false;
+    }
+    scene_warn_of_range(scene, diags);
+    if (!scene_warn_of_twins(scene, diags)) {
+        diag_report(diags, DIAG_E0602, SPAN_NONE, "out of memory looking for shapes that coincide");
+        return false;
+    }
+    return true;
 }

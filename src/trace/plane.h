@@ -21,9 +21,11 @@ RT_ALWAYS_INLINE double plane_root(const PlaneShape *plane, Vec3 origin, Vec3 di
     return (plane->distance - vec3_dot(plane->normal, origin)) / vec3_dot(plane->normal, direction);
 }
 
+// True when two planes are the same surface, whatever side of it they call their inside.
 RT_ALWAYS_INLINE bool plane_equal(const PlaneShape *a, const PlaneShape *b)
 {
-    return a->distance == b->distance && vec3_equal(a->normal, b->normal);
+    return (a->distance == b->distance && vec3_equal(a->normal, b->normal)) ||
+           (a->distance == -b->distance && vec3_equal(a->normal, vec3_neg(b->normal)));
 }
 
 // p(t) put back onto the plane: exactly, when the normal is along an axis.

@@ -6,6 +6,7 @@
 //     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth or text_bytes
 //     -- declare N 5           a number declared before the scene begins, as with -D
 //     -- warning all           which warnings are told, as after -W; may repeat
+//     -- validate              the scene as a whole is looked at, too, as before it is traced
 //     -- debug                 the lines that #debug gives, as POV-Ray shows them
 //     -- scene                 the scene's dump
 //     -- diagnostics           all messages
@@ -212,6 +213,16 @@ static void set_warnings(const Case *test, DiagSink *diags)
     }
 }
 
+static bool wants(const Case *test, const char *header)
+{
+    for (size_t i = 1; i < test->count; i++) {
+        if (strcmp(test->sections[i].header, header) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
 {
     char declared_names[SECTIONS_MAX][32];
@@ -234,6 +245,10 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     };
     if (!eval_source(&options, source, &scene) && diags.error_count == 0) {
         text_append(&outcome->diagnostics, "evaluation failed without a message\n");
+    }
+    scene.whole = SPAN_WHOLE(source_base(source));
+    if (wants(test, "validate") && !scene_validate(&scene, &diags) && diags.error_count == 0) {
+        text_append(&outcome->diagnostics, "validation failed without a message\n");
     }
     diag_finish(&diags);
     for (size_t i = 0; i < diags.count; i++) {

@@ -157,7 +157,7 @@ static void test_validation(void)
         size_t errors;
         DiagCode code; // of the last record; a warning when there is no error
     } cases[] = {
-        {"a whole scene", spoil_nothing, 0, DIAG_W0402},
+        {"a whole scene, with a sphere beyond the range", spoil_nothing, 0, DIAG_W0442},
         {"camera", spoil_camera, 1, DIAG_E0410},
         {"light", spoil_light, 1, DIAG_E0411},
         {"finish", spoil_finish, 1, DIAG_E0412},

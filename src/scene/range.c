@@ -1,0 +1,248 @@
+// The exact scale of a scene, and what lies beyond the range of its numbers.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/range.h"
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+// ---- the exact scale
+
+// Least and greatest binary exponent of the lengths that rays meet. Zero, infinite and NaN lengths do not count.
+typedef struct ExponentRange {
+    int least, greatest;
+} ExponentRange;
+
+static void range_add(ExponentRange *range, double length)
+{
+    if (length == 0.0 || !isfinite(length)) {
+        return;
+    }
+    int exponent = ilogb(length);
+    range->least = exponent < range->least ? exponent : range->least;
+    range->greatest = exponent > range->greatest ? exponent : range->greatest;
+}
+
+static double row_size(const Transform *transform, int row)
+{
+    const double *m = transform->m[row];
+    return fmax(fabs(m[0]), fmax(fabs(m[1]), fabs(m[2])));
+}
+
+// A box has lengths of its own; the other fixed shapes are as large as 1.
+static void range_add_part(ExponentRange *range, const Part *part)
+{
+    if (part->kind == PART_PLANE) {
+        range_add(range, part->data[1].x);
+        return;
+    }
+    const double *low = &part->data[0].x, *high = &part->data[1].x;
+    for (int row = 0; row < 4; row++) {
+        double size = row_size(&part->to_world, row);
+        if (part->kind == PART_BOX && row < 3) {
+            range_add(range, size * fmax(fabs(low[row]), fabs(high[row])));
+            size *= high[row] - low[row];
+        }
+        range_add(range, size);
+    }
+}
+
+int scene_exponent(const Scene *scene)
+{
+    ExponentRange range = {INT_MAX, INT_MIN};
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        range_add(&range, vec3_max_abs(scene->spheres.items[i].centre));
+        range_add(&range, scene->spheres.items[i].radius);
+    }
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        for (int row = 0; row < 4; row++) {
+            range_add(&range, row_size(&scene->ellipsoids.items[i].to_world, row));
+        }
+    }
+    for (size_t i = 0; i < scene->planes.count; i++) {
+        range_add(&range, scene->planes.items[i].distance);
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        range_add_part(&range, &scene->parts.items[i]);
+    }
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        range_add(&range, vec3_max_abs(scene->lights.items[i].position));
+    }
+    range_add(&range, vec3_max_abs(scene->camera.location));
+    if (range.least > range.greatest) {
+        return 0;
+    }
+    int sum = range.least + range.greatest;
+    return (sum - (sum < 0)) / 2; // rounded down, also below 0
+}
+
+// ---- what lies beyond
+
+// What is asked of each shape: its greatest half size, and where it stands.
+typedef struct Extent {
+    double size;
+    Vec3 place;
+} Extent;
+
+typedef struct Watch {
+    DiagSink *diags;
+    Vec3 eye;
+    double least, end; // sizes, unscaled
+} Watch;
+
+static Span source_span(uint64_t source)
+{
+    return source ? (Span){source, source + 1} : SPAN_NONE;
+}
+
+// The least size that can be seen beside coordinates as great as `place`: the distance from there to the next number.
+static double spacing(double place)
+{
+    return nextafter(place, (double)INFINITY) - place;
+}
+
+static void tell_lost(const Watch *watch, const Extent *extent, double place, uint64_t source, const char *what)
+{
+    bool is_lost = place + extent->size == place;
+    DiagSink *diags = watch->diags;
+    bool is_kept = is_lost ? diag_report(diags, DIAG_W0440, source_span(source),
+                                         "the size of this %s is lost beside its coordinates", what)
+                           : diag_report(diags, DIAG_W0441, source_span(source),
+                                         "this %s is smaller than the spacing of numbers at its place", what);
+    if (is_kept) {
+        diag_note(diags, SPAN_NONE, "its size is %g, and coordinates of %g are %g apart", extent->size, place,
+                  spacing(place));
+        diag_note(diags, SPAN_NONE,
+                  extent->size == 0.0 ? "nothing of it can be seen"
+                  : is_lost ? "it is seen in its size, but its shadows and mirror images are those of its centre"
+                          : "it is seen in its size, but its shadows and mirror images begin at one of a few points");
+        diag_suggest(diags, "move the scene, camera and all, nearer to the origin");
+    }
+}
+
+static void tell_beyond(const Watch *watch, double length, uint64_t source, const char *what, const char *seen)
+{
+    if (diag_report(watch->diags, DIAG_W0442, source_span(source), "this %s is beyond the range of the scene's numbers",
+                    what)) {
+        diag_note(watch->diags, SPAN_NONE, "it has a length of %g, and in this scene lengths from %.2g to %.2g have squares",
+                  length, watch->least, watch->end);
+        diag_note(watch->diags, SPAN_NONE, "%s", seen);
+        diag_suggest(watch->diags, "leave out what is so much larger or smaller than the rest");
+    }
+}
+
+static void tell_far(const Watch *watch, const Extent *extent, double distance, uint64_t source, const char *what)
+{
+    if (diag_report(watch->diags, DIAG_W0443, source_span(source), "this %s is too far from the camera for its size",
+                    what)) {
+        diag_note(watch->diags, SPAN_NONE, "it is %.2g of its sizes away, and rays are exact to %.2g", distance / extent->size,
+                  RANGE_RADII);
+        diag_note(watch->diags, SPAN_NONE, "rays cannot be aimed at it any more: its outline is coarse, or it is not met");
+    }
+}
+
+// Most shapes pass with five comparisons.
+static void check_extent(const Watch *watch, const Extent *extent, uint64_t source, const char *what)
+{
+    double place = vec3_max_abs(extent->place);
+    bool is_point = extent->size == 0.0; // a box of which rounding leaves nothing
+    if (!((extent->size >= watch->least || is_point) && extent->size < watch->end && place < watch->end)) {
+        // Of spheres, ball_make (trace/sphere.h) leaves out those whose squares are beyond.
+        bool is_left_out = strcmp(what, "sphere") == 0 && place < watch->end;
+        tell_beyond(watch, place >= watch->end ? place : extent->size, source, what,
+                    is_left_out ? "it is not drawn" : "it may not be drawn");
+        return;
+    }
+    if (is_point || (extent->size < place * DBL_EPSILON && extent->size < spacing(place))) {
+        tell_lost(watch, extent, place, source, what);
+    }
+    if (is_point) {
+        return;
+    }
+    double distance = vec3_max_abs(vec3_sub(extent->place, watch->eye));
+    if (distance > RANGE_RADII * extent->size) {
+        tell_far(watch, extent, distance, source, what);
+    }
+}
+
+static Extent transform_extent(const Transform *to_world)
+{
+    const double *origin = to_world->m[3];
+    return (Extent){fmax(row_size(to_world, 0), fmax(row_size(to_world, 1), row_size(to_world, 2))),
+                    {origin[0], origin[1], origin[2]}};
+}
+
+static Extent part_extent(const Part *part)
+{
+    Extent extent = transform_extent(&part->to_world);
+    if (part->kind == PART_BOX) {
+        const double *low = &part->data[0].x, *high = &part->data[1].x;
+        extent.size = 0.0;
+        for (int row = 0; row < 3; row++) {
+            extent.size = fmax(extent.size, 0.5 * (high[row] - low[row]) * row_size(&part->to_world, row));
+        }
+        Vec3 middle = vec3_add(vec3_scale(0.5, part->data[0]), vec3_scale(0.5, part->data[1]));
+        extent.place = transform_point(&part->to_world, middle);
+    }
+    return extent;
+}
+
+static const char *part_word(PartKind kind)
+{
+    static const char *const words[] = {
+        [PART_BALL] = "sphere", [PART_PLANE] = "plane", [PART_BOX] = "box", [PART_CONE] = "cylinder or cone",
+        [PART_DISC] = "disc", [PART_TRIANGLE] = "triangle", [PART_SMOOTH_TRIANGLE] = "triangle",
+    };
+    return words[kind];
+}
+
+static void check_plane(const Watch *watch, double distance, uint64_t source)
+{
+    if (!(fabs(distance) < watch->end)) {
+        tell_beyond(watch, fabs(distance), source, "plane", "it may not be drawn");
+    }
+}
+
+static void check_points(const Watch *watch, const Scene *scene)
+{
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        const Light *light = &scene->lights.items[i];
+        double length = vec3_max_abs(light->position);
+        if (!(length < watch->end)) {
+            tell_beyond(watch, length, light->span.begin, "light", "it may give no light");
+        }
+    }
+    double length = vec3_max_abs(scene->camera.location);
+    if (!(length < watch->end)) {
+        tell_beyond(watch, length, scene->camera.span.begin, "camera", "it may see nothing");
+    }
+}
+
+void scene_warn_of_range(const Scene *scene, DiagSink *diags)
+{
+    int exponent = scene_exponent(scene);
+    Watch watch = {diags, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        const Sphere *sphere = &scene->spheres.items[i];
+        check_extent(&watch, &(Extent){sphere->radius, sphere->centre}, sphere->source, "sphere");
+    }
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        Extent extent = transform_extent(&scene->ellipsoids.items[i].to_world);
+        check_extent(&watch, &extent, scene->ellipsoids.items[i].source, "stretched sphere");
+    }
+    for (size_t i = 0; i < scene->planes.count; i++) {
+        check_plane(&watch, scene->planes.items[i].distance, scene->planes.items[i].source);
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        const Part *part = &scene->parts.items[i];
+        if (part->kind == PART_PLANE) {
+            check_plane(&watch, part->data[1].x, part->source);
+        } else {
+            Extent extent = part_extent(part);
+            check_extent(&watch, &extent, part->source, part_word(part->kind));
+        }
+    }
+    check_points(&watch, scene);
+}

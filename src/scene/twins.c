@@ -1,0 +1,226 @@
+// Equal shapes: a hash table of all that stand alone finds those that coincide.
+//
+// A shape becomes a key, equal for equal surfaces, whichever list of the scene it stands in. The table holds hashes beside
+// shape numbers, so that the scene's records are read in order but for those that are alike; its slots are asked for some
+// shapes ahead, because waiting for memory is nearly all that this would do.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/range.h"
+
+enum { AHEAD = 32, KEY_NUMBERS = 18, KIND_SPHERE_KEY = PART_SMOOTH_TRIANGLE + 1 };
+
+// What makes a surface, -0 and 0 being one number.
+typedef struct Key {
+    uint32_t kind, count; // numbers that count
+    double numbers[KEY_NUMBERS];
+    uint64_t source;
+    uint32_t order;
+    uint8_t hidden;
+} Key;
+
+typedef struct Slot {
+    uint32_t hash;
+    uint32_t item; // number of the shape + 1, 0: empty
+} Slot;
+
+typedef struct Twins {
+    const Scene *scene;
+    size_t ellipsoids, planes, parts, end; // numbers of the first ones; spheres begin at 0
+    Slot *slots;
+    uint32_t mask;
+} Twins;
+
+static void key_add(Key *key, Vec3 a)
+{
+    double *numbers = key->numbers + key->count;
+    numbers[0] = a.x + 0.0;
+    numbers[1] = a.y + 0.0;
+    numbers[2] = a.z + 0.0;
+    key->count += 3;
+}
+
+static void key_sphere(Key *key, Vec3 centre, double radius)
+{
+    key->kind = KIND_SPHERE_KEY;
+    key_add(key, centre);
+    key->numbers[key->count++] = radius;
+}
+
+// Of opposite normals one is taken: the first number that is not 0 is positive.
+static void key_plane(Key *key, Vec3 normal, double distance)
+{
+    double first = normal.x != 0.0 ? normal.x : normal.y != 0.0 ? normal.y : normal.z;
+    key->kind = PART_PLANE;
+    key_add(key, first < 0.0 ? vec3_neg(normal) : normal);
+    key->numbers[key->count++] = (first < 0.0 ? -distance : distance) + 0.0;
+}
+
+static void key_transform(Key *key, const Transform *m)
+{
+    for (int row = 0; row < 4; row++) {
+        key_add(key, vec3(m->m[row][0], m->m[row][1], m->m[row][2]));
+    }
+}
+
+// A ball that is round is a sphere.
+static void key_ball(Key *key, const Transform *m)
+{
+    const double(*r)[3] = m->m;
+    bool is_round = r[0][1] == 0.0 && r[0][2] == 0.0 && r[1][0] == 0.0 && r[1][2] == 0.0 && r[2][0] == 0.0 &&
+                    r[2][1] == 0.0 && fabs(r[0][0]) == fabs(r[1][1]) && fabs(r[1][1]) == fabs(r[2][2]);
+    if (is_round) {
+        key_sphere(key, vec3(r[3][0], r[3][1], r[3][2]), fabs(r[0][0]));
+    } else {
+        key->kind = PART_BALL;
+        key_transform(key, m);
+    }
+}
+
+static void key_part(Key *key, const Part *part)
+{
+    switch (part->kind) {
+    case PART_PLANE: key_plane(key, part->data[0], part->data[1].x); break;
+    case PART_BALL: key_ball(key, &part->to_world); break;
+    default:
+        key->kind = part->kind == PART_SMOOTH_TRIANGLE ? PART_TRIANGLE : part->kind;
+        key_transform(key, &part->to_world);
+        if (key->kind != PART_TRIANGLE) {
+            key_add(key, part->data[0]);
+            key_add(key, part->data[1]);
+        }
+    }
+}
+
+static Key item_key(const Twins *twins, size_t item)
+{
+    const Scene *scene = twins->scene;
+    Key key;
+    key.count = 0;
+    key.hidden = 0;
+    if (item < twins->ellipsoids) {
+        const Sphere *sphere = &scene->spheres.items[item];
+        key.source = sphere->source;
+        key.order = sphere->order;
+        key_sphere(&key, sphere->centre, sphere->radius);
+    } else if (item < twins->planes) {
+        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[item - twins->ellipsoids];
+        key.source = ellipsoid->source;
+        key.order = ellipsoid->order;
+        key_ball(&key, &ellipsoid->to_world);
+    } else if (item < twins->parts) {
+        const Plane *plane = &scene->planes.items[item - twins->planes];
+        key.source = plane->source;
+        key.order = plane->order;
+        key_plane(&key, plane->normal, plane->distance);
+    } else {
+        const Part *part = &scene->parts.items[item - twins->parts];
+        key.source = part->source;
+        key.order = part->order;
+        key.hidden = part->hidden;
+        key_part(&key, part);
+    }
+    return key;
+}
+
+static bool item_is_alone(const Twins *twins, size_t item)
+{
+    return item < twins->parts || twins->scene->parts.items[item - twins->parts].node == NODE_NONE;
+}
+
+// As in scene/unique.c, eight bytes at a time.
+static uint32_t key_hash(const Key *key)
+{
+    uint64_t hash = key->kind;
+    for (uint32_t i = 0; i < key->count; i++) {
+        uint64_t word;
+        memcpy(&word, &key->numbers[i], sizeof word);
+        hash = (hash ^ word) * UINT64_C(0xff51afd7ed558ccd);
+        hash ^= hash >> 33;
+    }
+    return (uint32_t)hash;
+}
+
+static bool keys_are_equal(const Key *a, const Key *b)
+{
+    return a->kind == b->kind && a->count == b->count &&
+           memcmp(a->numbers, b->numbers, a->count * sizeof a->numbers[0]) == 0;
+}
+
+static void tell(const Key *one, const Key *other, DiagSink *diags)
+{
+    const Key *first = one->order < other->order ? one : other, *second = first == one ? other : one;
+    static const char *const words[] = {
+        [PART_BALL] = "stretched sphere", [PART_PLANE] = "plane",
+        [PART_BOX] = "box",               [PART_CONE] = "cylinder or cone",
+        [PART_DISC] = "disc",             [PART_TRIANGLE] = "triangle",
+        [KIND_SPHERE_KEY] = "sphere",
+    };
+    Span at = second->source ? (Span){second->source, second->source + 1} : SPAN_NONE;
+    if (diag_report(diags, DIAG_W0444, at, "this %s coincides with one that was declared before it", words[one->kind]) &&
+        first->source) {
+        diag_note(diags, (Span){first->source, first->source + 1}, "this one is seen, the other is not");
+    }
+}
+
+// Looks one shape up, and puts it in where its equal was not.
+static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diags)
+{
+    for (uint32_t at = hash & twins->mask;; at = (at + 1) & twins->mask) {
+        Slot *slot = &twins->slots[at];
+        if (slot->item == 0) {
+            *slot = (Slot){hash, (uint32_t)item + 1};
+            return;
+        }
+        if (slot->hash != hash) {
+            continue;
+        }
+        Key key = item_key(twins, item), known = item_key(twins, slot->item - 1);
+        if (keys_are_equal(&key, &known)) {
+            const uint8_t all = HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR;
+            if (((key.hidden | known.hidden) & all) != all) {
+                tell(&key, &known, diags);
+            }
+            return;
+        }
+    }
+}
+
+bool scene_warn_of_twins(const Scene *scene, DiagSink *diags)
+{
+    Twins twins = {.scene = scene, .ellipsoids = scene->spheres.count};
+    twins.planes = twins.ellipsoids + scene->ellipsoids.count;
+    twins.parts = twins.planes + scene->planes.count;
+    twins.end = twins.parts + scene->parts.count;
+    if (twins.end < 2 || twins.end >= UINT32_MAX / 4 || !diag_is_on(diags, DIAG_W0444)) {
+        return true;
+    }
+    uint32_t slots = 4;
+    while (slots < 2 * twins.end) {
+        slots *= 2;
+    }
+    twins.mask = slots - 1;
+    twins.slots = calloc(slots, sizeof *twins.slots);
+    if (!twins.slots) {
+        return false;
+    }
+    for (size_t begin = 0; begin < twins.end; begin += AHEAD) {
+        uint32_t hashes[AHEAD];
+        size_t end = begin + AHEAD < twins.end ? begin + AHEAD : twins.end;
+        for (size_t item = begin; item < end; item++) {
+            Key key = item_key(&twins, item);
+            hashes[item - begin] = key_hash(&key);
+            __builtin_prefetch(&twins.slots[hashes[item - begin] & twins.mask], 1);
+        }
+        for (size_t item = begin; item < end; item++) {
+            if (item_is_alone(&twins, item)) {
+                visit(&twins, item, hashes[item - begin], diags);
+            }
+        }
+    }
+    free(twins.slots);
+    return true;
+}
