@@ -1,38 +1,123 @@
 #!/usr/bin/env python3
-# Writes a scene of N spheres in a cube to standard output: the same text for the same N, on every machine.
-# Every sphere spells out its pigment and finish, in a colour of its own, as the exporters of viewers write them. Plain POV-Ray 3.7, so that every peer that reads it is given the same file.
+# Writes a scene of spheres to standard output: the same text for the same arguments, on every machine.
 #
-# Usage: generate.py COUNT
+# Every sphere spells out its pigment and finish, as the exporters of viewers write them. The text is plain POV-Ray 3.7, which
+# rtlang reads too, or Tachyon's own format, of the same spheres, camera and light.
+#
+# Usage: generate.py [KIND] COUNT [povray|tachyon]
+#   cube      COUNT spheres in a cube, each in a colour of its own
+#   flake     a sphere flake of about COUNT spheres: every ball carries nine of a third of its size
+#   molecule  COUNT atoms along a folded chain, in the sizes and colours of four elements
+#   nested    COUNT shells, one within the other, the outer ones clear
+#   loop      COUNT spheres that a #for makes (POV-Ray and rtlang only)
 # SPDX-License-Identifier: MIT
+import math
 import random
 import sys
 
-HEAD = """#version 3.7;
+POVRAY_HEAD = """#version 3.7;
 // {count} spheres, written by bench/generate.py.
 global_settings {{ assumed_gamma 1 }}
 background {{ rgb <0.2, 0.3, 0.4> }}
 camera {{ location <0, 0, -3.2> right 4/3*x up y look_at 0 }}
 light_source {{ <6, 8, -10>, rgb 1 }}
 """
-SPHERE = ("sphere {{ <{:.6f}, {:.6f}, {:.6f}>, {:.6f} "
-          "pigment {{ color rgb <{:.4f}, {:.4f}, {:.4f}> }} finish {{ ambient 0.1 diffuse 0.7 phong 0.3 phong_size 20 }} }}\n")
+POVRAY_SPHERE = ("sphere {{ <{:.6f}, {:.6f}, {:.6f}>, {:.6f} "
+                 "pigment {{ color rgb <{:.4f}, {:.4f}, {:.4f}>{} }} "
+                 "finish {{ ambient 0.1 diffuse 0.7 phong 0.3 phong_size 20 }} }}\n")
+POVRAY_LOOP = """#declare S = seed(1);
+#for (I, 1, {count})
+    sphere {{ <2*rand(S) - 1, 2*rand(S) - 1, 2*rand(S) - 1>, {radius:.6f}*(1 + rand(S))
+        pigment {{ color rgb <rand(S), rand(S), rand(S)> }} finish {{ ambient 0.1 diffuse 0.7 phong 0.3 phong_size 20 }} }}
+#end
+"""
+TACHYON_HEAD = """BEGIN_SCENE
+RESOLUTION 800 600
+CAMERA ZOOM 1.0 ASPECTRATIO 1.0 ANTIALIASING 0 RAYDEPTH 5
+  CENTER 0 0 -3.2 VIEWDIR 0 0 1 UPDIR 0 1 0
+END_CAMERA
+BACKGROUND 0.2 0.3 0.4
+LIGHT CENTER 6 8 -10 RAD 0.01 COLOR 1 1 1
+"""
+TACHYON_SPHERE = ("SPHERE CENTER {:.6f} {:.6f} {:.6f} RAD {:.6f} TEXTURE AMBIENT 0.1 DIFFUSE 0.7 SPECULAR 0.0 "
+                  "OPACITY {opacity} PHONG PLASTIC 0.3 PHONG_SIZE 20 COLOR {:.4f} {:.4f} {:.4f} TEXFUNC 0\n")
+ELEMENTS = [(0.25, (0.9, 0.9, 0.9)), (0.34, (0.3, 0.3, 0.3)), (0.32, (0.2, 0.2, 0.9)), (0.3, (0.9, 0.1, 0.1))]
 
 
-def write_scene(out, count):
+# Each kind yields (centre, radius, colour, clear) in order.
+
+def cube(count):
     """Centres are uniform in a cube of side 2; radii shrink with the count, so that about as much of it is filled."""
     number = random.Random(1).random  # its sequence is the same in every version of Python
     radius = 0.6 / count ** (1 / 3)
-    out.write(HEAD.format(count=count))
     for _ in range(count):
         centre = [0.0] * 3 if count == 1 else [2 * number() - 1 for _ in range(3)]
         colour = [0.2 + 0.8 * number() for _ in range(3)]
-        out.write(SPHERE.format(*centre, radius * (0.5 + 0.5 * number()), *colour))
+        yield centre, radius * (0.5 + 0.5 * number()), colour, 0
+
+
+def flake(count):
+    """Ball by ball, outward: the first COUNT of the endless flake."""
+    waiting = [((0.0, -0.2, 0.0), 0.8)]
+    turns = [(math.cos(a) * s, h, math.sin(a) * s) for h, s, n in ((0.0, 1.0, 6), (0.8, 0.6, 3))
+             for a in (2 * math.pi * (i + h) / n for i in range(n))]
+    for number, (centre, radius) in enumerate(waiting):
+        if number == count:
+            break
+        depth = round(math.log(0.8 / radius, 3))
+        yield centre, radius, (0.9 - 0.1 * depth, 0.7, 0.3 + 0.1 * depth), 0
+        if len(waiting) < count:
+            waiting.extend((tuple(c + 4 / 3 * radius * t for c, t in zip(centre, turn)), radius / 3) for turn in turns)
+
+
+def molecule(count):
+    number = random.Random(2).random
+    step = 2.5 / count ** (1 / 3)
+    at = [0.0, 0.0, 0.0]
+    for _ in range(count):
+        size, colour = ELEMENTS[int(4 * number())]
+        yield at, step * size, colour, 0
+        towards = [number() - 0.5 - 0.3 * c for c in at]  # the chain stays near the middle
+        length = math.sqrt(sum(c * c for c in towards))
+        at = [a + 0.4 * step * c / length for a, c in zip(at, towards)]
+
+
+def nested(count):
+    for shell in range(count):
+        part = (count - shell) / count
+        yield (0.0, 0.0, 0.0), part, (part, 0.6, 1 - part), 0.7 if shell + 1 < count else 0
+
+
+KINDS = {"cube": cube, "flake": flake, "molecule": molecule, "nested": nested}
+
+
+def write_povray(out, kind, count):
+    out.write(POVRAY_HEAD.format(count=count))
+    if kind == "loop":
+        out.write(POVRAY_LOOP.format(count=count, radius=0.3 / count ** (1 / 3)))
+        return
+    for centre, radius, colour, clear in KINDS[kind](count):
+        out.write(POVRAY_SPHERE.format(*centre, radius, *colour, f" transmit {clear}" if clear else ""))
+
+
+def write_tachyon(out, kind, count):
+    out.write(TACHYON_HEAD)
+    for centre, radius, colour, clear in KINDS[kind](count):
+        out.write(TACHYON_SPHERE.format(*centre, radius, *colour, opacity=1 - clear))
+    out.write("END_SCENE\n")
+
+
+WRITERS = {"povray": write_povray, "tachyon": write_tachyon}
 
 
 def main():
-    if len(sys.argv) != 2 or not sys.argv[1].isdigit() or int(sys.argv[1]) < 1:
-        sys.exit("usage: generate.py COUNT")
-    write_scene(sys.stdout, int(sys.argv[1]))
+    words = sys.argv[1:]
+    kind = words.pop(0) if words and (words[0] in KINDS or words[0] == "loop") else "cube"
+    writer = WRITERS.get(words.pop() if len(words) == 2 else "povray")
+    if len(words) != 1 or not words[0].isdigit() or int(words[0]) < 1 or not writer or \
+            (kind == "loop" and writer is write_tachyon):
+        sys.exit("usage: generate.py [cube|flake|molecule|nested|loop] COUNT [povray|tachyon]")
+    writer(sys.stdout, kind, int(words[0]))
 
 
 if __name__ == "__main__":
