@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pages.h"
+
 enum { CAPACITY_LEAST = 8 };
 
 // The caller's pointer is of another type than void *, so its bytes are copied instead of being read and written as a
@@ -39,6 +41,7 @@ bool array_reserve(void **items, size_t *capacity, size_t wanted, size_t element
     if (!moved) {
         return false;
     }
+    pages_prefer_huge(moved, grown * element_size);
     pointer_store(items, moved);
     *capacity = grown;
     return true;

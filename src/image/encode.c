@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/attributes.h"
+
 static const ImageEncoding stored_as_is = {.depth = IMAGE_DEPTH_16, .already_encoded = true};
 
 static uint32_t float_bits(float value)
@@ -89,12 +91,15 @@ static void encoder_build_tables(Encoder *encoder)
         bits = threshold_find(&encoder->encoding, k, bits);
         encoder->threshold[k] = float_from_bits(bits);
     }
+    encoder->threshold[ENCODE_CODES_8] = (float)INFINITY;
+    encoder->steps = 0;
     for (uint32_t b = 0; b < ENCODE_BUCKETS; b++) {
-        float value = float_from_bits(b << 16);
-        while (code + 1 < ENCODE_CODES_8 && value >= encoder->threshold[code + 1]) {
+        unsigned before = code;
+        for (float value = float_from_bits(b << 16); value >= encoder->threshold[code + 1];) {
             code++;
         }
         encoder->bucket[b] = (uint8_t)code;
+        encoder->steps = code - before > encoder->steps ? code - before : encoder->steps;
     }
 }
 
@@ -115,27 +120,30 @@ size_t encode_sample_bytes(ImageDepth depth)
     return bytes[depth];
 }
 
-static uint8_t encode_8(const Encoder *encoder, float value)
+// Without branches: they would be taken at random.
+RT_ALWAYS_INLINE uint8_t encode_8(const Encoder *encoder, unsigned steps, float value)
 {
     unsigned code;
 
-    if (!(value > 0.0f)) {
-        return 0;
-    }
-    if (value >= 1.0f) {
-        return ENCODE_CODES_8 - 1;
-    }
+    value = value > 0.0f ? value : 0.0f; // also NaN
+    value = value < 1.0f ? value : 1.0f;
     code = encoder->bucket[float_bits(value) >> 16];
-    while (code + 1 < ENCODE_CODES_8 && value >= encoder->threshold[code + 1]) {
-        code++;
+    for (unsigned i = 0; i < steps; i++) {
+        code += value >= encoder->threshold[code + 1];
     }
     return (uint8_t)code;
 }
 
 static void run_8(const Encoder *encoder, const float *values, size_t count, uint8_t *samples)
 {
-    for (size_t i = 0; i < count; i++) {
-        samples[i] = encode_8(encoder, values[i]);
+    if (encoder->steps == 1) { // as for sRGB
+        for (size_t i = 0; i < count; i++) {
+            samples[i] = encode_8(encoder, 1, values[i]);
+        }
+    } else {
+        for (size_t i = 0; i < count; i++) {
+            samples[i] = encode_8(encoder, encoder->steps, values[i]);
+        }
     }
 }
 

@@ -13,14 +13,16 @@
 
 enum {
     ENCODE_CODES_8 = 256,
-    ENCODE_BUCKETS = 0x3f80, // the floats of 0 up to below 1, by the upper half of their bits
+    ENCODE_BUCKETS = 0x3f81, // the floats from 0 to 1, by the upper half of their bits
 };
 
 typedef struct Encoder {
     ImageEncoding encoding;
     int channels;
-    // 8 bit only: code k begins at threshold[k], and a float of bucket b has the code bucket[b] or one not far above.
-    float threshold[ENCODE_CODES_8];
+    // 8 bit only: code k begins at threshold[k], one that never begins stands last. A float of bucket b has the code bucket[b]
+    // or one of the next `steps`.
+    float threshold[ENCODE_CODES_8 + 1];
+    unsigned steps;
     uint8_t bucket[ENCODE_BUCKETS];
 } Encoder;
 

@@ -3,11 +3,14 @@
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
 
+#include "base/pages.h"
 #include "render/render.h"
 
 bool film_init(Film *film, int width, int height)
 {
-    *film = (Film){width, height, calloc((size_t)width * (size_t)height, 3 * sizeof(float))};
+    size_t pixels = (size_t)width * (size_t)height;
+    *film = (Film){width, height, calloc(pixels, 3 * sizeof(float))};
+    pages_prefer_huge(film->rgb, 3 * sizeof(float) * pixels);
     return film->rgb != NULL;
 }
 

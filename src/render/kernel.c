@@ -9,19 +9,52 @@
 
 enum { BEAM = TILE_ROW }; // camera rays of BEAM x BEAM pixels are traced together
 
-// The pixels of one beam that are left < right, top < bottom; where it is cut off, its last ones are traced again.
+// Where the pixels of a beam are on the screen, as camera_ray wants to know it; where the beam is cut off, its last ones
+// stand for the missing ones.
+typedef struct BeamPlaces {
+    _Alignas(64) double u[TILE_RAYS];
+    double v[TILE_RAYS];
+} BeamPlaces;
+
+RT_ALWAYS_INLINE void beam_places(Tile tile, const Film *film, BeamPlaces *places)
+{
+    double across[BEAM], down[BEAM];
+    for (int i = 0; i < BEAM; i++) {
+        int x = tile.left + i < tile.right ? tile.left + i : tile.right - 1;
+        int y = tile.top + i < tile.bottom ? tile.top + i : tile.bottom - 1;
+        across[i] = (x + 0.5) / film->width - 0.5;
+        down[i] = (y + 0.5) / film->height - 0.5;
+    }
+    for (int i = 0; i < TILE_RAYS; i++) {
+        places->u[i] = across[i % BEAM];
+        places->v[i] = down[i / BEAM];
+    }
+}
+
+RT_ALWAYS_INLINE void beam_closest(const Prepared *p, unsigned features, const BeamPlaces *places, Ray rays[TILE_RAYS],
+                                   Hit hits[TILE_RAYS])
+{
+    const PreparedCamera *camera = &p->camera;
+    if (camera->type == CAMERA_PERSPECTIVE) {
+        TileView view = {camera->location, camera->direction, camera->right, camera->up};
+        geometry_closest_view(p->geometry, features, &view, places->u, places->v, rays, hits);
+        return;
+    }
+    for (int i = 0; i < TILE_RAYS; i++) {
+        rays[i] = camera_ray(camera, places->u[i], places->v[i]);
+    }
+    geometry_closest_tile(p->geometry, features, rays, hits);
+}
+
+// The pixels of one beam that are left < right, top < bottom.
 RT_ALWAYS_INLINE void trace_beam(const Prepared *p, unsigned features, Tile tile, Film *film,
                                  RenderStatistics *statistics)
 {
     Ray rays[TILE_RAYS];
     Hit hits[TILE_RAYS];
-    for (int i = 0; i < TILE_RAYS; i++) {
-        int x = tile.left + i % BEAM, y = tile.top + i / BEAM;
-        x = x < tile.right ? x : tile.right - 1;
-        y = y < tile.bottom ? y : tile.bottom - 1;
-        rays[i] = camera_ray(&p->camera, (x + 0.5) / film->width - 0.5, (y + 0.5) / film->height - 0.5);
-    }
-    geometry_closest_tile(p->geometry, features, rays, hits);
+    BeamPlaces places;
+    beam_places(tile, film, &places);
+    beam_closest(p, features, &places, rays, hits);
     for (int y = tile.top; y < tile.bottom; y++) {
         float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)tile.left)];
         for (int x = tile.left; x < tile.right; x++, pixel += 3) {

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pages.h"
 #include "base/parallel.h"
 #include "trace/bvh.h"
 
@@ -464,6 +465,7 @@ bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads)
         node_count += builder->pools[i].count;
     }
     BvhNode *nodes = builder->failed ? NULL : aligned_alloc(_Alignof(BvhNode), node_count * sizeof(BvhNode));
+    pages_prefer_huge(nodes, node_count * sizeof(BvhNode));
     if (nodes) {
         bvh->nodes = nodes;
         bvh->node_count = 0;

@@ -124,31 +124,53 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     return nearest.hit.shape != SHAPE_NONE;
 }
 
-// The nearest hits, SHAPE_NONE where there is none, of rays that are free in space, of about unit length, and start at one
-// point: 64 camera rays, in rows of eight neighbours. The same bits as geometry_closest gives ray by ray.
-RT_ALWAYS_INLINE void geometry_closest_tile(const Geometry *g, unsigned features, const Ray rays[TILE_RAYS],
-                                            Hit hits[TILE_RAYS])
+// `tile` holds usable rays, the same as `rays`.
+RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, const SphereTile *tile, bool is_usable,
+                                         const Ray rays[TILE_RAYS], Hit hits[TILE_RAYS])
 {
-    SphereTile tile;
     Nearest nearest[TILE_RAYS];
-    bool is_done = features & TRACE_ANY_SPHERES;
-    tile.origin = rays[0].origin;
     for (unsigned i = 0; i < TILE_RAYS; i++) {
-        SphereRay ray = sphere_ray_make(rays[i].origin, rays[i].direction);
-        is_done = is_done && sphere_ray_is_usable(&ray) && vec3_equal(rays[i].origin, tile.origin);
-        sphere_tile_set(&tile, i, &ray);
         nearest[i] = (Nearest){{(double)INFINITY, SHAPE_NONE, false}, 0, false};
     }
-    is_done = is_done && g->kernels->closest_tile(&g->spheres, &tile, nearest);
+    bool is_done = is_usable && (features & TRACE_ANY_SPHERES) && g->kernels->closest_tile(&g->spheres, tile, nearest);
     for (unsigned i = 0; i < TILE_RAYS; i++) {
         if (is_done) {
-            SphereRay ray = sphere_tile_ray(&tile, i);
+            SphereRay ray = sphere_tile_ray(tile, i);
             query_others_closest(g, features, &ray, RAY_START_CAMERA, &nearest[i]);
             hits[i] = nearest[i].hit;
         } else if (!geometry_closest(g, features, rays[i], RAY_START_CAMERA, (double)INFINITY, &hits[i])) {
             hits[i].shape = SHAPE_NONE;
         }
     }
+}
+
+// The nearest hits, SHAPE_NONE where there is none, of rays that are free in space, of about unit length, and start at one
+// point: 64 camera rays, in rows of eight neighbours. The same bits as geometry_closest gives ray by ray.
+RT_ALWAYS_INLINE void geometry_closest_tile(const Geometry *g, unsigned features, const Ray rays[TILE_RAYS],
+                                            Hit hits[TILE_RAYS])
+{
+    SphereTile tile;
+    bool is_usable = true;
+    tile.origin = rays[0].origin;
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        SphereRay ray = sphere_ray_make(rays[i].origin, rays[i].direction);
+        is_usable = is_usable && sphere_ray_is_usable(&ray) && vec3_equal(rays[i].origin, tile.origin);
+        sphere_tile_set(&tile, i, &ray);
+    }
+    query_tile_closest(g, features, &tile, is_usable, rays, hits);
+}
+
+// The same for the rays of a view, which are put into `rays`: each is vec3_normalize of direction + (u right - v up).
+RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features, const TileView *view,
+                                            const double u[TILE_RAYS], const double v[TILE_RAYS], Ray rays[TILE_RAYS],
+                                            Hit hits[TILE_RAYS])
+{
+    SphereTile tile;
+    bool is_usable = g->kernels->view_tile(view, u, v, &tile);
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        rays[i] = (Ray){tile.origin, {tile.direction[0][i], tile.direction[1][i], tile.direction[2][i]}};
+    }
+    query_tile_closest(g, features, &tile, is_usable, rays, hits);
 }
 
 // True when anything is met at 0 < t < t_max.

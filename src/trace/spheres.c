@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pages.h"
 #include "base/parallel.h"
 
 enum {
@@ -306,6 +307,8 @@ static bool table_reserve(SphereTable *table)
     size_t slots = (size_t)table->block_count * SPHERE_BLOCK;
     table->blocks = aligned_alloc(_Alignof(SphereBlock), table->block_count * sizeof(SphereBlock));
     table->info = malloc(slots * sizeof(*table->info));
+    pages_prefer_huge(table->blocks, table->block_count * sizeof(SphereBlock));
+    pages_prefer_huge(table->info, slots * sizeof(*table->info));
     return table->blocks && table->info;
 }
 
@@ -313,6 +316,7 @@ static bool table_reserve(SphereTable *table)
 static bool maker_plant(Maker *maker, uint32_t count, int threads)
 {
     maker->refs = malloc(count * sizeof(*maker->refs));
+    pages_prefer_huge(maker->refs, count * sizeof(*maker->refs));
     if (!maker->refs) {
         return false;
     }

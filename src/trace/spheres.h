@@ -53,6 +53,11 @@ typedef struct SphereTile {
     double dual[3][TILE_RAYS], inverse_square[TILE_RAYS]; // as in SphereRay
 } SphereTile;
 
+// Rays of one point: towards direction + u right - v up.
+typedef struct TileView {
+    Vec3 origin, direction, right, up;
+} TileView;
+
 // Brings `nearest` up to date with the spheres of the tree; tells whether one is met at 0 < t < t_max. Spheres equal to
 // `start` are passed over.
 typedef struct SphereKernels {
@@ -63,6 +68,9 @@ typedef struct SphereKernels {
     // The same as `closest` for each ray of a tile, with the loose spheres. False when the rays are too far apart, or their
     // origin too far away, to be traced together; nothing is done then.
     bool (*closest_tile)(const SphereTable *table, const SphereTile *tile, Nearest nearest[TILE_RAYS]);
+    // The rays of a view at 64 places, with the bits that vec3_normalize and sphere_ray_make give. False when one of them is
+    // not usable.
+    bool (*view_tile)(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile);
 } SphereKernels;
 
 // The kernels of an instruction set by name, or, for NULL, the best that this processor has. NULL when it has not.

@@ -152,5 +152,5 @@ static bool is_supported(void)
 
 extern const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS);
 const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS) = {
-    TEXT_OF(SPHERE_KERNELS), is_supported, tree_closest, tree_occluded, tile_closest,
+    TEXT_OF(SPHERE_KERNELS), is_supported, tree_closest, tree_occluded, tile_closest, view_tile,
 };

@@ -33,6 +33,36 @@ static Vec3 tile_direction(const SphereTile *tile, unsigned i)
     return vec3(tile->direction[0][i], tile->direction[1][i], tile->direction[2][i]);
 }
 
+static bool view_tile(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile)
+{
+    const double begin[3] = {view->direction.x, view->direction.y, view->direction.z};
+    const double right[3] = {view->right.x, view->right.y, view->right.z};
+    const double up[3] = {view->up.x, view->up.y, view->up.z};
+    Doubles least = doubles_splat((double)INFINITY);
+    Doubles greatest = doubles_splat(0.0);
+    tile->origin = view->origin;
+    for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
+        Doubles towards[3];
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; axis++) {
+            towards[axis] = begin[axis] + (doubles_load(&u[i]) * right[axis] - doubles_load(&v[i]) * up[axis]);
+        }
+        Doubles shrink = 1.0 / doubles_sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
+        Doubles x = shrink * towards[0], y = shrink * towards[1], z = shrink * towards[2];
+        Doubles inverse_square = 1.0 / (x * x + y * y + z * z);
+        doubles_store(&tile->direction[0][i], x);
+        doubles_store(&tile->direction[1][i], y);
+        doubles_store(&tile->direction[2][i], z);
+        doubles_store(&tile->dual[0][i], inverse_square * x);
+        doubles_store(&tile->dual[1][i], inverse_square * y);
+        doubles_store(&tile->dual[2][i], inverse_square * z);
+        doubles_store(&tile->inverse_square[i], inverse_square);
+        least = doubles_min(inverse_square, least);
+        greatest = doubles_max(inverse_square, greatest);
+    }
+    return doubles_least(least) > 0x1p-100 && doubles_greatest(greatest) < (double)INFINITY;
+}
+
 // How far the directions of some rays are from an axis.
 RT_ALWAYS_INLINE double cone_spread(const SphereTile *tile, unsigned begin, unsigned end, Vec3 axis)
 {

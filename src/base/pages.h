@@ -1,0 +1,13 @@
+// Huge pages for large arrays: memory that is touched for the first time costs a fault for each page.
+//
+// SPDX-License-Identifier: MIT
+#ifndef BASE_PAGES_H
+#define BASE_PAGES_H
+
+#include <stddef.h>
+
+// Asks the system to back fresh memory with huge pages, where it is large enough to gain by it. Only a wish: contents and
+// addresses stay as they are. NULL is allowed.
+void pages_prefer_huge(void *memory, size_t bytes);
+
+#endif
