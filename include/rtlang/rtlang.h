@@ -137,6 +137,11 @@ RT_API const char *rt_isa(size_t i);
 RT_API rt_status rt_set_isa(rt_session *session, const char *name);
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
+/* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets, the
+ * quadratic of each sphere and the root that is used, the hit and its light, and the same for the rays that go on. Its
+ * colour is the picture's. Text, or with RT_FORMAT_JSON one object on one line. *text is valid until the next call on the
+ * session. RT_FAULT_USAGE when the pixel is not in the picture. */
+RT_API rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text);
 /* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread or a signal handler. */
 RT_API void rt_cancel(rt_session *session);
 

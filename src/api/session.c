@@ -222,8 +222,7 @@ static void forward_progress(void *client, double done)
     session->callbacks.progress(session->callbacks.client, done);
 }
 
-// The film from the scene's working space to linear light. Legacy files stay as they are.
-static void film_to_linear(const Settings *settings, Film *film)
+void session_film_to_linear(const Settings *settings, Film *film)
 {
     size_t count = (size_t)film->width * (size_t)film->height * 3;
     if (settings->gamma_model != GAMMA_POWER && settings->gamma_model != GAMMA_SRGB) {
@@ -256,8 +255,7 @@ rt_status rt_set_isa(rt_session *session, const char *name)
 // a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910).
 enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
-// Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken.
-static bool memory_suffices(rt_session *session)
+bool session_memory_suffices(rt_session *session)
 {
     uint64_t film = (uint64_t)session->width * (uint64_t)session->height * 3 * sizeof(float);
     uint64_t scene = scene_bytes(&session->scene);
@@ -286,7 +284,7 @@ rt_status rt_render(rt_session *session, int threads)
     if (!session->loaded || session->rendered || threads < 0) {
         return RT_FAULT_USAGE;
     }
-    if (!memory_suffices(session)) {
+    if (!session_memory_suffices(session)) {
         return session_status(session, false);
     }
     double start = session_clock();
@@ -310,7 +308,7 @@ rt_status rt_render(rt_session *session, int threads)
     RenderResult result = render_film(prepared, &options, &session->film, &session->statistics);
     prepared_free(prepared);
     if (result == RENDER_OK) {
-        film_to_linear(&session->scene.settings, &session->film);
+        session_film_to_linear(&session->scene.settings, &session->film);
     }
     session->trace_seconds = session_clock() - start;
     session->rendered = result == RENDER_OK;
@@ -382,7 +380,7 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
     if (!is_output(output)) {
         return RT_FAULT_USAGE;
     }
-    if (!memory_suffices(session)) {
+    if (!session_memory_suffices(session)) {
         return session_status(session, false);
     }
     return session_image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);

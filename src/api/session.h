@@ -64,4 +64,10 @@ rt_status session_image_fault(rt_session *session, ImageStatus status, const cha
 // Opens a scene file; reports why not.
 bool session_open(rt_session *session, const char *path, Source **source);
 
+// Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken; reports when not.
+bool session_memory_suffices(rt_session *session);
+
+// The film from the scene's working space to linear light. Legacy files stay as they are.
+void session_film_to_linear(const Settings *settings, Film *film);
+
 #endif

@@ -148,6 +148,17 @@ static rt_status dump(rt_session *session, const Options *options)
     return print(session, text, status);
 }
 
+static rt_status trace_pixel(rt_session *session, const Options *options)
+{
+    const char *text = "";
+    rt_status status = rt_load_file(session, options->scene);
+    if (!status && options->isa) {
+        status = rt_set_isa(session, options->isa);
+    }
+    status = status ? status : rt_trace_pixel(session, options->pixel_x, options->pixel_y, &text);
+    return status ? status : print(session, text, status);
+}
+
 static rt_status explain(rt_session *session, const Options *options)
 {
     const char *text;
@@ -235,6 +246,9 @@ static rt_status run(rt_session *session, const Options *options, Progress *prog
     }
     if (options->action == ACTION_CHECK) {
         return rt_load_file(session, options->scene);
+    }
+    if (options->action == ACTION_TRACE_PIXEL) {
+        return trace_pixel(session, options);
     }
     if (options->action == ACTION_FORMAT) {
         return format(session, options);

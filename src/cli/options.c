@@ -244,6 +244,22 @@ static bool apply_dump(Options *options, const char *argument, const char **expe
     return false;
 }
 
+// Two whole numbers; whether they lie in the picture is known when all options are read.
+static bool apply_trace_pixel(Options *options, const char *argument, const char **expected)
+{
+    char first[8];
+    size_t length = strcspn(argument, ",");
+    *expected = "the column and the row of a pixel, from 0, as 160,120";
+    options->action = ACTION_TRACE_PIXEL;
+    if (argument[length] == '\0' || length >= sizeof first) {
+        return false;
+    }
+    memcpy(first, argument, length);
+    first[length] = '\0';
+    return parse_integer(first, 0, 65534, &options->pixel_x) &&
+           parse_integer(argument + length + 1, 0, 65534, &options->pixel_y);
+}
+
 static const OptionRow rows[] = {
     {'o', "output", "FILE", apply_output,
      "write the picture to FILE, its format by the ending; - is PNG to standard output\n"
@@ -275,6 +291,8 @@ static const OptionRow rows[] = {
      "print the scene's text in the canonical layout, or write it to -o FILE;\n"
      "with --check tell whether it is in that layout"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
+    {0, "trace-pixel", "X,Y", apply_trace_pixel,
+     "print the life of the ray of one pixel, from 0,0 at the top left, and stop; no picture is made"},
     {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},
     {'V', "version", NULL, NULL, "print the version and stop"},
     {'h', "help", NULL, NULL, "print this and stop"},
@@ -458,6 +476,11 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
         return complain(options, "more than one scene given: `%s` and `%s`", argv[optind], argv[optind + 1]);
     }
     options->scene = argv[optind];
+    if (options->action == ACTION_TRACE_PIXEL &&
+        (options->pixel_x >= options->width || options->pixel_y >= options->height)) {
+        return complain(options, "pixel %d,%d is not in a picture of %d x %d pixels", options->pixel_x, options->pixel_y,
+                        options->width, options->height);
+    }
     return OPTIONS_GO;
 }
 

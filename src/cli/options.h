@@ -18,6 +18,7 @@ typedef enum Action {
     ACTION_EXPLAIN,
     ACTION_FORMAT,
     ACTION_FORMAT_CHECK,
+    ACTION_TRACE_PIXEL,
 } Action;
 
 enum { COMPLAINT_SIZE = 512 };
@@ -31,6 +32,7 @@ typedef struct Options {
     const char *code; // ACTION_EXPLAIN
     const char *output; // NULL: the scene's name with .png in the current folder
     int width, height;
+    int pixel_x, pixel_y; // ACTION_TRACE_PIXEL
     int threads;     // 0: as many as the machine has
     const char *isa; // NULL: the best that the machine has
     rt_output encoding;

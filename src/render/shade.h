@@ -512,41 +512,67 @@ RT_ALWAYS_INLINE void pending_add(Pending *pending, const PendingRay *ray, Rgb l
     *sum = rgb_add(*sum, rgb_mul(ray->share, light));
 }
 
+// What one turn of a path found: the ray that was taken, what it hit, and what the hit sends on.
+typedef struct ShadeStep {
+    PendingRay ray;
+    ShadePoint at;       // is_hit
+    ShadeOnward onward;  // is_hit
+    Inside before, behind; // is_hit, where there are interiors
+    Rgb light;           // what the ray's share is multiplied with
+    bool is_hit;
+} ShadeStep;
+
+RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, const PendingRay *first, Pending *pending)
+{
+    pending->count = 1;
+    pending->open = 0;
+    pending->rays[0] = *first;
+    pending->sums[0] = rgb_grey(0.0);
+    if (features & RENDER_INTERIORS) {
+        if (p->camera.type == CAMERA_PERSPECTIVE) {
+            inside_copy(&pending->inside[0], &p->start);
+        } else {
+            prepared_inside(p, first->ray.origin, &pending->inside[0]);
+        }
+    }
+}
+
+// Takes the ray that was put on the list last: its light is added, and the rays that go on from where it hits are put on
+// the list.
+RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pending *pending,
+                                      RenderStatistics *statistics, ShadeStep *step)
+{
+    PendingRay *now = &step->ray;
+    *now = pending->rays[--pending->count];
+    step->is_hit = false;
+    if ((features & RENDER_EXPONENT) && now->closes) {
+        step->light = shade_rgb_power(pending->sums[pending->open--], now->exponent);
+        pending_add(pending, now, step->light);
+    } else if (shade_find(p, features, now, &step->at)) {
+        step->is_hit = true;
+        if (features & RENDER_INTERIORS) {
+            inside_copy(&step->before, &pending->inside[pending->count]);
+            shade_cross(p, &step->at, &step->before, &step->behind);
+        }
+        // Its own light first: a reflected ray may open a sum of its own.
+        step->light = shade_surface(p, features, &step->at, now->weight, &step->onward, statistics);
+        pending_add(pending, now, step->light);
+        shade_go_on(p, features, &step->onward, &step->at, now, &step->before, &step->behind, pending, statistics);
+    } else {
+        step->light = p->background;
+        pending_add(pending, now, step->light);
+    }
+}
+
 // The light that one camera ray brings back, where rays may go on.
 RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const PendingRay *first,
                                 RenderStatistics *statistics)
 {
     Pending pending;
-    pending.count = 1;
-    pending.open = 0;
-    pending.rays[0] = *first;
-    pending.sums[0] = rgb_grey(0.0);
-    if (features & RENDER_INTERIORS) {
-        if (p->camera.type == CAMERA_PERSPECTIVE) {
-            inside_copy(&pending.inside[0], &p->start);
-        } else {
-            prepared_inside(p, first->ray.origin, &pending.inside[0]);
-        }
-    }
+    shade_path_begin(p, features, first, &pending);
     while (pending.count > 0) {
-        PendingRay now = pending.rays[--pending.count];
-        ShadePoint at;
-        ShadeOnward onward;
-        Inside before, behind;
-        if ((features & RENDER_EXPONENT) && now.closes) {
-            Rgb light = shade_rgb_power(pending.sums[pending.open--], now.exponent);
-            pending_add(&pending, &now, light);
-        } else if (shade_find(p, features, &now, &at)) {
-            if (features & RENDER_INTERIORS) {
-                inside_copy(&before, &pending.inside[pending.count]);
-                shade_cross(p, &at, &before, &behind);
-            }
-            // Its own light first: a reflected ray may open a sum of its own.
-            pending_add(&pending, &now, shade_surface(p, features, &at, now.weight, &onward, statistics));
-            shade_go_on(p, features, &onward, &at, &now, &before, &behind, &pending, statistics);
-        } else {
-            pending_add(&pending, &now, p->background);
-        }
+        ShadeStep step;
+        shade_path_step(p, features, &pending, statistics, &step);
     }
     return pending.sums[0];
 }

@@ -1,0 +1,424 @@
+// The life of a pixel's ray as text, or as one JSON object on one line.
+//
+// Turns the records of render/life.h into what a reader or a program reads; docs/diagnostics.md lists the members. Works
+// nothing out.
+//
+// SPDX-License-Identifier: MIT
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "api/session.h"
+#include "render/life.h"
+
+typedef struct Printer {
+    TextBuffer *out;
+    DiagSink *diags; // for places in the text
+    const Life *life;
+} Printer;
+
+static const char *const kind_words[] = {
+    [LIFE_CAMERA] = "camera", [LIFE_MIRRORED] = "mirrored", [LIFE_TOTAL] = "totally reflected",
+    [LIFE_THROUGH] = "through", [LIFE_BENT] = "bent",
+};
+
+static const char *const choice_words[] = {
+    [LIFE_MISSES] = "none",     [LIFE_BEHIND] = "behind", [LIFE_NEAR] = "near", [LIFE_FAR] = "far",
+    [LIFE_LEFT] = "left",       [LIFE_GOES_THROUGH] = "goes through",
+};
+
+static const char *const choice_reasons[] = {
+    [LIFE_MISSES] = "none: the line passes the sphere",
+    [LIFE_BEHIND] = "none: both points lie behind the ray's start",
+    [LIFE_NEAR] = "t1: the ray comes from outside, and the first point is the nearer one",
+    [LIFE_FAR] = "t2: the ray starts inside, so the first point lies behind it",
+    [LIFE_LEFT] = "none: the ray starts on this sphere and leaves it; a sphere is convex, so it is not asked again",
+    [LIFE_GOES_THROUGH] = "the one that is not 0: the ray starts on this sphere and goes in, so c = 0 and t = -b / a",
+};
+
+static const char *case_of(double h)
+{
+    return h > 0.0 ? "h > 0" : h < 0.0 ? "h < 0" : "h = 0";
+}
+
+static void put(const Printer *p, const char *text)
+{
+    text_append(p->out, text);
+}
+
+// JSON has no infinity and no NaN.
+static void put_number(const Printer *p, double x)
+{
+    isfinite(x) ? text_append_double(p->out, x + 0.0) : put(p, "null");
+}
+
+static void put_three(const Printer *p, const char *open, const char *close, double a, double b, double c)
+{
+    put(p, open);
+    put_number(p, a);
+    put(p, ", ");
+    put_number(p, b);
+    put(p, ", ");
+    put_number(p, c);
+    put(p, close);
+}
+
+// ---- text
+
+static void tell(const Printer *p, const char *what, double x)
+{
+    put(p, what);
+    put_number(p, x);
+}
+
+static void tell_vector(const Printer *p, const char *what, Vec3 a)
+{
+    put(p, what);
+    put_three(p, "<", ">", a.x, a.y, a.z);
+}
+
+static void tell_colour(const Printer *p, const char *what, Rgb a)
+{
+    put(p, what);
+    put_three(p, "rgb <", ">", a.red, a.green, a.blue);
+}
+
+static void tell_place(const Printer *p, uint64_t source)
+{
+    SourceLocation at;
+    if (source && source_locate(p->diags->sources, (Span){source, source + 1}, &at)) {
+        text_printf(p->out, " (%s:%" PRIu64 ":%" PRIu64 ")", at.name, (uint64_t)at.line, (uint64_t)at.column);
+    }
+}
+
+static void tell_sphere(const Printer *p, const LifeSphere *s)
+{
+    put(p, "  sphere");
+    tell_place(p, s->source);
+    tell_vector(p, ": centre ", s->centre);
+    tell(p, ", radius ", s->radius);
+    tell(p, "\n    a = d·d = ", s->a);
+    tell(p, ", b = 2 d·(e - centre) = ", s->b);
+    tell(p, ", c = (e - centre)·(e - centre) - radius² = ", s->c);
+    tell(p, "\n    h = b² - 4 a c = ", s->h);
+    text_printf(p->out, ": %s", s->h > 0.0   ? "h > 0, the line meets it in two points"
+                                : s->h < 0.0 ? "h < 0, the line does not meet it"
+                                             : "h = 0, the line touches it");
+    if (s->h >= 0.0) {
+        tell(p, "\n    t1 = (-b - √h) / 2a = ", s->t1);
+        tell(p, ", t2 = (-b + √h) / 2a = ", s->t2);
+    }
+    text_printf(p->out, "\n    used: %s", choice_reasons[s->choice]);
+    if (s->t > 0.0) {
+        tell(p, "\n    t = ", s->t);
+        tell(p, ", off by less than ", s->bound);
+    }
+    if (s->is_doubtful) {
+        put(p, "\n    near enough to a tangent, or to the surface, that rounding could decide: worked out in double words");
+    }
+    if (s->is_misjudged) {
+        put(p, "\n    by the plain formulas above another root would be used");
+    }
+    put(p, "\n");
+}
+
+static void tell_layer(const Printer *p, const LifeLayer *layer)
+{
+    text_printf(p->out, "    pigment rgbft <%.9g, %.9g, %.9g, %.9g, %.9g>", layer->pigment.red, layer->pigment.green,
+                layer->pigment.blue, layer->pigment.filter, layer->pigment.transmit);
+    if (layer->part != 1.0) {
+        tell(p, ", as a part of ", layer->part);
+    }
+    if (layer->above.red != 1.0 || layer->above.green != 1.0 || layer->above.blue != 1.0) {
+        tell_colour(p, ", seen through layers that leave ", layer->above);
+    }
+    tell_colour(p, "\n    ambient and emission: ", layer->glow);
+    put(p, "\n");
+    for (size_t i = layer->first_light; i < layer->first_light + layer->light_count; i++) {
+        const LifeLight *light = &p->life->lights.items[i];
+        text_printf(p->out, "    light %zu", light->number + 1);
+        tell_vector(p, " at ", light->position);
+        tell(p, ": distance ", light->distance);
+        tell(p, ", N·L = ", light->cosine);
+        tell_colour(p, ", visible ", light->visible);
+        tell_colour(p, ", adds ", light->adds);
+        put(p, "\n");
+    }
+}
+
+static void tell_hit(const Printer *p, const LifeRay *ray)
+{
+    text_printf(p->out, "  hit: %s", ray->shape);
+    tell_place(p, ray->source);
+    text_printf(p->out, " from the %s", ray->is_inside ? "inside" : "outside");
+    tell(p, " at t = ", ray->t);
+    tell(p, ", off by less than ", ray->bound);
+    tell_vector(p, "\n    point ", ray->point);
+    tell_vector(p, ", normal N = ", ray->normal);
+    put(p, "\n");
+    for (size_t i = ray->first_layer; i < ray->first_layer + ray->layer_count; i++) {
+        tell_layer(p, &p->life->layers.items[i]);
+    }
+    if (!rgb_is_black(ray->reflectance)) {
+        tell_colour(p, "    mirrors ", ray->reflectance);
+        put(p, "\n");
+    }
+    if (!rgb_is_black(ray->through)) {
+        tell_colour(p, "    lets through ", ray->through);
+        if (ray->ior_ratio != 1.0) {
+            tell(p, ", bent by an index of refraction that becomes times ", ray->ior_ratio);
+        }
+        put(p, "\n");
+    }
+}
+
+static void tell_ray(const Printer *p, size_t number)
+{
+    const LifeRay *ray = &p->life->rays.items[number];
+    text_printf(p->out, "ray %zu: %s", number + 1, kind_words[ray->kind]);
+    if (ray->parent != LIFE_NONE) {
+        text_printf(p->out, " where ray %d hits, level %d", ray->parent + 1, ray->level);
+        tell_colour(p, ", its light counts times ", ray->share);
+    }
+    tell_vector(p, "\n  e = ", ray->origin);
+    if (ray->kind == LIFE_CAMERA) {
+        tell_vector(p, ", through the screen at ", p->life->screen);
+    }
+    tell_vector(p, "\n  d = ", ray->direction);
+    put(p, ", of length 1\n");
+    for (size_t i = ray->first_sphere; i < ray->first_sphere + ray->sphere_count; i++) {
+        tell_sphere(p, &p->life->spheres.items[i]);
+    }
+    if (ray->missed > 0) {
+        text_printf(p->out, "  %zu more sphere%s passed\n", ray->missed, ray->missed == 1 ? " is" : "s are");
+    }
+    if (ray->is_hit) {
+        tell_hit(p, ray);
+        tell_colour(p, "  its light: ", ray->light);
+    } else {
+        tell_colour(p, "  meets nothing: the background, ", ray->light);
+    }
+    tell_colour(p, "; adds ", ray->adds);
+    put(p, "\n");
+}
+
+static void print_text(const Printer *p, int x, int y, Rgb linear)
+{
+    text_printf(p->out, "pixel %d, %d\n", x, y);
+    for (size_t i = 0; i < p->life->rays.count; i++) {
+        tell_ray(p, i);
+    }
+    if (p->life->more_rays > 0) {
+        text_printf(p->out, "%zu more rays are not told of\n", p->life->more_rays);
+    }
+    tell_colour(p, "colour ", p->life->colour);
+    tell_colour(p, ", as linear light ", linear);
+    put(p, "\n");
+}
+
+// ---- JSON
+
+static void member(const Printer *p, const char *name)
+{
+    char last = p->out->length > 0 ? text_get(p->out)[p->out->length - 1] : '{';
+    text_printf(p->out, "%s\"%s\": ", last == '{' ? "" : ", ", name);
+}
+
+static void json_number(const Printer *p, const char *name, double x)
+{
+    member(p, name);
+    put_number(p, x);
+}
+
+static void json_vector(const Printer *p, const char *name, Vec3 a)
+{
+    member(p, name);
+    put_three(p, "[", "]", a.x, a.y, a.z);
+}
+
+static void json_colour(const Printer *p, const char *name, Rgb a)
+{
+    member(p, name);
+    put_three(p, "[", "]", a.red, a.green, a.blue);
+}
+
+static void json_word(const Printer *p, const char *name, const char *word)
+{
+    member(p, name);
+    text_printf(p->out, "\"%s\"", word);
+}
+
+static void json_truth(const Printer *p, const char *name, bool truth)
+{
+    member(p, name);
+    put(p, truth ? "true" : "false");
+}
+
+static void json_place(const Printer *p, uint64_t source)
+{
+    SourceLocation at;
+    if (source && source_locate(p->diags->sources, (Span){source, source + 1}, &at)) {
+        member(p, "file");
+        diag_json_string(p->out, at.name, strlen(at.name));
+        json_number(p, "line", (double)at.line);
+        json_number(p, "column", (double)at.column);
+    }
+}
+
+static void json_spheres(const Printer *p, const LifeRay *ray)
+{
+    member(p, "spheres");
+    put(p, "[");
+    for (size_t i = 0; i < ray->sphere_count; i++) {
+        const LifeSphere *s = &p->life->spheres.items[ray->first_sphere + i];
+        put(p, i > 0 ? ", {" : "{");
+        json_place(p, s->source);
+        json_vector(p, "centre", s->centre);
+        json_number(p, "radius", s->radius);
+        json_number(p, "a", s->a);
+        json_number(p, "b", s->b);
+        json_number(p, "c", s->c);
+        json_number(p, "h", s->h);
+        json_word(p, "case", case_of(s->h));
+        if (s->h >= 0.0) {
+            json_number(p, "t1", s->t1);
+            json_number(p, "t2", s->t2);
+        }
+        json_word(p, "used", choice_words[s->choice]);
+        json_word(p, "why", choice_reasons[s->choice]);
+        if (s->t > 0.0) {
+            json_number(p, "t", s->t);
+            json_number(p, "t_error", s->bound);
+        }
+        json_truth(p, "doubtful", s->is_doubtful);
+        json_truth(p, "plain_formulas_differ", s->is_misjudged);
+        put(p, "}");
+    }
+    put(p, "]");
+    json_number(p, "spheres_not_told", (double)ray->missed);
+}
+
+static void json_lights(const Printer *p, const LifeLayer *layer)
+{
+    member(p, "lights");
+    put(p, "[");
+    for (size_t i = 0; i < layer->light_count; i++) {
+        const LifeLight *light = &p->life->lights.items[layer->first_light + i];
+        put(p, i > 0 ? ", {" : "{");
+        json_number(p, "light", (double)light->number + 1);
+        json_vector(p, "position", light->position);
+        json_number(p, "distance", light->distance);
+        json_number(p, "cosine", light->cosine);
+        json_colour(p, "visible", light->visible);
+        json_colour(p, "adds", light->adds);
+        put(p, "}");
+    }
+    put(p, "]");
+}
+
+static void json_hit(const Printer *p, const LifeRay *ray)
+{
+    member(p, "hit");
+    put(p, "{");
+    json_word(p, "shape", ray->shape);
+    json_place(p, ray->source);
+    json_number(p, "t", ray->t);
+    json_number(p, "t_error", ray->bound);
+    json_truth(p, "inside", ray->is_inside);
+    json_vector(p, "point", ray->point);
+    json_vector(p, "normal", ray->normal);
+    json_number(p, "ior_ratio", ray->ior_ratio);
+    json_colour(p, "reflectance", ray->reflectance);
+    json_colour(p, "through", ray->through);
+    member(p, "layers");
+    put(p, "[");
+    for (size_t i = 0; i < ray->layer_count; i++) {
+        const LifeLayer *layer = &p->life->layers.items[ray->first_layer + i];
+        const Rgbft *pigment = &layer->pigment;
+        put(p, i > 0 ? ", {" : "{");
+        json_colour(p, "pigment", rgbft_rgb(*pigment));
+        json_number(p, "filter", pigment->filter);
+        json_number(p, "transmit", pigment->transmit);
+        json_number(p, "part", layer->part);
+        json_colour(p, "above", layer->above);
+        json_colour(p, "glow", layer->glow);
+        json_lights(p, layer);
+        put(p, "}");
+    }
+    put(p, "]}");
+}
+
+static void json_ray(const Printer *p, size_t number)
+{
+    const LifeRay *ray = &p->life->rays.items[number];
+    put(p, number > 0 ? ", {" : "{");
+    json_number(p, "ray", (double)number + 1);
+    json_word(p, "kind", kind_words[ray->kind]);
+    if (ray->parent != LIFE_NONE) {
+        json_number(p, "from", ray->parent + 1);
+    } else {
+        json_vector(p, "screen", p->life->screen);
+    }
+    json_number(p, "level", ray->level);
+    json_vector(p, "e", ray->origin);
+    json_vector(p, "d", ray->direction);
+    json_colour(p, "share", ray->share);
+    json_number(p, "weight", ray->weight);
+    json_spheres(p, ray);
+    if (ray->is_hit) {
+        json_hit(p, ray);
+    }
+    json_colour(p, "light", ray->light);
+    json_colour(p, "adds", ray->adds);
+    put(p, "}");
+}
+
+static void print_json(const Printer *p, int x, int y, Rgb linear)
+{
+    put(p, "{");
+    json_word(p, "type", "pixel");
+    json_number(p, "x", x);
+    json_number(p, "y", y);
+    member(p, "rays");
+    put(p, "[");
+    for (size_t i = 0; i < p->life->rays.count; i++) {
+        json_ray(p, i);
+    }
+    put(p, "]");
+    json_number(p, "rays_not_told", (double)p->life->more_rays);
+    json_colour(p, "colour", p->life->colour);
+    json_colour(p, "linear", linear);
+    put(p, "}\n");
+}
+
+// ---- the call
+
+rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)
+{
+    text_clear(&session->dump);
+    *text = text_get(&session->dump);
+    if (!session->loaded || x < 0 || y < 0 || x >= session->width || y >= session->height) {
+        return RT_FAULT_USAGE;
+    }
+    if (!session_memory_suffices(session)) {
+        return session_status(session, false);
+    }
+    Life life = {.more_rays = 0};
+    GeometryOptions geometry = {.threads = render_default_threads(), .isa = session->isa};
+    Prepared *prepared = prepared_new(&session->scene, &geometry);
+    bool is_traced = prepared && life_trace(&life, prepared, session->width, session->height, x, y);
+    prepared_free(prepared);
+    if (is_traced) {
+        Printer printer = {&session->dump, &session->diags, &life};
+        // As the film has it: in single precision first.
+        Film pixel = {1, 1, (float[]){(float)life.colour.red, (float)life.colour.green, (float)life.colour.blue}};
+        session_film_to_linear(&session->scene.settings, &pixel);
+        (session->is_json ? print_json : print_text)(&printer, x, y, rgb(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]));
+    }
+    life_fini(&life);
+    if (!is_traced || session->dump.failed) {
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory following a ray");
+    }
+    *text = text_get(&session->dump);
+    return session_status(session, is_traced && !session->dump.failed);
+}

@@ -1,0 +1,351 @@
+// Follows one camera ray with the kernels' own steps and keeps what each found.
+//
+// SPDX-License-Identifier: MIT
+#include "render/life.h"
+
+#include <float.h>
+
+#include "render/camera.h"
+#include "render/shade.h"
+
+enum {
+    RAYS_MOST = 1000,   // that are told of
+    SPHERES_FEW = 16,   // a scene with no more than these tells of each, also of those that are missed
+    SPHERES_MOST = 100, // that are told of for a ray
+    FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES,
+};
+
+static const double U = DBL_EPSILON / 2;
+
+typedef struct Follower {
+    Life *life;
+    const Prepared *p;
+    double scale; // from prepared lengths to the scene's
+    bool failed;
+    const ShadePoint *at; // while layers are collected
+} Follower;
+
+static Vec3 in_scene(const Follower *follower, Vec3 a)
+{
+    return vec3_scale(follower->scale, a);
+}
+
+static double spacing(double t)
+{
+    return nextafter(fabs(t), (double)INFINITY) - fabs(t);
+}
+
+// ---- spheres
+
+static uint64_t sphere_source(const Scene *scene, uint32_t order)
+{
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        if (scene->spheres.items[i].order == order) {
+            return scene->spheres.items[i].source;
+        }
+    }
+    return 0;
+}
+
+// The quadratic and its roots as a textbook has them.
+static void textbook(LifeSphere *out, Ray ray, const Ball *ball, double scale)
+{
+    Vec3 f = vec3_sub(ray.origin, ball->centre);
+    double a = vec3_dot(ray.direction, ray.direction);
+    double b = 2.0 * vec3_dot(ray.direction, f);
+    double c = vec3_dot(f, f) - ball->radius_squared;
+    double h = b * b - 4.0 * a * c;
+    out->a = a;
+    out->b = b * scale;
+    out->c = c * scale * scale;
+    out->h = h * scale * scale;
+    if (h >= 0.0) {
+        out->t1 = (-b - sqrt(h)) / (2.0 * a) * scale;
+        out->t2 = (-b + sqrt(h)) / (2.0 * a) * scale;
+    }
+}
+
+static LifeChoice textbook_choice(const LifeSphere *sphere)
+{
+    return !(sphere->h >= 0.0) ? LIFE_MISSES : sphere->t1 > 0.0 ? LIFE_NEAR : sphere->t2 > 0.0 ? LIFE_FAR : LIFE_BEHIND;
+}
+
+// By the rules of query_spheres_closest.
+static void certify(LifeSphere *out, Ray ray, const Ball *ball, RayStart start, const Ball *start_ball, double scale)
+{
+    SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
+    double rough;
+    bool inside = false;
+    if (ball_equal(ball, start_ball)) {
+        out->choice = start.inward ? LIFE_GOES_THROUGH : LIFE_LEFT;
+        double t = start.inward ? sphere_root_inward(&sphere_ray, ball) : 0.0;
+        Vec3 f = vec3_sub(ray.origin, ball->centre);
+        double cosine = fabs(vec3_dot(f, ray.direction)) / (vec3_length(f) * vec3_length(ray.direction));
+        out->t = t * scale;
+        out->bound = (3.0 / cosine + 3.0) * U * fabs(t) * scale;
+        return;
+    }
+    out->is_doubtful = sphere_test(&sphere_ray, ball, &rough, &inside) == SPHERE_DOUBTFUL;
+    double t = sphere_hit(&sphere_ray, ball, &inside);
+    bool is_behind = !(t > 0.0) && out->h >= 0.0 && out->t2 <= 0.0;
+    out->choice = t > 0.0 ? (inside ? LIFE_FAR : LIFE_NEAR) : is_behind ? LIFE_BEHIND : LIFE_MISSES;
+    LifeChoice plain = textbook_choice(out);
+    out->is_misjudged = (t > 0.0 || plain == LIFE_NEAR || plain == LIFE_FAR) && plain != out->choice;
+    out->t = t * scale;
+    out->bound = t > 0.0 ? spacing(t) * scale : 0.0;
+}
+
+// Spheres that the line meets, or all of a few.
+static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *now)
+{
+    const Geometry *g = follower->p->geometry;
+    const SphereTable *table = &g->spheres;
+    Ball start_ball = query_start_ball(g, now->start);
+    ray->first_sphere = follower->life->spheres.count;
+    for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
+        Ball ball = sphere_table_ball(table, slot);
+        if (isnan(ball.radius_squared)) {
+            continue;
+        }
+        LifeSphere sphere = {.centre = in_scene(follower, ball.centre),
+                             .radius = sqrt(ball.radius_squared) * follower->scale};
+        textbook(&sphere, now->ray, &ball, follower->scale);
+        certify(&sphere, now->ray, &ball, now->start, &start_ball, follower->scale);
+        bool is_told = table->count <= SPHERES_FEW || sphere.h >= 0.0 || sphere.t > 0.0;
+        if (!is_told || follower->life->spheres.count - ray->first_sphere >= SPHERES_MOST) {
+            ray->missed++;
+            continue;
+        }
+        sphere.source = sphere_source(follower->p->scene, table->info[slot].order);
+        follower->failed |= !ARRAY_PUSH(&follower->life->spheres, sphere);
+    }
+    ray->sphere_count = follower->life->spheres.count - ray->first_sphere;
+}
+
+// ---- the hit
+
+#define SOURCE_BY_ORDER(list, wanted, out)                                                                             \
+    for (size_t i = 0; i < (list).count; i++) {                                                                        \
+        if ((list).items[i].order == (wanted)) {                                                                       \
+            (out) = (list).items[i].source;                                                                            \
+        }                                                                                                              \
+    }
+
+// A solid's bound holds for ellipsoids too, which are unit balls under a map.
+static double ellipsoid_error(const EllipsoidShape *shape, const Ray *ray, double t)
+{
+    Solid solid = {.kind = PART_BALL, .centre = shape->centre, .to_world = shape->to_world, .to_object = shape->to_object};
+    Ray object = solid_ray(&solid, ray);
+    return solid_crossing_error(&solid, ray, &object, t, 0);
+}
+
+// 4 u for n·e and the difference, 3 u for n·d, 1 u for the quotient.
+static double plane_error(const PlaneShape *plane, const Ray *ray, double t)
+{
+    Vec3 n = plane->normal, e = ray->origin, d = ray->direction;
+    double above = fabs(plane->distance) + fabs(n.x * e.x) + fabs(n.y * e.y) + fabs(n.z * e.z);
+    double below = fabs(n.x * d.x) + fabs(n.y * d.y) + fabs(n.z * d.z);
+    return U * ((4.0 * above + 3.0 * t * below) / fabs(vec3_dot(n, d)) + t);
+}
+
+static void name_shape(const Follower *follower, const ShadePoint *at, const Ray *ray, LifeRay *out)
+{
+    const Geometry *g = follower->p->geometry;
+    const Scene *scene = follower->p->scene;
+    uint32_t index = shape_index(at->shape);
+    double t = out->t / follower->scale, error = spacing(t);
+    switch (shape_kind(at->shape)) {
+    case SHAPE_SPHERE:
+        out->shape = "sphere";
+        SOURCE_BY_ORDER(scene->spheres, at->order, out->source);
+        break;
+    case SHAPE_ELLIPSOID:
+        out->shape = "stretched sphere";
+        SOURCE_BY_ORDER(scene->ellipsoids, at->order, out->source);
+        error = ellipsoid_error(&g->ellipsoids[index].shape, ray, t);
+        break;
+    case SHAPE_PLANE:
+        out->shape = "plane";
+        SOURCE_BY_ORDER(scene->planes, at->order, out->source);
+        error = plane_error(&g->planes[index].shape, ray, t);
+        break;
+    case SHAPE_PART: {
+        static const char *const words[] = {
+            [PART_BALL] = "sphere", [PART_PLANE] = "plane",     [PART_BOX] = "box",
+            [PART_CONE] = "cylinder or cone", [PART_DISC] = "disc", [PART_TRIANGLE] = "triangle",
+            [PART_SMOOTH_TRIANGLE] = "smooth triangle",
+        };
+        const Solid *solid = &g->shapes.solids[part_index(at->shape)];
+        Ray object = solid_ray(solid, ray);
+        out->shape = words[solid->kind];
+        out->source = scene->parts.items[part_index(at->shape)].source;
+        error = solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
+        break;
+    }
+    }
+    out->bound = error * follower->scale;
+}
+
+// ---- what is seen there
+
+static void follow_light(Follower *follower, const ShadeMaterial *material, const PreparedLight *light)
+{
+    const ShadePoint *at = follower->at;
+    RenderStatistics unused = {0};
+    Vec3 offset = vec3_sub(light->position, at->point);
+    double distance = light->parallel ? vec3_dot(offset, light->towards) : vec3_length(offset);
+    Vec3 towards = light->parallel ? light->towards : vec3_scale(1.0 / distance, offset);
+    LifeLight out = {
+        .number = light->number,
+        .position = in_scene(follower, light->position),
+        .distance = distance * follower->scale,
+        .cosine = vec3_dot(at->normal, towards),
+        .visible = rgb_grey(1.0),
+        .adds = shade_light(follower->p, FEATURES, material, light, at, &unused),
+    };
+    if (!light->shadowless && distance > 0.0) {
+        out.visible = light->area.size1 > 0 ? shade_area(follower->p, FEATURES, at, light, &unused)
+                                            : shade_visibility(follower->p, FEATURES, at, towards, distance, &unused);
+    }
+    follower->failed |= !ARRAY_PUSH(&follower->life->lights, out);
+}
+
+static void follow_layer(void *client, const TextureLayer *layer)
+{
+    Follower *follower = client;
+    const Prepared *p = follower->p;
+    ShadeMaterial material = shade_material(p, FEATURES, layer->pigment, layer->finish);
+    LifeLayer out = {
+        .pigment = layer->pigment,
+        .part = layer->part,
+        .above = layer->above,
+        .glow = rgb_mul(material.opaque, material.finish->glow),
+        .first_light = follower->life->lights.count,
+    };
+    for (size_t i = 0; i < p->light_count; i++) {
+        follow_light(follower, &material, &p->lights[i]);
+    }
+    out.light_count = follower->life->lights.count - out.first_light;
+    follower->failed |= !ARRAY_PUSH(&follower->life->layers, out);
+}
+
+static void follow_surface(Follower *follower, const ShadePoint *at)
+{
+    const Prepared *p = follower->p;
+    follower->at = at;
+    if (at->material & MATERIAL_COMPOUND) {
+        uint32_t texture = p->compounds[at->material & ~MATERIAL_COMPOUND].texture;
+        texture_walk(&p->textures, texture, at->point, p->adc_bailout, follow_layer, follower);
+    } else {
+        const Material *plain = &p->materials[at->material];
+        TextureLayer layer = {material_pigment(plain), plain->finish, 1.0, rgb_grey(1.0)};
+        follow_layer(follower, &layer);
+    }
+}
+
+// ---- the way
+
+// What a ray is that a step put on the list.
+static LifeKind child_kind(const ShadeStep *step, const PendingRay *child)
+{
+    Vec3 bent;
+    bool has_bend = step->at.ior_ratio != 1.0;
+    if (child->start.inward != step->at.inside) {
+        return has_bend ? LIFE_BENT : LIFE_THROUGH;
+    }
+    bool is_total = has_bend && !inside_bend(step->at.direction, step->at.normal, step->at.ior_ratio, &bent);
+    return is_total ? LIFE_TOTAL : LIFE_MIRRORED;
+}
+
+static void follow_hit(Follower *follower, const ShadeStep *step, LifeRay *ray)
+{
+    const ShadePoint *at = &step->at;
+    const PendingRay *now = &step->ray;
+    Hit hit = {.t = 0.0};
+    ray->is_hit = geometry_closest(follower->p->geometry, TRACE_ALL_FEATURES, now->ray, now->start, (double)INFINITY, &hit);
+    ray->t = hit.t * follower->scale;
+    ray->is_inside = at->inside;
+    ray->point = in_scene(follower, at->point);
+    ray->normal = at->normal;
+    ray->ior_ratio = at->ior_ratio;
+    ray->through = step->onward.through;
+    ray->reflectance = step->onward.reflectance;
+    name_shape(follower, at, &now->ray, ray);
+    follow_surface(follower, at);
+}
+
+static void follow_step(Follower *follower, const ShadeStep *step, int parent, LifeKind kind)
+{
+    Life *life = follower->life;
+    const PendingRay *now = &step->ray;
+    if (life->rays.count >= RAYS_MOST) {
+        life->more_rays++;
+        return;
+    }
+    LifeRay ray = {
+        .parent = parent,
+        .kind = kind,
+        .level = now->level,
+        .origin = in_scene(follower, now->ray.origin),
+        .direction = now->ray.direction,
+        .share = now->share,
+        .weight = now->weight,
+        .first_layer = life->layers.count,
+        .light = step->light,
+        .adds = rgb_mul(now->share, step->light),
+    };
+    follow_spheres(follower, &ray, now);
+    if (step->is_hit) {
+        follow_hit(follower, step, &ray);
+    }
+    ray.layer_count = life->layers.count - ray.first_layer;
+    follower->failed |= !ARRAY_PUSH(&life->rays, ray);
+}
+
+bool life_trace(Life *life, const Prepared *prepared, int width, int height, int x, int y)
+{
+    *life = (Life){.more_rays = 0};
+    Follower follower = {.life = life, .p = prepared, .scale = prepared->textures.scale};
+    double u = (x + 0.5) / width - 0.5, v = (y + 0.5) / height - 0.5;
+    PendingRay first = {.ray = camera_ray(&prepared->camera, u, v),
+                        .start = RAY_START_CAMERA,
+                        .share = rgb_grey(1.0),
+                        .weight = 1.0,
+                        .level = 1};
+    const Camera *camera = &prepared->scene->camera;
+    life->eye = in_scene(&follower, first.ray.origin);
+    Vec3 across = vec3_sub(vec3_scale(u, camera->right), vec3_scale(v, camera->up));
+    life->screen = camera->type == CAMERA_ORTHOGRAPHIC ? vec3_add(life->eye, camera->direction)
+                                                       : vec3_add(life->eye, vec3_add(camera->direction, across));
+    Pending pending;
+    RenderStatistics unused = {0};
+    int parents[PENDING_MAX] = {LIFE_NONE};
+    LifeKind kinds[PENDING_MAX] = {LIFE_CAMERA};
+    shade_path_begin(prepared, FEATURES, &first, &pending);
+    while (pending.count > 0 && !follower.failed) {
+        ShadeStep step;
+        int place = pending.count - 1;
+        int parent = parents[place];
+        LifeKind kind = kinds[place];
+        shade_path_step(prepared, FEATURES, &pending, &unused, &step);
+        if (step.ray.closes) {
+            continue;
+        }
+        int number = (int)life->rays.count;
+        follow_step(&follower, &step, parent, kind);
+        for (int i = place; i < pending.count; i++) {
+            parents[i] = number;
+            kinds[i] = child_kind(&step, &pending.rays[i]);
+        }
+    }
+    life->colour = pending.sums[0];
+    return !follower.failed;
+}
+
+void life_fini(Life *life)
+{
+    ARRAY_FREE(&life->rays);
+    ARRAY_FREE(&life->spheres);
+    ARRAY_FREE(&life->layers);
+    ARRAY_FREE(&life->lights);
+}

@@ -1,0 +1,105 @@
+// The life of one camera ray, step by step, for people who want to see how a pixel comes about.
+//
+// Follows the very functions of the kernels with all features on (render/shade.h), so that its colour is the picture's, and
+// keeps what each step found. Lengths are the scene's own. Has no part in rendering a picture.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_LIFE_H
+#define RENDER_LIFE_H
+
+#include "base/array.h"
+#include "math/ray.h"
+#include "render/render.h"
+
+// Where a ray comes from.
+typedef enum LifeKind {
+    LIFE_CAMERA,
+    LIFE_MIRRORED,
+    LIFE_TOTAL,   // mirrored because nothing gets through
+    LIFE_THROUGH, // goes straight on
+    LIFE_BENT,
+} LifeKind;
+
+// Which root of the quadratic is a sphere's, and why.
+typedef enum LifeChoice {
+    LIFE_MISSES,       // h < 0: there is none
+    LIFE_BEHIND,       // both are at t < 0
+    LIFE_NEAR,         // the first: the ray comes from outside
+    LIFE_FAR,          // the second: the ray starts inside, so that the first is behind it
+    LIFE_LEFT,         // none: the ray leaves this sphere outward, and a sphere is convex
+    LIFE_GOES_THROUGH, // the one that is not 0: the ray starts on this sphere and goes in
+} LifeChoice;
+
+// A sphere that the ray was tested against: a t² + b t + c = 0 with a = d·d, b = 2 d·(e - centre),
+// c = (e - centre)·(e - centre) - radius², and h = b² - 4 a c, all as plain double arithmetic gives them.
+typedef struct LifeSphere {
+    uint64_t source;
+    Vec3 centre;
+    double radius;
+    double a, b, c, h;
+    double t1, t2;     // roots as the textbook gives them; h >= 0
+    LifeChoice choice; // by the certified test
+    bool is_doubtful;  // rounding could have decided, so double words did
+    bool is_misjudged; // the textbook would choose otherwise
+    double t;          // the root that is used, refined; 0: none
+    double bound;      // |error of t| is below
+} LifeSphere;
+
+// What one light does to one layer of a surface.
+typedef struct LifeLight {
+    size_t number;    // of the scene's lights
+    Vec3 position;
+    double distance, cosine; // to it; of the angle between its direction and the normal
+    Rgb visible;      // the share that arrives, by colour; white where the light throws no shadow
+    Rgb adds;         // what the surface makes of it
+} LifeLight;
+
+// One of the materials that are seen at a hit: one, but for layers and maps.
+typedef struct LifeLayer {
+    Rgbft pigment;
+    double part; // of the texture in a map
+    Rgb above;   // what the layers above let through
+    Rgb glow;    // ambient and emission
+    size_t first_light, light_count;
+} LifeLayer;
+
+enum { LIFE_NONE = -1 };
+
+typedef struct LifeRay {
+    int parent; // number of the ray that it comes from; LIFE_NONE: the camera's
+    LifeKind kind;
+    int level;
+    Vec3 origin, direction;
+    Rgb share;     // what its light is multiplied with
+    double weight; // what decides whether it is traced
+    size_t first_sphere, sphere_count; // those told of
+    size_t missed;                     // spheres that it misses and that are not told of
+    bool is_hit;
+    const char *shape; // word for what is hit
+    uint64_t source;   // of the shape
+    double t, bound;
+    bool is_inside;    // the shape was met from its inside
+    Vec3 point, normal; // the normal is turned to where the ray comes from
+    double ior_ratio;  // index of refraction behind the surface over the one before it
+    size_t first_layer, layer_count;
+    Rgb through, reflectance;
+    Rgb light; // that of the hit, or of the background
+    Rgb adds;  // share × light
+} LifeRay;
+
+typedef struct Life {
+    Vec3 eye, screen; // the camera's ray goes from the one through the other
+    ARRAY(LifeRay) rays;
+    ARRAY(LifeSphere) spheres;
+    ARRAY(LifeLayer) layers;
+    ARRAY(LifeLight) lights;
+    size_t more_rays; // not told of
+    Rgb colour;       // of the pixel, in the scene's working space
+} Life;
+
+// Follows the ray of the middle of a pixel of a picture of that size. False when out of memory; life_fini is to be called
+// anyway.
+bool life_trace(Life *life, const Prepared *prepared, int width, int height, int x, int y) RT_MUST_CHECK;
+void life_fini(Life *life);
+
+#endif

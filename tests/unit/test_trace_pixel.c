@@ -1,0 +1,119 @@
+// The life of a ray ends in the colour of its pixel: all examples and all scenes that are compared with POV-Ray.
+//
+// The kernels leave out what a scene has not, --trace-pixel runs with everything on; both must give the same bits. What is
+// printed of a sphere is checked against the scene that it was made for.
+//
+// SPDX-License-Identifier: MIT
+#include <glob.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rtlang/rtlang.h"
+#include "unit/tap.h"
+
+enum { WIDTH = 16, HEIGHT = 12 };
+
+static bool is_pixel(const char *text, const float *pixel)
+{
+    const char *linear = strstr(text, "\"linear\": [");
+    double rgb[3];
+    return linear && sscanf(linear, "\"linear\": [%lf, %lf, %lf]", &rgb[0], &rgb[1], &rgb[2]) == 3 &&
+           (float)rgb[0] == pixel[0] && (float)rgb[1] == pixel[1] && (float)rgb[2] == pixel[2];
+}
+
+static void check_scene(const char *folder, const char *path, int step)
+{
+    int width, height, wrong = 0, first = 0, tried = 0;
+    rt_session *session = rt_session_new(NULL);
+    rt_set_format(session, RT_FORMAT_JSON);
+    bool is_ready = rt_add_include_path(session, folder) == RT_OK && rt_set_size(session, WIDTH, HEIGHT) == RT_OK && rt_load_file(session, path) == RT_OK &&
+                    rt_render(session, 1) == RT_OK;
+    const float *pixels = is_ready ? rt_pixels(session, &width, &height) : NULL;
+    for (int i = 0; pixels && i < WIDTH * HEIGHT; i += step, tried++) {
+        const char *text;
+        if (rt_trace_pixel(session, i % WIDTH, i / WIDTH, &text) != RT_OK || !is_pixel(text, pixels + 3 * i)) {
+            first = wrong++ ? first : i;
+        }
+    }
+    tap_ok(pixels && wrong == 0, "%s: %d of %d pixels differ, the first at %d,%d", path, wrong, tried, first % WIDTH,
+           first / WIDTH);
+    rt_session_free(session);
+}
+
+static void check_scenes(const char *top, const char *pattern, int step)
+{
+    char path[4096], folder[4096];
+    glob_t found;
+    snprintf(path, sizeof path, "%s/%s", top, pattern);
+    snprintf(folder, sizeof folder, "%s/share/rtlang", top);
+    if (!tap_ok(glob(path, 0, NULL, &found) == 0, "there are scenes %s", pattern)) {
+        return;
+    }
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        check_scene(folder, found.gl_pathv[i], step);
+    }
+    globfree(&found);
+}
+
+static bool has(const char *text, const char *part)
+{
+    if (strstr(text, part)) {
+        return true;
+    }
+    printf("# not there: %s\n", part);
+    return false;
+}
+
+// By hand: e = <0, 0, -5>, d = z, radius 2, so a = 1, b = -10, c = 21, h = 16, t1 = 3, t2 = 7.
+static void check_quadratic(void)
+{
+    static const char scene[] = "camera { location -5 * z look_at 0 }\n"
+                                "light_source { -9 * z, 1 }\n"
+                                "sphere { 0, 2 finish { reflection 0.5 } }\n"
+                                "sphere { 9 * x, 2 }\n"
+                                "sphere { -9 * z, 1 }\n"
+                                "sphere { -5 * z, 0.5 no_image }\n"
+                                "plane { -z, -20 }\n";
+    const char *text = "";
+    rt_session *session = rt_session_new(NULL);
+    bool is_loaded = rt_set_size(session, 3, 3) == RT_OK && rt_load_text(session, "q.scn", scene, sizeof scene - 1) == RT_OK;
+    tap_ok(is_loaded && rt_trace_pixel(session, 1, 1, &text) == RT_OK &&
+               has(text, "e = <0, 0, -5>, through the screen at <0, 0, -4>") && has(text, "(q.scn:3:1)") &&
+               has(text, "a = d·d = 1, b = 2 d·(e - centre) = -10, c = (e - centre)·(e - centre) - radius² = 21") &&
+               has(text, "h = b² - 4 a c = 16: h > 0") && has(text, "t1 = (-b - √h) / 2a = 3, t2 = (-b + √h) / 2a = 7") &&
+               has(text, "used: t1") && has(text, "h < 0, the line does not meet it") &&
+               has(text, "both points lie behind") && has(text, "leaves it; a sphere is convex") &&
+               has(text, "ray 2: mirrored where ray 1 hits, level 2") &&
+               has(text, "light 1 at <0, 0, -9>: distance 7, N·L = 1"),
+           "the quadratic, its cases and roots, the light and the mirrored ray as text");
+    tap_ok(rt_trace_pixel(session, 3, 0, &text) == RT_FAULT_USAGE && rt_trace_pixel(session, 0, -1, &text) == RT_FAULT_USAGE,
+           "a pixel that is not in the picture");
+    rt_session_free(session);
+}
+
+// A line that touches the sphere: h = 0 in plain doubles.
+static void check_touch(void)
+{
+    static const char scene[] = "camera { orthographic location <1, 0, -5> direction z right x up y }\n"
+                                "light_source { -9 * z, 1 } sphere { 0, 1 pigment { rgbt 1 } }\n";
+    const char *text = "";
+    rt_session *session = rt_session_new(NULL);
+    rt_set_format(session, RT_FORMAT_JSON);
+    bool is_loaded = rt_set_size(session, 1, 1) == RT_OK && rt_load_text(session, "t.scn", scene, sizeof scene - 1) == RT_OK;
+    tap_ok(is_loaded && rt_trace_pixel(session, 0, 0, &text) == RT_OK && has(text, "\"case\": \"h = 0\"") &&
+               has(text, "\"used\": \"near\"") && has(text, "\"doubtful\": true") && has(text, "\"kind\": \"through\""),
+           "a line that touches a sphere, as JSON");
+    rt_session_free(session);
+}
+
+int main(void)
+{
+    const char *top = getenv("top_srcdir");
+    top = top ? top : ".";
+    check_quadratic();
+    check_touch();
+    check_scenes(top, "examples/*.scn", 1);
+    check_scenes(top, "tests/povray/*.scn", 5);
+    return tap_done();
+}
