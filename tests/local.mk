@@ -48,6 +48,7 @@ unit_programs = \
   tests/unit/test_grammar_random \
   tests/unit/test_image \
   tests/unit/test_image_png \
+  tests/unit/test_image_strips \
   tests/unit/test_image_values \
   tests/unit/test_render
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
@@ -104,6 +105,8 @@ tests_unit_test_image_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_image_png_SOURCES = %D%/unit/test_image_png.c
 tests_unit_test_image_png_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_png_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
+tests_unit_test_image_strips_SOURCES = %D%/unit/test_image_strips.c $(unit_headers)
+tests_unit_test_image_strips_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_image_values_SOURCES = %D%/unit/test_image_values.c
 tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)

@@ -289,6 +289,7 @@ rt_status rt_render(rt_session *session, int threads)
     }
     double start = session_clock();
     threads = threads ? threads : render_default_threads();
+    session->threads = threads;
     GeometryOptions geometry = {.threads = threads, .isa = session->isa};
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     if (!prepared || !film_init(&session->film, session->width, session->height)) {
@@ -399,6 +400,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
         .transfer = output->file_gamma > 0.0 ? IMAGE_TRANSFER_POWER : IMAGE_TRANSFER_SRGB,
         .gamma = output->file_gamma,
         .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,
+        .threads = session->threads,
     };
     ImageStatus status = image_write(&image, &encoding, path, &error);
     session->write_seconds = session_clock() - start;

@@ -39,6 +39,7 @@ struct rt_session {
     bool loaded; // the scene is complete and valid
     Film film;
     bool rendered; // the film holds a picture in linear light
+    int threads;   // that rendered it
     RenderStatistics statistics;
     const char *kernel;
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds;

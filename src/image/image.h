@@ -36,6 +36,7 @@ typedef struct ImageEncoding {
     ImageTransfer transfer;
     double gamma;      // IMAGE_TRANSFER_POWER only
     bool already_encoded; // values are written as they are; `transfer` only names what the file says of itself
+    int threads;          // to use for it, at most; the file does not depend on it
 } ImageEncoding;
 
 typedef enum ImageStatus {

@@ -1,0 +1,26 @@
+// The pixels of a PNG file: rows in strips that are encoded, filtered and compressed side by side and put together to one
+// zlib stream (RFC 1950). The stream does not depend on the number of threads.
+//
+// SPDX-License-Identifier: MIT
+#ifndef IMAGE_PNG_STRIPS_H
+#define IMAGE_PNG_STRIPS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "image/encode.h"
+#include "image/image.h"
+
+typedef struct PngStrips PngStrips;
+
+// A new one for the picture, or NULL when out of memory. Image and encoder must live as long.
+PngStrips *png_strips_new(const Image *image, const Encoder *encoder);
+void png_strips_free(PngStrips *strips);
+
+// Makes the next strips, if there are any: false at the end, or when out of memory (*failed).
+bool png_strips_next(PngStrips *strips, bool *failed);
+
+// What was made, piece by piece in order: false when there is no more.
+bool png_strips_piece(PngStrips *strips, const unsigned char **bytes, size_t *size);
+
+#endif

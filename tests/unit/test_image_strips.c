@@ -1,0 +1,89 @@
+// PNG files made of strips: the same bytes for any number of threads, and libpng reads back what was encoded.
+//
+// SPDX-License-Identifier: MIT
+#include "image/image.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "image/encode.h"
+#include "unit/random.h"
+#include "unit/tap.h"
+
+typedef struct Bytes {
+    char *items;
+    size_t count;
+} Bytes;
+
+static Bytes file_bytes(const char *path)
+{
+    Bytes bytes = {malloc(1 << 24), 0};
+    FILE *file = fopen(path, "rb");
+    if (file && bytes.items) {
+        bytes.count = fread(bytes.items, 1, 1 << 24, file);
+        fclose(file);
+    }
+    return bytes;
+}
+
+static bool write_with(const Image *image, ImageEncoding encoding, int threads, const char *path)
+{
+    ImageError error;
+    encoding.threads = threads;
+    return image_write(image, &encoding, path, &error) == IMAGE_OK;
+}
+
+// Every sample is the code of its value.
+static bool reads_back(const Image *image, const ImageEncoding *encoding, const char *path)
+{
+    const ImageEncoding plain = {.depth = encoding->depth, .already_encoded = true};
+    double most = encoding->depth == IMAGE_DEPTH_8 ? 255.0 : 65535.0;
+    Image read = {0};
+    ImageError error;
+    bool fine = image_read(path, UINT64_MAX, &read, &error) == IMAGE_OK && read.width == image->width &&
+                read.height == image->height && read.channels == image->channels;
+    for (size_t i = 0; fine && i < (size_t)image->width * (size_t)image->height * (size_t)image->channels; i++) {
+        bool is_alpha = image->channels % 2 == 0 && (int)(i % (size_t)image->channels) == image->channels - 1;
+        unsigned code = encode_code(is_alpha ? &plain : encoding, image->values[i]);
+        fine = (unsigned)((double)read.values[i] * most + 0.5) == code;
+    }
+    image_fini(&read);
+    return fine;
+}
+
+static void check_size(int width, int height, int channels, ImageDepth depth)
+{
+    const ImageEncoding encoding = {.depth = depth, .transfer = IMAGE_TRANSFER_SRGB};
+    Random random = {(uint64_t)(width * height + channels)};
+    char path[] = "/tmp/rtlang-strips-XXXXXX.png";
+    Image image;
+    int file = mkstemps(path, 4);
+    bool fine = file >= 0 && image_init(&image, width, height, channels);
+    for (size_t i = 0; fine && i < (size_t)width * (size_t)height * (size_t)channels; i++) {
+        image.values[i] = i % 7 < 3 ? 0.25f : (float)random_between(&random, -0.1, 1.1);
+    }
+    fine = fine && write_with(&image, encoding, 1, path);
+    Bytes one = file_bytes(path);
+    fine = fine && write_with(&image, encoding, 5, path);
+    Bytes five = file_bytes(path);
+    tap_ok(fine && one.count > 0 && one.count == five.count && memcmp(one.items, five.items, one.count) == 0,
+           "%d x %d, %d channels: one thread and five", width, height, channels);
+    tap_ok(fine && reads_back(&image, &encoding, path), "%d x %d, %d channels: read back", width, height, channels);
+    free(one.items);
+    free(five.items);
+    image_fini(&image);
+    close(file);
+    unlink(path);
+}
+
+int main(void)
+{
+    check_size(1, 1, 1, IMAGE_DEPTH_8);
+    check_size(3, 64, 3, IMAGE_DEPTH_8);
+    check_size(65, 65, 3, IMAGE_DEPTH_16);
+    check_size(17, 200, 4, IMAGE_DEPTH_8);
+    check_size(5, 5000, 2, IMAGE_DEPTH_16); // more strips than are made at a time
+    return tap_done();
+}
