@@ -47,6 +47,7 @@ unit_programs = \
   tests/unit/test_grammar \
   tests/unit/test_grammar_random \
   tests/unit/test_image \
+  tests/unit/test_image_flip \
   tests/unit/test_image_png \
   tests/unit/test_image_strips \
   tests/unit/test_image_values \
@@ -102,6 +103,9 @@ tests_unit_test_grammar_random_LDADD = $(UNIT_GRAMMAR)
 tests_unit_test_image_SOURCES = %D%/unit/test_image.c
 tests_unit_test_image_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
+tests_unit_test_image_flip_SOURCES = %D%/unit/test_image_flip.c $(unit_headers)
+tests_unit_test_image_flip_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
+tests_unit_test_image_flip_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_image_png_SOURCES = %D%/unit/test_image_png.c
 tests_unit_test_image_png_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_png_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
@@ -142,6 +146,7 @@ test_scripts = \
   %D%/system/run_system.py \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
+  %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \

@@ -179,6 +179,17 @@ typedef struct rt_summary {
 } rt_summary;
 RT_API void rt_get_summary(const rt_session *session, rt_summary *summary);
 
+/* How large and how far the shapes of a loaded scene are, all but its planes: for programs with fixed tolerances, of which
+ * rtlang has none. Where there is no such shape, what is least is infinite and the rest 0. */
+typedef struct rt_range {
+    double eye_offset;  /* greatest coordinate of the camera's place */
+    double least_size;  /* radius of the smallest shape, or of the ball around its box */
+    double reach;       /* from the camera to the farthest point of any shape */
+    double nearest_far; /* from the camera to the nearest point of the shape for which this is greatest */
+    double least_angle; /* least ratio of a shape's radius to its distance from the camera */
+} rt_range;
+RT_API void rt_get_range(const rt_session *session, rt_range *range);
+
 #ifdef __cplusplus
 }
 #endif

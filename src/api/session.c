@@ -17,6 +17,7 @@
 
 #include "ast/words.h"
 #include "image/image.h"
+#include "scene/reach.h"
 
 #ifndef PACKAGE_VERSION
 #error "PACKAGE_VERSION comes from configure"
@@ -435,5 +436,18 @@ void rt_get_summary(const rt_session *session, rt_summary *summary)
         .errors = session->diags.error_count,
         .warnings = session->diags.warning_count,
         .kernel = session->kernel,
+    };
+}
+
+void rt_get_range(const rt_session *session, rt_range *range)
+{
+    SceneReach found;
+    scene_reach(&session->scene, &found);
+    *range = (rt_range){
+        .eye_offset = found.eye_offset,
+        .least_size = found.least_size,
+        .reach = found.reach,
+        .nearest_far = found.nearest_far,
+        .least_angle = found.least_angle,
     };
 }

@@ -19,8 +19,11 @@
 #include <unistd.h>
 
 #include "check/options.h"
+#include "check/povray_range.h"
 #include "check/povray_run.h"
 #include "check/report.h"
+#include "check/report_html.h"
+#include "check/report_scenes.h"
 #include "image/image.h"
 #include "rtlang/rtlang.h"
 
@@ -32,6 +35,7 @@ typedef struct Check {
     char **include_paths; // absolute
     char folder[PATH_MAX]; // absolute; holds pictures and logs
     bool keeps_folder;
+    ScenesReport *report; // NULL: none is asked for
 } Check;
 
 // The files of one scene.
@@ -128,6 +132,14 @@ static rt_status rtlang_steps(rt_session *session, const Check *check, const cha
     return status == RT_OK ? rt_write(session, output, &linear_16) : status;
 }
 
+static void range_find(rt_session *session, Outcome *outcome)
+{
+    rt_range range;
+
+    rt_get_range(session, &range);
+    povray_range_describe(&range, outcome->range, sizeof outcome->range);
+}
+
 static bool rtlang_run(const Check *check, const char *output, Outcome *outcome)
 {
     RtlangRun run = {.outcome = outcome};
@@ -139,8 +151,11 @@ static bool rtlang_run(const Check *check, const char *output, Outcome *outcome)
     if (run.session != NULL) {
         status = rtlang_steps(run.session, check, outcome->scene, output);
     }
-    rt_session_free(run.session);
     outcome->rtlang_seconds = clock_seconds() - start;
+    if (status == RT_OK) {
+        range_find(run.session, outcome);
+    }
+    rt_session_free(run.session);
     if (status != RT_OK && outcome->detail[0] == '\0') {
         snprintf(outcome->detail, sizeof outcome->detail, "rtlang failed with status %d", (int)status);
     }
@@ -192,37 +207,56 @@ static double threshold_between_steps(double threshold)
     return ((is_whole ? nearest : floor(whole)) + 0.5) / 65535.0;
 }
 
-static void pictures_compare(const Options *options, const Files *files, Outcome *outcome)
+static void pictures_compare(const Options *options, const Image *ours, const Image *theirs, Outcome *outcome)
 {
-    double threshold = threshold_between_steps(options->threshold);
+    const double thresholds[IMAGE_THRESHOLDS] = {
+        [BEYOND_THRESHOLD] = threshold_between_steps(options->threshold),
+        [BEYOND_CODE_16] = threshold_between_steps(1.0 / 65535.0),
+        [BEYOND_CODE_8] = threshold_between_steps(1.0 / 255.0),
+    };
     const ImageDifference *difference = &outcome->difference;
-    Image ours = {0}, theirs = {0};
 
-    if (picture_read(options, files->rtlang, &ours, outcome) &&
-        picture_read(options, files->povray, &theirs, outcome)) {
-        outcome->compared = image_compare(&ours, &theirs, threshold, &outcome->difference);
-        if (!outcome->compared) {
-            snprintf(outcome->detail, sizeof outcome->detail, "pictures of %dx%d and %dx%d cannot be compared",
-                     ours.width, ours.height, theirs.width, theirs.height);
-        }
+    if (ours->width != theirs->width || ours->height != theirs->height) {
+        snprintf(outcome->detail, sizeof outcome->detail, "pictures of %dx%d and %dx%d cannot be compared", ours->width,
+                 ours->height, theirs->width, theirs->height);
+    } else if (!image_compare(ours, theirs, thresholds, &outcome->difference) ||
+               !image_flip(ours, theirs, &outcome->flip)) {
+        snprintf(outcome->detail, sizeof outcome->detail, "out of memory");
+    } else {
+        outcome->compared = true;
+        outcome->agrees = (double)difference->pixels_beyond[BEYOND_THRESHOLD] <=
+                          options->ties * (double)difference->pixels;
     }
-    outcome->agrees = outcome->compared &&
-                      (double)difference->pixels_beyond <= options->ties * (double)difference->pixels;
-    image_fini(&ours);
-    image_fini(&theirs);
 }
 
-static void scene_check(const Check *check, int number, Outcome *outcome)
+// False when the report cannot be written.
+static bool scene_check(const Check *check, int number, Outcome *outcome)
 {
+    Image ours = {0}, theirs = {0};
+    bool fine = true;
     Files files;
 
     *outcome = (Outcome){.scene = check->options->scenes[number]};
     if (!files_init(&files, check, number)) {
         snprintf(outcome->detail, sizeof outcome->detail, "out of memory");
-    } else if (rtlang_run(check, files.rtlang, outcome) && povray_make(check, &files, outcome)) {
-        pictures_compare(check->options, &files, outcome);
+    } else if (rtlang_run(check, files.rtlang, outcome) && povray_make(check, &files, outcome) &&
+               picture_read(check->options, files.rtlang, &ours, outcome) &&
+               picture_read(check->options, files.povray, &theirs, outcome)) {
+        pictures_compare(check->options, &ours, &theirs, outcome);
     }
+    if (check->report != NULL && interrupted == 0) {
+        fine = scenes_report_add(check->report, outcome, &ours, &theirs);
+    }
+    image_fini(&ours);
+    image_fini(&theirs);
     files_fini(&files);
+    return fine;
+}
+
+static int report_complain(const char *path)
+{
+    fprintf(stderr, "rtcheck: cannot write the report %s: %s\n", path, strerror(errno));
+    return EXIT_USAGE;
 }
 
 static int scenes_check(const Check *check)
@@ -233,17 +267,85 @@ static int scenes_check(const Check *check)
     for (int i = 0; i < options->scene_count && interrupted == 0; i++) {
         Outcome outcome;
 
-        scene_check(check, i, &outcome);
+        if (!scene_check(check, i, &outcome)) {
+            return report_complain(options->report);
+        }
         if (interrupted != 0) {
             break;
         }
         (options->json ? report_json : report_text)(stdout, &outcome);
+        fputs(options->json ? "\n" : "", stdout);
         fflush(stdout);
         if (!outcome.agrees) {
             exit_code = EXIT_DIFFER;
         }
     }
     return interrupted != 0 ? 128 + SIGINT : exit_code;
+}
+
+static bool report_print_page(const Check *check, const char *path)
+{
+    const Options *options = check->options;
+    ReportPage *page = report_page_open(path);
+    char bar[128];
+    bool fine;
+
+    if (page == NULL) {
+        return false;
+    }
+    snprintf(bar, sizeof bar, "A scene of %d x %d pixels agrees when at most %g %% of them differ by more than %g/65535.",
+             options->width, options->height, 100.0 * options->ties, report_steps(options->threshold));
+    fine = scenes_report_print(check->report, page, bar);
+    return report_page_close(page) && fine;
+}
+
+static bool report_print_json(const Check *check, const char *path)
+{
+    FILE *out = fopen(path, "wb");
+
+    if (out == NULL) {
+        return false;
+    }
+    scenes_report_json(check->report, out);
+    return (ferror(out) == 0) & (fclose(out) == 0);
+}
+
+static int report_write(const Check *check, int exit_code)
+{
+    char page[PATH_MAX], results[PATH_MAX];
+
+    snprintf(page, sizeof page, "%s/index.html", check->options->report);
+    snprintf(results, sizeof results, "%s/results.json", check->options->report);
+    if (!report_print_page(check, page)) {
+        return report_complain(page);
+    }
+    if (check->options->json && !report_print_json(check, results)) {
+        return report_complain(results);
+    }
+    return exit_code;
+}
+
+// All scenes and what is told of them. What was done before an interrupt is in the report.
+static int scenes_report(Check *check)
+{
+    const char *folder = check->options->report;
+    ScenesReport report;
+    int exit_code;
+
+    if (folder == NULL) {
+        return scenes_check(check);
+    }
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        return report_complain(folder);
+    }
+    if (scenes_report_init(&report, check->folder, check->options->scene_count)) {
+        check->report = &report;
+        exit_code = report_write(check, scenes_check(check));
+    } else {
+        exit_code = report_complain(folder);
+    }
+    scenes_report_fini(&report);
+    return exit_code;
 }
 
 static bool folder_make(Check *check)
@@ -312,7 +414,7 @@ static int run(const Options *options)
         return EXIT_NO_TOOL;
     }
     if (include_paths_resolve(&check) && folder_make(&check)) {
-        exit_code = scenes_check(&check);
+        exit_code = scenes_report(&check);
         folder_remove(&check);
     }
     for (int i = 0; check.include_paths != NULL && i < options->include_path_count; i++) {

@@ -111,6 +111,12 @@ static bool apply_keep(Options *options, const char *argument)
     return argument[0] != '\0';
 }
 
+static bool apply_report(Options *options, const char *argument)
+{
+    options->report = argument;
+    return argument[0] != '\0';
+}
+
 static bool apply_json(Options *options, const char *argument)
 {
     (void)argument;
@@ -131,7 +137,8 @@ static const OptionRow rows[] = {
     {'j', "threads", "N", apply_threads, "a whole number from 1 to 512",
      "threads of each renderer (default: all processors)"},
     {0, "keep", "FOLDER", apply_keep, "a folder", "keep the pictures and POV-Ray's messages there"},
-    {0, "json", NULL, apply_json, "", "print one JSON object a scene"},
+    {0, "report", "FOLDER", apply_report, "a folder", "write index.html there, with all pictures in it"},
+    {0, "json", NULL, apply_json, "", "print one JSON object a scene; with --report also results.json"},
     {'V', "version", NULL, NULL, "", "print the version and stop"},
     {'h', "help", NULL, NULL, "", "print this and stop"},
 };

@@ -16,6 +16,7 @@ typedef struct Options {
     double ties;      // the share of pixels that may differ by more
     const char *povray;
     const char *keep; // folder for the pictures and POV-Ray's messages; NULL: they are thrown away
+    const char *report; // folder for the page; NULL: none is written
     const char **include_paths; // owned list
     int include_path_count;
     bool json;

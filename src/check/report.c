@@ -7,14 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-static double steps(double difference)
+double report_steps(double difference)
 {
     return difference * 65535.0;
-}
-
-static double share_beyond(const ImageDifference *difference)
-{
-    return (double)difference->pixels_beyond / (double)difference->pixels;
 }
 
 void report_text(FILE *out, const Outcome *outcome)
@@ -29,11 +24,14 @@ void report_text(FILE *out, const Outcome *outcome)
         fprintf(out, "%s: FAIL: %.*s\n", outcome->scene, length, outcome->detail);
         return;
     }
-    fprintf(out,
-            "%s: max %.0f, rmse %.3g, psnr %.1f dB, beyond %" PRIu64 " (%.4f %%), rtlang %.3f s, povray %.3f s "
-            "(%.1fx): %s\n",
-            outcome->scene, steps(d->max), steps(d->rmse), d->psnr, d->pixels_beyond, 100.0 * share_beyond(d),
-            outcome->rtlang_seconds, outcome->povray_seconds, outcome->povray_seconds / outcome->rtlang_seconds,
+    fprintf(out, "%s: max %.0f, rmse %.3g, psnr %.1f dB, flip %.2g", outcome->scene, report_steps(d->max),
+            report_steps(d->rmse), d->psnr, outcome->flip);
+    fprintf(out, ", beyond %" PRIu64 " (%.4f %%), beyond 1/65535 %" PRIu64 ", beyond 1/255 %" PRIu64,
+            d->pixels_beyond[BEYOND_THRESHOLD],
+            100.0 * (double)d->pixels_beyond[BEYOND_THRESHOLD] / (double)d->pixels, d->pixels_beyond[BEYOND_CODE_16],
+            d->pixels_beyond[BEYOND_CODE_8]);
+    fprintf(out, ", rtlang %.3f s, povray %.3f s (%.1fx)%s%s: %s\n", outcome->rtlang_seconds, outcome->povray_seconds,
+            outcome->povray_seconds / outcome->rtlang_seconds, outcome->range[0] != '\0' ? ", " : "", outcome->range,
             outcome->agrees ? "ok" : "FAIL");
 }
 
@@ -70,16 +68,24 @@ void report_json(FILE *out, const Outcome *outcome)
     json_string(out, outcome->scene);
     fprintf(out, ", \"agrees\": %s", outcome->agrees ? "true" : "false");
     if (outcome->compared) {
-        json_number(out, "max", steps(d->max));
-        json_number(out, "rmse", steps(d->rmse));
-        json_number(out, "p999", steps(d->p999));
+        json_number(out, "max", report_steps(d->max));
+        json_number(out, "rmse", report_steps(d->rmse));
+        json_number(out, "p999", report_steps(d->p999));
         json_number(out, "psnr", d->psnr);
-        fprintf(out, ", \"beyond\": %" PRIu64 ", \"pixels\": %" PRIu64, d->pixels_beyond, d->pixels);
+        json_number(out, "flip", outcome->flip);
+        fprintf(out, ", \"beyond\": %" PRIu64 ", \"beyond_code_16\": %" PRIu64 ", \"beyond_code_8\": %" PRIu64,
+                d->pixels_beyond[BEYOND_THRESHOLD], d->pixels_beyond[BEYOND_CODE_16], d->pixels_beyond[BEYOND_CODE_8]);
+        fprintf(out, ", \"pixels\": %" PRIu64, d->pixels);
         json_number(out, "rtlang_seconds", outcome->rtlang_seconds);
         json_number(out, "povray_seconds", outcome->povray_seconds);
+        json_number(out, "ratio", outcome->povray_seconds / outcome->rtlang_seconds);
     } else {
         fprintf(out, ", \"fault\": ");
         json_string(out, outcome->detail);
     }
-    fprintf(out, "}\n");
+    if (outcome->range[0] != '\0') {
+        fprintf(out, ", \"range\": ");
+        json_string(out, outcome->range);
+    }
+    fputc('}', out);
 }

@@ -1,4 +1,4 @@
-// What rtcheck prints about a scene: a line of text, or a line of JSON.
+// What rtcheck knows about a scene, and how it prints it: a line of text, or a line of JSON.
 //
 // SPDX-License-Identifier: MIT
 #ifndef CHECK_REPORT_H
@@ -9,18 +9,26 @@
 
 #include "image/image.h"
 
-enum { REPORT_DETAIL = 1024 };
+enum { REPORT_DETAIL = 1024, REPORT_RANGE = 128 };
+
+// What is counted in ImageDifference.pixels_beyond: pixels that are farther apart than …
+enum { BEYOND_THRESHOLD, BEYOND_CODE_16, BEYOND_CODE_8 }; // the threshold asked for, 1/65535, 1/255
 
 typedef struct Outcome {
     const char *scene;
     bool compared; // both pictures were made and read
     bool agrees;
     ImageDifference difference;
+    double flip;
     double rtlang_seconds, povray_seconds; // whole run of a renderer, from text to file
+    char range[REPORT_RANGE];              // how the scene is outside of POV-Ray's range; "" inside
     char detail[REPORT_DETAIL];            // why nothing could be compared
 } Outcome;
 
+// A difference in steps of 1/65535.
+double report_steps(double difference);
+
 void report_text(FILE *out, const Outcome *outcome);
-void report_json(FILE *out, const Outcome *outcome);
+void report_json(FILE *out, const Outcome *outcome); // one object, no line end
 
 #endif

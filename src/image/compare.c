@@ -74,8 +74,18 @@ static float select_rank(const float *values, size_t count, size_t rank, size_t 
     return value;
 }
 
+double image_pixel_difference(const Image *a, const Image *b, size_t pixel)
+{
+    double most = 0.0;
+
+    for (int c = 0; c < 3; c++) {
+        most = fmax(most, value_difference(pixel_channel(a, pixel, c), pixel_channel(b, pixel, c)));
+    }
+    return most;
+}
+
 // Fills everything but p999, and the greatest difference of each pixel.
-static void compare_pixels(const Image *a, const Image *b, double threshold, ImageDifference *difference,
+static void compare_pixels(const Image *a, const Image *b, const double *thresholds, ImageDifference *difference,
                            float *greatest)
 {
     size_t pixels = (size_t)a->width * (size_t)a->height;
@@ -83,22 +93,24 @@ static void compare_pixels(const Image *a, const Image *b, double threshold, Ima
 
     *difference = (ImageDifference){.pixels = pixels};
     for (size_t i = 0; i < pixels; i++) {
-        double most = 0.0;
+        double most = image_pixel_difference(a, b, i);
 
         for (int c = 0; c < 3; c++) {
             double d = value_difference(pixel_channel(a, i, c), pixel_channel(b, i, c));
             squares += d * d;
-            most = fmax(most, d);
         }
         greatest[i] = (float)most;
         difference->max = fmax(difference->max, most);
-        difference->pixels_beyond += most > threshold ? 1 : 0;
+        for (int k = 0; k < IMAGE_THRESHOLDS; k++) {
+            difference->pixels_beyond[k] += most > thresholds[k] ? 1 : 0;
+        }
     }
     difference->rmse = sqrt(squares / (3.0 * (double)pixels));
     difference->psnr = squares > 0.0 ? -20.0 * log10(difference->rmse) : HUGE_VAL;
 }
 
-bool image_compare(const Image *a, const Image *b, double threshold, ImageDifference *difference)
+bool image_compare(const Image *a, const Image *b, const double thresholds[IMAGE_THRESHOLDS],
+                   ImageDifference *difference)
 {
     size_t pixels = (size_t)a->width * (size_t)a->height;
     float *greatest;
@@ -111,7 +123,7 @@ bool image_compare(const Image *a, const Image *b, double threshold, ImageDiffer
     greatest = malloc(pixels * sizeof *greatest);
     counts = malloc(DIGITS * sizeof *counts);
     if (greatest != NULL && counts != NULL) {
-        compare_pixels(a, b, threshold, difference, greatest);
+        compare_pixels(a, b, thresholds, difference, greatest);
         // Nearest rank: the least value that at least 99.9 % of the pixels do not exceed.
         difference->p999 = (double)select_rank(greatest, pixels, (pixels * 999 + 999) / 1000 - 1, counts);
         fine = true;

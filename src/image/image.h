@@ -69,17 +69,28 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
 // is read as PNG, whatever the path's ending.
 ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error) RT_MUST_CHECK;
 
+enum { IMAGE_THRESHOLDS = 3 };
+
 // How two pictures of equal size differ, over the first three channels.
 typedef struct ImageDifference {
-    double max;             // greatest |a - b| of any channel
+    double max;  // greatest |a - b| of any channel
     double rmse;
-    double psnr;            // in dB, against 1; HUGE_VAL for equal pictures
-    double p999;            // 99.9th percentile of the pixels' greatest channel difference
-    uint64_t pixels_beyond; // pixels with a channel that differs by more than `threshold`
+    double psnr; // in dB, against 1; HUGE_VAL for equal pictures
+    double p999; // 99.9th percentile of the pixels' greatest channel difference
+    uint64_t pixels_beyond[IMAGE_THRESHOLDS]; // pixels with a channel that differs by more than that threshold
     uint64_t pixels;
 } ImageDifference;
 
 // False when sizes differ or memory ran out.
-bool image_compare(const Image *a, const Image *b, double threshold, ImageDifference *difference) RT_MUST_CHECK;
+bool image_compare(const Image *a, const Image *b, const double thresholds[IMAGE_THRESHOLDS],
+                   ImageDifference *difference) RT_MUST_CHECK;
+
+// The greatest |a - b| of a pixel's first three channels, as image_compare has it.
+double image_pixel_difference(const Image *a, const Image *b, size_t pixel);
+
+// The mean of LDR-FLIP over two pictures of equal size that hold linear light, clamped to 0..1: 0 for equal ones, 1 at
+// most. Viewed at 67.02 pixels per degree, as from 0.7 m a screen 0.7 m wide with 3840 pixels. Symmetric. False when sizes
+// differ or memory ran out: it takes 128 bytes a pixel.
+bool image_flip(const Image *a, const Image *b, double *mean) RT_MUST_CHECK;
 
 #endif

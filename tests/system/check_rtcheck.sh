@@ -52,7 +52,9 @@ expect() {
     fi
 }
 
-expect 'equal pictures agree' 0 '"a scene.scn: max 0, "*" beyond 0 "*": ok"' -W 16 -H 8 --povray "$work/same" 'a scene.scn'
+expect 'equal pictures agree' 0 \
+    '"a scene.scn: max 0, rmse 0, psnr inf dB, flip 0, beyond 0 (0.0000 %), beyond 1/65535 0, beyond 1/255 0, "*"x): ok"' \
+    -W 16 -H 8 --povray "$work/same" 'a scene.scn'
 expect 'a start that failed for want of time is tried again' 0 '*": ok"' -W 16 -H 8 --povray "$work/busy" 'a scene.scn'
 expect 'different pictures do not' 1 '*"includes.scn: max "*": FAIL"' \
     -W 16 -H 8 -I ../include --povray "$work/other" 'a scene.scn' includes.scn
@@ -75,6 +77,25 @@ expect 'no scene' 2 '*"no scene given"*' --json
 expect 'a wrong number' 2 '*"--width wants"*"found \`0\`"*' --width 0 'a scene.scn'
 expect 'an unknown option' 2 '*"--nope"*' --nope 'a scene.scn'
 expect 'a missing folder' 2 '*"nowhere: No such file"*' -I nowhere 'a scene.scn'
+expect 'a report that cannot be written' 2 '*"cannot write the report /dev/null/out: Not a directory"*' \
+    --report /dev/null/out --povray "$work/same" 'a scene.scn'
+mkdir -p "$work/taken/index.html"
+expect 'nor over a folder' 2 '*"cannot write the report "*"/taken/index.html: Is a directory"*' \
+    -W 16 -H 8 --report "$work/taken" --povray "$work/same" 'a scene.scn'
+# range NAME PATTERN TEXT: what is told of a scene that holds the text, too.
+range() {
+    printf '%s\n%s\n' "$scene" "$3" > range.scn
+    expect "$1" 0 "$2" -W 16 -H 8 --povray "$work/same" range.scn
+}
+outside="outside POV-Ray's range: "
+range 'in range' '*"x): ok"' 'plane { y, -1e9 } sphere { -1e12*y, .999999999e12 }'
+range 'a shape out of range' "*\"x), ${outside}a shape at a distance of 2e+06: ok\"" 'sphere { 3e6*z, 1e6 }'
+range 'a camera out of range' "*\", ${outside}a camera at 2e+06: ok\"" 'camera { location 2e6*y look_at 1e6*y }'
+range 'a shape too small' "*\", ${outside}a shape of size 0.0005: ok\"" 'box { 0, <6e-4,8e-4,0> }'
+range 'a shape that looks too small' "*\", ${outside}a shape whose size over its distance is 5e-06: ok\"" \
+    'sphere { 2e5*z, 1 }'
+printf '%s\n' "$scene" | sed 's/-3\*z/-.03*z/; s/0, 1 /0, .02 /' > range.scn
+expect 'a scene too small' 0 "*\", ${outside}nothing farther than 0.05: ok\"" -W 16 -H 8 --povray "$work/same" range.scn
 expect 'help' 0 '"Usage: rtcheck "*' --help
 cd / || exit 99
 expect 'POV-Ray runs in the folder of the scene, with these switches' 1 \

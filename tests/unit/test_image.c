@@ -398,6 +398,7 @@ static bool picture_expected(const Image *image, const ImageEncoding *encoding, 
 static void test_format(const char *path, const ImageEncoding *encoding, uint32_t seed, double bound)
 {
     Image image = {0}, expected = {0}, back = {0};
+    static const double thresholds[IMAGE_THRESHOLDS] = {0.0};
     ImageDifference difference = {.max = HUGE_VAL};
     ImageError error = {""};
     bool made = picture_make(&image, 3, seed);
@@ -411,7 +412,7 @@ static void test_format(const char *path, const ImageEncoding *encoding, uint32_
     tap_ok(status == IMAGE_OK, "module writes %s: %s", path, error.detail);
     status = image_read(path, WIDTH * HEIGHT, &back, &error);
     tap_ok(status == IMAGE_OK && back.channels == 3, "module reads %s: %s", path, error.detail);
-    status = status == IMAGE_OK && image_compare(&back, &expected, 0.0, &difference) ? IMAGE_OK : IMAGE_IO;
+    status = status == IMAGE_OK && image_compare(&back, &expected, thresholds, &difference) ? IMAGE_OK : IMAGE_IO;
     tap_ok(status == IMAGE_OK && difference.max <= bound,
            "module keeps %s to %g: %g", path, bound, difference.max);
     image_fini(&image);

@@ -111,33 +111,35 @@ static void test_tables(void)
 
 static void test_compare(void)
 {
+    static const double thresholds[IMAGE_THRESHOLDS] = {0.0, 0.25, 0.25 + 1.0 / 64.0};
     Image a, b;
     ImageDifference difference;
 
     if (!tap_ok(image_init(&a, 100, 100, 3) && image_init(&b, 100, 100, 4), "compare: pictures")) {
         return;
     }
-    tap_ok(image_compare(&a, &b, 0.0, &difference) && difference.max == 0.0 && difference.rmse == 0.0 &&
-               difference.psnr == HUGE_VAL && difference.p999 == 0.0 && difference.pixels_beyond == 0 &&
+    tap_ok(image_compare(&a, &b, thresholds, &difference) && difference.max == 0.0 && difference.rmse == 0.0 &&
+               difference.psnr == HUGE_VAL && difference.p999 == 0.0 && difference.pixels_beyond[0] == 0 &&
                difference.pixels == 10000,
            "equal pictures do not differ");
     for (size_t i = 0; i < 11; i++) { // eleven pixels of a value each: one more than a thousandth
         b.values[4 * (100 * i + i) + i % 3] = 0.25f + (float)i / 64.0f;
     }
     b.values[4 * 5000 + 3] = 1.0f; // alpha is not compared
-    tap_ok(image_compare(&a, &b, 0.25, &difference), "compare");
+    tap_ok(image_compare(&a, &b, thresholds, &difference), "compare");
     tap_ok(difference.max == 0.25 + 10.0 / 64.0, "greatest difference: %g", difference.max);
-    tap_ok(difference.pixels_beyond == 10, "pixels beyond: those above the threshold, not at it");
+    tap_ok(difference.pixels_beyond[0] == 11 && difference.pixels_beyond[1] == 10 && difference.pixels_beyond[2] == 9,
+           "pixels beyond: those above a threshold, not at it");
     tap_ok(difference.p999 == 0.25, "the percentile is the 9990th of 10000 pixels: %g", difference.p999);
     tap_ok(fabs(difference.rmse - sqrt(1.211181640625 / 30000.0)) < 1e-15, "rmse: %.17g", difference.rmse);
     tap_ok(fabs(difference.psnr + 20.0 * log10(difference.rmse)) < 1e-12, "psnr: %g", difference.psnr);
     b.values[0] = NAN;
-    tap_ok(image_compare(&a, &b, 0.25, &difference) && difference.max == HUGE_VAL && difference.pixels_beyond == 11,
+    tap_ok(image_compare(&a, &b, thresholds, &difference) && difference.max == HUGE_VAL && difference.pixels_beyond[1] == 11,
            "not a number differs from any");
     a.values[0] = NAN;
-    tap_ok(image_compare(&a, &b, 0.25, &difference) && difference.max < 1.0, "but not from itself");
+    tap_ok(image_compare(&a, &b, thresholds, &difference) && difference.max < 1.0, "but not from itself");
     a.height = 99;
-    tap_ok(!image_compare(&a, &b, 0.25, &difference), "sizes must be equal");
+    tap_ok(!image_compare(&a, &b, thresholds, &difference), "sizes must be equal");
     a.height = 100;
     image_fini(&a);
     image_fini(&b);

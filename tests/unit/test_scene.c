@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/reach.h"
 #include "scene/scene.h"
 #include "tap.h"
 
@@ -184,11 +185,34 @@ static void test_validation(void)
     }
 }
 
+static void test_reach(void)
+{
+    Scene scene;
+    SceneReach reach;
+    scene_init(&scene);
+    scene_reach(&scene, &reach);
+    tap_ok(reach.reach == 0.0 && reach.nearest_far == 0.0 && isinf(reach.least_size) && isinf(reach.least_angle),
+           "an empty scene has no reach");
+    scene_fini(&scene);
+    bool is_fine = build_scene(&scene);
+    scene.camera.location = vec3(0.0, -30.0, 4.0);
+    scene_reach(&scene, &reach);
+    tap_ok(is_fine && reach.eye_offset == 30.0 && reach.least_size == 1e-9, "the eye's place and the smallest sphere");
+    tap_ok(reach.reach == 1e300 && reach.nearest_far == 1e300 && reach.least_angle == 1e-309,
+           "the farthest sphere, and how small it looks: %g", reach.least_angle);
+    scene.spheres.count = 1;
+    scene_reach(&scene, &reach);
+    // The ellipsoid's box reaches from <-1, -2, -3> to <1, 2, 3>.
+    tap_ok(reach.least_size == 0.5 && fabs(reach.reach - (sqrt(916.0) + sqrt(14.0))) < 1e-12, "a stretched sphere's box");
+    scene_fini(&scene);
+}
+
 int main(void)
 {
     test_materials();
     test_order_and_dump();
     test_gamma_dump();
     test_validation();
+    test_reach();
     return tap_done();
 }

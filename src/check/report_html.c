@@ -1,0 +1,153 @@
+// Pages, text and pictures as HTML. The page itself is a file of its own, made a table of lines by the build.
+//
+// SPDX-License-Identifier: MIT
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE
+#endif
+#include "check/report_html.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *const template_lines[] = {
+#include "check/report_page.inc"
+};
+
+enum { TEMPLATE_LINES = sizeof template_lines / sizeof template_lines[0] };
+
+// The line of the template where the sections stand.
+static const char *const sections_line = "<!-- sections -->\n";
+
+struct ReportPage {
+    FILE *out;
+    char *path, *temporary;
+    int line; // of the template, not yet printed
+    bool in_section;
+};
+
+static void page_free(ReportPage *page)
+{
+    free(page->path);
+    free(page->temporary);
+    free(page);
+}
+
+// Prints the lines of the template that are next, up to that of the sections, which is passed over.
+static void template_print(ReportPage *page)
+{
+    while (page->line < TEMPLATE_LINES && strcmp(template_lines[page->line], sections_line) != 0) {
+        fputs(template_lines[page->line++], page->out);
+    }
+    page->line++;
+}
+
+ReportPage *report_page_open(const char *path)
+{
+    ReportPage *page = calloc(1, sizeof *page);
+
+    if (page == NULL) {
+        return NULL;
+    }
+    page->path = strdup(path);
+    if (asprintf(&page->temporary, "%s.part", path) < 0) {
+        page->temporary = NULL;
+    }
+    page->out = page->path != NULL && page->temporary != NULL ? fopen(page->temporary, "wb") : NULL;
+    if (page->out == NULL) {
+        page_free(page);
+        return NULL;
+    }
+    template_print(page);
+    return page;
+}
+
+static void section_end(ReportPage *page)
+{
+    if (page->in_section) {
+        fputs("</section>\n", page->out);
+    }
+    page->in_section = false;
+}
+
+FILE *report_page_section(ReportPage *page, const char *id, const char *title)
+{
+    section_end(page);
+    page->in_section = true;
+    fputs("<section id=\"", page->out);
+    html_text(page->out, id);
+    fputs("\">\n<h2>", page->out);
+    html_text(page->out, title);
+    fputs("</h2>\n", page->out);
+    return page->out;
+}
+
+bool report_page_close(ReportPage *page)
+{
+    bool fine;
+    int error;
+
+    section_end(page);
+    template_print(page);
+    fine = ferror(page->out) == 0;
+    fine = fclose(page->out) == 0 && fine;
+    fine = fine && rename(page->temporary, page->path) == 0;
+    error = errno;
+    if (!fine) {
+        unlink(page->temporary);
+    }
+    page_free(page);
+    errno = error;
+    return fine;
+}
+
+void html_text(FILE *out, const char *text)
+{
+    for (const char *c = text; *c != '\0'; c++) {
+        switch (*c) {
+        case '&': fputs("&amp;", out); break;
+        case '<': fputs("&lt;", out); break;
+        case '>': fputs("&gt;", out); break;
+        case '"': fputs("&quot;", out); break;
+        default: fputc(*c, out); break;
+        }
+    }
+}
+
+// RFC 4648, section 4.
+static void base64_print(FILE *out, FILE *from)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    unsigned char bytes[3];
+    size_t count;
+
+    do {
+        char text[5] = "====";
+        unsigned bits;
+
+        memset(bytes, 0, sizeof bytes);
+        count = fread(bytes, 1, sizeof bytes, from);
+        bits = (unsigned)bytes[0] << 16 | (unsigned)bytes[1] << 8 | bytes[2];
+        for (size_t i = 0; i <= count && count > 0; i++) {
+            text[i] = digits[bits >> (18 - 6 * i) & 63];
+        }
+        fputs(count > 0 ? text : "", out);
+    } while (count == sizeof bytes);
+}
+
+bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding, const char *scratch)
+{
+    ImageError error = {""};
+    bool fine = image_write(image, encoding, scratch, &error) == IMAGE_OK;
+    FILE *file = fine ? fopen(scratch, "rb") : NULL;
+
+    if (file != NULL) {
+        fputs("data:image/png;base64,", out);
+        base64_print(out, file);
+        fine = ferror(file) == 0;
+        fclose(file);
+    }
+    unlink(scratch);
+    return fine && file != NULL;
+}

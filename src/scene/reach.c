@@ -1,0 +1,59 @@
+// One pass over all shapes. A planet is as far as its ground is, a small ball far away as far as its middle.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/reach.h"
+
+#include <math.h>
+
+#include "scene/part.h"
+
+// Where squares would not fit, too.
+static double length_of(Vec3 a)
+{
+    return hypot(hypot(a.x, a.y), a.z);
+}
+
+static void reach_add(SceneReach *reach, Vec3 eye, Vec3 centre, double radius)
+{
+    double distance = length_of(vec3_sub(centre, eye));
+
+    reach->least_size = fmin(reach->least_size, radius);
+    reach->least_angle = fmin(reach->least_angle, radius / distance);
+    reach->reach = fmax(reach->reach, distance + radius);
+    reach->nearest_far = fmax(reach->nearest_far, distance - radius);
+}
+
+// The ball around the box around a part; planes have none.
+static void reach_add_part(SceneReach *reach, Vec3 eye, const Part *part)
+{
+    static const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double middle[3], half[3];
+
+    if (part->kind == PART_PLANE) {
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        double high = part_support(part, axes[i]), low = -part_support(part, vec3_neg(axes[i]));
+        middle[i] = 0.5 * (high + low);
+        half[i] = 0.5 * (high - low);
+    }
+    reach_add(reach, eye, vec3(middle[0], middle[1], middle[2]), length_of(vec3(half[0], half[1], half[2])));
+}
+
+void scene_reach(const Scene *scene, SceneReach *reach)
+{
+    Vec3 eye = scene->camera.location;
+
+    *reach = (SceneReach){.least_size = (double)INFINITY, .least_angle = (double)INFINITY};
+    reach->eye_offset = vec3_max_abs(eye);
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        reach_add(reach, eye, scene->spheres.items[i].centre, scene->spheres.items[i].radius);
+    }
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        Part ball = {.kind = PART_BALL, .to_world = scene->ellipsoids.items[i].to_world};
+        reach_add_part(reach, eye, &ball);
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        reach_add_part(reach, eye, &scene->parts.items[i]);
+    }
+}
