@@ -6,9 +6,9 @@
 //     fprintf(out, "<table class=\"sortable\">…</table>");
 //
 // Style and behaviour come with the page (src/check/report_page.html): the list of sections at the top is made from the
-// sections; a `table.sortable` is sorted by its headings, cells being compared by their `data-sort` or else by their text,
-// numbers as numbers; cells of class `number` are aligned and `good` or `bad` are coloured; `svg.plot` takes the colours of
-// the page; a `figure` holds a picture and its caption.
+// sections; a `table.sortable` is sorted by its headings, cells being compared by their `data-sort` or else by their
+// text, numbers as numbers; cells of class `number` are aligned and `good` or `bad` are coloured; `svg.plot` takes the
+// colours of the page; a `figure` holds a picture and its caption.
 //
 // SPDX-License-Identifier: MIT
 #ifndef CHECK_REPORT_HTML_H
@@ -34,8 +34,8 @@ bool report_page_close(ReportPage *page);
 // Text as HTML, also within a quoted attribute.
 void html_text(FILE *out, const char *text);
 
-// The address of a picture that holds the picture itself, as PNG: what belongs into src="". `scratch` is the path of a file
-// that may be written and removed. False when it could not be made.
+// The address of a picture that holds the picture itself, as PNG: what belongs into src="". `scratch` is the path of a
+// file that may be written and removed. False when it could not be made.
 bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding, const char *scratch);
 
 #endif

@@ -221,7 +221,7 @@ bool scenes_report_add(ScenesReport *report, const Outcome *outcome, const Image
     html_text(out, outcome->scene);
     fputs("</h3>\n", out);
     range_print(out, outcome);
-    if (outcome->compared && ours != NULL && theirs != NULL) {
+    if (outcome->compared) {
         fine = pictures_print(report, ours, theirs);
     } else {
         fputs("<pre>", out);
@@ -350,16 +350,17 @@ bool scenes_report_print(ScenesReport *report, ReportPage *page, const char *bar
     html_text(out, bar);
     fputs("</p>\n", out);
     table_print(out, report);
-    fputs("<p class=\"faint\">Differences are in steps of 1/65535 of linear light. FLIP is the mean of LDR-FLIP at 67.02 "
-          "pixels per degree. Seconds are those of whole runs.</p>\n",
+    fputs("<p class=\"faint\">Differences are in steps of 1/65535 of linear light. FLIP is the mean of LDR-FLIP at "
+          "67.02 pixels per degree. Seconds are those of whole runs.</p>\n",
           out);
     out = report_page_section(page, "differences", "Differences of all pixels");
-    fputs("<p class=\"faint\">How many pixels of all scenes differ by how many steps of 1/65535. Below each bar stands the "
-          "greatest difference in it; the heights are logarithms.</p>\n",
+    fputs("<p class=\"faint\">How many pixels of all scenes differ by how many steps of 1/65535. Below each bar stands "
+          "the greatest difference in it; the heights are logarithms.</p>\n",
           out);
     histogram_print(out, &report->all);
     out = report_page_section(page, "pictures", "Pictures");
-    fputs("<p>The difference of a pixel is that of the channel that differs most, on this scale of steps of 1/65535:</p>\n",
+    fputs("<p>The difference of a pixel is that of the channel that differs most, on this scale of steps of "
+          "1/65535:</p>\n",
           out);
     heat_print_scale(out);
     return stream_copy(report->out, out);

@@ -28,8 +28,8 @@ typedef struct ScenesReport {
 bool scenes_report_init(ScenesReport *report, const char *folder, int scene_count);
 void scenes_report_fini(ScenesReport *report);
 
-// Adds a scene, its outcome being copied but for the name. `ours` and `theirs` hold linear light and are of one size, or are
-// NULL where there is nothing to show. False when something could not be written.
+// Adds a scene, its outcome being copied but for the name. Where the pictures were compared, `ours` and `theirs` are
+// they, in linear light; otherwise nothing is asked of them. False when something could not be written.
 bool scenes_report_add(ScenesReport *report, const Outcome *outcome, const Image *ours,
                        const Image *theirs);
 

@@ -19,7 +19,8 @@
 // Three standard deviations of the widest filters, sqrt(b / 2) / pi of 0.04 and half of FEATURE_DEGREES, in pixels.
 enum { RADIUS = 10, FEATURE_RADIUS = 9, TAPS = 2 * RADIUS + 1 };
 
-// Sums of two Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees, for the three opponents (section 4.1.1, table 1).
+// Sums of two Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees, for the three opponents (section 4.1.1,
+// table 1).
 typedef struct Gaussian {
     double a, b;
 } Gaussian;

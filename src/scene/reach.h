@@ -8,8 +8,8 @@
 
 #include "scene/scene.h"
 
-// Of the shapes but the planes; a sphere is taken as it is, others as the ball around their box. Where there is none, what is
-// least is INFINITY and the rest 0.
+// Of the shapes but the planes; a sphere is taken as it is, others as the ball around their box. Where there is none,
+// what is least is INFINITY and the rest 0.
 typedef struct SceneReach {
     double eye_offset;  // the greatest coordinate of the camera's place
     double least_size;  // the radius of the smallest

@@ -57,7 +57,8 @@ seen.byName = [names(), button.parentElement.ariaSort];
 const pictures = document.querySelectorAll(".pictures")[1];
 const picture = pictures.querySelector("figure img");
 const box = picture.getBoundingClientRect();
-picture.dispatchEvent(new PointerEvent("pointermove", { bubbles: true, clientX: box.left + (AT_X + 0.5) * box.width / WIDE,
+picture.dispatchEvent(new PointerEvent("pointermove", { bubbles: true,
+  clientX: box.left + (AT_X + 0.5) * box.width / WIDE,
   clientY: box.top + (AT_Y + 0.5) * box.height / HIGH }));
 seen.probe = pictures.parentElement.querySelector(".probe").textContent;
 pictures.querySelector("button").click();
@@ -179,7 +180,8 @@ def check_page(tap, text, page, answers, folder):
     second = bars[36:54]  # the first 18 are those of all scenes
     tap.ok(second == expected, "in the right bins", (second, expected))
     direct = flip.flip(WIDTH, HEIGHT, *([value / 65535 for value in values] for values in (ours, theirs)))
-    tap.ok(abs(direct - told["flip"]) < 1e-6 and direct > 0.001, f"FLIP: {told['flip']}, worked out directly {direct:.9f}")
+    tap.ok(abs(direct - told["flip"]) < 1e-6 and direct > 0.001,
+           f"FLIP: {told['flip']}, worked out directly {direct:.9f}")
 
 
 def browse(page, more, folder):
@@ -234,7 +236,8 @@ def main():
             text = file.read()
         with open(os.path.join(folder, "out", "results.json"), encoding="utf-8") as file:
             tap.ok(json.load(file) == answers, "results.json holds what is printed")
-        tap.ok(sorted(os.listdir(os.path.join(folder, "out"))) == ["index.html", "results.json"], "and nothing is left over")
+        tap.ok(sorted(os.listdir(os.path.join(folder, "out"))) == ["index.html", "results.json"],
+               "and nothing is left over")
         tap.ok("4e+06" in answers[2].get("range", "") and "range" not in answers[0],
                  "a scene out of POV-Ray's range is told", answers[2])
         check_page(tap, text, Page(text), answers, folder)

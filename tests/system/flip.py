@@ -1,4 +1,4 @@
-"""LDR-FLIP by the formulas of its paper as they stand: filters of two dimensions, every pixel on its own, no program in mind.
+"""LDR-FLIP by the formulas of its paper as they stand: filters of two dimensions, every pixel on its own.
 
 P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", 2020, doi 10.1145/3406183.
 SPDX-License-Identifier: MIT
