@@ -104,7 +104,7 @@ static void make_secondary_rays(const Geometry *g, const RaySet *camera, RaySet 
             continue;
         }
         Surface surface = geometry_surface(g, TRACE_SPHERES, camera->rays[i], hit);
-        RayStart start = {hit.shape, false};
+        RayStart start = {.shape = hit.shape};
         Vec3 mirrored = vec3_normalize(vec3_reflect(camera->rays[i].direction, surface.normal));
         ray_set_add(reflected, (Ray){surface.point, mirrored}, start, (double)INFINITY);
         Vec3 towards = vec3_sub(light, surface.point);
