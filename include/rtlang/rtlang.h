@@ -168,6 +168,17 @@ RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output
  * the session is freed; NULL before rt_render. */
 RT_API const float *rt_pixels(const rt_session *session, int *width, int *height);
 
+/* The memory of a scene that is loaded, in bytes. */
+typedef struct rt_budget {
+    uint64_t objects;  /* shapes */
+    uint64_t scene;    /* the records of the scene, held now */
+    uint64_t prepared; /* at most what rendering adds for tree and prepared records */
+    uint64_t picture;  /* the film */
+    uint64_t limit;    /* of all together: RT_LIMIT_MEMORY */
+} rt_budget;
+/* What rt_render will need, told before it is spent. RT_FAULT_USAGE when no scene is loaded. */
+RT_API rt_status rt_get_budget(const rt_session *session, rt_budget *budget);
+
 /* What was done and how long it took. */
 typedef struct rt_summary {
     int width, height;

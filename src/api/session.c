@@ -256,24 +256,44 @@ rt_status rt_set_isa(rt_session *session, const char *name)
 // a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910).
 enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
+static rt_budget budget_of(const rt_session *session)
+{
+    uint64_t scene = scene_bytes(&session->scene);
+    uint64_t objects = session->scene.shape_count;
+    return (rt_budget){
+        .objects = objects,
+        .scene = scene,
+        .prepared = scene * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
+        .picture = (uint64_t)session->width * (uint64_t)session->height * 3 * sizeof(float),
+        .limit = session->limits.memory_bytes,
+    };
+}
+
+rt_status rt_get_budget(const rt_session *session, rt_budget *budget)
+{
+    if (!session->loaded) {
+        return RT_FAULT_USAGE;
+    }
+    *budget = budget_of(session);
+    return RT_OK;
+}
+
 bool session_memory_suffices(rt_session *session)
 {
-    uint64_t film = (uint64_t)session->width * (uint64_t)session->height * 3 * sizeof(float);
-    uint64_t scene = scene_bytes(&session->scene);
-    uint64_t prepared = scene * PREPARED_PER_RECORD + (uint64_t)session->scene.shape_count * TREE_BYTES_PER_SHAPE;
+    rt_budget budget = budget_of(session);
     char needed[LIMITS_BYTES_TEXT], limit[LIMITS_BYTES_TEXT];
-    if (film + scene + prepared <= session->limits.memory_bytes) {
+    if (budget.picture + budget.scene + budget.prepared <= budget.limit) {
         return true;
     }
-    limits_bytes_text(session->limits.memory_bytes, limit);
-    bool is_film = film > scene + prepared;
-    limits_bytes_text(is_film ? film : scene + prepared, needed);
+    limits_bytes_text(budget.limit, limit);
+    bool is_film = budget.picture > budget.scene + budget.prepared;
+    limits_bytes_text(is_film ? budget.picture : budget.scene + budget.prepared, needed);
     bool kept = is_film ? diag_report(&session->diags, DIAG_E0608, SPAN_NONE,
                                       "a picture of %d x %d pixels needs %s of memory, and the limit is %s",
                                       session->width, session->height, needed, limit)
                         : diag_report(&session->diags, DIAG_E0607, SPAN_NONE,
                                       "preparing %llu shapes needs %s of memory, and the limit is %s",
-                                      (unsigned long long)session->scene.shape_count, needed, limit);
+                                      (unsigned long long)budget.objects, needed, limit);
     if (kept) {
         diag_suggest(&session->diags, "`--max-memory` allows more");
     }

@@ -159,6 +159,25 @@ static rt_status trace_pixel(rt_session *session, const Options *options)
     return status ? status : print(session, text, status);
 }
 
+static rt_status budget(rt_session *session, const Options *options)
+{
+    rt_budget b = {0};
+    char text[512];
+    rt_status status = rt_load_file(session, options->scene);
+    status = status ? status : rt_get_budget(session, &b);
+    snprintf(text, sizeof text,
+             "objects          %15llu\n"
+             "scene, bytes     %15llu\n"
+             "tree, at most    %15llu\n"
+             "picture          %15llu\n"
+             "all, at most     %15llu\n"
+             "limit            %15llu\n",
+             (unsigned long long)b.objects, (unsigned long long)b.scene, (unsigned long long)b.prepared,
+             (unsigned long long)b.picture, (unsigned long long)(b.scene + b.prepared + b.picture),
+             (unsigned long long)b.limit);
+    return status ? status : print(session, text, status);
+}
+
 static rt_status explain(rt_session *session, const Options *options)
 {
     const char *text;
@@ -252,6 +271,9 @@ static rt_status run(rt_session *session, const Options *options, Progress *prog
     }
     if (options->action == ACTION_FORMAT) {
         return format(session, options);
+    }
+    if (options->action == ACTION_BUDGET) {
+        return budget(session, options);
     }
     if (options->action == ACTION_FORMAT_CHECK) {
         return rt_check_format(session, options->scene);

@@ -207,6 +207,13 @@ static bool apply_format(Options *options, const char *argument, const char **ex
     return true;
 }
 
+static bool apply_budget(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->action = ACTION_BUDGET;
+    return true;
+}
+
 static bool apply_diagnostics(Options *options, const char *argument, const char **expected)
 {
     *expected = "text or json";
@@ -282,6 +289,7 @@ static const OptionRow rows[] = {
     {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
     {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
+    {0, "budget", NULL, apply_budget, "print how much memory rendering the scene takes at most, and stop"},
     {0, "warnings", "WHAT", apply_warnings,
      "all: warn of more; error: take warnings for errors; a code, or no- and a code:\n"
      "turn one on or off; may repeat. -Wall, -Werror and -Wno-CODE are short for it"},

@@ -19,6 +19,7 @@ typedef enum Action {
     ACTION_FORMAT,
     ACTION_FORMAT_CHECK,
     ACTION_TRACE_PIXEL,
+    ACTION_BUDGET,
 } Action;
 
 enum { COMPLAINT_SIZE = 512 };

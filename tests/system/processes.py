@@ -25,6 +25,7 @@ QUICK = b"camera { location -5*z look_at 0 }\nlight_source { <5, 5, -5>, 1 }\nsp
 OLD_PICTURE = b"an old picture"
 BAR = rb"\r\[#* *\] +\d+ %  \d+ s left"
 PEAK_BYTES = 400 * 1000 * 1000
+GENERATOR = os.path.join(os.environ["top_srcdir"], "bench", "generate.py")
 
 
 def read(path):
@@ -35,6 +36,12 @@ def read(path):
 def write(path, data):
     with open(path, "wb") as file:
         file.write(data)
+
+
+def budget_of(program, scene, *options):
+    """What --budget prints, by name."""
+    text = subprocess.run([program, "--budget", *options, scene], stdout=subprocess.PIPE, check=True).stdout.decode()
+    return {line[:16].strip().removesuffix(", bytes"): int(line[16:]) for line in text.splitlines()}
 
 
 def tests(tap, program):
@@ -132,9 +139,8 @@ def tests(tap, program):
         tap.equal(process.communicate(timeout=60)[1], b"rtlang: interrupted; nothing was written\n", "no bar in a pipe")
 
     def test_million_spheres():  # in a million colours
-        generator = os.path.join(os.environ["top_srcdir"], "bench", "generate.py")
         with open("million.scn", "wb") as scene:
-            subprocess.run([sys.executable, generator, "1000000"], stdout=scene, check=True)
+            subprocess.run([sys.executable, GENERATOR, "1000000"], stdout=scene, check=True)
         tap.ok(os.path.getsize("million.scn") > 150e6, "a million spheres in more than 150 MB of text")
         process = subprocess.Popen([program, "-q", "-W", "64", "-H", "48", "-o", "million.png", "million.scn"])
         _, status, usage = os.wait4(process.pid, 0)
@@ -142,5 +148,18 @@ def tests(tap, program):
         tap.equal(process.returncode, 0, "a million spheres are drawn")
         peak = usage.ru_maxrss * 1024
         tap.ok(peak <= PEAK_BYTES, "in at most 400 MB of memory", "peak %d bytes" % peak)
+        budget = budget_of(program, "million.scn", "-W64", "-H48")
+        tap.ok(budget["picture"] == 64 * 48 * 12 and peak < budget["all, at most"], "and in no more than its --budget",
+               "peak %d bytes, %s" % (peak, budget))
 
-    return [test_kill, test_kill_at_any_time, test_interrupt, test_signals, test_progress, test_million_spheres]
+    def test_budget():
+        with open("some.scn", "wb") as scene:
+            subprocess.run([sys.executable, GENERATOR, "10000"], stdout=scene, check=True)
+        needs = budget_of(program, "some.scn")["all, at most"]
+        command = [program, "-q", "-o", "some.png", "some.scn"]
+        tap.equal(subprocess.run([*command, f"--max-memory={needs}"], check=False).returncode, 0, "a budget suffices")
+        short = subprocess.run([*command, f"--max-memory={needs - 1}"], stderr=subprocess.PIPE, check=False)
+        tap.ok(short.returncode == 4 and b"E0607" in short.stderr, "and less does not", short.stderr)
+
+    return [test_kill, test_kill_at_any_time, test_interrupt, test_signals, test_progress, test_million_spheres,
+            test_budget]
