@@ -39,6 +39,7 @@ unit_programs = \
   tests/unit/test_trace_geometry \
   tests/unit/test_trace_tree \
   tests/unit/test_trace_secondary \
+  tests/unit/test_study \
   tests/unit/test_trace_pixel \
   tests/unit/test_trace_shapes \
   tests/unit/test_scene \
@@ -116,6 +117,8 @@ tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_study_SOURCES = %D%/unit/test_study.c
+tests_unit_test_study_LDADD = libapi.la
 tests_unit_test_trace_pixel_SOURCES = %D%/unit/test_trace_pixel.c
 tests_unit_test_trace_pixel_LDADD = libapi.la
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c

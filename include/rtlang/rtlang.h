@@ -135,6 +135,15 @@ RT_API rt_status rt_write_text(rt_session *session, const char *path);
 RT_API const char *rt_isa(size_t i);
 /* Use one of them; the best is used if nothing is said. The picture does not depend on it. */
 RT_API rt_status rt_set_isa(rt_session *session, const char *name);
+/* The precision that the next rt_render works in. All but RT_PRECISION_DOUBLE use a reference kernel for study, which tests each
+ * shape for each ray and refuses what it does not know. RT_FAULT_USAGE when the library was built without it. */
+typedef enum rt_precision {
+    RT_PRECISION_DOUBLE,
+    RT_PRECISION_FLOAT,
+    RT_PRECISION_QUAD,
+    RT_PRECISION_REFERENCE /* double, by the reference kernel */
+} rt_precision;
+RT_API rt_status rt_set_precision(rt_session *session, rt_precision precision);
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets, the

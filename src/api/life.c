@@ -1,7 +1,7 @@
 // The life of a pixel's ray as text, or as one JSON object on one line.
 //
-// Turns the records of render/life.h into what a reader or a program reads; docs/diagnostics.md lists the members. Works
-// nothing out.
+// Turns the records of render/life.h into what a reader or a program reads; docs/diagnostics.md lists the members.
+// Works nothing out.
 //
 // SPDX-License-Identifier: MIT
 #include <inttypes.h>
@@ -18,13 +18,13 @@ typedef struct Printer {
 } Printer;
 
 static const char *const kind_words[] = {
-    [LIFE_CAMERA] = "camera", [LIFE_MIRRORED] = "mirrored", [LIFE_TOTAL] = "totally reflected",
+    [LIFE_CAMERA] = "camera",   [LIFE_MIRRORED] = "mirrored", [LIFE_TOTAL] = "totally reflected",
     [LIFE_THROUGH] = "through", [LIFE_BENT] = "bent",
 };
 
 static const char *const choice_words[] = {
-    [LIFE_MISSES] = "none",     [LIFE_BEHIND] = "behind", [LIFE_NEAR] = "near", [LIFE_FAR] = "far",
-    [LIFE_LEFT] = "left",       [LIFE_GOES_THROUGH] = "goes through",
+    [LIFE_MISSES] = "none", [LIFE_BEHIND] = "behind", [LIFE_NEAR] = "near",
+    [LIFE_FAR] = "far",     [LIFE_LEFT] = "left",     [LIFE_GOES_THROUGH] = "goes through",
 };
 
 static const char *const choice_reasons[] = {
@@ -101,9 +101,10 @@ static void tell_sphere(const Printer *p, const LifeSphere *s)
     tell(p, ", b = 2 d·(e - centre) = ", s->b);
     tell(p, ", c = (e - centre)·(e - centre) - radius² = ", s->c);
     tell(p, "\n    h = b² - 4 a c = ", s->h);
-    text_printf(p->out, ": %s", s->h > 0.0   ? "h > 0, the line meets it in two points"
-                                : s->h < 0.0 ? "h < 0, the line does not meet it"
-                                             : "h = 0, the line touches it");
+    text_printf(p->out, ": %s",
+                s->h > 0.0   ? "h > 0, the line meets it in two points"
+                : s->h < 0.0 ? "h < 0, the line does not meet it"
+                             : "h = 0, the line touches it");
     if (s->h >= 0.0) {
         tell(p, "\n    t1 = (-b - √h) / 2a = ", s->t1);
         tell(p, ", t2 = (-b + √h) / 2a = ", s->t2);
@@ -114,7 +115,8 @@ static void tell_sphere(const Printer *p, const LifeSphere *s)
         tell(p, ", off by less than ", s->bound);
     }
     if (s->is_doubtful) {
-        put(p, "\n    near enough to a tangent, or to the surface, that rounding could decide: worked out in double words");
+        put(p, "\n    near enough to a tangent, or to the surface, that rounding could decide: worked out in double "
+               "words");
     }
     if (s->is_misjudged) {
         put(p, "\n    by the plain formulas above another root would be used");

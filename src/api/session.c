@@ -17,6 +17,7 @@
 
 #include "ast/words.h"
 #include "image/image.h"
+#include "render/study.h"
 #include "scene/reach.h"
 
 #ifndef PACKAGE_VERSION
@@ -300,6 +301,41 @@ bool session_memory_suffices(rt_session *session)
     return false;
 }
 
+rt_status rt_set_precision(rt_session *session, rt_precision precision)
+{
+#ifdef WITH_STUDY
+    bool is_there = precision <= RT_PRECISION_REFERENCE;
+#else
+    bool is_there = precision == RT_PRECISION_DOUBLE;
+#endif
+    session->precision = is_there ? precision : session->precision;
+    return is_there ? RT_OK : RT_FAULT_USAGE;
+}
+
+// Whether the chosen precision can trace the scene; reports when not.
+static bool precision_covers(rt_session *session, const Prepared *prepared)
+{
+#ifdef WITH_STUDY
+    return session->precision == RT_PRECISION_DOUBLE || study_covers(prepared, &session->diags);
+#else
+    (void)session, (void)prepared;
+    return true;
+#endif
+}
+
+static RenderResult trace_film(rt_session *session, const Prepared *prepared, const RenderOptions *options)
+{
+#ifdef WITH_STUDY
+    static const StudyPrecision precisions[] = {
+        [RT_PRECISION_FLOAT] = STUDY_FLOAT, [RT_PRECISION_QUAD] = STUDY_QUAD, [RT_PRECISION_REFERENCE] = STUDY_DOUBLE};
+    if (session->precision != RT_PRECISION_DOUBLE) {
+        session->kernel = study_name(precisions[session->precision]);
+        return study_film(prepared, precisions[session->precision], options, &session->film, &session->statistics);
+    }
+#endif
+    return render_film(prepared, options, &session->film, &session->statistics);
+}
+
 rt_status rt_render(rt_session *session, int threads)
 {
     if (!session->loaded || session->rendered || threads < 0) {
@@ -318,6 +354,11 @@ rt_status rt_render(rt_session *session, int threads)
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
         return session_status(session, false);
     }
+    if (!precision_covers(session, prepared)) {
+        prepared_free(prepared);
+        film_fini(&session->film);
+        return session_status(session, false);
+    }
     session->kernel = prepared_kernel_name(prepared);
     session->prepare_seconds = session_clock() - start;
     start = session_clock();
@@ -327,7 +368,7 @@ rt_status rt_render(rt_session *session, int threads)
         .client = session,
         .cancel = &session->cancel,
     };
-    RenderResult result = render_film(prepared, &options, &session->film, &session->statistics);
+    RenderResult result = trace_film(session, prepared, &options);
     prepared_free(prepared);
     if (result == RENDER_OK) {
         session_film_to_linear(&session->scene.settings, &session->film);

@@ -34,6 +34,7 @@ struct rt_session {
     double clock;
     bool clock_on;
     int width, height;
+    rt_precision precision;
     const char *isa; // of geometry_isa; NULL for the best
     Scene scene;
     bool loaded; // the scene is complete and valid

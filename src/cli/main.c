@@ -238,6 +238,10 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
     }
     if (!status) {
         progress_begin(progress, !options->quiet && options->format == RT_FORMAT_TEXT);
+        status = rt_set_precision(session, options->precision);
+        if (status) {
+            return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
+        }
         status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
         status = status ? status : rt_render(session, options->threads);
         progress_end(progress);

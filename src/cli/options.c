@@ -251,6 +251,25 @@ static bool apply_dump(Options *options, const char *argument, const char **expe
     return false;
 }
 
+static bool apply_precision(Options *options, const char *argument, const char **expected)
+{
+    static const struct {
+        const char *name;
+        rt_precision precision;
+    } precisions[] = {{"double", RT_PRECISION_DOUBLE},
+                      {"float", RT_PRECISION_FLOAT},
+                      {"quad", RT_PRECISION_QUAD},
+                      {"reference", RT_PRECISION_REFERENCE}};
+    *expected = "float, double, quad or reference";
+    for (size_t i = 0; i < COUNT_OF(precisions); i++) {
+        if (strcmp(argument, precisions[i].name) == 0) {
+            options->precision = precisions[i].precision;
+            return true;
+        }
+    }
+    return false;
+}
+
 // Two whole numbers; whether they lie in the picture is known when all options are read.
 static bool apply_trace_pixel(Options *options, const char *argument, const char **expected)
 {
@@ -299,6 +318,9 @@ static const OptionRow rows[] = {
      "print the scene's text in the canonical layout, or write it to -o FILE;\n"
      "with --check tell whether it is in that layout"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
+    {0, "precision", "WHAT", apply_precision,
+     "float, quad (float128) or reference (double): trace with the reference path, for study;\n"
+     "it knows spheres, planes and plain lights, and is slow (default double, by the usual kernels)"},
     {0, "trace-pixel", "X,Y", apply_trace_pixel,
      "print the life of the ray of one pixel, from 0,0 at the top left, and stop; no picture is made"},
     {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},

@@ -33,6 +33,7 @@ typedef struct Options {
     const char *code; // ACTION_EXPLAIN
     const char *output; // NULL: the scene's name with .png in the current folder
     int width, height;
+    rt_precision precision;
     int pixel_x, pixel_y; // ACTION_TRACE_PIXEL
     int threads;     // 0: as many as the machine has
     const char *isa; // NULL: the best that the machine has

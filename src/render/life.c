@@ -134,7 +134,8 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *n
 // A solid's bound holds for ellipsoids too, which are unit balls under a map.
 static double ellipsoid_error(const EllipsoidShape *shape, const Ray *ray, double t)
 {
-    Solid solid = {.kind = PART_BALL, .centre = shape->centre, .to_world = shape->to_world, .to_object = shape->to_object};
+    Solid solid = {
+        .kind = PART_BALL, .centre = shape->centre, .to_world = shape->to_world, .to_object = shape->to_object};
     Ray object = solid_ray(&solid, ray);
     return solid_crossing_error(&solid, ray, &object, t, 0);
 }
@@ -171,8 +172,12 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
         break;
     case SHAPE_PART: {
         static const char *const words[] = {
-            [PART_BALL] = "sphere", [PART_PLANE] = "plane",     [PART_BOX] = "box",
-            [PART_CONE] = "cylinder or cone", [PART_DISC] = "disc", [PART_TRIANGLE] = "triangle",
+            [PART_BALL] = "sphere",
+            [PART_PLANE] = "plane",
+            [PART_BOX] = "box",
+            [PART_CONE] = "cylinder or cone",
+            [PART_DISC] = "disc",
+            [PART_TRIANGLE] = "triangle",
             [PART_SMOOTH_TRIANGLE] = "smooth triangle",
         };
         const Solid *solid = &g->shapes.solids[part_index(at->shape)];
@@ -262,7 +267,8 @@ static void follow_hit(Follower *follower, const ShadeStep *step, LifeRay *ray)
     const ShadePoint *at = &step->at;
     const PendingRay *now = &step->ray;
     Hit hit = {.t = 0.0};
-    ray->is_hit = geometry_closest(follower->p->geometry, TRACE_ALL_FEATURES, now->ray, now->start, (double)INFINITY, &hit);
+    ray->is_hit =
+        geometry_closest(follower->p->geometry, TRACE_ALL_FEATURES, now->ray, now->start, (double)INFINITY, &hit);
     ray->t = hit.t * follower->scale;
     ray->is_inside = at->inside;
     ray->point = in_scene(follower, at->point);

@@ -1,7 +1,7 @@
 // The life of one camera ray, step by step, for people who want to see how a pixel comes about.
 //
-// Follows the very functions of the kernels with all features on (render/shade.h), so that its colour is the picture's, and
-// keeps what each step found. Lengths are the scene's own. Has no part in rendering a picture.
+// Follows the very functions of the kernels with all features on (render/shade.h), so that its colour is the picture's,
+// and keeps what each step found. Lengths are the scene's own. Has no part in rendering a picture.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_LIFE_H
@@ -47,11 +47,11 @@ typedef struct LifeSphere {
 
 // What one light does to one layer of a surface.
 typedef struct LifeLight {
-    size_t number;    // of the scene's lights
+    size_t number; // of the scene's lights
     Vec3 position;
     double distance, cosine; // to it; of the angle between its direction and the normal
-    Rgb visible;      // the share that arrives, by colour; white where the light throws no shadow
-    Rgb adds;         // what the surface makes of it
+    Rgb visible;             // the share that arrives, by colour; white where the light throws no shadow
+    Rgb adds;                // what the surface makes of it
 } LifeLight;
 
 // One of the materials that are seen at a hit: one, but for layers and maps.
@@ -70,17 +70,17 @@ typedef struct LifeRay {
     LifeKind kind;
     int level;
     Vec3 origin, direction;
-    Rgb share;     // what its light is multiplied with
-    double weight; // what decides whether it is traced
+    Rgb share;                         // what its light is multiplied with
+    double weight;                     // what decides whether it is traced
     size_t first_sphere, sphere_count; // those told of
     size_t missed;                     // spheres that it misses and that are not told of
     bool is_hit;
     const char *shape; // word for what is hit
     uint64_t source;   // of the shape
     double t, bound;
-    bool is_inside;    // the shape was met from its inside
+    bool is_inside;     // the shape was met from its inside
     Vec3 point, normal; // the normal is turned to where the ray comes from
-    double ior_ratio;  // index of refraction behind the surface over the one before it
+    double ior_ratio;   // index of refraction behind the surface over the one before it
     size_t first_layer, layer_count;
     Rgb through, reflectance;
     Rgb light; // that of the hit, or of the background
@@ -97,8 +97,8 @@ typedef struct Life {
     Rgb colour;       // of the pixel, in the scene's working space
 } Life;
 
-// Follows the ray of the middle of a pixel of a picture of that size. False when out of memory; life_fini is to be called
-// anyway.
+// Follows the ray of the middle of a pixel of a picture of that size. False when out of memory; life_fini is to be
+// called anyway.
 bool life_trace(Life *life, const Prepared *prepared, int width, int height, int x, int y) RT_MUST_CHECK;
 void life_fini(Life *life);
 

@@ -117,7 +117,7 @@ static void tell_lost(const Watch *watch, const Extent *extent, double place, ui
         diag_note(diags, SPAN_NONE,
                   extent->size == 0.0 ? "nothing of it can be seen"
                   : is_lost ? "it is seen in its size, but its shadows and mirror images are those of its centre"
-                          : "it is seen in its size, but its shadows and mirror images begin at one of a few points");
+                            : "it is seen in its size, but its shadows and mirror images begin at one of a few points");
         diag_suggest(diags, "move the scene, camera and all, nearer to the origin");
     }
 }
@@ -126,8 +126,9 @@ static void tell_beyond(const Watch *watch, double length, uint64_t source, cons
 {
     if (diag_report(watch->diags, DIAG_W0442, source_span(source), "this %s is beyond the range of the scene's numbers",
                     what)) {
-        diag_note(watch->diags, SPAN_NONE, "it has a length of %g, and in this scene lengths from %.2g to %.2g have squares",
-                  length, watch->least, watch->end);
+        diag_note(watch->diags, SPAN_NONE,
+                  "it has a length of %g, and in this scene lengths from %.2g to %.2g have squares", length,
+                  watch->least, watch->end);
         diag_note(watch->diags, SPAN_NONE, "%s", seen);
         diag_suggest(watch->diags, "leave out what is so much larger or smaller than the rest");
     }
@@ -137,9 +138,10 @@ static void tell_far(const Watch *watch, const Extent *extent, double distance, 
 {
     if (diag_report(watch->diags, DIAG_W0443, source_span(source), "this %s is too far from the camera for its size",
                     what)) {
-        diag_note(watch->diags, SPAN_NONE, "it is %.2g of its sizes away, and rays are exact to %.2g", distance / extent->size,
-                  RANGE_RADII);
-        diag_note(watch->diags, SPAN_NONE, "rays cannot be aimed at it any more: its outline is coarse, or it is not met");
+        diag_note(watch->diags, SPAN_NONE, "it is %.2g of its sizes away, and rays are exact to %.2g",
+                  distance / extent->size, RANGE_RADII);
+        diag_note(watch->diags, SPAN_NONE,
+                  "rays cannot be aimed at it any more: its outline is coarse, or it is not met");
     }
 }
 
@@ -192,8 +194,13 @@ static Extent part_extent(const Part *part)
 static const char *part_word(PartKind kind)
 {
     static const char *const words[] = {
-        [PART_BALL] = "sphere", [PART_PLANE] = "plane", [PART_BOX] = "box", [PART_CONE] = "cylinder or cone",
-        [PART_DISC] = "disc", [PART_TRIANGLE] = "triangle", [PART_SMOOTH_TRIANGLE] = "triangle",
+        [PART_BALL] = "sphere",
+        [PART_PLANE] = "plane",
+        [PART_BOX] = "box",
+        [PART_CONE] = "cylinder or cone",
+        [PART_DISC] = "disc",
+        [PART_TRIANGLE] = "triangle",
+        [PART_SMOOTH_TRIANGLE] = "triangle",
     };
     return words[kind];
 }

@@ -1,8 +1,8 @@
 // Equal shapes: a hash table of all that stand alone finds those that coincide.
 //
-// A shape becomes a key, equal for equal surfaces, whichever list of the scene it stands in. The table holds hashes beside
-// shape numbers, so that the scene's records are read in order but for those that are alike; its slots are asked for some
-// shapes ahead, because waiting for memory is nearly all that this would do.
+// A shape becomes a key, equal for equal surfaces, whichever list of the scene it stands in. The table holds hashes
+// beside shape numbers, so that the scene's records are read in order but for those that are alike; its slots are asked
+// for some shapes ahead, because waiting for memory is nearly all that this would do.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -83,8 +83,12 @@ static void key_ball(Key *key, const Transform *m)
 static void key_part(Key *key, const Part *part)
 {
     switch (part->kind) {
-    case PART_PLANE: key_plane(key, part->data[0], part->data[1].x); break;
-    case PART_BALL: key_ball(key, &part->to_world); break;
+    case PART_PLANE:
+        key_plane(key, part->data[0], part->data[1].x);
+        break;
+    case PART_BALL:
+        key_ball(key, &part->to_world);
+        break;
     default:
         key->kind = part->kind == PART_SMOOTH_TRIANGLE ? PART_TRIANGLE : part->kind;
         key_transform(key, &part->to_world);
@@ -154,13 +158,13 @@ static void tell(const Key *one, const Key *other, DiagSink *diags)
 {
     const Key *first = one->order < other->order ? one : other, *second = first == one ? other : one;
     static const char *const words[] = {
-        [PART_BALL] = "stretched sphere", [PART_PLANE] = "plane",
-        [PART_BOX] = "box",               [PART_CONE] = "cylinder or cone",
-        [PART_DISC] = "disc",             [PART_TRIANGLE] = "triangle",
+        [PART_BALL] = "stretched sphere", [PART_PLANE] = "plane", [PART_BOX] = "box",
+        [PART_CONE] = "cylinder or cone", [PART_DISC] = "disc",   [PART_TRIANGLE] = "triangle",
         [KIND_SPHERE_KEY] = "sphere",
     };
     Span at = second->source ? (Span){second->source, second->source + 1} : SPAN_NONE;
-    if (diag_report(diags, DIAG_W0444, at, "this %s coincides with one that was declared before it", words[one->kind]) &&
+    if (diag_report(diags, DIAG_W0444, at, "this %s coincides with one that was declared before it",
+                    words[one->kind]) &&
         first->source) {
         diag_note(diags, (Span){first->source, first->source + 1}, "this one is seen, the other is not");
     }

@@ -1,7 +1,7 @@
 // The life of a ray ends in the colour of its pixel: all examples and all scenes that are compared with POV-Ray.
 //
-// The kernels leave out what a scene has not, --trace-pixel runs with everything on; both must give the same bits. What is
-// printed of a sphere is checked against the scene that it was made for.
+// The kernels leave out what a scene has not, --trace-pixel runs with everything on; both must give the same bits. What
+// is printed of a sphere is checked against the scene that it was made for.
 //
 // SPDX-License-Identifier: MIT
 #include <glob.h>
@@ -27,8 +27,8 @@ static void check_scene(const char *folder, const char *path, int step)
     int width, height, wrong = 0, first = 0, tried = 0;
     rt_session *session = rt_session_new(NULL);
     rt_set_format(session, RT_FORMAT_JSON);
-    bool is_ready = rt_add_include_path(session, folder) == RT_OK && rt_set_size(session, WIDTH, HEIGHT) == RT_OK && rt_load_file(session, path) == RT_OK &&
-                    rt_render(session, 1) == RT_OK;
+    bool is_ready = rt_add_include_path(session, folder) == RT_OK && rt_set_size(session, WIDTH, HEIGHT) == RT_OK &&
+                    rt_load_file(session, path) == RT_OK && rt_render(session, 1) == RT_OK;
     const float *pixels = is_ready ? rt_pixels(session, &width, &height) : NULL;
     for (int i = 0; pixels && i < WIDTH * HEIGHT; i += step, tried++) {
         const char *text;
@@ -77,17 +77,19 @@ static void check_quadratic(void)
                                 "plane { -z, -20 }\n";
     const char *text = "";
     rt_session *session = rt_session_new(NULL);
-    bool is_loaded = rt_set_size(session, 3, 3) == RT_OK && rt_load_text(session, "q.scn", scene, sizeof scene - 1) == RT_OK;
+    bool is_loaded =
+        rt_set_size(session, 3, 3) == RT_OK && rt_load_text(session, "q.scn", scene, sizeof scene - 1) == RT_OK;
     tap_ok(is_loaded && rt_trace_pixel(session, 1, 1, &text) == RT_OK &&
                has(text, "e = <0, 0, -5>, through the screen at <0, 0, -4>") && has(text, "(q.scn:3:1)") &&
                has(text, "a = d·d = 1, b = 2 d·(e - centre) = -10, c = (e - centre)·(e - centre) - radius² = 21") &&
-               has(text, "h = b² - 4 a c = 16: h > 0") && has(text, "t1 = (-b - √h) / 2a = 3, t2 = (-b + √h) / 2a = 7") &&
-               has(text, "used: t1") && has(text, "h < 0, the line does not meet it") &&
-               has(text, "both points lie behind") && has(text, "leaves it; a sphere is convex") &&
-               has(text, "ray 2: mirrored where ray 1 hits, level 2") &&
+               has(text, "h = b² - 4 a c = 16: h > 0") &&
+               has(text, "t1 = (-b - √h) / 2a = 3, t2 = (-b + √h) / 2a = 7") && has(text, "used: t1") &&
+               has(text, "h < 0, the line does not meet it") && has(text, "both points lie behind") &&
+               has(text, "leaves it; a sphere is convex") && has(text, "ray 2: mirrored where ray 1 hits, level 2") &&
                has(text, "light 1 at <0, 0, -9>: distance 7, N·L = 1"),
            "the quadratic, its cases and roots, the light and the mirrored ray as text");
-    tap_ok(rt_trace_pixel(session, 3, 0, &text) == RT_FAULT_USAGE && rt_trace_pixel(session, 0, -1, &text) == RT_FAULT_USAGE,
+    tap_ok(rt_trace_pixel(session, 3, 0, &text) == RT_FAULT_USAGE &&
+               rt_trace_pixel(session, 0, -1, &text) == RT_FAULT_USAGE,
            "a pixel that is not in the picture");
     rt_session_free(session);
 }
@@ -100,7 +102,8 @@ static void check_touch(void)
     const char *text = "";
     rt_session *session = rt_session_new(NULL);
     rt_set_format(session, RT_FORMAT_JSON);
-    bool is_loaded = rt_set_size(session, 1, 1) == RT_OK && rt_load_text(session, "t.scn", scene, sizeof scene - 1) == RT_OK;
+    bool is_loaded =
+        rt_set_size(session, 1, 1) == RT_OK && rt_load_text(session, "t.scn", scene, sizeof scene - 1) == RT_OK;
     tap_ok(is_loaded && rt_trace_pixel(session, 0, 0, &text) == RT_OK && has(text, "\"case\": \"h = 0\"") &&
                has(text, "\"used\": \"near\"") && has(text, "\"doubtful\": true") && has(text, "\"kind\": \"through\""),
            "a line that touches a sphere, as JSON");

@@ -1,0 +1,30 @@
+// The reference path: the same picture in another precision, for study.
+//
+// One kernel (render/study_kernel.h) written over a real type and compiled for float, double and float128, beside the
+// kernels that trace pictures, which are tuned for double. It has no tree, no vectors and no double words, tests every
+// shape for every ray, and covers spheres, planes, lights of one point or direction, and all finishes and interiors;
+// the rest is refused by study_covers. Left out of builds with --disable-study.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_STUDY_H
+#define RENDER_STUDY_H
+
+#include "render/render.h"
+
+typedef enum StudyPrecision { STUDY_FLOAT, STUDY_DOUBLE, STUDY_QUAD, STUDY_PRECISIONS } StudyPrecision;
+
+// "float", "double", "quad"
+const char *study_name(StudyPrecision precision);
+
+// False, with a fault at each kind of thing, when the scene has what the reference path has not.
+bool study_covers(const Prepared *prepared, DiagSink *diags) RT_MUST_CHECK;
+
+// The colour of a point of the picture (u, v as in render/camera.h), in the scene's working space; rounded to double
+// from the precision that it was worked out in. The scene must be covered.
+Rgb study_colour(const Prepared *prepared, StudyPrecision precision, double u, double v);
+
+// A whole picture of it.
+RenderResult study_film(const Prepared *prepared, StudyPrecision precision, const RenderOptions *options, Film *film,
+                        RenderStatistics *statistics) RT_MUST_CHECK;
+
+#endif

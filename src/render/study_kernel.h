@@ -1,0 +1,642 @@
+// The kernel of the reference path over a real type: included once by each of study_float.c, study_double.c and
+// study_quad.c; two of them say what `Real` is and how its functions are called.
+//
+// One ray at a time, every shape tested, formulas as in docs/numerics.md without the filter: the discriminant from the
+// remainder, roots without cancellation, self-hits by identity. Shading as in render/shade.h. Finishes, lights and
+// colours are read as doubles, which they are in the scene; all that a ray does is Real.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_STUDY_KERNEL_H
+#define RENDER_STUDY_KERNEL_H
+
+#include "render/inside.h"
+#include "render/prepared.h"
+#include "render/study_kernels.h"
+
+// Where nothing is said, as in study_double.c, numbers are doubles.
+#ifndef REAL_SQRT
+#include <math.h>
+typedef double Real;
+#define REAL_SQRT sqrt
+#define REAL_FABS fabs
+#define REAL_POW  pow
+#define REAL_ACOS acos
+#define REAL_EXP  exp
+#endif
+
+typedef struct RealVec {
+    Real x, y, z;
+} RealVec;
+
+typedef struct RealRgb {
+    Real red, green, blue;
+} RealRgb;
+
+typedef struct RealRay {
+    RealVec e, d;
+} RealRay;
+
+// Where a ray starts: SHAPE_NONE, or a shape of the scene by its order of declaration.
+typedef struct RealStart {
+    ShapeKind kind;
+    uint32_t index;
+    bool on_shape, inward;
+} RealStart;
+
+typedef struct RealHit {
+    Real t;
+    ShapeKind kind;
+    uint32_t index, order;
+    bool inside;
+    RealVec point, normal; // outward
+    MaterialIndex material;
+} RealHit;
+
+// What a ray carries on from where it was sent.
+typedef struct RealWay {
+    RealRay ray;
+    RealStart start;
+    RealRgb share;
+    Real weight;
+    int level;
+    uint64_t passed;
+} RealWay;
+
+typedef struct RealScene {
+    const Prepared *p;
+    const Scene *scene;
+    Real inverse_scale; // lengths of the scene times this are prepared ones
+} RealScene;
+
+// ---- vectors and colours
+
+static inline RealVec real_vec(Vec3 a)
+{
+    return (RealVec){(Real)a.x, (Real)a.y, (Real)a.z};
+}
+
+static inline RealVec real_add_scaled(RealVec a, Real s, RealVec b)
+{
+    return (RealVec){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+static inline RealVec real_scale(Real s, RealVec a)
+{
+    return (RealVec){s * a.x, s * a.y, s * a.z};
+}
+
+static inline RealVec real_sub(RealVec a, RealVec b)
+{
+    return (RealVec){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline Real real_dot(RealVec a, RealVec b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline Real real_length(RealVec a)
+{
+    return REAL_SQRT(real_dot(a, a));
+}
+
+static inline RealVec real_unit(RealVec a)
+{
+    return real_scale((Real)1 / real_length(a), a);
+}
+
+static inline RealVec real_linear(const double m[4][3], RealVec a)
+{
+    return (RealVec){(Real)m[0][0] * a.x + (Real)m[1][0] * a.y + (Real)m[2][0] * a.z,
+                     (Real)m[0][1] * a.x + (Real)m[1][1] * a.y + (Real)m[2][1] * a.z,
+                     (Real)m[0][2] * a.x + (Real)m[1][2] * a.y + (Real)m[2][2] * a.z};
+}
+
+static inline RealRgb real_rgb(Rgb a)
+{
+    return (RealRgb){(Real)a.red, (Real)a.green, (Real)a.blue};
+}
+
+static inline RealRgb real_grey(Real level)
+{
+    return (RealRgb){level, level, level};
+}
+
+static inline RealRgb real_rgb_add(RealRgb a, Real s, RealRgb b)
+{
+    return (RealRgb){a.red + s * b.red, a.green + s * b.green, a.blue + s * b.blue};
+}
+
+static inline RealRgb real_rgb_mul(RealRgb a, RealRgb b)
+{
+    return (RealRgb){a.red * b.red, a.green * b.green, a.blue * b.blue};
+}
+
+static inline RealRgb real_rgb_scale(Real s, RealRgb a)
+{
+    return (RealRgb){s * a.red, s * a.green, s * a.blue};
+}
+
+static inline Real real_max(Real a, Real b)
+{
+    return a > b ? a : b;
+}
+
+static inline Real real_rgb_max(RealRgb a)
+{
+    return real_max(a.red, real_max(a.green, a.blue));
+}
+
+static inline bool real_rgb_is_black(RealRgb a)
+{
+    return a.red == 0 && a.green == 0 && a.blue == 0;
+}
+
+static inline Real real_power(Real base, double exponent)
+{
+    if (!(exponent >= 0.0 && exponent <= 4096.0 && exponent == (double)(int)exponent)) {
+        return REAL_POW(base, (Real)exponent);
+    }
+    Real result = 1;
+    for (unsigned n = (unsigned)exponent; n; n >>= 1, base *= base) {
+        if (n & 1) {
+            result *= base;
+        }
+    }
+    return result;
+}
+
+// ---- what a ray meets
+
+// The nearest root in front of a ray, 0 when there is none. `f` is the origin as seen from the centre.
+static Real real_ball_root(RealVec f, RealVec d, Real r_squared, bool *inside)
+{
+    Real d_squared = real_dot(d, d);
+    Real middle = -real_dot(f, d) / d_squared;
+    RealVec l = real_add_scaled(f, middle, d);
+    Real discriminant = r_squared - real_dot(l, l);
+    Real c = real_dot(f, f) - r_squared;
+    if (!(discriminant >= 0) || (c >= 0 && !(middle > 0))) {
+        return 0;
+    }
+    Real far_side = REAL_FABS(middle) + REAL_SQRT(discriminant / d_squared);
+    *inside = !(c > 0);
+    return c > 0 || middle < 0 ? REAL_FABS(c) / d_squared / far_side : far_side;
+}
+
+static Real real_ball_inward(RealVec f, RealVec d)
+{
+    return -2 * real_dot(f, d) / real_dot(d, d);
+}
+
+static RealVec real_sphere_offset(const RealScene *s, const Sphere *sphere, RealVec e)
+{
+    return real_sub(e, real_scale(s->inverse_scale, real_vec(sphere->centre)));
+}
+
+static bool real_starts_on(RealStart start, ShapeKind kind)
+{
+    return start.on_shape && start.kind == kind;
+}
+
+static Real real_sphere_root(const RealScene *s, uint32_t index, const RealRay *ray, RealStart start, bool *inside)
+{
+    const Sphere *sphere = &s->scene->spheres.items[index];
+    const Sphere *left = &s->scene->spheres.items[start.index];
+    Real radius = (Real)sphere->radius * s->inverse_scale;
+    RealVec f = real_sphere_offset(s, sphere, ray->e);
+    if (real_starts_on(start, SHAPE_SPHERE) && sphere->radius == left->radius &&
+        vec3_equal(sphere->centre, left->centre)) {
+        *inside = true;
+        return start.inward ? real_ball_inward(f, ray->d) : 0;
+    }
+    return real_ball_root(f, ray->d, radius * radius, inside);
+}
+
+// The ray in an ellipsoid's space.
+static RealRay real_ellipsoid_ray(const RealScene *s, const Ellipsoid *ellipsoid, const RealRay *ray)
+{
+    const double *centre = ellipsoid->to_world.m[3];
+    RealVec offset = real_sub(ray->e, real_scale(s->inverse_scale, real_vec(vec3(centre[0], centre[1], centre[2]))));
+    Real scale = (Real)1 / s->inverse_scale;
+    return (RealRay){real_scale(scale, real_linear(ellipsoid->to_object.m, offset)),
+                     real_scale(scale, real_linear(ellipsoid->to_object.m, ray->d))};
+}
+
+static Real real_ellipsoid_root(const RealScene *s, uint32_t index, const RealRay *ray, RealStart start, bool *inside)
+{
+    RealRay object = real_ellipsoid_ray(s, &s->scene->ellipsoids.items[index], ray);
+    if (real_starts_on(start, SHAPE_ELLIPSOID) && start.index == index) {
+        *inside = true;
+        return start.inward ? real_ball_inward(object.e, object.d) : 0;
+    }
+    return real_ball_root(object.e, object.d, 1, inside);
+}
+
+static Real real_plane_root(const RealScene *s, uint32_t index, const RealRay *ray, RealStart start, bool *inside)
+{
+    const Plane *plane = &s->scene->planes.items[index];
+    RealVec normal = real_vec(plane->normal);
+    *inside = real_dot(normal, ray->d) > 0;
+    if (real_starts_on(start, SHAPE_PLANE) && start.index == index) {
+        return 0;
+    }
+    return ((Real)plane->distance * s->inverse_scale - real_dot(normal, ray->e)) / real_dot(normal, ray->d);
+}
+
+static void real_offer(RealHit *hit, bool *has_hit, Real t, bool inside, ShapeKind kind, uint32_t index, uint32_t order)
+{
+    if (t > 0 && (t < hit->t || (*has_hit && t == hit->t && order < hit->order))) {
+        hit->t = t;
+        hit->kind = kind;
+        hit->index = index;
+        hit->order = order;
+        hit->inside = inside;
+        *has_hit = true;
+    }
+}
+
+// The nearest hit at 0 < t < t_max.
+static bool real_closest(const RealScene *s, const RealRay *ray, RealStart start, Real t_max, RealHit *hit)
+{
+    bool has_hit = false;
+    hit->t = t_max;
+    for (uint32_t i = 0; i < s->scene->spheres.count; i++) {
+        bool inside = false;
+        Real t = real_sphere_root(s, i, ray, start, &inside);
+        real_offer(hit, &has_hit, t, inside, SHAPE_SPHERE, i, s->scene->spheres.items[i].order);
+    }
+    for (uint32_t i = 0; i < s->scene->ellipsoids.count; i++) {
+        bool inside = false;
+        Real t = real_ellipsoid_root(s, i, ray, start, &inside);
+        real_offer(hit, &has_hit, t, inside, SHAPE_ELLIPSOID, i, s->scene->ellipsoids.items[i].order);
+    }
+    for (uint32_t i = 0; i < s->scene->planes.count; i++) {
+        bool inside;
+        Real t = real_plane_root(s, i, ray, start, &inside);
+        real_offer(hit, &has_hit, t, inside, SHAPE_PLANE, i, s->scene->planes.items[i].order);
+    }
+    return has_hit && hit->t < t_max;
+}
+
+// Point, normal and material of a hit; the point is put back onto the surface.
+static void real_surface(const RealScene *s, const RealRay *ray, RealHit *hit)
+{
+    if (hit->kind == SHAPE_SPHERE) {
+        const Sphere *sphere = &s->scene->spheres.items[hit->index];
+        RealVec f = real_sphere_offset(s, sphere, ray->e);
+        hit->normal = real_unit(real_add_scaled(f, hit->t, ray->d));
+        hit->point = real_add_scaled(real_scale(s->inverse_scale, real_vec(sphere->centre)),
+                                     (Real)sphere->radius * s->inverse_scale, hit->normal);
+        hit->material = sphere->material;
+    } else if (hit->kind == SHAPE_ELLIPSOID) {
+        const Ellipsoid *ellipsoid = &s->scene->ellipsoids.items[hit->index];
+        const double(*m)[3] = ellipsoid->to_object.m, *centre = ellipsoid->to_world.m[3];
+        RealRay object = real_ellipsoid_ray(s, ellipsoid, ray);
+        RealVec n = real_unit(real_add_scaled(object.e, hit->t, object.d));
+        RealVec world = real_linear(ellipsoid->to_world.m, n);
+        hit->point =
+            real_scale(s->inverse_scale, real_add_scaled(world, 1, real_vec(vec3(centre[0], centre[1], centre[2]))));
+        hit->normal = real_unit((RealVec){(Real)m[0][0] * n.x + (Real)m[0][1] * n.y + (Real)m[0][2] * n.z,
+                                          (Real)m[1][0] * n.x + (Real)m[1][1] * n.y + (Real)m[1][2] * n.z,
+                                          (Real)m[2][0] * n.x + (Real)m[2][1] * n.y + (Real)m[2][2] * n.z});
+        hit->material = ellipsoid->material;
+    } else {
+        const Plane *plane = &s->scene->planes.items[hit->index];
+        hit->normal = real_vec(plane->normal);
+        RealVec point = real_add_scaled(ray->e, hit->t, ray->d);
+        Real rest = (Real)plane->distance * s->inverse_scale - real_dot(hit->normal, point);
+        hit->point = real_add_scaled(point, rest, hit->normal);
+        hit->material = plane->material;
+    }
+}
+
+// ---- materials
+
+static Rgbft study_pigment(const Prepared *p, MaterialIndex material, const PreparedFinish **finish)
+{
+    if (material & MATERIAL_COMPOUND) {
+        const Texture *texture = &p->scene->textures.items[p->compounds[material & ~MATERIAL_COMPOUND].texture];
+        *finish = &p->finishes[texture->finish];
+        return pigment_colour(&texture->pigment);
+    }
+    *finish = &p->finishes[p->materials[material].finish];
+    return material_pigment(&p->materials[material]);
+}
+
+static uint32_t study_interior(const Prepared *p, MaterialIndex material)
+{
+    return material & MATERIAL_COMPOUND ? p->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
+}
+
+static RealRgb real_pigment_through(Rgbft pigment)
+{
+    RealRgb through = real_rgb_scale((Real)pigment.filter, real_rgb(rgbft_rgb(pigment)));
+    return real_rgb_add(through, (Real)pigment.transmit, real_grey(1));
+}
+
+// As shade_faded; `way` in prepared lengths.
+static RealRgb real_faded(const RealScene *s, MaterialIndex material, Real way)
+{
+    uint32_t index = study_interior(s->p, material);
+    const Interior *interior = index == RECORD_NONE ? NULL : &s->p->interiors[index];
+    if (!interior || interior->fade_power == 0.0) {
+        return real_grey(1);
+    }
+    Real relative = way / s->inverse_scale / (Real)interior->fade_distance;
+    RealRgb colour = real_rgb(interior->fade_colour);
+    if (interior->fade_power >= 1000.0) {
+        return (RealRgb){REAL_EXP((colour.red - 1) * relative), REAL_EXP((colour.green - 1) * relative),
+                         REAL_EXP((colour.blue - 1) * relative)};
+    }
+    Real left = 1 / (1 + REAL_POW(relative, (Real)interior->fade_power));
+    return real_rgb_add(colour, left, real_rgb_add(real_grey(1), -1, colour));
+}
+
+// ---- light
+
+static RealRgb real_visibility(const RealScene *s, const RealHit *at, RealVec towards, Real distance,
+                               RenderStatistics *statistics)
+{
+    RealRgb share = real_grey(1);
+    RealRay ray = {at->point, towards};
+    RealStart start = {at->kind, at->index, true, real_dot(at->normal, towards) < 0};
+    RealHit hit;
+    statistics->shadow_rays++;
+    for (uint64_t passed = 0; real_closest(s, &ray, start, distance, &hit); passed++) {
+        const PreparedFinish *finish;
+        real_surface(s, &ray, &hit);
+        RealRgb through = real_pigment_through(study_pigment(s->p, hit.material, &finish));
+        if (real_rgb_is_black(through) || passed > s->p->crossings_max) {
+            return real_grey(0);
+        }
+        share = real_rgb_mul(share, through);
+        share = hit.inside ? real_rgb_mul(share, real_faded(s, hit.material, hit.t)) : share;
+        ray.e = hit.point;
+        distance -= hit.t;
+        start = (RealStart){hit.kind, hit.index, true, !hit.inside};
+    }
+    return share;
+}
+
+static RealRgb real_metallic(double metallic, RealRgb pigment, Real cosine)
+{
+    const Real k = (Real)112 / 100;
+    const Real at_normal = 1 / (k * k), at_grazing = 1 / ((1 - k) * (1 - k));
+    cosine = REAL_FABS(cosine);
+    Real x = REAL_ACOS(cosine < 1 ? cosine : 1) / REAL_ACOS(0);
+    Real fresnel = (1 / ((x - k) * (x - k)) - at_normal) / (at_grazing - at_normal);
+    Real share = (Real)metallic * (1 - fresnel);
+    return real_rgb_add(real_grey(1), share, real_rgb_add(pigment, -1, real_grey(1)));
+}
+
+static Real real_highlights(const PreparedFinish *finish, RealVec direction, RealVec normal, RealVec towards)
+{
+    Real sum = 0;
+    if (finish->phong > 0.0) {
+        RealVec mirrored = real_add_scaled(direction, -2 * real_dot(direction, normal), normal);
+        Real cosine = real_dot(mirrored, towards);
+        sum += cosine > 0 ? (Real)finish->phong * real_power(cosine, finish->phong_size) : 0;
+    }
+    if (finish->specular > 0.0) {
+        RealVec halfway = real_sub(towards, direction);
+        Real cosine = real_dot(halfway, normal) / real_length(halfway);
+        sum += cosine > 0 ? (Real)finish->specular * real_power(cosine, finish->shininess) : 0;
+    }
+    return sum;
+}
+
+// `normal` is turned to where the ray comes from.
+static RealRgb real_light(const RealScene *s, const PreparedLight *light, const PreparedFinish *finish, Rgbft pigment,
+                          const RealHit *at, RealVec normal, RealVec direction, RenderStatistics *statistics)
+{
+    RealVec offset = real_sub(real_vec(light->position), at->point);
+    Real distance = light->parallel ? real_dot(offset, real_vec(light->towards)) : real_length(offset);
+    RealVec towards = light->parallel ? real_vec(light->towards) : real_scale(1 / distance, offset);
+    Real cosine = real_dot(normal, towards);
+    bool front = cosine > 0, back = cosine < 0 && finish->diffuse_back > 0.0;
+    RealRgb arriving = real_rgb(light->colour), colour = real_rgb(rgbft_rgb(pigment));
+    if (!front && !back) {
+        return real_grey(0);
+    }
+    if (!light->shadowless && distance > 0) {
+        RealRgb share = real_visibility(s, at, towards, distance, statistics);
+        if (real_rgb_is_black(share)) {
+            return share;
+        }
+        arriving = real_rgb_mul(arriving, share);
+    }
+    Real opaque = 1 - (Real)pigment.filter - (Real)pigment.transmit;
+    Real falloff = real_power(REAL_FABS(cosine), finish->brilliance);
+    RealRgb sum = real_rgb_scale(falloff * (Real)(back ? finish->diffuse_back : finish->diffuse) * opaque, colour);
+    if (finish->shines && front && !light->shadowless) {
+        Real shine = real_highlights(finish, direction, normal, towards);
+        RealRgb tint = finish->metallic > 0.0 ? real_metallic(finish->metallic, colour, cosine) : real_grey(1);
+        sum = real_rgb_add(sum, shine, tint);
+    }
+    return real_rgb_mul(sum, arriving);
+}
+
+// ---- rays that go on
+
+static Real real_fresnel(Real cosine, Real ratio)
+{
+    Real square = ratio * ratio - 1 + cosine * cosine;
+    if (!(square > 0)) {
+        return 1;
+    }
+    Real g = REAL_SQRT(square);
+    Real first = (g - cosine) / (g + cosine);
+    Real second = (cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1);
+    return first * first * (1 + second * second) / 2;
+}
+
+static RealRgb real_reflectance(const PreparedFinish *finish, RealRgb pigment, Real cosine, Real ior_ratio)
+{
+    Real away = 1 - cosine;
+    Real grazing = finish->is_fresnel ? real_fresnel(cosine, ior_ratio)
+                                      : real_power(away > 0 ? away : 0, finish->reflection_falloff);
+    RealRgb least = real_rgb(finish->reflection_min);
+    RealRgb span = real_rgb_add(real_rgb(finish->reflection_max), -1, least);
+    RealRgb share = real_rgb_add(least, grazing, span);
+    return finish->reflection_metallic > 0.0
+               ? real_rgb_mul(share, real_metallic(finish->reflection_metallic, pigment, cosine))
+               : share;
+}
+
+static bool real_bend(RealVec direction, RealVec normal, Real ratio, RealVec *bent)
+{
+    Real eta = 1 / ratio;
+    Real cosine = -real_dot(direction, normal);
+    Real square = 1 - eta * eta * (1 - cosine * cosine);
+    if (!(square >= 0)) {
+        return false;
+    }
+    *bent = real_unit(real_add_scaled(real_scale(eta, direction), eta * cosine - REAL_SQRT(square), normal));
+    return true;
+}
+
+static RealVec real_mirrored(RealVec direction, RealVec normal)
+{
+    return real_unit(real_add_scaled(direction, -2 * real_dot(direction, normal), normal));
+}
+
+static RealRgb real_trace(const RealScene *s, RealWay way, Inside *inside, RenderStatistics *statistics);
+
+// What one hit is to the rays that go on.
+typedef struct RealJunction {
+    RealHit at;
+    RealVec normal; // turned to where the ray comes from
+    const PreparedFinish *finish;
+    Rgbft pigment;
+    RealRgb reflectance;
+    Real ior_ratio;
+    Inside behind;
+} RealJunction;
+
+// The light that the mirror adds. At most max_trace_level deep.
+static RealRgb real_reflected(const RealScene *s, const RealJunction *j, const RealWay *way, const Inside *inside,
+                              RenderStatistics *statistics)
+{
+    Real most = j->finish->is_fresnel ? real_rgb_max(j->reflectance) : (Real)j->finish->reflection_weight;
+    RealWay next = {
+        .ray = {j->at.point, real_mirrored(way->ray.d, j->normal)},
+        .start = {j->at.kind, j->at.index, true, j->at.inside},
+        .share = real_grey(1),
+        .weight = way->weight * most,
+        .level = way->level + 1,
+    };
+    if (!j->finish->reflects || way->level >= s->p->max_trace_level || next.weight < (Real)s->p->adc_bailout) {
+        return real_grey(0);
+    }
+    Inside own;
+    inside_copy(&own, inside);
+    statistics->reflected_rays++;
+    RealRgb light = real_trace(s, next, &own, statistics);
+    if (j->finish->reflection_exponent != 1.0) {
+        double exponent = 1.0 / j->finish->reflection_exponent;
+        light = (RealRgb){real_power(light.red, exponent), real_power(light.green, exponent),
+                          real_power(light.blue, exponent)};
+    }
+    return real_rgb_mul(j->reflectance, light);
+}
+
+// Turns the ray into the one that goes through or is totally reflected; false when there is none, *is_total in the last
+// case, which leaves no mirrored ray.
+static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way, Inside *inside, bool *is_total)
+{
+    RealRgb through = real_rgb_scale((Real)j->finish->refraction, real_pigment_through(j->pigment));
+    RealRgb fade = j->at.inside ? real_faded(s, j->at.material, j->at.t) : real_grey(1);
+    RealVec direction = way->ray.d;
+    *is_total = false;
+    if (real_rgb_is_black(through)) {
+        return false;
+    }
+    bool has_bend = j->ior_ratio != 1;
+    *is_total = has_bend && !real_bend(way->ray.d, j->normal, j->ior_ratio, &direction);
+    if (way->level >= s->p->max_trace_level) {
+        return false;
+    }
+    if (*is_total) {
+        way->share = real_rgb_mul(way->share, fade);
+        direction = real_mirrored(way->ray.d, j->normal);
+    } else {
+        through = real_rgb_mul(through, fade);
+        Real weight = way->weight * real_rgb_max(through);
+        if (j->finish->conserves_energy) {
+            RealRgb left = real_rgb_add(real_grey(1), -1, j->reflectance);
+            through = real_rgb_mul(through, left);
+            weight *= real_rgb_max(left);
+        }
+        Real grey = (Real)0.297 * through.red + (Real)0.589 * through.green + (Real)0.114 * through.blue;
+        if (weight < (Real)s->p->adc_bailout || grey < (Real)s->p->adc_bailout || way->passed >= s->p->crossings_max) {
+            return false;
+        }
+        way->share = real_rgb_mul(way->share, through);
+        way->weight = weight;
+        inside_copy(inside, &j->behind);
+    }
+    way->ray = (RealRay){j->at.point, direction};
+    way->start = (RealStart){j->at.kind, j->at.index, true, *is_total == j->at.inside};
+    way->level += has_bend;
+    way->passed = has_bend ? 0 : way->passed + 1;
+    return true;
+}
+
+static void real_join(const RealScene *s, const RealWay *way, const Inside *inside, RealJunction *j)
+{
+    j->normal = real_scale(j->at.inside ? -1 : 1, j->at.normal);
+    j->pigment = study_pigment(s->p, j->at.material, &j->finish);
+    inside_copy(&j->behind, inside);
+    if (j->at.inside) {
+        inside_leave(&j->behind, j->at.order);
+    } else {
+        inside_enter(&j->behind, j->at.order, study_interior(s->p, j->at.material));
+    }
+    j->ior_ratio = (Real)inside_ior(s->p->interiors, &j->behind) / (Real)inside_ior(s->p->interiors, inside);
+    j->reflectance = real_grey(0);
+    if (j->finish->reflects) {
+        j->reflectance = real_reflectance(j->finish, real_rgb(rgbft_rgb(j->pigment)), -real_dot(j->normal, way->ray.d),
+                                          j->ior_ratio);
+    }
+}
+
+// The light that a ray brings back: rays that go through are followed in turn, mirrored ones by recursion.
+static RealRgb real_trace(const RealScene *s, RealWay way, Inside *inside, RenderStatistics *statistics)
+{
+    RealRgb sum = real_grey(0);
+    for (;;) {
+        RealJunction j;
+        if (!real_closest(s, &way.ray, way.start, (Real)HUGE_VAL, &j.at)) {
+            return real_rgb_add(sum, 1, real_rgb_mul(way.share, real_rgb(s->p->background)));
+        }
+        real_surface(s, &way.ray, &j.at);
+        real_join(s, &way, inside, &j);
+        Real opaque = 1 - (Real)j.pigment.filter - (Real)j.pigment.transmit;
+        RealRgb light = real_rgb_scale(opaque, real_rgb_mul(real_rgb(rgbft_rgb(j.pigment)), real_rgb(j.finish->glow)));
+        for (size_t i = 0; i < s->p->light_count; i++) {
+            RealRgb one = real_light(s, &s->p->lights[i], j.finish, j.pigment, &j.at, j.normal, way.ray.d, statistics);
+            light = real_rgb_add(light, 1, one);
+        }
+        sum = real_rgb_add(sum, 1, real_rgb_mul(way.share, light));
+        RealWay next = way;
+        Inside onward;
+        bool is_total;
+        inside_copy(&onward, inside);
+        bool goes_on = real_onward(s, &j, &next, &onward, &is_total);
+        if (!is_total) {
+            RealRgb mirrored = real_reflected(s, &j, &way, inside, statistics);
+            sum = real_rgb_add(sum, 1, real_rgb_mul(way.share, mirrored));
+        }
+        if (!goes_on) {
+            return sum;
+        }
+        statistics->transmitted_rays++;
+        way = next;
+        inside_copy(inside, &onward);
+    }
+}
+
+// ---- the camera
+
+static Rgb real_colour(const Prepared *p, double u, double v, RenderStatistics *statistics)
+{
+    const PreparedCamera *camera = &p->camera;
+    RealScene s = {p, p->scene, (Real)1 / (Real)p->textures.scale};
+    RealVec across = real_sub(real_scale((Real)u, real_vec(camera->right)), real_scale((Real)v, real_vec(camera->up)));
+    bool is_parallel = camera->type == CAMERA_ORTHOGRAPHIC;
+    RealVec location = real_vec(camera->location), direction = real_vec(camera->direction);
+    RealWay way = {.share = real_grey(1), .weight = 1, .level = 1};
+    way.ray.e = is_parallel ? real_add_scaled(location, 1, across) : location;
+    way.ray.d = real_unit(is_parallel ? direction : real_add_scaled(direction, 1, across));
+    Inside inside;
+    inside_copy(&inside, &p->start);
+    if (is_parallel) {
+        prepared_inside(p, vec3((double)way.ray.e.x, (double)way.ray.e.y, (double)way.ray.e.z), &inside);
+    }
+    statistics->camera_rays++;
+    RealRgb light = real_trace(&s, way, &inside, statistics);
+    return rgb((double)light.red, (double)light.green, (double)light.blue);
+}
+
+#endif
