@@ -100,6 +100,8 @@ typedef struct GrammarState {
     bool begins_raw;       // so is its first token
     size_t function_level; // openers around the body of a function, whose names stand for themselves; 0: none
     bool function_begins;  // the next brace opens one
+    size_t array_level;    // openers around the elements of an array; 0: none
+    bool array_begins;     // the next brace opens them
     size_t own_frame;      // of the stream, in which this directive began; 0: it is none
     bool takes_elements;   // elements of arrays may stand for themselves in it
     bool takes_string;     // it is a directive that takes a string
@@ -118,6 +120,8 @@ void grammar_scan_end(GrammarState *state);
 int grammar_word_token(Symbol symbol);
 // The token of a `#word`; reports E0105 and gives the one that was probably meant, or the token INVALID.
 int grammar_directive_token(GrammarState *state, const char *word, size_t length, Span span);
+// Whether a `#` before a `}` is passed over, with a warning: in a block of items.
+bool grammar_is_idle_hash(GrammarState *state, Span span);
 bool grammar_is_directive(int token);
 DirectiveRole grammar_role(int token);
 Symbol grammar_directive_word(int token);       // of a token that is a directive

@@ -483,7 +483,9 @@ sum:
 | NAME                              %prec JUXTAPOSED { $$ = grammar_name(state, $NAME, @$); }
 | CONSTANT                          { $$ = LEAF(CONSTANT, $CONSTANT, @$); }
 | indexed                           %prec JUXTAPOSED { $$ = FOLD($indexed); }
-| '<' components comma '>'          { $$ = FOLD(LIST(VECTOR, SYMBOL_NONE, @$, $components)); }
+| '<' components '>'                { $$ = FOLD(LIST(VECTOR, SYMBOL_NONE, @$, $components)); }
+| '<' components ',' '>'
+    { $$ = FOLD(LIST(VECTOR, SYMBOL_NONE, @$, ast_flag_last($components, AST_BEFORE_COMMA))); }
 | '(' full ')'                      { $$ = ast_flag($full, AST_IN_PARENTHESES); }
 | '(' inline ')'                    { $$ = ast_flag($inline, AST_IN_PARENTHESES); }
 | NAME '(' arguments ')'            { $$ = FOLD(LIST(CALL, $NAME, @$, $arguments)); }

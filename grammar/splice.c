@@ -27,6 +27,7 @@ typedef enum FrameKind {
     FRAME_FOR,    // tokens of a loop's body, up to its #end
     FRAME_BRANCH, // the chosen branch of an #if: no tokens of its own
     FRAME_SWITCH, // a #switch
+    FRAME_LEFT,   // a text at its end, under directives that began in it: keeps their places
 } FrameKind;
 
 typedef struct Frame {
@@ -103,15 +104,26 @@ static Frame *push(GrammarStream *stream, FrameKind kind, const Token *opened_by
     return &stream->frames.items[stream->frames.count - 1];
 }
 
-static void drop(GrammarStream *stream, size_t at)
+static void leave(GrammarStream *stream, Frame *frame)
 {
-    Frame *frame = &stream->frames.items[at];
     if (frame->kind == FRAME_MACRO || frame->kind == FRAME_FILE) {
         stream->hooks->leave(stream->hooks->client);
     }
     free(frame->owned);
+    frame->owned = NULL;
+    frame->kind = FRAME_LEFT;
+}
+
+// Removes a frame, and those that were left under it.
+static void drop(GrammarStream *stream, size_t at)
+{
+    Frame *frame = &stream->frames.items[at];
+    leave(stream, frame);
     memmove(frame, frame + 1, (stream->frames.count - at - 1) * sizeof *frame);
     stream->frames.count--;
+    while (stream->frames.count > 0 && stream->frames.items[stream->frames.count - 1].kind == FRAME_LEFT) {
+        stream->frames.count--;
+    }
 }
 
 static void drop_to(GrammarStream *stream, size_t count)
@@ -132,10 +144,10 @@ static size_t owner_of_middle(const GrammarStream *stream)
 {
     for (size_t i = stream->frames.count; i > 0; i--) {
         FrameKind kind = stream->frames.items[i - 1].kind;
-        if (kind >= FRAME_WHILE) {
+        if (kind >= FRAME_WHILE && kind != FRAME_LEFT) {
             return i - 1;
         }
-        if (kind != FRAME_FILE) {
+        if (kind != FRAME_FILE && kind != FRAME_LEFT) {
             break;
         }
     }
@@ -179,7 +191,11 @@ static void read_raw(GrammarStream *stream, Token *token)
             fault_unclosed(stream, &stream->frames.items[stream->frames.count - 1].opened_by);
             break;
         }
-        drop(stream, at - 1);
+        if (at < stream->frames.count) {
+            leave(stream, frame);
+        } else {
+            drop(stream, at - 1);
+        }
     }
     deliver_end(stream, token);
 }
@@ -552,7 +568,7 @@ static void break_out(Reading *reading)
         case FRAME_SWITCH:
             if (skip(stream, &opener, branches + 1, false, NULL, &last)) {
                 for (size_t j = stream->frames.count; j >= i; j--) {
-                    if (!has_text(&stream->frames.items[j - 1])) {
+                    if (j <= stream->frames.count && !has_text(&stream->frames.items[j - 1])) {
                         drop(stream, j - 1);
                     }
                 }
@@ -757,6 +773,14 @@ static void track_more(GrammarState *state)
     } else if (last->kind == '>' && open != NULL && open->kind == '<') {
         state->openers.count--;
     }
+    if (last->kind == TOKEN_ARRAY || last->kind == ',') {
+        state->array_begins = last->kind == TOKEN_ARRAY;
+    } else if (last->kind == '{' && state->array_begins) {
+        state->array_begins = false;
+        state->array_level = state->openers.count;
+    } else if (state->openers.count < state->array_level) {
+        state->array_level = 0;
+    }
     if (last->kind == TOKEN_FUNCTION) {
         state->function_begins = true;
     } else if (last->kind == '{' && state->function_begins) {
@@ -770,6 +794,14 @@ static void track_more(GrammarState *state)
 static bool is_in_function(const GrammarState *state)
 {
     return state->function_begins || state->function_level > 0;
+}
+
+// Where an element of an array or an item in it begins or has ended, no directive and no call may stand.
+static bool is_between_elements(const GrammarState *state)
+{
+    const Opener *open = state->array_level > 0 ? &state->openers.items[state->openers.count - 1] : NULL;
+    int last = state->previous.kind;
+    return open != NULL && open->kind == '{' && (state->ends_before || last == '{' || last == ',');
 }
 
 static bool is_call(GrammarStream *stream, const GrammarState *state, const Token *token)
@@ -859,7 +891,9 @@ void grammar_splice_token(GrammarState *state, Token *token)
             cut(stream, state, token);
             return;
         }
-        if (is_directive) {
+        if (is_between_elements(state)) {
+            fault(stream, DIAG_E0223, token->span, "no directive and no macro call can stand here, in the elements of an array");
+        } else if (is_directive) {
             run_directive(stream, token);
         } else {
             call_macro(stream, token);

@@ -140,6 +140,19 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
     return belongs ? meant : TOKEN_INVALID;
 }
 
+bool grammar_is_idle_hash(GrammarState *state, Span span)
+{
+    const Opener *open = grammar_innermost(state);
+    bool is_idle = state->stream == NULL && state->source != NULL && open != NULL && open->kind == '{';
+    for (size_t i = 0; i < state->openers.count; i++) { // but not among the elements of an array
+        is_idle = is_idle && (state->openers.items[i].kind != '{' || state->openers.items[i].word != SYMBOL_NONE);
+    }
+    if (is_idle) {
+        diag_report(state->context->diags, DIAG_W0102, span, "a `#` without the name of a directive means nothing");
+    }
+    return is_idle;
+}
+
 // ---- What is open.
 
 Opener *grammar_innermost(GrammarState *state)

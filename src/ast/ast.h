@@ -34,7 +34,7 @@ typedef enum AstOp {
 
 enum {
     AST_AFTER_COMMA = 1,  // an item with a comma before it
-    AST_BEFORE_COMMA = 2, // the last item of a body or argument of a call, with a comma after it
+    AST_BEFORE_COMMA = 2, // the last item of a body, argument of a call or component, with a comma after it
     AST_ENDED = 4,        // with its `;`: a #declare, or the last item of a body; ast_equal does not look at it
     AST_UNREADABLE = 16, // a #declare whose value was not understood and has been reported; 0 stands for it
     AST_IN_PARENTHESES =

@@ -166,7 +166,7 @@ static void print_expression(Printer *printer, const AstNode *node)
     case AST_VECTOR:
         put(printer, "<");
         print_list(printer, node->a, printer->indent);
-        put(printer, ">");
+        put(printer, ends_in_comma(node->a) ? ",>" : ">");
         break;
     case AST_CALL:
         if (node->b != NULL) {

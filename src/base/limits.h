@@ -23,7 +23,7 @@ typedef struct Limits {
     unsigned ast_depth;     // nesting of expressions and blocks
     unsigned include_depth; // nesting of #include
     unsigned call_depth;    // nesting of macro calls
-    uint64_t steps;         // loop turns and macro calls, all together
+    uint64_t steps;         // loop turns and calls of macros and functions, all together
     uint64_t objects;       // shapes in the scene
     uint64_t text_bytes;    // bytes of scene text and data files, all together
     size_t memory_bytes;    // what is read, declared and prepared, and the picture, together

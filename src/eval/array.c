@@ -8,10 +8,18 @@
 
 #include "eval/internal.h"
 
+// Objects are of one type, whatever their shapes; of what is not supported nobody knows.
+static bool same_block(const Value *one, const Value *other)
+{
+    bool are_objects = schema_kind((SchemaKind)one->block)->is_object && schema_kind((SchemaKind)other->block)->is_object;
+    return one->block == other->block || are_objects || one->block == KIND_UNSUPPORTED ||
+           other->block == KIND_UNSUPPORTED;
+}
+
 static bool same_type(const Value *one, const Value *other)
 {
     return one->kind == other->kind && one->components == other->components &&
-           (one->kind != VALUE_BLOCK || one->block == other->block);
+           (one->kind != VALUE_BLOCK || same_block(one, other));
 }
 
 bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span)
@@ -29,8 +37,29 @@ bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *valu
                           value_describe(other), value_describe(&kept));
     }
     *element = kept;
-    array->example = element;
+    if (other == NULL || kept.kind != VALUE_BLOCK || kept.block != KIND_UNSUPPORTED) {
+        array->example = element;
+    }
     return true;
+}
+
+bool initialiser_fault(Eval *ev, Span span)
+{
+    ev->faulty = true;
+    if (eval_report(ev, DIAG_E0223, span, "no directive and no macro call can stand here, in the elements of an array")) {
+        diag_suggest(ev->options.diags, "put it into parentheses if it is part of a number or vector, or declare the "
+                                        "element before the array");
+    }
+    return false;
+}
+
+bool begins_with_call(const Eval *ev, const AstNode *node)
+{
+    while ((node->kind == AST_BINARY || node->kind == AST_MEMBER) && !(node->flags & AST_IN_PARENTHESES)) {
+        node = node->a;
+    }
+    bool is_call = node->kind == AST_CALL && !(node->flags & AST_KNOWN) && !call_is_value(ev, node);
+    return (is_call || node->kind == AST_INLINE) && !(node->flags & AST_IN_PARENTHESES);
 }
 
 static bool fill(Eval *ev, ValueArray *array, const AstNode *initialiser, unsigned dimension, size_t *at)
@@ -53,6 +82,9 @@ static bool fill(Eval *ev, ValueArray *array, const AstNode *initialiser, unsign
             continue;
         }
         Value value;
+        if (begins_with_call(ev, part)) {
+            return initialiser_fault(ev, part->span);
+        }
         if (!eval_open_rvalue(ev, part, &value) ||
             !array_assign(ev, array, &array->elements[*at], &value, part->span)) {
             return false;
@@ -104,7 +136,14 @@ bool array_create(Eval *ev, const AstNode *node, Value *value)
     }
     *value = (Value){.kind = VALUE_ARRAY, .array = array};
     size_t at = 0;
-    return node->b == NULL || fill(ev, array, node->b, 0, &at);
+    if (node->b == NULL) {
+        return true;
+    }
+    unsigned outer = ev->initialiser;
+    ev->initialiser = ev->call_depth + 1;
+    bool fine = fill(ev, array, node->b, 0, &at);
+    ev->initialiser = outer;
+    return fine;
 }
 
 // One index of a chain base[…][…]: turns the base into an offset within `array`, after `used` of its dimensions.

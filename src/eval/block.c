@@ -276,6 +276,25 @@ static bool is_declared(const Eval *ev, const AstNode *name)
     return name->flags & AST_KNOWN ? name->known != NULL : scope_find(ev, name->symbol) != NULL;
 }
 
+static const SchemaProperty *find_property(const Block *block, const AstNode *item)
+{
+    if ((item->kind != AST_WORD && item->kind != AST_BLOCK) || item->symbol >= WORD_COUNT) {
+        return NULL;
+    }
+    unsigned place = block->ev->objects->properties[block->kind][item->symbol];
+    return place ? schema_property(block->kind, place - 1) : NULL;
+}
+
+// Passes over what belongs to a word that was not understood.
+static void skip_values(Block *block)
+{
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item) &&
+           !block_is_misspelt(block, item)) {
+        cursor_skip(&block->cursor);
+    }
+}
+
 // A leading identifier of a block. One that stands for a number or a colour is left for the arguments.
 static void read_name(Block *block)
 {
@@ -292,9 +311,15 @@ static void read_name(Block *block)
         (may_lack_values && block_is_misspelt(block, item))) {
         return;
     }
-    if (!eval_expression(block->ev, item, &value)) {
+    block->ev->at_colour = block->kind == KIND_PIGMENT;
+    bool is_value = eval_expression(block->ev, item, &value);
+    block->ev->at_colour = false;
+    if (!is_value) {
         block->has_name = block->has_fault = true;
         cursor_skip(&block->cursor);
+        if (block->kind == KIND_PIGMENT) {
+            skip_values(block); // of a colour word that was not understood
+        }
     } else if (value.kind == VALUE_BLOCK) {
         block->has_name = true;
         cursor_skip(&block->cursor);
@@ -314,7 +339,10 @@ bool block_begins_like_colour(Block *block, const AstNode *item)
     if (!block_is_name(item)) {
         return false;
     }
-    return !eval_expression(block->ev, item, &value) || value.kind == VALUE_COLOUR;
+    block->ev->at_colour = true;
+    bool is_like = !eval_expression(block->ev, item, &value) || value.kind == VALUE_COLOUR;
+    block->ev->at_colour = false;
+    return is_like;
 }
 
 static bool read_argument(Block *block, const SchemaProperty *argument)
@@ -363,25 +391,6 @@ static void read_arguments(Block *block)
 
 // ---- properties
 
-static const SchemaProperty *find_property(const Block *block, const AstNode *item)
-{
-    if ((item->kind != AST_WORD && item->kind != AST_BLOCK) || item->symbol >= WORD_COUNT) {
-        return NULL;
-    }
-    unsigned place = block->ev->objects->properties[block->kind][item->symbol];
-    return place ? schema_property(block->kind, place - 1) : NULL;
-}
-
-// Passes over what belongs to a word that was not understood.
-static void skip_values(Block *block)
-{
-    const AstNode *item;
-    while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item) &&
-           !block_is_misspelt(block, item)) {
-        cursor_skip(&block->cursor);
-    }
-}
-
 static bool is_property_elsewhere(const Block *block, Symbol symbol)
 {
     for (size_t kind = 0; kind < KIND_COUNT; kind++) {
@@ -403,7 +412,8 @@ static void refuse_unsupported(Block *block, const AstNode *item)
 {
     if (!block->has_unsupported) {
         block->has_unsupported = true;
-        block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, block->kind);
+        const char *word = item->kind == AST_FUNCTION ? "function" : eval_text(block->ev, item->symbol);
+        block_unsupported(block->ev, word, item->span, block->kind);
     }
     while (schema_kind(block->kind)->is_fixed && cursor_peek(&block->cursor)) {
         cursor_skip(&block->cursor);
@@ -444,6 +454,8 @@ static void refuse_value(Block *block, const AstNode *item)
         block->has_fault = !eval_expression(block->ev, item, &value);
     } else if (is_undeclared) {
         block_unknown_property(block, item);
+    } else if (item->kind == AST_FUNCTION) {
+        refuse_unsupported(block, item);
     } else if (block->has_fault) {
         // It may be a value that would have had its place.
     } else if (item->kind == AST_NAME) {

@@ -371,12 +371,36 @@ static bool fault_count(Eval *ev, const AstNode *node, const Builtin *builtin)
                       node->count == 1 ? "is" : "are");
 }
 
+static bool is_open_relation(const AstNode *node)
+{
+    bool is_relation = node != NULL && (node->kind == AST_CONDITIONAL ||
+                                        (node->kind == AST_BINARY && node->op < AST_OP_ADD));
+    return is_relation && !(node->flags & AST_IN_PARENTHESES);
+}
+
+// The parentheses of a function of one number are parentheses as any other.
+static bool takes_relation(const AstNode *call)
+{
+    return call->count == 1 && call->symbol != W_vlength && call->symbol != W_vnormalize;
+}
+
+static bool fault_relation(Eval *ev, const AstNode *node)
+{
+    if (eval_report(ev, DIAG_E0225, node->span, "comparisons and choices stand in parentheses of their own here")) {
+        diag_suggest(ev->options.diags, "put parentheses around it");
+    }
+    return false;
+}
+
 bool builtin_call(Eval *ev, const AstNode *node, Value *value)
 {
     const Builtin *builtin = &builtins[node->symbol];
     if (RT_UNLIKELY(node->count < builtin->least ||
                     (node->count > builtin->greatest && builtin->greatest != ANY_COUNT))) {
         return fault_count(ev, node, builtin);
+    }
+    if (RT_UNLIKELY(is_open_relation(node->a)) && !takes_relation(node)) {
+        return fault_relation(ev, node->a);
     }
     bool fine;
     ev->inner++;

@@ -200,6 +200,10 @@ const AstNode *cursor_peek(Cursor *cursor)
             end_of_frame(cursor);
             continue;
         }
+        if (is_in_initialiser(ev) && item->kind <= AST_MEMBER && begins_with_call(ev, item)) {
+            (void)initialiser_fault(ev, item->span);
+            continue;
+        }
         if (item->kind == AST_CALL && !(item->flags & AST_KNOWN) && !call_is_value(ev, item)) {
             expand(cursor, item);
         } else if (!directive_run(cursor, item)) {

@@ -53,7 +53,14 @@ static void run_declare(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     Value value;
-    if ((node->flags & AST_UNREADABLE) || !eval_open_rvalue(ev, node->b, &value)) {
+    const AstNode *target = node->a;
+    if (target->kind == AST_NAME && !scope_declare_begin(ev, target->symbol, node->op == AST_OP_LOCAL, target->span)) {
+        return;
+    }
+    ev->at_colour = node->b->kind == AST_NAME && !(node->flags & AST_ENDED); // with a vector behind it
+    bool fine = !(node->flags & AST_UNREADABLE) && eval_open_rvalue(ev, node->b, &value);
+    ev->at_colour = false;
+    if (!fine) {
         forget_value(ev, node->a, node->op == AST_OP_LOCAL);
         return;
     }
@@ -342,6 +349,10 @@ bool directive_run(Cursor *cursor, const AstNode *node)
     DirectiveFn run = directives[node->kind];
     if (run == NULL) {
         return false;
+    }
+    if (is_in_initialiser(cursor->ev)) {
+        (void)initialiser_fault(cursor->ev, node->span);
+        return true;
     }
     Arena *scratch = &cursor->ev->scratch;
     ArenaMark mark = arena_mark(scratch);

@@ -58,6 +58,9 @@ bool eval_vector3(Eval *ev, const AstNode *node, Vec3 *vector)
 
 bool eval_string(Eval *ev, const AstNode *node, Value *value)
 {
+    if (is_in_initialiser(ev) && begins_with_call(ev, node)) {
+        return initialiser_fault(ev, node->span);
+    }
     ev->inner++;
     bool fine = eval_expression(ev, node, value) && value_string(ev, value, node->span);
     ev->inner--;
@@ -100,6 +103,16 @@ static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
     return false;
 }
 
+// The declaration that is being worked out makes the name, which hides any other from then on, as in POV-Ray.
+bool name_fault_unset(Eval *ev, const AstNode *node)
+{
+    const char *name = eval_text(ev, node->symbol);
+    if (eval_report(ev, DIAG_E0224, node->span, "`%s` has no value before its declaration ends", name)) {
+        diag_suggest(ev->options.diags, "if another `%s` is meant, copy it to a name of its own first", name);
+    }
+    return false;
+}
+
 static bool eval_name(Eval *ev, const AstNode *node, Value *value)
 {
     const Value *found = node->flags & AST_KNOWN ? node->known : scope_find(ev, node->symbol);
@@ -108,6 +121,9 @@ static bool eval_name(Eval *ev, const AstNode *node, Value *value)
     }
     if (RT_UNLIKELY(found->kind == VALUE_NONE)) {
         return false; // its declaration has been reported
+    }
+    if (RT_UNLIKELY(found->kind == VALUE_UNSET)) {
+        return name_fault_unset(ev, node);
     }
     if (RT_UNLIKELY(found->kind == VALUE_MACRO)) {
         return eval_fault(ev, DIAG_E0208, node->span, "the macro `%s` is called without its parentheses",
@@ -387,11 +403,16 @@ static bool eval_vector(Eval *ev, const AstNode *node, Value *value)
 {
     unsigned count = 0;
     bool fine = true;
+    const AstNode *last = NULL;
     ev->inner++;
     for (const AstNode *part = node->a; part != NULL; part = part->next) {
         fine = take_components(ev, part, value, &count) && fine;
+        last = part;
     }
     ev->inner--;
+    if (RT_UNLIKELY(count == 5 && (last->flags & AST_BEFORE_COMMA))) {
+        return eval_fault(ev, DIAG_E0204, last->span, "no comma may follow the fifth component of a vector");
+    }
     if (count < 2 || count > 5) {
         return eval_fault(ev, DIAG_E0204, node->span, "a vector has 2 to 5 components, not %u", count);
     }

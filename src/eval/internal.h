@@ -39,6 +39,7 @@
 
 typedef enum ValueKind {
     VALUE_NONE, // an uninitialised array element, or the result of a fault that has been reported
+    VALUE_UNSET, // what a name stands for while its first value is worked out
     VALUE_NUMBER,
     VALUE_VECTOR, // 2 to 5 components
     VALUE_COLOUR, // red, green, blue, filter, transmit
@@ -143,6 +144,7 @@ typedef struct Eval {
     bool has_stray_word; // at the top level, reported: its values are not reported as well
     bool faulty;         // something was reported, if only before
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
+    unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are worked out; 0: none
     bool at_colour;      // the value that is being worked out stands where a colour word could
     bool stop;           // a limit is exhausted, #error was met or there are too many faults: unwind
 } Eval;
@@ -231,6 +233,11 @@ Value *scope_find(const Eval *ev, Symbol name);
 // #declare changes what the name stands for, or makes a global; #local makes or changes a name of the innermost level.
 bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span) RT_MUST_CHECK;
 
+// Before the value of a #declare or #local is worked out: a name that it will make is there already, without a value.
+bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span) RT_MUST_CHECK;
+// Whether the name is to be made, and would hide another or none.
+bool scope_is_new(const Eval *ev, Symbol name, bool local);
+
 // Names of the innermost level: a parameter by value, and one that stands for a variable of the caller. `array` is the
 // array of which the variable is an element, or NULL.
 bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span) RT_MUST_CHECK;
@@ -249,6 +256,8 @@ Suggest scope_nearest(const Eval *ev, const AstNode *node);
 bool array_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // The element that an INDEX node means, set or not, and its array.
 bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **array) RT_MUST_CHECK;
+// Reports the use of a name whose first value is being worked out; returns false.
+bool name_fault_unset(Eval *ev, const AstNode *node);
 // Whether a NAME stands for something, or an INDEX node for an element that is set; false for any other node.
 bool name_is_declared(Eval *ev, const AstNode *target);
 bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span) RT_MUST_CHECK;
@@ -289,6 +298,15 @@ enum { COMPONENT_GRAY = 5 };
 bool value_component(Symbol name, unsigned width, unsigned *component);
 
 // ---- functions and splines
+
+// In the initialiser of an array, where no directive and no macro call may stand but inside an expression: reports one.
+bool initialiser_fault(Eval *ev, Span span);
+static inline bool is_in_initialiser(const Eval *ev)
+{
+    return RT_UNLIKELY(ev->initialiser != 0) && ev->initialiser == ev->call_depth + 1;
+}
+// Whether the text of a directive or macro begins the expression.
+bool begins_with_call(const Eval *ev, const AstNode *node);
 
 // True when a CALL is one of a function, a spline or an element of an array, and not of a macro.
 bool call_is_value(const Eval *ev, const AstNode *call);

@@ -324,7 +324,7 @@ static bool take_whole(Cursor *cursor, const Wanted *wanted, Value *value)
                          .v = {colour.red, colour.green, colour.blue, colour.filter, colour.transmit}};
         return true;
     }
-    if (item != NULL && (item->kind == AST_BLOCK || item->kind == AST_ARRAY)) {
+    if (item != NULL && (item->kind == AST_BLOCK || item->kind == AST_ARRAY || item->kind == AST_FUNCTION)) {
         cursor_skip(cursor);
         return eval_rvalue(ev, item, value);
     }

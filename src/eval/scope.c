@@ -160,7 +160,7 @@ static Binding *find_or_make(Eval *ev, Symbol name, bool local, Span span)
 static bool may_replace(Eval *ev, const Value *known, const Value *value, Symbol name, Span span)
 {
     bool was_function = known->kind == VALUE_FUNCTION;
-    bool is_new = known->kind == VALUE_NONE || value->kind == VALUE_NONE;
+    bool is_new = known->kind <= VALUE_UNSET || value->kind == VALUE_NONE;
     if (is_new || (!was_function && value->kind != VALUE_FUNCTION)) {
         return true;
     }
@@ -170,6 +170,28 @@ static bool may_replace(Eval *ev, const Value *known, const Value *value, Symbol
         diag_suggest(ev->options.diags, "write `#undef %s` before it", eval_text(ev, name));
     }
     return false;
+}
+
+bool scope_is_new(const Eval *ev, Symbol name, bool local)
+{
+    const Binding *binding = find(ev, name);
+    return binding == NULL || (local && binding->level != ev->scope->levels.count);
+}
+
+bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span)
+{
+    if (RT_LIKELY(!scope_is_new(ev, name, local))) {
+        return true;
+    }
+    const Binding *outer = find(ev, name);
+    if (outer != NULL && (outer->variable->kind == VALUE_MACRO || outer->variable->kind == VALUE_FUNCTION)) {
+        return true; // it is not hidden
+    }
+    Binding *binding = make(ev, name, local ? ev->scope->levels.count : 0, span);
+    if (binding != NULL) {
+        binding->own = (Value){.kind = VALUE_UNSET};
+    }
+    return binding != NULL;
 }
 
 bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span)
@@ -253,7 +275,8 @@ Suggest scope_nearest(const Eval *ev, const AstNode *node)
     bool has_budget = scope->looked_at < LOOKED_AT_MOST;
     scope->looked_at += has_budget ? scope->innermost.count : 0;
     for (Symbol symbol = 1; has_budget && symbol < scope->innermost.count; symbol++) {
-        if (ev->scope->innermost.items[symbol] != NULL) {
+        const Binding *binding = ev->scope->innermost.items[symbol];
+        if (binding != NULL && binding->variable->kind != VALUE_UNSET) {
             suggest_offer(&suggest, eval_text(ev, symbol));
         }
     }

@@ -80,6 +80,30 @@ static void fold(void *client, AstNode *node)
     arena_rewind(&ev->scratch, mark);
 }
 
+// The first place among expressions where a name was read, or NULL.
+static const AstNode *find_name(const AstNode *node, Symbol name)
+{
+    const AstNode *found = NULL;
+    for (; node != NULL && found == NULL; node = node->next) {
+        bool is_leaf = node->kind == AST_NUMBER || node->kind == AST_NAME;
+        found = node->kind == AST_NAME && node->symbol == name ? node : NULL;
+        found = found == NULL && !is_leaf ? find_name(node->a, name) : found;
+        found = found == NULL && !is_leaf ? find_name(node->b, name) : found;
+        found = found == NULL && !is_leaf && !(node->flags & AST_KNOWN) ? find_name(node->c, name) : found;
+    }
+    return found;
+}
+
+// Its value was worked out before the name is made, which in POV-Ray is the other way round.
+static bool uses_hidden(Eval *ev, const AstNode *directive)
+{
+    const AstNode *target = directive->a;
+    bool is_new = directive->kind == AST_DECLARE && directive->op == AST_OP_LOCAL && target->kind == AST_NAME &&
+                  scope_is_new(ev, target->symbol, true);
+    const AstNode *use = is_new ? find_name(directive->b, target->symbol) : NULL;
+    return use != NULL && !name_fault_unset(ev, use);
+}
+
 static bool run(void *client, const AstNode *directive, bool within)
 {
     Splice *splice = client;
@@ -87,6 +111,9 @@ static bool run(void *client, const AstNode *directive, bool within)
     if (within && directive->kind == AST_DEFAULT) {
         eval_fault(ev, DIAG_E0111, directive->span,
                    "`#default` cannot stand inside an item whose text directives tear apart");
+        return false;
+    }
+    if (uses_hidden(ev, directive)) {
         return false;
     }
     directive_run(&splice->cursor, directive);

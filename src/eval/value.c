@@ -44,6 +44,7 @@ const char *value_describe(const Value *value)
     static const char *const tuples[] = {"", "", "a vector of 2", "a vector of 3", "a vector of 4", "a vector of 5"};
     switch ((ValueKind)value->kind) {
     case VALUE_NONE: return "nothing";
+    case VALUE_UNSET: return "a name without a value";
     case VALUE_NUMBER: return "a number";
     case VALUE_VECTOR: return tuples[value->components];
     case VALUE_COLOUR: return "a colour";

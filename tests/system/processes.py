@@ -90,6 +90,16 @@ def tests(tap, program):
         tap.equal((process.returncode, message), (130, b"rtlang: interrupted; nothing was written\n"), "interrupted")
         check_untouched(before, "an interrupt leaves the old picture and nothing else")
 
+    def test_interrupt_in_json():
+        """Each line of standard error is one object, so an interrupt is told by the status alone."""
+        write("endless.scn", b"#while (1) #end\n")
+        process = subprocess.Popen([program, "--diagnostics=json", "--check", "--max-steps=1000000000000", "endless.scn"],
+                                   stderr=subprocess.PIPE)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        message = process.communicate(timeout=60)[1]
+        tap.equal((process.returncode, message), (130, b""), "interrupted, with messages in JSON")
+
     def test_signals():
         write("endless.scn", b"#while (1) #end\n")
         write("long.scn", b"sphere { 0, 1 }\n" * 2000000)
@@ -161,5 +171,5 @@ def tests(tap, program):
         short = subprocess.run([*command, f"--max-memory={needs - 1}"], stderr=subprocess.PIPE, check=False)
         tap.ok(short.returncode == 4 and b"E0607" in short.stderr, "and less does not", short.stderr)
 
-    return [test_kill, test_kill_at_any_time, test_interrupt, test_signals, test_progress, test_million_spheres,
-            test_budget]
+    return [test_kill, test_kill_at_any_time, test_interrupt, test_interrupt_in_json, test_signals, test_progress,
+            test_million_spheres, test_budget]
