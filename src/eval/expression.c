@@ -389,6 +389,8 @@ static bool take_components(Eval *ev, const AstNode *part, Value *value, unsigne
     Cursor cursor;
     Span span;
     bool fine = true;
+    unsigned initialiser = ev->initialiser;
+    ev->initialiser = 0;
     cursor_open(&cursor, ev, part->a, part->span);
     while (cursor_peek(&cursor) != NULL) {
         fine = cursor_number(&cursor, &number, &span) && fine;
@@ -396,6 +398,7 @@ static bool take_components(Eval *ev, const AstNode *part, Value *value, unsigne
         ++*count;
     }
     cursor_close(&cursor);
+    ev->initialiser = initialiser;
     return fine && !ev->stop;
 }
 

@@ -383,9 +383,12 @@ static bool walk_inline(Eval *ev, const AstNode *node, TakeFn take, void *client
 {
     Cursor cursor;
     Wanted wanted = {node->span, NULL};
+    unsigned initialiser = ev->initialiser;
+    ev->initialiser = 0;
     cursor_open(&cursor, ev, node->a, node->span);
     bool fine = take(&cursor, &wanted, client) && finish(&cursor);
     cursor_close(&cursor);
+    ev->initialiser = initialiser;
     return fine && !ev->stop;
 }
 

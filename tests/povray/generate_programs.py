@@ -51,9 +51,11 @@ class Program(Expressions):
     def statement(self):
         simple = [self.declare, self.declare, self.assign, self.assign, self.print, self.print, self.print,
                   self.set_element, self.undefine]
-        blocks = [self.if_, self.ifdef, self.switch, self.for_, self.while_, self.call_statement]
+        blocks = [self.if_, self.ifdef, self.switch, self.for_, self.while_, self.call_statement, self.torn_value]
+        if not self.in_macro:  # which may stand for a value
+            blocks += [self.object, self.torn_object]
         top = [self.macro, self.macro, self.array, self.array, self.include, self.redeclare, self.recursion,
-               self.version, self.function, self.spline]
+               self.version, self.function, self.spline, self.data_file, self.default, self.torn_macro]
         choices = simple + (blocks if self.level < BLOCK_DEPTH else []) + (top if self.level == 0 else [])
         self.dice.choice(choices)()
 
@@ -226,6 +228,120 @@ class Program(Expressions):
         self.add("#end")
         self.scope.types[counter] = "1"
         self.scope.fixed.add(counter)
+
+    # ---- blocks, and statements that directives tear apart
+
+    def say(self):
+        """A line that is printed while something else is read."""
+        self.printed += 1
+        return f'#debug concat("{self.printed}: ", str({self.number(1)}, 0, 9), "\\n")'
+
+    def point(self):
+        return f"<{self.number(0)}, {self.number(0)}, {self.number(0)}>"
+
+    def item(self):
+        """What may stand among the properties of an object."""
+        return self.dice.choice([
+            lambda: self.say(), lambda: f"translate {self.point()}", lambda: f"rotate {self.literal()} * y",
+            lambda: "scale 2", lambda: f"pigment {{ {self.say()} rgb {self.point()} }}",
+            lambda: f"finish {{ ambient {self.literal()} #if ({self.condition()}) diffuse {self.literal()} #end }}",
+            lambda: f"#if ({self.condition()}) {self.say()} translate {self.point()} #else {self.say()} #end",
+            lambda: f"#ifndef ({self.name('U')}) scale <1, 2, 1> #end",
+        ])()
+
+    def sphere(self):
+        return f"sphere {{ {self.point()}, 1 + abs({self.literal()}) {' '.join(self.items(2))} }}"
+
+    def items(self, most):
+        return [self.item() for _ in range(self.dice.randrange(most + 1))]
+
+    def object(self):
+        counter = self.name("I")
+        body = self.dice.choice([
+            lambda: self.sphere(),
+            lambda: f"union {{ {self.sphere()} #for ({counter}, 1, 2) {self.sphere()} {self.say()} #end {' '.join(self.items(2))} }}",
+            lambda: f"box {{ {self.point()}, {self.point()} {' '.join(self.items(3))} }}",
+        ])()
+        if self.chance(0.4) and self.level == 0:
+            name = self.name("O")
+            self.add(f"#declare {name} = {body}")
+            self.add(f"object {{ {name} {' '.join(self.items(1))} }}")
+            self.scope.fixed.add(name)
+        else:
+            self.add(body)
+
+    def torn_value(self):
+        """A value of which a directive's branch holds a part that begins or ends with an operator."""
+        counter = self.name("I")
+        name, condition = self.name("V"), self.condition()
+        text = self.dice.choice([
+            lambda: f"({self.atom()} #if ({condition}) + {self.atom()} #else - {self.atom()} #end)",
+            lambda: f"({self.atom()} #if ({condition}) * #else + #end ({self.number(1)}))",
+            lambda: f"(0 #for ({counter}, 1, 3) + {counter} * {self.atom()} #end)",
+            lambda: f"<{self.atom()}, {self.atom()} #if ({condition}) * 2, #else - 1, #end {self.literal()}>.y",
+            lambda: f"(#switch ({self.dice.randrange(3)}) #case (0) {self.say()} 1 + #case (1) 2 #break #else -3 #end)",
+            lambda: f"min({self.atom()}, #if ({condition}) {self.atom()}, #end {self.literal()})",
+        ])()
+        self.add(f"#declare {name} = {text};")
+        self.add(f'#debug concat("{name} ", str({name}, 0, 9), "\\n")')
+
+    def torn_object(self):
+        condition = self.condition()
+        self.add(self.dice.choice([
+            lambda: f"#if ({condition}) union {{ #else merge {{ #end {self.sphere()} {self.say()} {self.sphere()} }}",
+            lambda: f"sphere {{ {self.point()}, 1 #if ({condition}) translate {self.point()} }} {self.say()} #else scale 2 }} #end",
+            lambda: f"#ifdef ({self.name('U')}) sphere {{ 9, #else {self.say()} sphere {{ {self.point()}, #end 0.5 }}",
+            lambda: f"box {{ #if ({condition}) {self.point()}, #else -1, {self.say()} #end 9 {' '.join(self.items(2))} }}",
+        ])())
+
+    def torn_macro(self):
+        """A macro that opens a block, or holds the rest of an expression."""
+        name, parameter = self.name("M"), self.name("Q")
+        if self.chance(0.5):
+            self.add(f"#macro {name}({parameter}) union {{ sphere {{ {parameter} * x, 1 }} {self.say()} #end")
+            self.add(f"{name}({self.atom()}) {self.sphere()} }}")
+        else:
+            value = self.name("V")
+            self.add(f"#macro {name}({parameter}) + {parameter} * {self.literal()} #end")
+            self.add(f"#declare {value} = ({self.atom()} {name}({self.atom()}) {name}(2));")
+            self.add(f'#debug concat("{value} ", str({value}, 0, 9), "\\n")')
+
+    def default(self):
+        self.add(self.dice.choice([
+            lambda: f"#default {{ finish {{ ambient {self.literal()} {self.say()} phong 1 }} }}",
+            lambda: f"#default {{ pigment {{ rgb {self.point()} }} }}",
+            lambda: f"#default {{ texture {{ pigment {{ rgb 1 }} finish {{ #if ({self.condition()}) diffuse 1 #end }} }} }}",
+        ])())
+
+    # ---- data files
+
+    def data_file(self):
+        """Numbers, vectors and strings that are read back; the number of values is known or asked for."""
+        file, data = self.name("D"), f"{self.prefix}_{len(self.files)}.txt"
+        kinds = [self.dice.choice("113S") for _ in range(self.dice.randrange(1, 7))]
+        signed = lambda: self.dice.choice(["", "-", "+"]) + self.literal()
+        values = {"1": signed, "3": lambda: f"<{signed()}, {signed()}, {signed()}>",
+                  "S": lambda: self.quoted(f"s{self.dice.randrange(100)}")}
+        shown = {"1": 'str({0}, 0, 9)', "3": 'vstr(3, {0}, " ", 0, 9)', "S": "{0}"}
+        blank = self.dice.choice([" ", "\n", "  // why not\n", "\t"])
+        self.files[data] = ("," + blank).join(values[kind]() for kind in kinds) + self.dice.choice(["", ",", ",\n"])
+        self.add(f"#fopen {file} {self.quoted(data)} read")
+        if len(set(kinds)) == 1 and self.chance(0.6):
+            value, count = self.name("V"), self.name("N")
+            self.add(f"#declare {count} = 0;")
+            self.add(f"#while (defined({file}))")
+            self.add(f"    #read ({file}, {value})")
+            self.add(f'    #debug concat("{value} ", {shown[kinds[0]].format(value)}, "\\n")')
+            self.add(f"    #declare {count} = {count} + 1; #if ({count} > {len(kinds)}) #break #end")
+            self.add("#end")
+        else:
+            names = [self.name("V") for _ in kinds]
+            split = self.dice.randrange(len(kinds) + 1)
+            for part in filter(None, (names[:split], names[split:])):
+                self.add(f"#read ({file}, {', '.join(part)})")
+            for name, kind in zip(names, kinds):
+                self.add(f'#debug concat("{name} ", {shown[kind].format(name)}, "\\n")')
+        self.add(f"#fclose {file}")
 
     # ---- macros
 
