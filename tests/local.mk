@@ -52,7 +52,9 @@ unit_programs = \
   tests/unit/test_image_png \
   tests/unit/test_image_strips \
   tests/unit/test_image_values \
-  tests/unit/test_render
+  tests/unit/test_render \
+  tests/unit/test_render_sampler \
+  tests/sampling/test_sampling
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
 
 unit_headers = %D%/unit/tap.h %D%/unit/random.h
@@ -121,6 +123,10 @@ tests_unit_test_study_SOURCES = %D%/unit/test_study.c
 tests_unit_test_study_LDADD = libapi.la
 tests_unit_test_trace_pixel_SOURCES = %D%/unit/test_trace_pixel.c
 tests_unit_test_trace_pixel_LDADD = libapi.la
+tests_unit_test_render_sampler_SOURCES = %D%/unit/test_render_sampler.c
+tests_unit_test_render_sampler_LDADD = librender.la $(UNIT_TRACE)
+tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
+tests_sampling_test_sampling_LDADD = libapi.la
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
 tests_lang_run_lang_LDADD = libeval.la libscene.la libgrammar.la libast.la libmath.la libbase.la
 
@@ -224,3 +230,9 @@ check-long: rtlang$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
+
+# Error against samples, with all seeds and scenes.
+.PHONY: check-sampling
+check-long: check-sampling
+check-sampling: tests/sampling/test_sampling$(EXEEXT)
+	tests/sampling/test_sampling$(EXEEXT) long

@@ -144,6 +144,20 @@ typedef enum rt_precision {
     RT_PRECISION_REFERENCE /* double, by the reference kernel */
 } rt_precision;
 RT_API rt_status rt_set_precision(rt_session *session, rt_precision precision);
+/* Several rays a pixel; docs/sampling.md. Names are those of the program's options; all zero is one ray a pixel. */
+typedef struct rt_sampling {
+    const char *sampler; /* "sobol", "halton", "jittered", "grid" or "random"; NULL for the first */
+    const char *filter;  /* "box", "tent", "gaussian" or "mitchell"; NULL for the first */
+    double samples;      /* a pixel; 0: as many as the goals below want, or 1 if there are none */
+    uint64_t seed;
+    int adaptive;        /* more where the error is, `samples` in the mean; goals imply it */
+    double target_error; /* root mean square in linear light, at which the run ends; 0: none */
+    double time_limit;   /* seconds of tracing; 0: none */
+    int no_estimate;     /* do not work out the error; the picture is the same */
+} rt_sampling;
+/* RT_FAULT_USAGE for an unknown name, a number out of range, or goals with "jittered" or "grid". */
+RT_API rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling);
+
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets, the
@@ -151,6 +165,24 @@ RT_API rt_status rt_render(rt_session *session, int threads);
  * colour is the picture's. Text, or with RT_FORMAT_JSON one object on one line. *text is valid until the next call on the
  * session. RT_FAULT_USAGE when the pixel is not in the picture. */
 RT_API rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text);
+
+/* Why a sampled run ended. */
+typedef enum rt_end { RT_END_DONE, RT_END_TARGET, RT_END_TIME, RT_END_INTERRUPTED } rt_end;
+
+/* What sampling leaves of error in the picture, worked out from the samples themselves. May be asked for while rendering,
+ * from the progress callback. */
+typedef struct rt_error {
+    int known;              /* 0: one ray a pixel, or no estimate; only `samples` then means something */
+    double rmse, low, high; /* root mean square over all values, in linear light; ends of the 95 % interval */
+    double samples;         /* a pixel, in the mean; 0: not every pixel has one */
+    double slope;           /* of log rmse in log samples, as far as can be told */
+    double bias;            /* what rays cut by max_trace_level or adc_bailout would add in the mean, at the least */
+    rt_end end;
+    double seconds_left;    /* while rendering: predicted, or negative */
+} rt_error;
+RT_API void rt_get_error(const rt_session *session, rt_error *error);
+/* Write the error of each pixel as a grey picture in linear light. RT_FAULT_USAGE when there is none. */
+RT_API rt_status rt_write_error(rt_session *session, const char *path);
 /* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread or a signal handler. */
 RT_API void rt_cancel(rt_session *session);
 
@@ -172,7 +204,7 @@ RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt
 /* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
 
-/* The rendered picture: width * height * 3 floats (red, green, blue) from the top row, in linear light, not clamped; of a
+/* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red, green, blue) from the top row, in linear light, not clamped; of a
  * scene that says nothing of gamma (docs/language.md, "Gamma"), the values as they are stored in the file. Valid until
  * the session is freed; NULL before rt_render. */
 RT_API const float *rt_pixels(const rt_session *session, int *width, int *height);

@@ -413,7 +413,8 @@ rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)
     if (is_traced) {
         Printer printer = {&session->dump, &session->diags, &life};
         // As the film has it: in single precision first.
-        Film pixel = {1, 1, (float[]){(float)life.colour.red, (float)life.colour.green, (float)life.colour.blue}};
+        float values[] = {(float)life.colour.red, (float)life.colour.green, (float)life.colour.blue};
+        Film pixel = {.width = 1, .height = 1, .rgb = values};
         session_film_to_linear(&session->scene.settings, &pixel);
         (session->is_json ? print_json : print_text)(&printer, x, y, rgb(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]));
     }

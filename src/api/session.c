@@ -17,6 +17,7 @@
 
 #include "ast/words.h"
 #include "image/image.h"
+#include "render/linear.h"
 #include "render/study.h"
 #include "scene/reach.h"
 
@@ -218,22 +219,18 @@ rt_status rt_load_text(rt_session *session, const char *name, const char *text, 
 
 // ---- the picture
 
-static void forward_progress(void *client, double done)
+static void forward_progress(void *client, const RenderProgress *progress)
 {
     rt_session *session = client;
-    session->callbacks.progress(session->callbacks.client, done);
+    session->seconds_left = progress->seconds_left;
+    session->callbacks.progress(session->callbacks.client, progress->done);
 }
 
 void session_film_to_linear(const Settings *settings, Film *film)
 {
     size_t count = (size_t)film->width * (size_t)film->height * 3;
-    if (settings->gamma_model != GAMMA_POWER && settings->gamma_model != GAMMA_SRGB) {
-        return;
-    }
-    for (size_t i = 0; i < count; i++) {
-        double value = fmax(film->rgb[i], 0.0);
-        film->rgb[i] =
-            (float)(settings->gamma_model == GAMMA_SRGB ? rgb_srgb_decode(value) : pow(value, settings->assumed_gamma));
+    for (size_t i = 0; i < count && linear_is_needed(settings); i++) {
+        film->rgb[i] = (float)linear_value(settings, film->rgb[i]);
     }
 }
 
@@ -265,7 +262,7 @@ static rt_budget budget_of(const rt_session *session)
         .objects = objects,
         .scene = scene,
         .prepared = scene * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
-        .picture = (uint64_t)session->width * (uint64_t)session->height * 3 * sizeof(float),
+        .picture = film_bytes(session->width, session->height, session->is_sampled),
         .limit = session->limits.memory_bytes,
     };
 }
@@ -333,12 +330,13 @@ static RenderResult trace_film(rt_session *session, const Prepared *prepared, co
         return study_film(prepared, precisions[session->precision], options, &session->film, &session->statistics);
     }
 #endif
-    return render_film(prepared, options, &session->film, &session->statistics);
+    return render_film(prepared, options, &session->film, &session->statistics, &session->error);
 }
 
 rt_status rt_render(rt_session *session, int threads)
 {
-    if (!session->loaded || session->rendered || threads < 0) {
+    bool is_study = session->precision != RT_PRECISION_DOUBLE;
+    if (!session->loaded || session->rendered || threads < 0 || (is_study && session->is_sampled)) {
         return RT_FAULT_USAGE;
     }
     if (!session_memory_suffices(session)) {
@@ -367,14 +365,16 @@ rt_status rt_render(rt_session *session, int threads)
         .progress = session->callbacks.progress ? forward_progress : NULL,
         .client = session,
         .cancel = &session->cancel,
+        .sampling = session->is_sampled ? &session->sampling : NULL,
     };
     RenderResult result = trace_film(session, prepared, &options);
     prepared_free(prepared);
-    if (result == RENDER_OK) {
+    bool has_picture = result == RENDER_OK || (result == RENDER_CANCELLED && session->error.samples > 0.0);
+    if (has_picture) {
         session_film_to_linear(&session->scene.settings, &session->film);
     }
     session->trace_seconds = session_clock() - start;
-    session->rendered = result == RENDER_OK;
+    session->rendered = has_picture;
     if (result == RENDER_CANCELLED) {
         return RT_CANCELLED;
     }
@@ -457,7 +457,11 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
     double start = session_clock();
     ImageError error = {""};
     Image image = {session->film.width, session->film.height, 3, session->film.rgb};
+    SessionNotes notes;
+    session_make_notes(session, &notes);
     ImageEncoding encoding = {
+        .notes = notes.items,
+        .note_count = notes.count,
         .depth = output_depth(output, path),
         .transfer = output->file_gamma > 0.0 ? IMAGE_TRANSFER_POWER : IMAGE_TRANSFER_SRGB,
         .gamma = output->file_gamma,

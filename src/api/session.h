@@ -41,6 +41,10 @@ struct rt_session {
     Film film;
     bool rendered; // the film holds a picture in linear light
     int threads;   // that rendered it
+    SamplingOptions sampling;
+    bool is_sampled;
+    SamplingError error;
+    double seconds_left; // while rendering
     RenderStatistics statistics;
     const char *kernel;
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds;
@@ -50,6 +54,15 @@ struct rt_session {
 
 // Seconds of a clock that only goes forward.
 double session_clock(void);
+
+// What a picture's file says of how it was made: nothing, but of sampled pictures.
+enum { NOTES_MAX = 12, NOTE_TEXT = 48 };
+typedef struct SessionNotes {
+    ImageNote items[NOTES_MAX];
+    char texts[NOTES_MAX][NOTE_TEXT];
+    size_t count;
+} SessionNotes;
+void session_make_notes(const rt_session *session, SessionNotes *notes);
 
 // Hands new diagnostics to the client.
 void session_deliver(rt_session *session);

@@ -133,3 +133,43 @@ rt_status rt_set_size(rt_session *session, int width, int height)
     session->height = height;
     return RT_OK;
 }
+
+static bool find_sampler(const char *name, SamplerKind *kind)
+{
+    for (*kind = 0; name && *kind < SAMPLER_COUNT && strcmp(name, sampler_name(*kind)) != 0; (*kind)++) {
+    }
+    return *kind < SAMPLER_COUNT;
+}
+
+static bool find_filter(const char *name, FilterKind *kind)
+{
+    for (*kind = 0; name && *kind < FILTER_COUNT && strcmp(name, filter_name(*kind)) != 0; (*kind)++) {
+    }
+    return *kind < FILTER_COUNT;
+}
+
+static bool is_goal(double value)
+{
+    return value >= 0.0 && isfinite(value);
+}
+
+rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling)
+{
+    const double most = 1 << 24; // a pixel
+    SamplingOptions options = {.seed = sampling->seed, .samples = sampling->samples,
+                               .target_error = sampling->target_error, .time_limit = sampling->time_limit,
+                               .has_no_estimate = sampling->no_estimate != 0};
+    bool has_goal = options.target_error > 0.0 || options.time_limit > 0.0;
+    options.is_adaptive = sampling->adaptive || has_goal;
+    if (!find_sampler(sampling->sampler, &options.sampler) || !find_filter(sampling->filter, &options.filter) ||
+        !is_goal(options.target_error) || !is_goal(options.time_limit) || !is_goal(options.samples) ||
+        options.samples > most || (options.samples > 0.0 && options.samples < 1.0) ||
+        (options.is_adaptive && (!sampler_is_sequence(options.sampler) || options.has_no_estimate)) ||
+        (sampling->adaptive && !has_goal && options.samples == 0.0) ||
+        (!options.is_adaptive && options.samples != floor(options.samples))) {
+        return RT_FAULT_USAGE;
+    }
+    session->sampling = options;
+    session->is_sampled = options.is_adaptive || options.samples > 1.0;
+    return RT_OK;
+}

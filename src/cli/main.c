@@ -46,9 +46,19 @@ static void on_message(void *client, rt_stream stream, const char *text, size_t 
     fwrite(text, 1, length, stderr);
 }
 
+static const char plateau[] = "more samples will not help: rays are cut by max_trace_level or adc_bailout";
+
+// What a run is at that is sampled; the session is the one that is running.
 static void on_progress(void *client, double done)
 {
-    progress_update(client, done);
+    char note[160] = "";
+    rt_error error;
+    rt_get_error(interrupted_session, &error);
+    if (error.known) {
+        snprintf(note, sizeof note, "error %.2g at %.3g rays a pixel%s%s", error.rmse, error.samples,
+                 error.bias > error.high ? "; " : "", error.bias > error.high ? plateau : "");
+    }
+    progress_update(client, done, error.seconds_left, note);
 }
 
 static rt_status fail_usage(rt_session *session, const char *message)
@@ -224,6 +234,64 @@ static void print_summary(const rt_session *session, const char *output)
             s.write_seconds, warnings);
 }
 
+// The error of a sampled picture, and why there is no less.
+static void print_error(const rt_session *session, const Options *options)
+{
+    static const char *const ends[] = {[RT_END_DONE] = "", [RT_END_TARGET] = "; the target is reached",
+                                       [RT_END_TIME] = "; the time is over",
+                                       [RT_END_INTERRUPTED] = "; interrupted"};
+    rt_error error;
+    rt_get_error(session, &error);
+    if (!error.known) {
+        return;
+    }
+    fprintf(stderr, "error: rmse %.3g, with 95 %% confidence %.3g to %.3g, at %.17g samples a pixel%s%s\n", error.rmse,
+            error.low, error.high, error.samples,
+            options->sampling.target_error > 0.0 && error.end != RT_END_TARGET ? "; the target is not reached" : "",
+            ends[error.end]);
+    if (error.bias > 0.0) {
+        fprintf(stderr, "bias: rays cut by max_trace_level or adc_bailout would add about %.2g in the mean%s\n",
+                error.bias, error.bias > error.high ? "; more samples will not help" : "");
+    }
+}
+
+static rt_status set_sampling(rt_session *session, const Options *options)
+{
+    bool is_sampled = options->sampling.samples > 1.0 || options->sampling.target_error > 0.0 ||
+                      options->sampling.time_limit > 0.0;
+    if (is_sampled && options->precision != RT_PRECISION_DOUBLE) {
+        return fail_usage(session, "the reference kernels of `--precision` trace one ray a pixel");
+    }
+    if (rt_set_sampling(session, &options->sampling) == RT_OK) {
+        return RT_OK;
+    }
+    return fail_usage(session, options->sampling.adaptive && options->sampling.samples == 0.0
+                                   ? "`--adaptive` wants `--samples`, `--target-error` or `--time-limit`"
+                               : options->sampling.no_estimate
+                                   ? "adaptive sampling needs the estimate that `--no-estimate` turns off"
+                               : options->sampling.adaptive || options->sampling.target_error > 0.0 ||
+                                       options->sampling.time_limit > 0.0
+                                   ? "adaptive sampling and goals want a sampler of sequences: sobol, halton or random"
+                                   : "`--samples` wants a whole number, unless with `--adaptive` or a goal");
+}
+
+// Writes what there is to write, and tells of it.
+static rt_status finish(rt_session *session, const Options *options, const char *output)
+{
+    rt_status status = rt_write(session, output, &options->encoding);
+    if (!status && options->error_map) {
+        status = rt_write_error(session, options->error_map);
+        if (status == RT_FAULT_USAGE) {
+            return fail_usage(session, "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
+        }
+    }
+    if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
+        print_summary(session, output);
+        print_error(session, options);
+    }
+    return status;
+}
+
 static rt_status render(rt_session *session, const Options *options, Progress *progress)
 {
     char default_name[PATH_MAX];
@@ -232,27 +300,28 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
         default_output(options->scene, default_name, sizeof default_name);
         output = default_name;
     }
-    rt_status status = rt_check_output(session, output, &options->encoding);
+    rt_status status = set_sampling(session, options);
+    status = status ? status : rt_check_output(session, output, &options->encoding);
     if (!status) {
         status = rt_load_file(session, options->scene);
     }
-    if (!status) {
-        progress_begin(progress, !options->quiet && options->format == RT_FORMAT_TEXT);
-        status = rt_set_precision(session, options->precision);
-        if (status) {
-            return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
-        }
-        status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
-        status = status ? status : rt_render(session, options->threads);
-        progress_end(progress);
+    if (status) {
+        return status;
     }
-    if (!status) {
-        status = rt_write(session, output, &options->encoding);
+    progress_begin(progress, !options->quiet && options->format == RT_FORMAT_TEXT);
+    status = rt_set_precision(session, options->precision);
+    if (status) {
+        return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
     }
-    if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
-        print_summary(session, output);
+    status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
+    status = status ? status : rt_render(session, options->threads);
+    progress_end(progress);
+    int width, height;
+    if (status == RT_CANCELLED && rt_pixels(session, &width, &height)) {
+        rt_status written = finish(session, options, output);
+        return written ? written : status;
     }
-    return status;
+    return status ? status : finish(session, options, output);
 }
 
 static rt_status run(rt_session *session, const Options *options, Progress *progress)
@@ -293,6 +362,7 @@ int main(int argc, char **argv)
     rt_callbacks callbacks = {&progress, on_diagnostic, on_message, on_progress};
     rt_session *session = rt_session_new(&callbacks);
     rt_status status = RT_FAULT_LIMIT;
+    bool wrote = false;
     if (session) {
         rt_set_format(session, options.format);
         interrupted_session = session;
@@ -300,6 +370,8 @@ int main(int argc, char **argv)
         status = parsed == OPTIONS_WRONG  ? fail_usage(session, options.complaint)
                  : parsed == OPTIONS_DONE ? print(session, "", RT_OK)
                                           : run(session, &options, &progress);
+        int width, height;
+        wrote = rt_pixels(session, &width, &height) != NULL;
         interrupted_session = NULL;
         rt_session_free(session);
     } else {
@@ -308,7 +380,7 @@ int main(int argc, char **argv)
     bool tells = options.format == RT_FORMAT_TEXT;
     options_fini(&options);
     if (status == RT_CANCELLED) {
-        fputs(tells ? "rtlang: interrupted; nothing was written\n" : "", stderr);
+        fputs(!tells ? "" : wrote ? "rtlang: interrupted\n" : "rtlang: interrupted; nothing was written\n", stderr);
         return 128 + (int)interrupted_by;
     }
     return status;

@@ -186,6 +186,89 @@ static bool apply_file_gamma(Options *options, const char *argument, const char 
     return strcmp(argument, "srgb") == 0 || (end != argument && !*end && gamma > 0.0 && isfinite(gamma));
 }
 
+static bool parse_positive(const char *text, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    return end != text && !*end && *value > 0.0 && isfinite(*value);
+}
+
+static bool apply_samples(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number from 1 to 16777216";
+    options->is_sampled = true;
+    return parse_positive(argument, &options->sampling.samples) && options->sampling.samples >= 1.0 &&
+           options->sampling.samples <= 16777216.0;
+}
+
+static bool apply_seed(Options *options, const char *argument, const char **expected)
+{
+    char *end;
+    *expected = "a whole number from 0 to 18446744073709551615";
+    errno = 0;
+    options->sampling.seed = strtoull(argument, &end, 10);
+    return argument[0] >= '0' && argument[0] <= '9' && !*end && errno == 0;
+}
+
+// Takes one of some names, of which the last is NULL.
+static bool parse_name(const char *argument, const char *const *names, const char **name)
+{
+    for (; *names && strcmp(argument, *names) != 0; names++) {
+    }
+    *name = *names;
+    return *names != NULL;
+}
+
+static bool apply_sampler(Options *options, const char *argument, const char **expected)
+{
+    static const char *const names[] = {"sobol", "halton", "jittered", "grid", "random", NULL};
+    *expected = "sobol, halton, jittered, grid or random";
+    return parse_name(argument, names, &options->sampling.sampler);
+}
+
+static bool apply_filter(Options *options, const char *argument, const char **expected)
+{
+    static const char *const names[] = {"box", "tent", "gaussian", "mitchell", NULL};
+    *expected = "box, tent, gaussian or mitchell";
+    return parse_name(argument, names, &options->sampling.filter);
+}
+
+static bool apply_adaptive(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->is_sampled = true;
+    options->sampling.adaptive = 1;
+    return true;
+}
+
+static bool apply_target_error(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number above 0";
+    options->is_sampled = true;
+    return parse_positive(argument, &options->sampling.target_error);
+}
+
+static bool apply_time_limit(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number of seconds above 0";
+    options->is_sampled = true;
+    return parse_positive(argument, &options->sampling.time_limit);
+}
+
+static bool apply_no_estimate(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->sampling.no_estimate = 1;
+    return true;
+}
+
+static bool apply_error_map(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a file name";
+    options->error_map = argument;
+    return argument[0] != '\0';
+}
+
 static bool apply_quiet(Options *options, const char *argument, const char **expected)
 {
     (void)argument, (void)expected;
@@ -307,6 +390,16 @@ static const OptionRow rows[] = {
     {0, "max-memory", "BYTES", apply_max_memory, "memory of scene and picture (default: the machine's)"},
     {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
+    {0, "samples", "N", apply_samples, "rays a pixel (default 1, through its middle); area lights are then sampled, too"},
+    {0, "seed", "N", apply_seed, "another seed, another picture with the same mean (default 0)"},
+    {0, "sampler", "NAME", apply_sampler, "sobol (default), halton, jittered, grid or random"},
+    {0, "filter", "NAME", apply_filter, "how a pixel's rays are spread: box (default), tent, gaussian or mitchell"},
+    {0, "adaptive", NULL, apply_adaptive, "more rays where the error is; N of --samples is then the mean"},
+    {0, "target-error", "E", apply_target_error,
+     "sample until the picture's error is below E: root mean square in linear light, with 95 % confidence"},
+    {0, "time-limit", "SECONDS", apply_time_limit, "sample as long as that; rounds are not begun that would take longer"},
+    {0, "no-estimate", NULL, apply_no_estimate, "do not work out the error of --samples; the picture is the same"},
+    {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
     {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
     {0, "budget", NULL, apply_budget, "print how much memory rendering the scene takes at most, and stop"},
     {0, "warnings", "WHAT", apply_warnings,

@@ -38,6 +38,9 @@ typedef struct Options {
     int threads;     // 0: as many as the machine has
     const char *isa; // NULL: the best that the machine has
     rt_output encoding;
+    rt_sampling sampling;
+    bool is_sampled; // some option says how
+    const char *error_map; // where the error of each pixel is written; NULL: nowhere
     const char **include_paths; // owned list
     int include_path_count;
     const char **declarations; // owned list

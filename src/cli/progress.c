@@ -20,7 +20,7 @@ void progress_begin(Progress *progress, bool enabled)
     *progress = (Progress){.enabled = enabled && isatty(STDERR_FILENO), .start = clock_seconds()};
 }
 
-void progress_update(Progress *progress, double done)
+void progress_update(Progress *progress, double done, double seconds_left, const char *note)
 {
     enum { WIDTH = 40 };
     double now = clock_seconds(), elapsed = now - progress->start;
@@ -34,13 +34,16 @@ void progress_update(Progress *progress, double done)
     memset(bar, ' ', WIDTH);
     memset(bar, '#', (size_t)(filled < WIDTH ? filled : WIDTH));
     bar[WIDTH] = '\0';
-    fprintf(stderr, "\r[%s] %3.0f %%  %.0f s left   ", bar, 100.0 * done, elapsed * (1.0 - done) / done);
+    double left = seconds_left >= 0.0 ? seconds_left : elapsed * (1.0 - done) / done;
+    int width = fprintf(stderr, "\r[%s] %3.0f %%  %.0f s left  %s", bar, 100.0 * done, left, note ? note : "");
+    fprintf(stderr, "%*s", progress->width > width ? progress->width - width : 0, "");
+    progress->width = width;
 }
 
 void progress_end(Progress *progress)
 {
     if (progress->shown) {
-        fprintf(stderr, "\r%70s\r", "");
+        fprintf(stderr, "\r%*s\r", progress->width, "");
     }
     progress->shown = false;
 }

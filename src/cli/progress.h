@@ -10,10 +10,12 @@ typedef struct Progress {
     bool enabled;
     bool shown; // a bar stands on the line
     double start, last;
+    int width; // of what was shown last
 } Progress;
 
 void progress_begin(Progress *progress, bool enabled);
-void progress_update(Progress *progress, double done);
+// `note` is told behind the bar; may be NULL. `seconds_left` below 0: by what is done.
+void progress_update(Progress *progress, double done, double seconds_left, const char *note);
 void progress_end(Progress *progress); // wipes the bar
 
 #endif

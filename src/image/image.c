@@ -137,6 +137,8 @@ static ImageStatus write_by_module(const OiioModule *module, const char *ending,
         .height = source->image->height,
         .channels = source->image->channels,
         .depth = source->encoder.encoding.depth,
+        .notes = source->encoder.encoding.notes,
+        .note_count = source->encoder.encoding.note_count,
         .client = source,
         .fetch = rows_fetch,
     };

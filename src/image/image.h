@@ -31,12 +31,20 @@ typedef enum ImageTransfer {
     IMAGE_TRANSFER_POWER, // value ^ (1/gamma); gamma 1 writes linear values
 } ImageTransfer;
 
+// A line of text that a file keeps beside its pixels, where its format can: PNG's tEXt, an attribute of EXR.
+typedef struct ImageNote {
+    const char *name; // 1 to 79 printable characters
+    const char *text; // ASCII
+} ImageNote;
+
 typedef struct ImageEncoding {
     ImageDepth depth;
     ImageTransfer transfer;
     double gamma;      // IMAGE_TRANSFER_POWER only
     bool already_encoded; // values are written as they are; `transfer` only names what the file says of itself
     int threads;          // to use for it, at most; the file does not depend on it
+    const ImageNote *notes;
+    size_t note_count;
 } ImageEncoding;
 
 typedef enum ImageStatus {

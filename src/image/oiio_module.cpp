@@ -86,6 +86,9 @@ ImageStatus open_output(const OiioPicture &picture, MemoryFile &file, std::uniqu
     // No oiio:ColorSpace: OpenImageIO 2.4 then adds an Exif directory to TIFF, which breaks a file written to memory.
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("DateTime", ""); // else the writers of EXR and TIFF add the hour
+    for (size_t i = 0; i < picture.note_count; i++) {
+        spec.attribute(picture.notes[i].name, picture.notes[i].text);
+    }
     if (!output->set_ioproxy(&file) || !output->open(name, spec)) {
         set_detail(error, output->geterror());
         return IMAGE_IO;
@@ -133,7 +136,7 @@ void fetch_black(const void *, int, int, void *)
 ImageStatus format_check(const char *ending, ImageDepth depth, ImageError *error)
 {
     MemoryFile file;
-    OiioPicture picture = {ending, check_size, check_size, 3, depth, nullptr, fetch_black};
+    OiioPicture picture = {ending, check_size, check_size, 3, depth, nullptr, 0, nullptr, fetch_black};
 
     return write_picture(picture, file, error);
 }

@@ -12,7 +12,7 @@
 #include "image/image.h"
 
 // Raised with each change of the structures below; a module of another version is passed over.
-#define OIIO_MODULE_VERSION 1u
+#define OIIO_MODULE_VERSION 2u
 #define OIIO_MODULE_FILE "rtlang_oiio.so"
 #define OIIO_MODULE_SYMBOL "rtlang_oiio_module"
 
@@ -21,6 +21,8 @@ typedef struct OiioPicture {
     const char *ending; // of the file name, without the dot; names the format
     int width, height, channels;
     ImageDepth depth;
+    const ImageNote *notes;
+    size_t note_count;
     const void *client;
     void (*fetch)(const void *client, int first_row, int row_count, void *samples); // packed, in the machine's order
 } OiioPicture;

@@ -76,6 +76,12 @@ static void header_write(const PngWriter *writer)
     } else {
         png_set_gAMA_fixed(writer->png, writer->info, (png_fixed_point)lround(100000.0 / encoding->gamma));
     }
+    for (size_t i = 0; i < encoding->note_count; i++) {
+        png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
+                         .key = (png_charp)encoding->notes[i].name,
+                         .text = (png_charp)encoding->notes[i].text};
+        png_set_text(writer->png, writer->info, &text, 1);
+    }
     png_write_info(writer->png, writer->info);
 }
 

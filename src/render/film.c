@@ -9,7 +9,8 @@
 bool film_init(Film *film, int width, int height)
 {
     size_t pixels = (size_t)width * (size_t)height;
-    *film = (Film){width, height, calloc(pixels, 3 * sizeof(float))};
+    *film = (Film){.width = width, .height = height};
+    film->rgb = calloc(pixels, 3 * sizeof(float));
     pages_prefer_huge(film->rgb, 3 * sizeof(float) * pixels);
     return film->rgb != NULL;
 }
@@ -17,5 +18,13 @@ bool film_init(Film *film, int width, int height)
 void film_fini(Film *film)
 {
     free(film->rgb);
+    free(film->records);
     *film = (Film){0};
+}
+
+uint64_t film_bytes(int width, int height, bool is_sampled)
+{
+    uint64_t chosen = sizeof(uint16_t); // a bucket for each pixel, in sampling.c
+    uint64_t pixel = 3 * sizeof(float) + (is_sampled ? sizeof(PixelRecord) + chosen : 0);
+    return (uint64_t)width * (uint64_t)height * pixel;
 }

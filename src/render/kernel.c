@@ -7,32 +7,9 @@
 #include "render/prepared.h"
 #include "render/shade.h"
 
-enum { BEAM = TILE_ROW }; // camera rays of BEAM x BEAM pixels are traced together
+_Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
 
-// Where the pixels of a beam are on the screen, as camera_ray wants to know it; where the beam is cut off, its last ones
-// stand for the missing ones.
-typedef struct BeamPlaces {
-    _Alignas(64) double u[TILE_RAYS];
-    double v[TILE_RAYS];
-} BeamPlaces;
-
-RT_ALWAYS_INLINE void beam_places(Tile tile, const Film *film, BeamPlaces *places)
-{
-    double across[BEAM], down[BEAM];
-    for (int i = 0; i < BEAM; i++) {
-        int x = tile.left + i < tile.right ? tile.left + i : tile.right - 1;
-        int y = tile.top + i < tile.bottom ? tile.top + i : tile.bottom - 1;
-        across[i] = (x + 0.5) / film->width - 0.5;
-        down[i] = (y + 0.5) / film->height - 0.5;
-    }
-    for (int i = 0; i < TILE_RAYS; i++) {
-        places->u[i] = across[i % BEAM];
-        places->v[i] = down[i / BEAM];
-    }
-}
-
-RT_ALWAYS_INLINE void beam_closest(const Prepared *p, unsigned features, const BeamPlaces *places, Ray rays[TILE_RAYS],
-                                   Hit hits[TILE_RAYS])
+RT_ALWAYS_INLINE void places_closest(const Prepared *p, unsigned features, const KernelPlaces *places, Ray *rays, Hit *hits)
 {
     const PreparedCamera *camera = &p->camera;
     if (camera->type == CAMERA_PERSPECTIVE) {
@@ -46,38 +23,17 @@ RT_ALWAYS_INLINE void beam_closest(const Prepared *p, unsigned features, const B
     geometry_closest_tile(p->geometry, features, rays, hits);
 }
 
-// The pixels of one beam that are left < right, top < bottom.
-RT_ALWAYS_INLINE void trace_beam(const Prepared *p, unsigned features, Tile tile, Film *film,
-                                 RenderStatistics *statistics)
+RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const KernelPlaces *places,
+                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
 {
     Ray rays[TILE_RAYS];
     Hit hits[TILE_RAYS];
-    BeamPlaces places;
-    beam_places(tile, film, &places);
-    beam_closest(p, features, &places, rays, hits);
-    for (int y = tile.top; y < tile.bottom; y++) {
-        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)tile.left)];
-        for (int x = tile.left; x < tile.right; x++, pixel += 3) {
-            int i = (y - tile.top) * BEAM + (x - tile.left);
-            Rgb light = shade_ray(p, features, rays[i], &hits[i], statistics);
-            statistics->camera_rays++;
-            pixel[0] = (float)light.red;
-            pixel[1] = (float)light.green;
-            pixel[2] = (float)light.blue;
-        }
-    }
-}
-
-RT_ALWAYS_INLINE void trace_tile(const Prepared *p, unsigned features, Tile tile, Film *film,
-                                 RenderStatistics *statistics)
-{
-    RenderStatistics counted = {0};
-    for (int top = tile.top; top < tile.bottom; top += BEAM) {
-        for (int left = tile.left; left < tile.right; left += BEAM) {
-            Tile beam = {left, top, left + BEAM < tile.right ? left + BEAM : tile.right,
-                         top + BEAM < tile.bottom ? top + BEAM : tile.bottom};
-            trace_beam(p, features, beam, film, &counted);
-        }
+    RenderStatistics counted = *statistics;
+    places_closest(p, features, places, rays, hits);
+    for (; wanted; wanted &= wanted - 1) {
+        int i = __builtin_ctzll(wanted);
+        light[i] = shade_ray(p, features, rays[i], &hits[i], streams ? &streams[i] : NULL, &counted);
+        counted.camera_rays++;
     }
     *statistics = counted;
 }
@@ -113,9 +69,10 @@ RT_ALWAYS_INLINE void trace_tile(const Prepared *p, unsigned features, Tile tile
       SHADING_ANY | RENDER_EXPONENT | RENDER_TEXTURES | RENDER_INTERIORS | RENDER_LIGHTS)
 
 #define DEFINE_KERNEL(name, text, geometry, shading)                                                                   \
-    static void trace_##name(const Prepared *p, Tile tile, Film *film, RenderStatistics *statistics)                   \
+    static void trace_##name(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,    \
+                             Rgb *light, RenderStatistics *statistics)                                                 \
     {                                                                                                                  \
-        trace_tile(p, (unsigned)(geometry) | (unsigned)(shading), tile, film, statistics);                             \
+        trace_places(p, (unsigned)(geometry) | (unsigned)(shading), places, streams, wanted, light, statistics);       \
     }
 KERNELS(DEFINE_KERNEL)
 

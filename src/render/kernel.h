@@ -8,6 +8,7 @@
 #define RENDER_KERNEL_H
 
 #include "render/render.h"
+#include "render/sampler.h"
 #include "trace/trace.h"
 
 // Beside the TraceFeature bits, which stand below.
@@ -29,10 +30,21 @@ typedef struct Tile {
     int left, top, right, bottom;
 } Tile;
 
+enum { KERNEL_RAYS = 64, KERNEL_ROW = 8 }; // fastest for eight neighbours a row
+
+// Where the camera rays of one call go through the picture, as camera_ray wants to know it.
+typedef struct KernelPlaces {
+    _Alignas(64) double u[KERNEL_RAYS];
+    double v[KERNEL_RAYS];
+} KernelPlaces;
+
 typedef struct Kernel {
     const char *name;
     unsigned features;
-    void (*trace)(const Prepared *prepared, Tile tile, Film *film, RenderStatistics *statistics);
+    // The light of those of KERNEL_RAYS camera rays whose bit is set in `wanted`; the others have places, too. `streams` are
+    // what each draws numbers from, or NULL: then area lights are the scene's grids. Counts are added.
+    void (*trace)(const Prepared *prepared, const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
+                  RenderStatistics *statistics);
 } Kernel;
 
 // The kernel with the fewest features that has all of these; the last one has all there are.

@@ -333,7 +333,7 @@ bool life_trace(Life *life, const Prepared *prepared, int width, int height, int
         int place = pending.count - 1;
         int parent = parents[place];
         LifeKind kind = kinds[place];
-        shade_path_step(prepared, FEATURES, &pending, &unused, &step);
+        shade_path_step(prepared, FEATURES, &pending, NULL, &unused, &step);
         if (step.ray.closes) {
             continue;
         }

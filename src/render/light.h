@@ -14,6 +14,7 @@
 #include "base/attributes.h"
 #include "render/power.h"
 #include "render/prepared.h"
+#include "render/sampler.h"
 
 // From 0 at `none` to 1 at `full` and beyond, smooth at both ends.
 RT_ALWAYS_INLINE double light_rise(double at, double none, double full)
@@ -88,19 +89,11 @@ RT_ALWAYS_INLINE uint64_t light_key(const PreparedLight *light, Vec3 point, int 
     return key;
 }
 
-// Where light (i, j) of an area stands, from its middle. The square is turned into a disc by moving each light along its
-// ray from the middle until it has the distance that the side of its square has.
-RT_ALWAYS_INLINE Vec3 light_area_offset(const PreparedLight *light, Vec3 point, int i, int j)
+// A place of an area from its middle; u and v along its axes, from -1/2 to 1/2. The square is turned into a disc by
+// moving each light along its ray from the middle until it has the distance that the side of its square has.
+RT_ALWAYS_INLINE Vec3 light_area_place(const LightArea *area, double u, double v)
 {
     const double aside = 0.001; // of the square's side: POV-Ray's disc is not quite in the middle; measured
-    const LightArea *area = &light->area;
-    double u = area->size1 > 1 ? (double)i / (area->size1 - 1) - 0.5 : 0.0;
-    double v = area->size2 > 1 ? (double)j / (area->size2 - 1) - 0.5 : 0.0;
-    if (area->jitter) {
-        uint64_t key = light_key(light, point, i, j);
-        u += area->size1 > 1 ? light_random(key) / (area->size1 - 1) : 0.0;
-        v += area->size2 > 1 ? light_random(~key) / (area->size2 - 1) : 0.0;
-    }
     if (area->circular) {
         u += aside;
         v += aside;
@@ -112,6 +105,46 @@ RT_ALWAYS_INLINE Vec3 light_area_offset(const PreparedLight *light, Vec3 point, 
         v *= shrink;
     }
     return vec3_add(vec3_scale(u, area->axis1), vec3_scale(v, area->axis2));
+}
+
+// Where light (i, j) of an area stands.
+RT_ALWAYS_INLINE Vec3 light_area_offset(const PreparedLight *light, Vec3 point, int i, int j)
+{
+    const LightArea *area = &light->area;
+    double u = area->size1 > 1 ? (double)i / (area->size1 - 1) - 0.5 : 0.0;
+    double v = area->size2 > 1 ? (double)j / (area->size2 - 1) - 0.5 : 0.0;
+    if (area->jitter) {
+        uint64_t key = light_key(light, point, i, j);
+        u += area->size1 > 1 ? light_random(key) / (area->size1 - 1) : 0.0;
+        v += area->size2 > 1 ? light_random(~key) / (area->size2 - 1) : 0.0;
+    }
+    return light_area_place(area, u, v);
+}
+
+// One of a row's lights, each as often as it counts in the whole grid, which is halved until no light is between its ends;
+// with `jitter`, a place within half a step of it. Rises with `at`, which is below 1.
+RT_ALWAYS_INLINE double light_row_sample(int size, bool jitter, double at)
+{
+    int low = 0, high = size - 1;
+    if (size == 1) {
+        return 0.0;
+    }
+    while (high > low) {
+        int sum = low + high;
+        bool is_last = high - low == 1, is_upper = at >= 0.5;
+        low = is_upper ? is_last ? high : (sum + 1) / 2 : low;
+        high = is_upper ? high : is_last ? low : sum / 2;
+        at = 2.0 * at - is_upper;
+    }
+    return (low + (jitter ? at - 0.5 : 0.0)) / (size - 1) - 0.5;
+}
+
+// One of an area's lights by chance; what it lets see is in the mean what the grid, not adaptive, lets see.
+RT_ALWAYS_INLINE Vec3 light_area_sample(const PreparedLight *light, SamplePoint at)
+{
+    const LightArea *area = &light->area;
+    return light_area_place(area, light_row_sample(area->size1, area->jitter, at.x),
+                            light_row_sample(area->size2, area->jitter, at.y));
 }
 
 // A part of an area light counts as the mean of its four corners, or, where it is divided, as the mean of its quarters.

@@ -15,6 +15,8 @@
 #include <stdint.h>
 
 #include "base/attributes.h"
+#include "render/filter.h"
+#include "render/sampler.h"
 #include "scene/scene.h"
 #include "trace/trace.h"
 
@@ -28,31 +30,84 @@ void prepared_free(Prepared *prepared);
 // Name of the kernel that was chosen, for example "spheres+shadows".
 const char *prepared_kernel_name(const Prepared *prepared);
 
+// What a pixel's samples say of its error, in linear light, as mean squares over its three values. Each is the square of
+// how far two sets of samples are apart, times the product of their shares: if sets were independent, the variance of
+// the mean of both.
+typedef struct PixelRecord {
+    uint32_t count; // samples taken; 0: nothing is known
+    float outer;    // the two halves of all samples
+    float inner;    // the mean over the halves of each: of its own halves
+    float fresh;    // the halves of the half that was taken last
+} PixelRecord;
+
 // A picture in the scene's working space: rows from the top, pixels from the left, red green blue each.
 typedef struct Film {
     int width, height;
-    float *rgb; // width * height * 3; owned
+    float *rgb;           // width * height * 3; owned
+    PixelRecord *records; // width * height, after sampling; else NULL; owned
 } Film;
 
 bool film_init(Film *film, int width, int height) RT_MUST_CHECK; // false when out of memory; cleared to 0
 void film_fini(Film *film);
 
+// The bytes of a film and of what is needed beside it.
+uint64_t film_bytes(int width, int height, bool is_sampled);
+
 typedef struct RenderStatistics {
     uint64_t camera_rays, shadow_rays, reflected_rays, transmitted_rays;
+    // Shares of camera rays, in units of 2^-32, that were not followed: beyond max_trace_level, below adc_bailout.
+    uint64_t cut_by_level, cut_by_weight;
 } RenderStatistics;
+
+// Several rays a pixel; docs/sampling.md tells of the method.
+typedef struct SamplingOptions {
+    SamplerKind sampler;
+    FilterKind filter;
+    uint64_t seed;
+    double samples;      // a pixel, >= 2, a whole number unless adaptive; or 0: as many as the goals want
+    bool is_adaptive;    // more where the error is; `samples` is then the mean. Goals need it
+    double target_error; // root mean square, in linear light; 0: none
+    double time_limit;   // seconds; 0: none
+    bool has_no_estimate; // the same picture without its error
+} SamplingOptions;
+
+// Why a sampled run ended.
+typedef enum SamplingEnd { SAMPLING_DONE, SAMPLING_TARGET, SAMPLING_TIME, SAMPLING_INTERRUPTED } SamplingEnd;
+
+// The error of a picture: what sampling leaves, not what its model or its arithmetic do.
+typedef struct SamplingError {
+    bool is_known;
+    double rmse, low, high; // root mean square, linear light, and the ends of its 95 % interval
+    double samples;         // a pixel, in the mean
+    double slope;           // of the logarithm of rmse in that of samples, as it is taken to go on; < 0
+    double bias;            // what rays that were not followed would add at the least; more samples do not help
+    SamplingEnd end;
+} SamplingError;
+
+typedef struct RenderProgress {
+    double done;                // 0 to 1, of the run, or of what is predicted of it
+    const SamplingError *error; // NULL: one ray a pixel
+    double seconds_left;        // predicted; < 0: not known
+} RenderProgress;
 
 typedef struct RenderOptions {
     int threads; // >= 1; as many are used as there are tiles to share
-    // Called now and then by one thread at a time with the part that is done, 0 to 1. May be NULL.
-    void (*progress)(void *client, double done);
+    // Called now and then by one thread at a time. May be NULL.
+    void (*progress)(void *client, const RenderProgress *progress);
     void *client;
-    const atomic_bool *cancel; // when it turns true, work stops soon; may be NULL
+    const atomic_bool *cancel;       // when it turns true, work stops soon; may be NULL
+    const SamplingOptions *sampling; // NULL: one ray through the middle of each pixel, area lights as grids
 } RenderOptions;
 
 typedef enum RenderResult { RENDER_OK, RENDER_CANCELLED, RENDER_NO_MEMORY } RenderResult;
 
+// `error` is set when options->sampling is, and a cancelled run then leaves a picture, if each pixel has a sample
+// (error->samples > 0).
 RenderResult render_film(const Prepared *prepared, const RenderOptions *options, Film *film,
-                         RenderStatistics *statistics) RT_MUST_CHECK;
+                         RenderStatistics *statistics, SamplingError *error) RT_MUST_CHECK;
+
+// What a pixel of a sampled film is off by, root mean square in linear light, by its own samples.
+double render_pixel_error(const Film *film, const SamplingError *error, size_t pixel);
 
 // How many processors this process may use.
 int render_default_threads(void);

@@ -53,6 +53,7 @@ typedef struct ShadePoint {
     double ior_ratio;  // index of refraction behind the surface over the one before it
     double way;        // of the ray that found it, in the scene's lengths; where there are interiors
     bool inside;
+    SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
 } ShadePoint;
 
 // What a surface is made of at a point. "Opaque share" is 1 - filter - transmit.
@@ -151,17 +152,17 @@ RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, cons
     return rgb_grey(geometry_occluded(p->geometry, features, ray, start, distance) ? 0.0 : 1.0);
 }
 
-// The share of the light of one of an area's lights that reaches the point.
+// The share of the light of a place in an area, `aside` from its middle, that reaches the point.
 RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at,
-                                    const PreparedLight *light, int i, int j, RenderStatistics *statistics)
+                                    const PreparedLight *light, Vec3 aside, RenderStatistics *statistics)
 {
-    Vec3 offset = vec3_sub(vec3_add(light->position, light_area_offset(light, at->point, i, j)), at->point);
+    Vec3 offset = vec3_sub(vec3_add(light->position, aside), at->point);
     double distance = vec3_length(offset);
     return shade_visibility(p, features, at, vec3_scale(1.0 / distance, offset), distance, statistics);
 }
 
 // The mean over an area light, see render/light.h.
-RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
+RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const ShadePoint *at,
                                 const PreparedLight *light, RenderStatistics *statistics)
 {
     LightParts parts;
@@ -174,7 +175,9 @@ RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const Shad
             int i = corner & 1 ? part.right : part.left, j = corner & 2 ? part.bottom : part.top;
             int same = (part.right == part.left ? corner & 2 : corner) & (part.bottom == part.top ? 1 : 3);
             corners[corner] =
-                same < corner ? corners[same] : shade_area_one(p, features, at, light, i, j, statistics);
+                same < corner
+                    ? corners[same]
+                    : shade_area_one(p, features, at, light, light_area_offset(light, at->point, i, j), statistics);
             mean = rgb_add(mean, corners[corner]);
         }
         if (!light_part_divides(&parts, &light->area, part, corners)) {
@@ -182,6 +185,15 @@ RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const Shad
         }
     }
     return sum;
+}
+
+// The same; or of one of its lights by chance, when the camera ray is one of many.
+RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
+                                const PreparedLight *light, RenderStatistics *statistics)
+{
+    return at->stream ? shade_area_one(p, features, at, light, light_area_sample(light, sample_next(at->stream)),
+                                       statistics)
+                      : shade_area_grid(p, features, at, light, statistics);
 }
 
 // Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
@@ -396,6 +408,15 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
     return false;
 }
 
+// Notes the share of a ray that is not followed, in whole units, so that sums do not depend on their order.
+RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, const PendingRay *from, Rgb share, RenderStatistics *statistics)
+{
+    double cut = fmin(fmax(rgb_luminance(rgb_mul(from->share, share)), 0.0), 1.0);
+    uint64_t units = (uint64_t)(cut * 0x1p32);
+    statistics->cut_by_level += from->level >= p->max_trace_level ? units : 0;
+    statistics->cut_by_weight += from->level >= p->max_trace_level ? 0 : units;
+}
+
 // The rays that go on from a hit; the reflected one will be traced first. `before` and `behind` are what the ray is inside
 // of on both sides of the surface, where there are interiors.
 RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
@@ -407,11 +428,17 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Sh
     if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(onward->through)) {
         is_total = shade_go_through(p, features, onward, at, from, before, behind, pending);
         statistics->transmitted_rays += (uint64_t)(pending->count - place);
+        if (pending->count == place) {
+            shade_note_cut(p, from, onward->through, statistics);
+        }
     }
     place = pending->count;
     if ((features & RENDER_REFLECTION) && onward->reflection_weight != 0.0 && !is_total) {
         shade_reflect(p, features, onward, at, from, pending);
         statistics->reflected_rays += pending->count > place;
+        if (pending->count == place) {
+            shade_note_cut(p, from, onward->reflectance, statistics);
+        }
         if ((features & RENDER_INTERIORS) && pending->count > place) {
             inside_copy(&pending->inside[pending->count - 1], before);
         }
@@ -477,7 +504,8 @@ RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const S
 }
 
 // Finds what a ray hits; false when it meets nothing.
-RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, ShadePoint *at)
+RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, SampleStream *stream,
+                                 ShadePoint *at)
 {
     Hit hit = {.shape = SHAPE_NONE};
     if (now->known) {
@@ -501,7 +529,8 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
                        .interior = has_interiors ? shade_interior(p, surface.material) : RECORD_NONE,
                        .ior_ratio = 1.0,
                        .way = has_interiors ? hit.t * p->textures.scale : 0.0,
-                       .inside = hit.inside};
+                       .inside = hit.inside,
+                       .stream = features & RENDER_LIGHTS ? stream : NULL};
     return true;
 }
 
@@ -539,7 +568,7 @@ RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, con
 
 // Takes the ray that was put on the list last: its light is added, and the rays that go on from where it hits are put on
 // the list.
-RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pending *pending,
+RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pending *pending, SampleStream *stream,
                                       RenderStatistics *statistics, ShadeStep *step)
 {
     PendingRay *now = &step->ray;
@@ -548,7 +577,7 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
     if ((features & RENDER_EXPONENT) && now->closes) {
         step->light = shade_rgb_power(pending->sums[pending->open--], now->exponent);
         pending_add(pending, now, step->light);
-    } else if (shade_find(p, features, now, &step->at)) {
+    } else if (shade_find(p, features, now, stream, &step->at)) {
         step->is_hit = true;
         if (features & RENDER_INTERIORS) {
             inside_copy(&step->before, &pending->inside[pending->count]);
@@ -565,20 +594,20 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
 }
 
 // The light that one camera ray brings back, where rays may go on.
-RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const PendingRay *first,
+RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const PendingRay *first, SampleStream *stream,
                                 RenderStatistics *statistics)
 {
     Pending pending;
     shade_path_begin(p, features, first, &pending);
     while (pending.count > 0) {
         ShadeStep step;
-        shade_path_step(p, features, &pending, statistics, &step);
+        shade_path_step(p, features, &pending, stream, statistics, &step);
     }
     return pending.sums[0];
 }
 
 // The light that one camera ray brings back, which hits what `known` says.
-RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, const Hit *known,
+RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, const Hit *known, SampleStream *stream,
                                RenderStatistics *statistics)
 {
     PendingRay first = {.ray = ray,
@@ -588,11 +617,11 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, co
                         .level = 1,
                         .known = known};
     if (features & (RENDER_REFLECTION | RENDER_TRANSPARENCY)) {
-        return shade_path(p, features, &first, statistics);
+        return shade_path(p, features, &first, stream, statistics);
     }
     ShadePoint at;
     ShadeOnward onward;
-    return shade_find(p, features, &first, &at) ? shade_surface(p, features, &at, 1.0, &onward, statistics)
+    return shade_find(p, features, &first, stream, &at) ? shade_surface(p, features, &at, 1.0, &onward, statistics)
                                                 : p->background;
 }
 

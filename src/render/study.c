@@ -152,7 +152,7 @@ static void trace_rows(void *client, int thread)
         trace_row(work, y, &statistics);
         int done = atomic_fetch_add(&work->done, 1) + 1;
         if (thread == 0 && options->progress) {
-            options->progress(options->client, (double)done / work->film->height);
+            options->progress(options->client, &(RenderProgress){.done = (double)done / work->film->height, .seconds_left = -1.0});
         }
     }
     atomic_fetch_add(&work->camera, statistics.camera_rays);

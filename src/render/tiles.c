@@ -3,33 +3,30 @@
 // A tile's pixels depend on the scene and its own place only, so the picture is the same for any number of threads.
 //
 // SPDX-License-Identifier: MIT
+#include "render/tiles.h"
+
 #include <pthread.h>
 #include <sched.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "render/kernel.h"
-#include "render/prepared.h"
-#include "render/render.h"
+enum { THREADS_MAX = 1024 };
 
-enum { TILE_SIZE = 32, THREADS_MAX = 1024 };
-
-typedef struct Work {
-    const Prepared *prepared;
+typedef struct Run {
+    const TileWork *work;
     const RenderOptions *options;
-    Film *film;
     int columns, tiles;
     atomic_int next, done;
     pthread_mutex_t lock; // of statistics
     RenderStatistics statistics;
-} Work;
+} Run;
 
-static Tile tile_at(const Work *work, int index)
+static Tile tile_at(const Run *run, int index)
 {
-    int left = index % work->columns * TILE_SIZE, top = index / work->columns * TILE_SIZE;
+    int left = index % run->columns * TILE_SIZE, top = index / run->columns * TILE_SIZE;
     int right = left + TILE_SIZE, bottom = top + TILE_SIZE;
-    return (Tile){left, top, right < work->film->width ? right : work->film->width,
-                  bottom < work->film->height ? bottom : work->film->height};
+    return (Tile){left, top, right < run->work->width ? right : run->work->width,
+                  bottom < run->work->height ? bottom : run->work->height};
 }
 
 static void statistics_add(RenderStatistics *sum, const RenderStatistics *more)
@@ -38,6 +35,8 @@ static void statistics_add(RenderStatistics *sum, const RenderStatistics *more)
     sum->shadow_rays += more->shadow_rays;
     sum->reflected_rays += more->reflected_rays;
     sum->transmitted_rays += more->transmitted_rays;
+    sum->cut_by_level += more->cut_by_level;
+    sum->cut_by_weight += more->cut_by_weight;
 }
 
 static bool is_cancelled(const RenderOptions *options)
@@ -45,50 +44,47 @@ static bool is_cancelled(const RenderOptions *options)
     return options->cancel && atomic_load_explicit(options->cancel, memory_order_relaxed);
 }
 
-static void trace_tiles(Work *work, bool reports)
+static void trace_tiles(Run *run, bool reports)
 {
     RenderStatistics sum = {0};
-    for (int index; (index = atomic_fetch_add(&work->next, 1)) < work->tiles && !is_cancelled(work->options);) {
-        RenderStatistics one;
-        work->prepared->kernel->trace(work->prepared, tile_at(work, index), work->film, &one);
-        statistics_add(&sum, &one);
-        int done = atomic_fetch_add(&work->done, 1) + 1;
-        if (reports && work->options->progress) {
-            work->options->progress(work->options->client, (double)done / work->tiles);
+    for (int index; (index = atomic_fetch_add(&run->next, 1)) < run->tiles && !is_cancelled(run->options);) {
+        run->work->trace(run->work->client, tile_at(run, index), &sum);
+        int done = atomic_fetch_add(&run->done, 1) + 1;
+        if (reports && run->work->progress) {
+            run->work->progress(run->work->client, (double)done / run->tiles);
         }
     }
-    pthread_mutex_lock(&work->lock);
-    statistics_add(&work->statistics, &sum);
-    pthread_mutex_unlock(&work->lock);
+    pthread_mutex_lock(&run->lock);
+    statistics_add(&run->statistics, &sum);
+    pthread_mutex_unlock(&run->lock);
 }
 
-static void *run_thread(void *work)
+static void *run_thread(void *run)
 {
-    trace_tiles(work, false);
+    trace_tiles(run, false);
     return NULL;
 }
 
-RenderResult render_film(const Prepared *prepared, const RenderOptions *options, Film *film,
-                         RenderStatistics *statistics)
+bool tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics)
 {
-    Work work = {.prepared = prepared, .options = options, .film = film, .lock = PTHREAD_MUTEX_INITIALIZER};
-    work.columns = (film->width + TILE_SIZE - 1) / TILE_SIZE;
-    work.tiles = work.columns * ((film->height + TILE_SIZE - 1) / TILE_SIZE);
-    int wanted = options->threads < work.tiles ? options->threads : work.tiles;
+    Run run = {.work = work, .options = options, .lock = PTHREAD_MUTEX_INITIALIZER};
+    run.columns = (work->width + TILE_SIZE - 1) / TILE_SIZE;
+    run.tiles = run.columns * ((work->height + TILE_SIZE - 1) / TILE_SIZE);
+    int wanted = options->threads < run.tiles ? options->threads : run.tiles;
     pthread_t threads[THREADS_MAX];
     int started = 0;
     // The calling thread works too. One that cannot be started is done without.
     while (started < wanted - 1 && started < THREADS_MAX &&
-           pthread_create(&threads[started], NULL, run_thread, &work) == 0) {
+           pthread_create(&threads[started], NULL, run_thread, &run) == 0) {
         started++;
     }
-    trace_tiles(&work, true);
+    trace_tiles(&run, true);
     for (int i = 0; i < started; i++) {
         pthread_join(threads[i], NULL);
     }
-    pthread_mutex_destroy(&work.lock);
-    *statistics = work.statistics;
-    return atomic_load(&work.done) == work.tiles ? RENDER_OK : RENDER_CANCELLED;
+    pthread_mutex_destroy(&run.lock);
+    statistics_add(statistics, &run.statistics);
+    return atomic_load(&run.done) == run.tiles;
 }
 
 int render_default_threads(void)

@@ -25,14 +25,14 @@
 
 enum { WIDTH = 37, HEIGHT = 70 }; // more rows than the module fetches at once
 
-static const ImageEncoding srgb_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, false, 1};
-static const ImageEncoding srgb_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_SRGB, 0.0, false, 1};
-static const ImageEncoding linear_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 1.0, false, 1};
-static const ImageEncoding linear_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 1.0, false, 1};
-static const ImageEncoding power_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 2.2, false, 1};
-static const ImageEncoding power_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 2.2, false, 1};
-static const ImageEncoding as_is_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, true, 1};
-static const ImageEncoding float_linear = {IMAGE_DEPTH_FLOAT, IMAGE_TRANSFER_SRGB, 0.0, false, 1};
+static const ImageEncoding srgb_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
+static const ImageEncoding srgb_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
+static const ImageEncoding linear_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0};
+static const ImageEncoding linear_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0};
+static const ImageEncoding power_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0};
+static const ImageEncoding power_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0};
+static const ImageEncoding as_is_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, true, 1, NULL, 0};
+static const ImageEncoding float_linear = {IMAGE_DEPTH_FLOAT, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
 
 static uint32_t next_random(uint32_t *state) // xorshift32: G. Marsaglia, "Xorshift RNGs", 2003
 {
@@ -235,7 +235,7 @@ static void test_paths(void)
     tap_ok(mkdir("folder.png", 0777) == 0 && file_save("a.png", "old") && picture_make(&image, 3, 1), "paths: set up");
     before = files_in_folder();
     for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
-        ImageEncoding encoding = {cases[i].depth, IMAGE_TRANSFER_SRGB, 0.0, false, 1};
+        ImageEncoding encoding = {cases[i].depth, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
         ImageError error;
         ImageStatus status = image_check_path(cases[i].path, cases[i].depth, &error);
 

@@ -9,13 +9,13 @@
 #include "image/image.h"
 #include "unit/tap.h"
 
-static const ImageEncoding srgb_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, false, 1};
-static const ImageEncoding srgb_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_SRGB, 0.0, false, 1};
-static const ImageEncoding linear_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 1.0, false, 1};
-static const ImageEncoding linear_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 1.0, false, 1};
-static const ImageEncoding power_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 2.2, false, 1};
-static const ImageEncoding power_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 2.2, false, 1};
-static const ImageEncoding as_is_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, true, 1};
+static const ImageEncoding srgb_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
+static const ImageEncoding srgb_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
+static const ImageEncoding linear_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0};
+static const ImageEncoding linear_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0};
+static const ImageEncoding power_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0};
+static const ImageEncoding power_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0};
+static const ImageEncoding as_is_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, true, 1, NULL, 0};
 
 static uint32_t next_random(uint32_t *state) // xorshift32: G. Marsaglia, "Xorshift RNGs", 2003
 {
@@ -85,7 +85,7 @@ static void test_rounding(void)
 static void test_tables(void)
 {
     static const ImageEncoding *const encodings[] = {&srgb_8, &linear_8, &power_8, &as_is_8};
-    static const ImageEncoding steep = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 0.1, false, 1};
+    static const ImageEncoding steep = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 0.1, false, 1, NULL, 0};
     static Encoder encoder;
     uint32_t state = 12345;
 

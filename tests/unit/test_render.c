@@ -64,8 +64,9 @@ static Film render(const Scene *scene, int width, int height, int threads, Rende
     Film film;
     Prepared *prepared = prepared_new(scene, &(GeometryOptions){.threads = 2});
     RenderOptions options = {.threads = threads};
+    SamplingError error;
     if (!prepared || !film_init(&film, width, height) ||
-        render_film(prepared, &options, &film, statistics) != RENDER_OK) {
+        render_film(prepared, &options, &film, statistics, &error) != RENDER_OK) {
         abort();
     }
     prepared_free(prepared);

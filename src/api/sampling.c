@@ -1,0 +1,70 @@
+// What sampling left of error: asked for, written as a picture, and noted in the files of pictures.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "api/session.h"
+
+void rt_get_error(const rt_session *session, rt_error *error)
+{
+    static const rt_end ends[] = {[SAMPLING_DONE] = RT_END_DONE, [SAMPLING_TARGET] = RT_END_TARGET,
+                                  [SAMPLING_TIME] = RT_END_TIME, [SAMPLING_INTERRUPTED] = RT_END_INTERRUPTED};
+    const SamplingError *known = &session->error;
+    *error = (rt_error){known->is_known,  known->rmse, known->low,       known->high, known->samples,
+                        known->slope,     known->bias, ends[known->end], session->seconds_left};
+}
+
+rt_status rt_write_error(rt_session *session, const char *path)
+{
+    ImageError fault = {""};
+    Image image;
+    if (!session->rendered || !session->error.is_known) {
+        return RT_FAULT_USAGE;
+    }
+    if (!image_init(&image, session->film.width, session->film.height, 1)) {
+        return session_image_fault(session, IMAGE_NO_MEMORY, path, &fault);
+    }
+    size_t count = (size_t)image.width * (size_t)image.height;
+    for (size_t i = 0; i < count; i++) {
+        image.values[i] = (float)render_pixel_error(&session->film, &session->error, i);
+    }
+    ImageDepth depth = image_path_depth(path);
+    ImageEncoding encoding = {.depth = depth == IMAGE_DEPTH_8 ? IMAGE_DEPTH_16 : depth,
+                              .transfer = IMAGE_TRANSFER_POWER, .gamma = 1.0, .threads = 1};
+    ImageStatus status = image_write(&image, &encoding, path, &fault);
+    image_fini(&image);
+    return session_image_fault(session, status, path, &fault);
+}
+
+__attribute__((format(printf, 3, 4))) static void note(SessionNotes *notes, const char *name, const char *format, ...)
+{
+    va_list arguments;
+    char *text = notes->texts[notes->count];
+    va_start(arguments, format);
+    vsnprintf(text, NOTE_TEXT, format, arguments);
+    va_end(arguments);
+    notes->items[notes->count++] = (ImageNote){name, text};
+}
+
+// Everything that the picture follows from, and its error; no times, so that the same run makes the same file.
+void session_make_notes(const rt_session *session, SessionNotes *notes)
+{
+    const SamplingOptions *sampling = &session->sampling;
+    const SamplingError *error = &session->error;
+    notes->count = 0;
+    if (!session->is_sampled) {
+        return;
+    }
+    note(notes, "rtlang:sampler", "%s", sampler_name(sampling->sampler));
+    note(notes, "rtlang:filter", "%s", filter_name(sampling->filter));
+    note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
+    note(notes, "rtlang:samples", "%.17g", error->samples);
+    note(notes, "rtlang:adaptive", "%s", sampling->is_adaptive ? "yes" : "no");
+    if (error->is_known) {
+        note(notes, "rtlang:rmse", "%.6g", error->rmse);
+        note(notes, "rtlang:rmse-low", "%.6g", error->low);
+        note(notes, "rtlang:rmse-high", "%.6g", error->high);
+    }
+}

@@ -1,0 +1,37 @@
+// From the scene's working space to linear light.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_LINEAR_H
+#define RENDER_LINEAR_H
+
+#include <math.h>
+
+#include "base/attributes.h"
+#include "math/colour.h"
+#include "scene/scene.h"
+
+// Whether values of the film are not linear light as they stand. Legacy files stay as they are.
+static inline bool linear_is_needed(const Settings *settings)
+{
+    return settings->gamma_model == GAMMA_POWER || settings->gamma_model == GAMMA_SRGB;
+}
+
+static inline double linear_value(const Settings *settings, double value)
+{
+    value = fmax(value, 0.0);
+    return settings->gamma_model == GAMMA_SRGB ? rgb_srgb_decode(value) : pow(value, settings->assumed_gamma);
+}
+
+// How fast linear light changes with the values of a pixel.
+static inline Rgb linear_slope(const Settings *settings, const float value[3])
+{
+    const double step = 0x1p-10; // of a value: the curve is smooth
+    double slope[3] = {1.0, 1.0, 1.0};
+    for (int i = 0; i < 3 && linear_is_needed(settings); i++) {
+        double low = fmax(value[i] - step, 0.0);
+        slope[i] = (linear_value(settings, low + 2.0 * step) - linear_value(settings, low)) / (2.0 * step);
+    }
+    return rgb(slope[0], slope[1], slope[2]);
+}
+
+#endif

@@ -1,0 +1,163 @@
+// The samplers. Everything is hashing of 32-bit words; no state, no tables that change.
+//
+// SPDX-License-Identifier: MIT
+#include "render/sampler.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "base/attributes.h"
+
+const char *sampler_name(SamplerKind kind)
+{
+    static const char *const names[] = {[SAMPLER_SOBOL] = "sobol", [SAMPLER_HALTON] = "halton",
+                                        [SAMPLER_JITTERED] = "jittered", [SAMPLER_GRID] = "grid",
+                                        [SAMPLER_RANDOM] = "random"};
+    return kind < SAMPLER_COUNT ? names[kind] : NULL;
+}
+
+// ---- hashing
+
+// Chosen for its even bits by C. Wellons, "Prospecting for hash functions", 2018 (lowbias32).
+static uint32_t hash(uint32_t x)
+{
+    x = (x ^ (x >> 16)) * UINT32_C(0x7feb352d);
+    x = (x ^ (x >> 15)) * UINT32_C(0x846ca68b);
+    return x ^ (x >> 16);
+}
+
+static uint32_t hash_add(uint32_t seed, uint32_t value)
+{
+    return hash(seed ^ (hash(value) + UINT32_C(0x9e3779b9) + (seed << 6) + (seed >> 2)));
+}
+
+uint32_t sampler_pixel_seed(uint64_t seed, uint32_t x, uint32_t y)
+{
+    return hash_add(hash_add(hash_add(hash((uint32_t)seed), (uint32_t)(seed >> 32)), x), y);
+}
+
+static double unit(uint32_t bits)
+{
+    return bits * 0x1p-32;
+}
+
+static uint32_t reverse_bits(uint32_t x)
+{
+    x = __builtin_bswap32(x);
+    x = (x >> 4 & UINT32_C(0x0f0f0f0f)) | (x & UINT32_C(0x0f0f0f0f)) << 4;
+    x = (x >> 2 & UINT32_C(0x33333333)) | (x & UINT32_C(0x33333333)) << 2;
+    return (x >> 1 & UINT32_C(0x55555555)) | (x & UINT32_C(0x55555555)) << 1;
+}
+
+// A permutation in which each bit depends on those below it only: Laine and Karras, with Burley's constants.
+static uint32_t permute_upward(uint32_t x, uint32_t seed)
+{
+    x += seed;
+    x ^= x * UINT32_C(0x6c50b47c);
+    x ^= x * UINT32_C(0xb82f1e52);
+    x ^= x * UINT32_C(0xc7afe638);
+    return x ^ x * UINT32_C(0x8d22f6e6);
+}
+
+// Owen's scrambling of a fraction of 2^32: each bit is flipped by chance that depends on the bits above it.
+static uint32_t owen_scramble(uint32_t x, uint32_t seed)
+{
+    return reverse_bits(permute_upward(reverse_bits(x), seed));
+}
+
+// ---- Sobol
+
+// Joe and Kuo's numbers for the first two dimensions are bit reversal and Pascal's triangle modulo 2. The latter is a
+// product of five shifts: entry (i, j), C(j, i) mod 2, is 1 where the bits of i are among those of j (Lucas), bit by bit.
+uint32_t sobol_value(uint32_t index, unsigned dimension)
+{
+    uint32_t x = reverse_bits(index);
+    if (dimension == 1) {
+        x ^= x << 16;
+        x ^= (x & UINT32_C(0x00ff00ff)) << 8;
+        x ^= (x & UINT32_C(0x0f0f0f0f)) << 4;
+        x ^= (x & UINT32_C(0x33333333)) << 2;
+        x ^= (x & UINT32_C(0x55555555)) << 1;
+    }
+    return x;
+}
+
+// The order of the points is shuffled in each pair on its own, so that pairs are independent; a first part whose number is
+// a power of two stays a net.
+static SamplePoint sobol_point(uint32_t seed, uint32_t index)
+{
+    uint32_t shuffled = owen_scramble(index, seed);
+    return (SamplePoint){unit(owen_scramble(sobol_value(shuffled, 0), hash_add(seed, 1))),
+                         unit(owen_scramble(sobol_value(shuffled, 1), hash_add(seed, 2)))};
+}
+
+// ---- the others
+
+// The digits of index after the point in reversed order, each shifted by an amount that depends on those before it.
+static double halton_value(uint32_t index, uint32_t base, uint32_t seed)
+{
+    const double enough = 0x1p-32;
+    double value = 0.0, place = 1.0 / base;
+    for (; place > enough; index /= base, place /= base) {
+        uint32_t digit = index % base;
+        value += (digit + hash(seed) % base) % base * place;
+        seed = hash_add(seed, digit);
+    }
+    return value;
+}
+
+// Each pair shifts digits of its own, but the order is the same in all: pairs after the first use other bases.
+static SamplePoint halton_point(uint32_t seed, uint32_t index, uint32_t pair)
+{
+    static const uint8_t bases[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+    uint32_t first = 2 * pair % RT_COUNT_OF(bases);
+    return (SamplePoint){halton_value(index, bases[first], hash_add(seed, 1)),
+                         halton_value(index, bases[first + 1], hash_add(seed, 2))};
+}
+
+// A permutation of 0 … count - 1: A. Kensler, "Correlated multi-jittered sampling", Pixar 2013; here by walking the cycles
+// of a permutation of the next power of two.
+static uint32_t permute(uint32_t i, uint32_t count, uint32_t seed)
+{
+    uint32_t mask = count - 1;
+    for (int shift = 1; shift < 32; shift *= 2) {
+        mask |= mask >> shift;
+    }
+    do {
+        i = (i + seed) & mask;
+        i = i * (hash(seed) | 1) & mask;
+        i ^= i >> 3 & mask;
+        i = (i * UINT32_C(0x85ebca6b) + hash(seed ^ 1)) & mask;
+        i ^= i >> 5 & mask;
+        i = i * UINT32_C(0xc2b2ae35) & mask;
+    } while (i >= count);
+    return i;
+}
+
+// Cells in rows as square as may be; where there are more than samples, which ones stay empty is left to chance.
+static SamplePoint cell_point(const SampleStream *stream, uint32_t seed)
+{
+    uint32_t count = stream->count > 0 ? stream->count : 1;
+    uint32_t rows = (uint32_t)sqrt((double)count), columns = (count + rows - 1) / rows;
+    seed = hash_add(seed, stream->first);
+    uint32_t cell = permute(stream->index - stream->first, rows * columns, seed);
+    uint32_t chance = stream->kind == SAMPLER_GRID ? seed : hash_add(seed, cell);
+    double x = (cell % columns + unit(hash_add(chance, 3))) / columns;
+    double y = (cell / columns + unit(hash_add(chance, 4))) / rows;
+    return (SamplePoint){fmin(x, 1.0 - 0x1p-32), fmin(y, 1.0 - 0x1p-32)};
+}
+
+SamplePoint sample_next(SampleStream *stream)
+{
+    uint32_t pair = stream->pair++, seed = hash_add(stream->seed, pair);
+    switch (stream->kind) {
+    case SAMPLER_SOBOL: return sobol_point(seed, stream->index);
+    case SAMPLER_HALTON: return halton_point(seed, stream->index, pair);
+    case SAMPLER_JITTERED:
+    case SAMPLER_GRID: return cell_point(stream, seed);
+    case SAMPLER_RANDOM:
+    case SAMPLER_COUNT: break;
+    }
+    seed = hash_add(seed, stream->index);
+    return (SamplePoint){unit(hash_add(seed, 1)), unit(hash_add(seed, 2))};
+}

@@ -1,0 +1,210 @@
+// Runs of rounds: how many samples are taken, and when that is enough.
+//
+// SPDX-License-Identifier: MIT
+#include "render/sampling.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "render/tiles.h"
+
+enum { PILOT_SAMPLES = 16 }; // of every pixel, before some get more than others
+
+typedef struct Sampling {
+    const Prepared *prepared;
+    const RenderOptions *options;
+    const SamplingOptions *wanted;
+    Film *film;
+    RenderStatistics *statistics;
+    SamplingError *error;
+    Round round;
+    Estimate estimate;
+    Choice choice;
+    double start;          // by the clock
+    double sample_seconds; // of a sample, as the last round had it
+    double round_samples;  // of this round
+    double all_samples;    // of the run, as far as can be told; 0: not
+} Sampling;
+
+static double clock_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double pixel_count(const Sampling *s)
+{
+    return (double)s->film->width * s->film->height;
+}
+
+static void forward_progress(void *client, double done)
+{
+    const Sampling *s = client;
+    double now = (double)s->estimate.samples + done * s->round_samples;
+    bool is_known = s->all_samples > 0.0;
+    RenderProgress progress = {is_known ? fmin(now / s->all_samples, 1.0) : 0.0, s->error,
+                               is_known ? fmax(s->all_samples - now, 0.0) * s->sample_seconds : -1.0};
+    s->options->progress(s->options->client, &progress);
+}
+
+static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
+{
+    const Sampling *s = client;
+    round_trace(&s->round, tile, counted);
+}
+
+// What rays would have brought that were not followed, if they were as bright as the picture is in the mean.
+static double bias_of(const Sampling *s)
+{
+    double sum = 0.0, share = (double)(s->statistics->cut_by_level + s->statistics->cut_by_weight) * 0x1p-32;
+    if (share == 0.0) {
+        return 0.0;
+    }
+    for (size_t i = 0; i < 3 * (size_t)pixel_count(s); i++) {
+        sum += s->film->rgb[i];
+    }
+    return share / (double)s->statistics->camera_rays * sum / (3.0 * pixel_count(s));
+}
+
+// One round; false when it was cancelled, which leaves pixels with and without it.
+static bool run_round(Sampling *s)
+{
+    double start = clock_seconds();
+    TileWork work = {s, s->film->width, s->film->height, trace_tile, s->options->progress ? forward_progress : NULL};
+    bool is_whole = tiles_run(&work, s->options, s->statistics);
+    if (is_whole) {
+        s->sample_seconds = (clock_seconds() - start) / s->round_samples;
+    }
+    if (!s->wanted->has_no_estimate) {
+        estimate_update(&s->estimate, s->film, &s->round, s->error);
+        s->error->bias = bias_of(s);
+    } else {
+        s->estimate.samples += (uint64_t)s->round_samples;
+        s->error->samples = (double)s->estimate.samples / pixel_count(s);
+    }
+    return is_whole;
+}
+
+// What is left of a goal, in samples of the whole run.
+static double predict(const Sampling *s)
+{
+    const SamplingOptions *wanted = s->wanted;
+    double all = wanted->samples > 0.0 ? wanted->samples * pixel_count(s) : HUGE_VAL;
+    if (wanted->time_limit > 0.0 && s->sample_seconds > 0.0) {
+        double left = fmax(wanted->time_limit - (clock_seconds() - s->start), 0.0);
+        all = fmin(all, (double)s->estimate.samples + left / s->sample_seconds);
+    }
+    if (wanted->target_error > 0.0 && s->round.buckets) {
+        double samples = choice_predict(&s->choice, &s->estimate, s->error, wanted->target_error);
+        all = samples > 0.0 ? fmin(all, samples) : all;
+    }
+    return isfinite(all) ? all : 0.0;
+}
+
+// Whether one of the goals is reached, or a round more would miss one.
+static bool is_enough(Sampling *s)
+{
+    const SamplingOptions *wanted = s->wanted;
+    SamplingError *error = s->error;
+    if (wanted->target_error > 0.0 && error->samples >= 4.0 && error->high <= wanted->target_error) {
+        error->end = SAMPLING_TARGET;
+        return true;
+    }
+    if (wanted->samples > 0.0 && error->samples >= wanted->samples) {
+        error->end = SAMPLING_DONE;
+        return true;
+    }
+    double next_end = clock_seconds() - s->start + s->round_samples * s->sample_seconds;
+    if (wanted->time_limit > 0.0 && error->samples > 0.0 && next_end > wanted->time_limit) {
+        error->end = SAMPLING_TIME;
+        return true;
+    }
+    return false;
+}
+
+// All pixels alike, by doubling: 2, …, half of them, all. Sets that are no sequence are two halves.
+static uint32_t next_count(const Sampling *s, uint32_t count, uint32_t all)
+{
+    uint32_t next = all;
+    if (!sampler_is_sequence(s->wanted->sampler)) {
+        return count == 0 ? (all + 1) / 2 : all;
+    }
+    while (next > 2 && (next + 1) / 2 > count) {
+        next = (next + 1) / 2;
+    }
+    return next;
+}
+
+static bool run_alike(Sampling *s, uint32_t all)
+{
+    for (uint32_t count = 0; count < all;) {
+        uint32_t next = next_count(s, count, all);
+        s->round.count = next;
+        s->round_samples = (double)(next - count) * pixel_count(s);
+        s->all_samples = predict(s);
+        if (count > 0 && is_enough(s)) {
+            return false;
+        }
+        if (!run_round(s)) {
+            s->error->end = SAMPLING_INTERRUPTED;
+            return false;
+        }
+        count = next;
+    }
+    return true;
+}
+
+static void run_adaptive(Sampling *s)
+{
+    s->round.buckets = s->choice.of_pixel;
+    s->round.count = 0;
+    for (;;) {
+        choice_make(&s->choice, &s->estimate, s->film);
+        s->round.least_bucket = s->choice.least_bucket;
+        s->round_samples = 0.0;
+        for (int i = s->choice.least_bucket; i < BUCKETS; i++) {
+            s->round_samples += s->choice.cost[i];
+        }
+        s->all_samples = predict(s);
+        if (is_enough(s)) {
+            return;
+        }
+        if (s->round_samples == 0.0 || !run_round(s)) {
+            s->error->end = s->round_samples == 0.0 ? SAMPLING_DONE : SAMPLING_INTERRUPTED;
+            return;
+        }
+    }
+}
+
+RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options, Film *film,
+                          RenderStatistics *statistics, SamplingError *error)
+{
+    const SamplingOptions *wanted = options->sampling;
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    Sampling *s = calloc(1, sizeof *s);
+    uint16_t *buckets = wanted->is_adaptive ? calloc(pixels, sizeof *buckets) : NULL;
+    film->records = calloc(pixels, sizeof *film->records);
+    if (!s || !film->records || (wanted->is_adaptive && !buckets)) {
+        free(s);
+        free(buckets);
+        return RENDER_NO_MEMORY;
+    }
+    *s = (Sampling){.prepared = prepared, .options = options, .wanted = wanted, .film = film, .statistics = statistics,
+                    .error = error, .start = clock_seconds(), .choice = {.of_pixel = buckets}};
+    s->round = (Round){.prepared = prepared, .sampling = wanted, .film = film};
+    filter_init(&s->round.filter, wanted->filter);
+    if (run_alike(s, wanted->is_adaptive ? PILOT_SAMPLES : (uint32_t)wanted->samples) && wanted->is_adaptive) {
+        run_adaptive(s);
+    }
+    bool is_whole = error->end != SAMPLING_INTERRUPTED;
+    for (size_t i = 0; !is_whole && i < pixels; i++) {
+        if (film->records[i].count == 0) {
+            error->samples = 0.0; // no picture
+        }
+    }
+    free(s);
+    free(buckets);
+    return is_whole ? RENDER_OK : RENDER_CANCELLED;
+}

@@ -1,0 +1,136 @@
+// The error of a picture from what its halves differ by.
+//
+// With V(n) the variance of a pixel's mean of n samples, the mean square of half the difference of two halves of n is V(n/2) -
+// V(n): all of V(n) when samples are independent, less when halves complete each other. The same of the halves' halves is
+// V(n/4) - V(n/2); were V to fall by one ratio r in each step, r would be the quotient of the two, and V(n) the
+// first over r - 1. Sums over many pixels and the last steps make it sharp. docs/sampling.md, "The error without a
+// reference".
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "render/sampling.h"
+
+// No ratio below that of independent samples is believed, none above that of smooth light.
+static const double RATIO_LEAST = 2.0, RATIO_MOST = 8.0;
+
+enum { STEPS_MOST = 2 };
+
+static bool has_ratio(const Round *round, int level)
+{
+    return sampler_is_sequence(round->sampling->sampler) && level >= 2;
+}
+
+// Pixels that were doubled just now: nothing has been chosen by what they say.
+static void add_fresh(Estimate *estimate, const Film *film, const Round *round)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    bool has_level[LEVELS] = {false};
+    for (size_t i = 0; i < pixels; i++) {
+        const PixelRecord *record = &film->records[i];
+        if (!round_has(round, i)) {
+            continue;
+        }
+        int level = estimate_level(record->count);
+        LevelSums *sums = &estimate->levels[level];
+        if (!has_level[level] && !round->buckets) {
+            sums->outer = sums->inner = 0.0;
+        }
+        has_level[level] = true;
+        sums->outer += record->outer;
+        sums->inner += round->buckets ? record->fresh : record->inner;
+    }
+}
+
+// The last step's ratio, or its geometric mean with that of the step before, whichever is less: ratios go up and down with
+// the shapes of the nets, and fall where light is sampled. How many steps it was taken from in *steps.
+static double ratio_of(const Estimate *estimate, const Round *round, int level, int *steps)
+{
+    double sum = 0.0, least = HUGE_VAL;
+    *steps = 0;
+    for (int i = 1; i <= STEPS_MOST && has_ratio(round, level); i++, level--) {
+        const LevelSums *sums = &estimate->levels[level];
+        if (!(sums->outer > 0.0) || !(sums->inner > 0.0)) {
+            break;
+        }
+        sum += log2(sums->inner / sums->outer);
+        *steps = sum / i < least ? i : *steps;
+        least = fmin(least, sum / i);
+    }
+    return *steps > 0 ? fmin(fmax(exp2(least), RATIO_LEAST), RATIO_MOST) : RATIO_LEAST;
+}
+
+static void add_now(Estimate *estimate, const Film *film)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    estimate->samples = 0;
+    for (int level = 0; level < LEVELS; level++) {
+        LevelSums *sums = &estimate->levels[level];
+        sums->outer_now = sums->outer_squares = 0.0;
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        const PixelRecord *record = &film->records[i];
+        LevelSums *sums = &estimate->levels[estimate_level(record->count)];
+        estimate->samples += record->count;
+        sums->outer_now += record->outer;
+        sums->outer_squares += (double)record->outer * record->outer;
+    }
+}
+
+// The square of the relative error of a level's share of the mean square. Squares of normal errors have a variance of two
+// thirds of their own mean square. What the picture is off by varies as much as its outer sum does.
+static double relative_variance(const LevelSums *sums, double ratio, int steps)
+{
+    if (!(sums->outer_now > 0.0)) {
+        return 0.0;
+    }
+    double outer = 2.0 / 3.0 * sums->outer_squares / (sums->outer_now * sums->outer_now);
+    if (steps == 0 || ratio <= RATIO_LEAST) {
+        return 2.0 * outer;
+    }
+    double by_ratio = ratio / (ratio - 1.0) / steps;
+    return ((1.0 + by_ratio) * (1.0 + by_ratio) + by_ratio * by_ratio + 1.0) * outer;
+}
+
+// By how much the law of the ratios may be wrong, by level: less, the more steps were seen, and the least where all sets
+// are nets. Measured.
+static double law_error(const Round *round, int level)
+{
+    static const double errors[] = {0.35, 0.35, 0.20, 0.20, 0.14, 0.08}, not_net = 0.14;
+    if (!sampler_is_sequence(round->sampling->sampler)) {
+        return 0.0;
+    }
+    double error = errors[level < 5 ? level : 5];
+    return (round->count & (round->count - 1)) != 0 ? fmax(error, not_net) : error;
+}
+
+void estimate_update(Estimate *estimate, const Film *film, const Round *round, SamplingError *error)
+{
+    const double normal = 1.96; // 95 % of a normal distribution is within
+    double pixels = (double)film->width * film->height, sum = 0.0, variance = 0.0, slope = 0.0, law = 0.0;
+    add_fresh(estimate, film, round);
+    add_now(estimate, film);
+    for (int level = 0; level < LEVELS; level++) {
+        const LevelSums *sums = &estimate->levels[level];
+        int steps;
+        double ratio = estimate->ratio[level] = ratio_of(estimate, round, level, &steps);
+        double part = sums->outer_now / (ratio - 1.0);
+        sum += part;
+        slope += part * log2(ratio);
+        variance += part * part * relative_variance(sums, ratio, steps);
+        law += part * law_error(round, level);
+    }
+    double relative = sum > 0.0 ? normal * 0.5 * sqrt(variance) / sum : 0.0, wrong = sum > 0.0 ? law / sum : 0.0;
+    double spread = exp(sqrt(relative * relative + wrong * wrong));
+    error->samples = (double)estimate->samples / pixels;
+    error->is_known = error->samples >= 2.0;
+    error->rmse = sqrt(sum / pixels);
+    error->low = error->rmse / spread;
+    error->high = error->rmse * spread;
+    error->slope = sum > 0.0 ? -0.5 * slope / sum : -0.5;
+}
+
+double render_pixel_error(const Film *film, const SamplingError *error, size_t pixel)
+{
+    return sqrt(film->records[pixel].outer / (exp2(-2.0 * error->slope) - 1.0));
+}

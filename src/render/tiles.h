@@ -1,0 +1,23 @@
+// Tiles and threads: something is done once for each tile of a picture, by whichever thread is free.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_TILES_H
+#define RENDER_TILES_H
+
+#include "render/kernel.h"
+#include "render/render.h"
+
+enum { TILE_SIZE = 32 };
+
+// What is done. What it does for a tile depends on nothing that is done for another.
+typedef struct TileWork {
+    void *client;
+    int width, height; // of the picture
+    void (*trace)(void *client, Tile tile, RenderStatistics *counted); // adds to what was counted
+    void (*progress)(void *client, double done);                      // 0 to 1; by one thread at a time; may be NULL
+} TileWork;
+
+// Runs on options->threads threads; adds to the statistics. False when it was cancelled.
+bool tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics);
+
+#endif

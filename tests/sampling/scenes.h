@@ -1,0 +1,133 @@
+// The scenes that sampling is measured on, and what is needed to render them through the public interface.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SAMPLING_SCENES_H
+#define SAMPLING_SCENES_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rtlang/rtlang.h"
+
+#define SCENE_HEAD "#version 3.7; global_settings { assumed_gamma 1 }\n"
+#define SCENE_CAMERA "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 }\n"
+
+typedef struct SamplingScene {
+    const char *name, *text;
+} SamplingScene;
+
+// Some hundred spheres: hard edges everywhere.
+static const SamplingScene scene_balls = {
+    "balls", SCENE_HEAD SCENE_CAMERA
+    "light_source { <-8,12,-10> rgb 1 } background { rgb <0.1,0.2,0.4> }\n"
+    "#declare S = seed(7);\n"
+    "#for (I, 1, 300) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*8-4>, 0.1+0.25*rand(S)\n"
+    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.1 diffuse 0.8 } } #end\n"};
+
+// A plane in the half shadow of an area light.
+static const SamplingScene scene_soft = {
+    "soft shadow", SCENE_HEAD SCENE_CAMERA
+    "light_source { <-3,6,-3> rgb 1 area_light <4,0,0>, <0,0,4>, 9, 9 jitter }\n"
+    "plane { y, -1 pigment { rgb 0.8 } finish { ambient 0 diffuse 0.9 } }\n"
+    "sphere { <0,0.5,0>, 1 pigment { rgb <1,0.5,0.3> } finish { ambient 0.1 diffuse 0.7 } }\n"
+    "sphere { <2,0,1>, 0.8 pigment { rgb <0.3,0.5,1> } finish { ambient 0.1 diffuse 0.7 } }\n"};
+
+static const SamplingScene scene_mirrors = {
+    "mirrors", SCENE_HEAD SCENE_CAMERA
+    "global_settings { max_trace_level 8 } light_source { <-8,12,-10> rgb 1 } background { rgb <0.2,0.3,0.5> }\n"
+    "plane { y, -1.5 pigment { checker rgb 1 rgb 0.2 } finish { ambient 0.1 diffuse 0.6 reflection 0.2 } }\n"
+    "#for (I, -2, 2) sphere { <I*1.6, 0, I*I*0.5>, 0.75 pigment { rgb <0.8,0.6,0.4> }\n"
+    "finish { ambient 0.05 diffuse 0.3 reflection 0.6 phong 0.8 phong_size 60 } } #end\n"};
+
+// Fine squares up to the horizon.
+static const SamplingScene scene_checker = {
+    "checker", SCENE_HEAD SCENE_CAMERA
+    "light_source { <-8,12,-10> rgb 1 }\n"
+    "plane { y, -1 pigment { checker rgb 1 rgb 0 scale 0.3 } finish { ambient 0.4 diffuse 0.5 } }\n"
+    "plane { -z, -60 pigment { gradient y scale 3 } finish { ambient 0.7 } }\n"};
+
+static const SamplingScene scene_glass = {
+    "glass", SCENE_HEAD SCENE_CAMERA
+    "global_settings { max_trace_level 10 } light_source { <-8,12,-10> rgb 1 }\n"
+    "background { rgb <0.4,0.5,0.7> } plane { y, -1.5 pigment { checker rgb 0.9 rgb <0.2,0.3,0.2> } }\n"
+    "#for (I, -1, 1) sphere { <I*2, 0, 0>, 0.9 pigment { rgbf <0.95,0.9,1,0.9> }\n"
+    "finish { ambient 0 diffuse 0.1 phong 0.5 } interior { ior 1.4 } } #end\n"};
+
+static const SamplingScene *const sampling_scenes[] = {&scene_balls, &scene_soft, &scene_mirrors, &scene_checker,
+                                                       &scene_glass};
+
+typedef struct Picture {
+    int width, height;
+    float *rgb;
+    rt_error error;
+    double seconds;
+    double predicted; // of all samples, at the first report after a tenth of those that were taken in the end; or 0
+    size_t reports;
+    double report_samples[4096], report_all[4096];
+} Picture;
+
+typedef struct Running {
+    rt_session *session;
+    Picture *picture;
+} Running;
+
+static void on_progress(void *client, double done)
+{
+    Running *running = client;
+    rt_error error;
+    rt_get_error(running->session, &error);
+    Picture *picture = running->picture;
+    if (done > 0.0 && picture->reports < 4096 && error.known) {
+        picture->report_samples[picture->reports] = error.samples;
+        picture->report_all[picture->reports++] = error.samples / done; // about: a round may be on its way
+    }
+}
+
+static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
+{
+    (void)client;
+    fputs(diagnostic->text, stderr);
+}
+
+// Aborts on failure: the scenes are right.
+static Picture *picture_make(const SamplingScene *scene, int width, int height, const rt_sampling *sampling, int threads)
+{
+    Picture *picture = calloc(1, sizeof *picture);
+    Running running = {.picture = picture};
+    rt_callbacks callbacks = {&running, on_diagnostic, NULL, on_progress};
+    rt_session *session = running.session = rt_session_new(&callbacks);
+    if (!picture || !session || rt_set_size(session, width, height) || rt_set_sampling(session, sampling) ||
+        rt_load_text(session, scene->name, scene->text, strlen(scene->text)) || rt_render(session, threads)) {
+        abort();
+    }
+    const float *rgb = rt_pixels(session, &picture->width, &picture->height);
+    size_t bytes = (size_t)width * (size_t)height * 3 * sizeof *rgb;
+    picture->rgb = malloc(bytes);
+    memcpy(picture->rgb, rgb, bytes);
+    rt_get_error(session, &picture->error);
+    rt_summary summary;
+    rt_get_summary(session, &summary);
+    picture->seconds = summary.trace_seconds;
+    rt_session_free(session);
+    return picture;
+}
+
+static void picture_free(Picture *picture)
+{
+    free(picture->rgb);
+    free(picture);
+}
+
+static double picture_rmse(const Picture *a, const Picture *b)
+{
+    size_t count = (size_t)a->width * (size_t)a->height * 3;
+    double sum = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        sum += ((double)a->rgb[i] - b->rgb[i]) * ((double)a->rgb[i] - b->rgb[i]);
+    }
+    return sqrt(sum / (double)count);
+}
+
+#endif

@@ -1,0 +1,178 @@
+// Samplers and filters on their own: nets, cells, means; what area lights make of a sample.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/filter.h"
+#include "render/light.h"
+#include "render/sampler.h"
+#include "unit/tap.h"
+
+// The second dimension from the direction numbers of Joe and Kuo's table: s = 1, a = 0, m = 1.
+static uint32_t sobol_by_table(uint32_t index)
+{
+    uint32_t direction = UINT32_C(1) << 31, value = 0;
+    for (; index; index >>= 1, direction ^= direction >> 1) {
+        value ^= index & 1 ? direction : 0;
+    }
+    return value;
+}
+
+static void test_sobol(void)
+{
+    int wrong = 0;
+    for (uint32_t i = 0; i < 100000; i++) {
+        uint32_t index = i * UINT32_C(2654435761);
+        wrong += sobol_value(index, 1) != sobol_by_table(index);
+    }
+    tap_ok(wrong == 0, "the second dimension is that of the direction numbers");
+}
+
+// Every box of area 1/count with sides that are powers of 1/2 has one of the first `count` points.
+static bool is_net(SampleStream stream, unsigned log_count, uint32_t first)
+{
+    uint32_t count = UINT32_C(1) << log_count;
+    for (unsigned across = 0; across <= log_count; across++) {
+        bool seen[1024] = {false};
+        for (uint32_t i = 0; i < count; i++) {
+            SampleStream one = stream;
+            one.index = first + i;
+            SamplePoint at = sample_next(&one);
+            uint32_t x = (uint32_t)(at.x * (1u << across)), y = (uint32_t)(at.y * (1u << (log_count - across)));
+            uint32_t box = y << across | x;
+            if (seen[box]) {
+                return false;
+            }
+            seen[box] = true;
+        }
+    }
+    return true;
+}
+
+static void test_nets(void)
+{
+    int wrong = 0;
+    for (uint32_t pixel = 0; pixel < 20; pixel++) {
+        for (uint32_t pair = 0; pair < 3; pair++) {
+            SampleStream stream = {.kind = SAMPLER_SOBOL, .seed = sampler_pixel_seed(5, pixel, 3), .pair = pair};
+            for (unsigned log_count = 0; log_count <= 8; log_count++) {
+                wrong += !is_net(stream, log_count, 0) || !is_net(stream, log_count, UINT32_C(1) << log_count);
+            }
+        }
+    }
+    tap_ok(wrong == 0, "scrambled points are nets, from the beginning and in the second half of twice as many");
+}
+
+static void test_cells(void)
+{
+    int wrong = 0;
+    for (uint32_t pixel = 0; pixel < 50; pixel++) {
+        for (uint32_t pair = 0; pair < 2; pair++) {
+            bool seen[64] = {false};
+            for (uint32_t i = 64; i < 128; i++) {
+                SampleStream stream = {.kind = SAMPLER_JITTERED, .seed = sampler_pixel_seed(1, pixel, 9), .index = i,
+                                       .first = 64, .count = 64, .pair = pair};
+                SamplePoint at = sample_next(&stream);
+                int cell = (int)(at.x * 8.0) + 8 * (int)(at.y * 8.0);
+                wrong += seen[cell];
+                seen[cell] = true;
+            }
+        }
+    }
+    tap_ok(wrong == 0, "jittered points are one to a cell");
+}
+
+// Moments of all samplers over pixels: unbiased, and dimensions and pixels do not hang together.
+static void test_moments(void)
+{
+    enum { COUNT = 40000 };
+    for (SamplerKind kind = 0; kind < SAMPLER_COUNT; kind++) {
+        double x = 0.0, y = 0.0, xy = 0.0, pairs = 0.0, squares = 0.0;
+        for (uint32_t pixel = 0; pixel < COUNT; pixel++) {
+            SampleStream stream = {.kind = kind, .seed = sampler_pixel_seed(2, pixel % 200, pixel / 200), .index = 5,
+                                   .count = 7};
+            SamplePoint first = sample_next(&stream), second = sample_next(&stream);
+            x += first.x - 0.5;
+            y += first.y - 0.5;
+            squares += first.x * first.x - 1.0 / 3.0;
+            xy += (first.x - 0.5) * (first.y - 0.5);
+            pairs += (first.x - 0.5) * (second.x - 0.5);
+        }
+        double mean = 4.5 * sqrt(COUNT / 12.0), product = 4.5 * sqrt(COUNT) / 12.0;
+        tap_ok(fabs(x) < mean && fabs(y) < mean && fabs(squares) < 4.5 * sqrt(COUNT * 4.0 / 45.0) &&
+                   fabs(xy) < product && fabs(pairs) < product,
+               "%s: even in the mean, dimensions independent", sampler_name(kind));
+    }
+}
+
+static void test_filters(void)
+{
+    enum { STEPS = 2048 }; // a multiple of those of the tables
+    for (FilterKind kind = 0; kind < FILTER_COUNT; kind++) {
+        Filter filter;
+        double weight = 0.0, second = 0.0, want = 0.0, sum = 0.0;
+        filter_init(&filter, kind);
+        for (int i = 0; i < STEPS * STEPS; i++) {
+            SamplePoint at = {(i % STEPS + 0.5) / STEPS, (i / STEPS + 0.5) / STEPS};
+            FilterSample sample = filter_sample(&filter, at);
+            weight += sample.weight;
+            second += sample.weight * sample.x * sample.x;
+        }
+        for (int i = 0; i < 100000; i++) {
+            double x = (i + 0.5) / 100000.0 * 4.0 - 2.0;
+            want += filter_value(kind, x) * x * x;
+            sum += filter_value(kind, x);
+        }
+        weight /= STEPS * STEPS;
+        second /= STEPS * STEPS;
+        tap_ok(fabs(weight - 1.0) < 1e-3 && fabs(second - want / sum) < 1e-3, "%s: weights have mean 1 and its breadth",
+               filter_name(kind));
+    }
+}
+
+// How often each light of a row counts in the grid: by halving it as the grid is halved.
+static void row_weights(int low, int high, double weight, double *weights)
+{
+    if (high - low <= 1) {
+        weights[low] += weight / 2.0;
+        weights[high] += weight / 2.0;
+        return;
+    }
+    row_weights(low, (low + high) / 2, weight / 2.0, weights);
+    row_weights((low + high + 1) / 2, high, weight / 2.0, weights);
+}
+
+static void test_rows(void)
+{
+    enum { STEPS = 1 << 16 };
+    int wrong = 0;
+    for (int size = 1; size <= 17; size++) {
+        double want[17] = {0.0}, found[17] = {0.0}, last = -1.0;
+        row_weights(0, size - 1, 1.0, want);
+        for (int i = 0; i < STEPS; i++) {
+            double place = light_row_sample(size, false, (double)i / STEPS);
+            found[size > 1 ? (int)lround((place + 0.5) * (size - 1)) : 0] += 1.0 / STEPS;
+            wrong += place < last;
+            last = place;
+            double moved = light_row_sample(size, true, (double)i / STEPS);
+            wrong += size > 1 && fabs(moved - place) * (size - 1) > 0.5 + 1e-9;
+        }
+        for (int i = 0; i < size; i++) {
+            wrong += fabs(found[i] - want[i]) > 1e-9;
+        }
+    }
+    tap_ok(wrong == 0, "each light of a row is drawn as often as it counts in the grid");
+}
+
+int main(void)
+{
+    test_sobol();
+    test_nets();
+    test_cells();
+    test_moments();
+    test_filters();
+    test_rows();
+    return tap_done();
+}
