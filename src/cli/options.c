@@ -196,7 +196,6 @@ static bool parse_positive(const char *text, double *value)
 static bool apply_samples(Options *options, const char *argument, const char **expected)
 {
     *expected = "a number from 1 to 16777216";
-    options->is_sampled = true;
     return parse_positive(argument, &options->sampling.samples) && options->sampling.samples >= 1.0 &&
            options->sampling.samples <= 16777216.0;
 }
@@ -236,7 +235,6 @@ static bool apply_filter(Options *options, const char *argument, const char **ex
 static bool apply_adaptive(Options *options, const char *argument, const char **expected)
 {
     (void)argument, (void)expected;
-    options->is_sampled = true;
     options->sampling.adaptive = 1;
     return true;
 }
@@ -244,14 +242,12 @@ static bool apply_adaptive(Options *options, const char *argument, const char **
 static bool apply_target_error(Options *options, const char *argument, const char **expected)
 {
     *expected = "a number above 0";
-    options->is_sampled = true;
     return parse_positive(argument, &options->sampling.target_error);
 }
 
 static bool apply_time_limit(Options *options, const char *argument, const char **expected)
 {
     *expected = "a number of seconds above 0";
-    options->is_sampled = true;
     return parse_positive(argument, &options->sampling.time_limit);
 }
 

@@ -39,7 +39,6 @@ typedef struct Options {
     const char *isa; // NULL: the best that the machine has
     rt_output encoding;
     rt_sampling sampling;
-    bool is_sampled; // some option says how
     const char *error_map; // where the error of each pixel is written; NULL: nowhere
     const char **include_paths; // owned list
     int include_path_count;
