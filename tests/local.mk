@@ -39,6 +39,7 @@ unit_programs = \
   tests/unit/test_trace_geometry \
   tests/unit/test_trace_tree \
   tests/unit/test_trace_secondary \
+  tests/unit/test_invariance \
   tests/unit/test_study \
   tests/unit/test_trace_pixel \
   tests/unit/test_trace_shapes \
@@ -119,6 +120,8 @@ tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_invariance_SOURCES = %D%/unit/test_invariance.c
+tests_unit_test_invariance_LDADD = libapi.la
 tests_unit_test_study_SOURCES = %D%/unit/test_study.c
 tests_unit_test_study_LDADD = libapi.la
 tests_unit_test_trace_pixel_SOURCES = %D%/unit/test_trace_pixel.c
@@ -226,8 +229,9 @@ update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_d
 
 # What takes too long for every day.
 .PHONY: check-long
-check-long: rtlang$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT)
+check-long: rtlang$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000 "$$(date +%s)"
+	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
 

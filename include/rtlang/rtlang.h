@@ -99,6 +99,9 @@ RT_API rt_status rt_set_warning(rt_session *session, const char *what);
  * line. docs/diagnostics.md lists the members. */
 typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON } rt_format;
 RT_API void rt_set_format(rt_session *session, rt_format format);
+/* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the lengths of
+ * fading scale along, so that the picture would be the same but for rounding. scale > 0. Fog and skies stay. */
+RT_API rt_status rt_set_world(rt_session *session, double scale, const double shift[3]);
 /* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height.
  * Default 320 x 240. */
 RT_API rt_status rt_set_size(rt_session *session, int width, int height);
@@ -106,6 +109,10 @@ RT_API rt_status rt_set_size(rt_session *session, int width, int height);
 /* Read and evaluate a scene: the first step. A session loads one scene. The path "-" is standard input. */
 RT_API rt_status rt_load_file(rt_session *session, const char *path);
 RT_API rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length);
+
+/* For study: the camera of the loaded scene goes away from the middle of its shapes, to `factor` times their distance, and zooms
+ * along, so that what stands there has the same size in the picture. factor > 0. */
+RT_API rt_status rt_move_camera(rt_session *session, double factor);
 
 /* Printable forms of each stage. Tokens and AST are made from a file that need not be a whole scene; the dump of the
  * scene needs rt_load_*. AST and scene are valid scene text again. *text is valid until the next call on the session, and

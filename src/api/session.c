@@ -180,6 +180,7 @@ static rt_status load(rt_session *session, Source *source, double start)
         .image_height = session->height,
         .clock = session->clock,
         .clock_on = session->clock_on,
+        .world = session->world.scale > 0.0 ? &session->world : NULL,
         .cancel = &session->cancel,
         .message = forward_message,
         .client = session,

@@ -33,6 +33,7 @@ struct rt_session {
     ARRAY(EvalDeclaration) declarations; // names are owned
     double clock;
     bool clock_on;
+    EvalWorld world;
     int width, height;
     rt_precision precision;
     const char *isa; // of geometry_isa; NULL for the best

@@ -10,6 +10,7 @@
 #include "api/session.h"
 #include "ast/words.h"
 #include "base/number.h"
+#include "scene/reach.h"
 
 enum { SIZE_MAX_PIXELS = 65535 };
 
@@ -171,5 +172,24 @@ rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling)
     }
     session->sampling = options;
     session->is_sampled = options.is_adaptive || options.samples > 1.0;
+    return RT_OK;
+}
+
+rt_status rt_set_world(rt_session *session, double scale, const double shift[3])
+{
+    Vec3 by = vec3(shift[0], shift[1], shift[2]);
+    if (!(scale > 0.0) || !isfinite(scale) || !vec3_is_finite(by)) {
+        return RT_FAULT_USAGE;
+    }
+    session->world = (EvalWorld){scale, by};
+    return RT_OK;
+}
+
+rt_status rt_move_camera(rt_session *session, double factor)
+{
+    if (!session->loaded || !(factor > 0.0) || !isfinite(factor)) {
+        return RT_FAULT_USAGE;
+    }
+    scene_move_camera(&session->scene, factor);
     return RT_OK;
 }

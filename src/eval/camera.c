@@ -113,13 +113,14 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
     if (scene->has_camera) {
         eval_warn(ev, DIAG_W0406, span, "more than one camera: only the last one counts");
     }
+    Transform world = world_transform(ev);
     scene->has_camera = true;
     scene->camera = (Camera){
         .type = camera->orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
-        .location = camera->location,
-        .direction = camera->direction,
-        .right = camera->right,
-        .up = camera->up,
+        .location = transform_point(&world, camera->location),
+        .direction = transform_direction(&world, camera->direction),
+        .right = transform_direction(&world, camera->right),
+        .up = transform_direction(&world, camera->up),
         .span = span,
     };
     return true;

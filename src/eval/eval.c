@@ -166,6 +166,8 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
     const DiagFrame *frame = options->diags->frame;
     init(&ev, options, scene);
     options->diags->frame = NULL;
+    Transform world = world_transform(&ev);
+    scene->camera.location = transform_point(&world, scene->camera.location); // of a scene without one
     if (!scope_init(&ev) || !objects_init(&ev) || !files_init(&ev, source) || !lint_init(&ev) ||
         !declare_all(&ev, source)) {
         eval_no_memory(&ev, SPAN_NONE);

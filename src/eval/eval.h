@@ -34,6 +34,13 @@ typedef struct EvalDeclaration {
     double number;    // when text is NULL
 } EvalDeclaration;
 
+// Where the whole scene is put: camera, lights and objects, with their textures, and the lengths that the language leaves as
+// they are (fading, cylinders of light): p' = scale p + shift.
+typedef struct EvalWorld {
+    double scale; // > 0
+    Vec3 shift;
+} EvalWorld;
+
 // What an evaluation is given. Pointers must stay valid during the call; nothing is owned.
 typedef struct EvalOptions {
     SourceMap *sources;
@@ -49,6 +56,7 @@ typedef struct EvalOptions {
     int image_width, image_height; // for the scene's own arithmetic
     double clock;
     bool clock_on;             // a clock was given
+    const EvalWorld *world;    // NULL: where it says
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console
     // does. What #warning and #error say is a diagnostic. May be NULL.

@@ -485,4 +485,8 @@ void lint_finish(Eval *ev); // after the last item
 bool objects_init(Eval *ev) RT_MUST_CHECK;
 void objects_fini(Eval *ev);
 
+// The transform around the whole scene, and the factor of lengths that no transform changes.
+Transform world_transform(const Eval *ev);
+double world_scale(const Eval *ev);
+
 #endif

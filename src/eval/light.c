@@ -114,16 +114,17 @@ bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer)
     LightBlueprint moved = *light;
     light_transform(&moved, outer);
     bool fades = light->fade_distance > 0.0 && light->fade_power > 0.0;
+    double length = light->cylinder ? world_scale(ev) : 1.0; // a spotlight's are angles
     Light record = {
         .type = light_type(light),
         .shadowless = light->shadowless,
         .position = moved.position,
         .point_at = moved.point_at,
         .colour = rgbft_rgb(light->colour),
-        .radius = light->radius,
-        .falloff = light->falloff,
+        .radius = light->radius * length,
+        .falloff = light->falloff * length,
         .tightness = light->tightness,
-        .fade_distance = fades ? light->fade_distance : 0.0,
+        .fade_distance = fades ? light->fade_distance * world_scale(ev) : 0.0,
         .fade_power = fades ? light->fade_power : 0.0,
         .area = moved.area,
         .span = light->part.span,

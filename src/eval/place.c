@@ -360,9 +360,24 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
                                  : place_shape(ev, kind, object, outer, &inner);
 }
 
+Transform world_transform(const Eval *ev)
+{
+    const EvalWorld *world = ev->options.world;
+    if (!world) {
+        return transform_identity();
+    }
+    Transform scale = transform_scale(vec3(world->scale, world->scale, world->scale));
+    return transform_compose(scale, transform_translate(world->shift));
+}
+
+double world_scale(const Eval *ev)
+{
+    return ev->options.world ? ev->options.world->scale : 1.0;
+}
+
 bool object_place(Eval *ev, SchemaKind kind, const void *object)
 {
-    Transform identity = transform_identity();
-    Placement world = {.outer = identity, .texture = ev->objects->defaults, .texture_outer = identity};
+    Transform outer = world_transform(ev);
+    Placement world = {.outer = outer, .texture = ev->objects->defaults, .texture_outer = outer};
     return place(ev, kind, object, &world);
 }

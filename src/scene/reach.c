@@ -57,3 +57,39 @@ void scene_reach(const Scene *scene, SceneReach *reach)
         reach_add_part(reach, eye, &scene->parts.items[i]);
     }
 }
+
+static void mean_add(Vec3 *sum, size_t *count, Vec3 place)
+{
+    *sum = vec3_add(*sum, place);
+    ++*count;
+}
+
+static Vec3 transform_place(const Transform *to_world)
+{
+    return vec3(to_world->m[3][0], to_world->m[3][1], to_world->m[3][2]);
+}
+
+void scene_move_camera(Scene *scene, double factor)
+{
+    Camera *camera = &scene->camera;
+    Vec3 sum = {0, 0, 0}, direction = vec3_scale(1.0 / length_of(camera->direction), camera->direction);
+    size_t count = 0;
+
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        mean_add(&sum, &count, scene->spheres.items[i].centre);
+    }
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        mean_add(&sum, &count, transform_place(&scene->ellipsoids.items[i].to_world));
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        if (scene->parts.items[i].kind != PART_PLANE) {
+            mean_add(&sum, &count, transform_place(&scene->parts.items[i].to_world));
+        }
+    }
+    Vec3 middle = count > 0 ? vec3_scale(1.0 / (double)count, sum) : vec3_add(camera->location, direction);
+    double distance = fabs(vec3_dot(vec3_sub(middle, camera->location), direction));
+    camera->location = vec3_add_scaled(camera->location, (1.0 - factor) * distance, direction);
+    if (camera->type == CAMERA_PERSPECTIVE) {
+        camera->direction = vec3_scale(factor, camera->direction);
+    }
+}
