@@ -202,6 +202,7 @@ lang_cases = \
   %D%/lang/seeded_faults.test \
   %D%/lang/settings.test \
   %D%/lang/shapes.test \
+  %D%/lang/sky.test \
   %D%/lang/sphere.test \
   %D%/lang/splice.test \
   %D%/lang/splines.test \

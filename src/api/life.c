@@ -201,6 +201,9 @@ static void tell_ray(const Printer *p, size_t number)
         tell_colour(p, "  meets nothing: the background, ", ray->light);
     }
     tell_colour(p, "; adds ", ray->adds);
+    if (!rgb_is_black(ray->fog)) {
+        tell_colour(p, "\n  fog on its way adds ", ray->fog);
+    }
     put(p, "\n");
 }
 
@@ -372,6 +375,7 @@ static void json_ray(const Printer *p, size_t number)
     }
     json_colour(p, "light", ray->light);
     json_colour(p, "adds", ray->adds);
+    json_colour(p, "fog", ray->fog);
     put(p, "}");
 }
 

@@ -28,6 +28,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
+    [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
     [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
 };
 
@@ -47,6 +48,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
     [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
+    [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
     [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close,     [KIND_LIGHT_SOURCE] = light_close,
 };
 
@@ -360,9 +362,10 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
     if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA)) {
         block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
     }
-    if (block->kind == KIND_PIGMENT && !block_begins_like_colour(block, item)) {
+    if ((block->kind == KIND_PIGMENT || argument->is_anywhere) && !block_begins_like_colour(block, item)) {
         block_fault(block, DIAG_E0254, item->span,
-                    "the colour of a pigment begins with a colour word such as `rgb`, or with the name of a colour");
+                    "the colour of a %s begins with a colour word such as `rgb`, or with the name of a colour",
+                    block_word(block));
     }
     block->arguments++;
     if (block->kind == KIND_PIGMENT) {
@@ -424,9 +427,9 @@ static void refuse_unsupported(Block *block, const AstNode *item)
 static void refuse_word(Block *block, const AstNode *item)
 {
     SchemaKind kind = block_kind(block->ev, item);
-    if (schema_kind(kind)->is_object) {
+    if (object_is_statement(kind)) {
         block_fault(block, DIAG_E0256, item->span,
-                    object_is_group(block->kind) ? "`%s` must stand before the properties of the union"
+                    object_is_group(block->kind) && schema_kind(kind)->is_object ? "`%s` must stand before the properties of the union"
                                                  : "`%s` cannot stand here",
                     schema_kind(kind)->word);
     } else if (word_class(item->symbol) == WORD_COLOUR) {
@@ -506,6 +509,14 @@ static void read_property(Block *block, const SchemaProperty *property, const As
     }
 }
 
+// An argument that may stand among the properties, at its place; else NULL.
+static const SchemaProperty *find_loose_argument(Block *block, const AstNode *item)
+{
+    const SchemaList *list = &schema_kind(block->kind)->arguments;
+    bool is_loose = list->count == 1 && list->items[0].is_anywhere && cursor_at_value(&block->cursor);
+    return is_loose && !block_is_misspelt(block, item) && block_begins_like_colour(block, item) ? list->items : NULL;
+}
+
 static void read_properties(Block *block)
 {
     const AstNode *item;
@@ -515,8 +526,11 @@ static void read_properties(Block *block)
         if (is_word && !block->has_fault && (item->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA))) {
             block_fault(block, DIAG_E0259, item->span, "no comma is expected here in %s", block_word(block));
         }
+        const SchemaProperty *loose = property ? NULL : find_loose_argument(block, item);
         if (property) {
             read_property(block, property, item);
+        } else if (loose) {
+            block->has_fault = !block_value(block, loose, item->span) || block->has_fault;
         } else if (is_word) {
             refuse_word(block, item);
         } else {

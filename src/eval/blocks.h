@@ -14,6 +14,8 @@ struct ObjectState {
     uint8_t advice[WORD_COUNT];                 // place among the unsupported words + 1
     bool is_told[WORD_COUNT];                   // that rtlang has not this word
     const TextureBlueprint *defaults;           // of #default
+    const SkySphereBlueprint *sky;              // the last one so far, in the program's memory; NULL: none
+    Span sky_span;
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring, has_deferred;
     UnsupportedBlueprint deferred;
@@ -99,9 +101,12 @@ bool pattern_close(Block *block) RT_MUST_CHECK; // of a pigment or texture
 bool block_begins_like_colour(Block *block, const AstNode *item);
 
 // material.c
+// The scene's record of a pigment that is moved by `outer`.
+bool pigment_place(Eval *ev, const PigmentBlueprint *pigment, const Transform *outer, Span span,
+                   Pigment *out) RT_MUST_CHECK;
 // The scene's record of a texture that is moved by `outer`, and of what is inside (NULL: nothing was said).
 bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
-                    const InteriorBlueprint *interior, Span span, MaterialIndex *index) RT_MUST_CHECK;
+                    const InteriorBlueprint *interior, bool is_hollow, Span span, MaterialIndex *index) RT_MUST_CHECK;
 
 // texture.c
 // Where an object or a material keeps its texture; NULL for other blocks.
@@ -130,6 +135,14 @@ bool light_point_at_action(Block *block, const SchemaProperty *property, const A
 void light_transform(LightBlueprint *light, const Transform *transform);
 bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer) RT_MUST_CHECK;
 
+// sky.c: sky_sphere and fog
+bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool sky_close(Block *block) RT_MUST_CHECK;
+bool sky_place(Eval *ev, const SkySphereBlueprint *sky, Span span) RT_MUST_CHECK;
+bool fog_turbulence_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool fog_close(Block *block) RT_MUST_CHECK;
+bool fog_place(Eval *ev, const FogBlueprint *fog, Span span) RT_MUST_CHECK;
+
 // settings.c
 bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
@@ -143,6 +156,7 @@ bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
 bool union_close(Block *block) RT_MUST_CHECK;
 bool object_is_group(SchemaKind kind); // a union, merge, intersection or difference
+bool object_is_statement(SchemaKind kind); // may stand outside of all braces
 
 // clip.c
 bool clip_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

@@ -178,6 +178,7 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
         splice_fini(&reading);
         ev.faulty = ev.faulty || !is_whole;
         settle_version(&ev);
+        ev.faulty = !objects_finish(&ev) || ev.faulty;
         lint_finish(&ev);
     }
     fini(&ev);

@@ -483,6 +483,8 @@ void lint_give_up(Eval *ev);
 void lint_finish(Eval *ev); // after the last item
 
 bool objects_init(Eval *ev) RT_MUST_CHECK;
+// When the whole scene is read: places what only the last one of counts.
+bool objects_finish(Eval *ev) RT_MUST_CHECK;
 void objects_fini(Eval *ev);
 
 // The transform around the whole scene, and the factor of lengths that no transform changes.

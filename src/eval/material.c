@@ -177,18 +177,25 @@ static bool add_interior(const Builder *builder, const TextureBlueprint *texture
            scene_add_interior(builder->ev->scene, &interior, index) || no_memory(builder);
 }
 
-bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
-                    const InteriorBlueprint *interior, Span span, MaterialIndex *index)
+bool pigment_place(Eval *ev, const PigmentBlueprint *pigment, const Transform *outer, Span span, Pigment *out)
 {
     Builder builder = {ev, span};
-    Compound compound;
+    return add_pigment(&builder, pigment, outer, out);
+}
+
+bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
+                    const InteriorBlueprint *interior, bool is_hollow, Span span, MaterialIndex *index)
+{
+    Builder builder = {ev, span};
+    Compound compound = {.is_hollow = is_hollow};
     if (!add_interior(&builder, texture, interior, &compound.interior)) {
         return false;
     }
     bool is_plain = texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE;
     if (is_plain && (!texture->below || hides_all(texture)) && compound.interior == RECORD_NONE) {
-        return scene_add_material(ev->scene, texture->pigment.colour, &texture->finish, index) ||
-               eval_no_memory(ev, span);
+        Finish finish = texture->finish;
+        finish.flags |= is_hollow ? FINISH_HOLLOW : 0;
+        return scene_add_material(ev->scene, texture->pigment.colour, &finish, index) || eval_no_memory(ev, span);
     }
     if (!add_texture(&builder, texture, outer, &compound.texture)) {
         return false;

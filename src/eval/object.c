@@ -162,6 +162,8 @@ static bool place_record(Eval *ev, const AstNode *item, SchemaKind is, const Blu
 {
     switch (is) {
     case KIND_CAMERA: return camera_place(ev, &record->camera, item->span);
+    case KIND_SKY_SPHERE: return sky_place(ev, &record->sky, item->span);
+    case KIND_FOG: return fog_place(ev, &record->fog, item->span);
     case KIND_BACKGROUND:
     case KIND_GLOBAL_SETTINGS: return settings_place(ev, is, record);
     default: return object_place(ev, is, record);
@@ -185,10 +187,10 @@ static bool place_name(Eval *ev, const AstNode *item)
     return object_place(ev, (SchemaKind)value.block, value.record);
 }
 
-static bool may_be_statement(SchemaKind kind)
+bool object_is_statement(SchemaKind kind)
 {
     return schema_kind(kind)->is_object || kind == KIND_CAMERA || kind == KIND_BACKGROUND ||
-           kind == KIND_GLOBAL_SETTINGS;
+           kind == KIND_SKY_SPHERE || kind == KIND_FOG || kind == KIND_GLOBAL_SETTINGS;
 }
 
 bool eval_place(Eval *ev, const AstNode *item)
@@ -201,14 +203,15 @@ bool eval_place(Eval *ev, const AstNode *item)
         block_unknown(ev, item);
         return false;
     }
-    if (!may_be_statement(kind)) {
+    if (!object_is_statement(kind)) {
         return eval_fault(ev, DIAG_E0256, item->span, "expected an object or a directive here");
     }
     ArenaMark mark = arena_mark(&ev->scratch);
+    Arena *arena = kind == KIND_SKY_SPHERE ? &ev->program : &ev->scratch; // a sky is kept until the end
     Blueprint record;
     SchemaKind is;
     block_defaults(ev, kind, &record);
-    bool is_fine = block_read(ev, item, kind, &ev->scratch, &record, &is) && place_record(ev, item, is, &record);
+    bool is_fine = block_read(ev, item, kind, arena, &record, &is) && place_record(ev, item, is, &record);
     arena_rewind(&ev->scratch, mark);
     return is_fine;
 }

@@ -25,6 +25,7 @@ typedef struct Placement {
     Transform texture_outer;         // of the texture
     const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
     const ClipChain *clips;
+    bool is_inner, is_hollow; // inside of another object, whose word on this counts
     uint8_t hidden;
     bool is_hidden_fixed; // what members say of no_image and the like does not count
 } Placement;
@@ -67,6 +68,29 @@ static uint8_t hidden_of(const ObjectPart *part)
                      (part->no_reflection ? HIDDEN_MIRROR : 0));
 }
 
+static bool place_material(Eval *ev, const Placement *at, Span span, MaterialIndex *material)
+{
+    return material_place(ev, at->texture, &at->texture_outer, at->interior, at->is_hollow, span, material);
+}
+
+// A group is hollow when it says so or its last member is; `hollow off` does not take back what that one says. Measured.
+static bool is_hollow(SchemaKind kind, const void *object)
+{
+    const ObjectPart *part = object;
+    while (object_is_group(kind) && !part->hollow) {
+        const UnionMember *last = NULL;
+        for (const UnionMember *member = ((const UnionBlueprint *)object)->members; member; member = member->next) {
+            last = member->kind != KIND_LIGHT_SOURCE ? member : last;
+        }
+        if (!last) {
+            return false;
+        }
+        kind = last->kind;
+        part = object = last->object;
+    }
+    return part->hollow;
+}
+
 // ---- plain spheres and planes
 
 // A sphere that is one after its transforms too. False in *is_round: it is not.
@@ -84,7 +108,7 @@ static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placemen
         Transform whole = transform_compose(transform_scale(vec3(radius, radius, radius)), *transform);
         *is_round = transform_is_similarity(&whole, &image);
     }
-    if (!*is_round || !may_add(ev, span) || !material_place(ev, inner->texture, &inner->texture_outer, inner->interior, span, &material)) {
+    if (!*is_round || !may_add(ev, span) || !place_material(ev, inner, span, &material)) {
         return !*is_round;
     }
     Vec3 centre = transform_point(transform, sphere->centre);
@@ -100,7 +124,7 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
     Scene *scene = ev->scene;
     Span span = common->span;
     bool is_added;
-    if (!may_add(ev, span) || !material_place(ev, inner->texture, &inner->texture_outer, inner->interior, span, &material)) {
+    if (!may_add(ev, span) || !place_material(ev, inner, span, &material)) {
         return false;
     }
     if (is_plain && part->kind == PART_BALL) {
@@ -208,8 +232,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     part.node = branch->parent;
     part.flags |= (common->is_inverse != branch->is_inverse ? PART_INVERSE : 0) | (branch->is_unseen ? PART_UNSEEN : 0);
     if (!may_add(ev, common->span) ||
-        (!branch->is_unseen && !material_place(ev, around->texture, &around->texture_outer, around->interior,
-                                               common->span, &part.material))) {
+        (!branch->is_unseen && !place_material(ev, around, common->span, &part.material))) {
         return false;
     }
     return scene_add_leaf(ev->scene, &part) || eval_no_memory(ev, common->span);
@@ -265,6 +288,8 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         branch.placement.texture_outer = outer->placement.outer;
     }
     branch.placement.interior = part->interior ? part->interior : outer->placement.interior;
+    branch.placement.is_inner = true;
+    branch.placement.is_hollow = outer->placement.is_inner ? outer->placement.is_hollow : is_hollow(kind, object);
     if (!clips) {
         return grow_object(ev, kind, object, &branch);
     }
@@ -350,6 +375,8 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .texture_outer = part->texture ? outer->outer : outer->texture_outer,
         .interior = part->interior ? part->interior : outer->interior,
         .clips = part->clips ? &own : outer->clips,
+        .is_inner = true,
+        .is_hollow = outer->is_inner ? outer->is_hollow : is_hollow(kind, object),
         .hidden = outer->hidden | (outer->is_hidden_fixed ? 0 : hidden_of(part)),
         .is_hidden_fixed = outer->is_hidden_fixed || !part->split_union || part->clips || part->bounds,
     };

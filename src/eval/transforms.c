@@ -39,6 +39,9 @@ static bool apply(Block *block, const Transform *transform)
         return true;
     }
     block->record->transform = transform_compose(block->record->transform, *transform);
+    if (block->is == KIND_FOG) {
+        block->record->fog.up = transform_direction(transform, block->record->fog.up);
+    }
     const TextureBlueprint **place = texture_place(block);
     if (place && *place) {
         TextureBlueprint *texture = arena_copy(block->arena, *place, sizeof *texture);

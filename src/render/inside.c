@@ -21,13 +21,18 @@ static void go_through(const Geometry *geometry, Ray *ray, RayStart *start, cons
     *start = (RayStart){hit->shape, !hit->inside, 0};
 }
 
-static void put_below(Inside *inside, uint32_t order, uint32_t interior)
+// Below all others with an interior; what has none is below all of those, for it does not count as what the ray is in.
+static void put_below(Inside *inside, InsideEntry entry)
 {
+    uint32_t place = 0;
+    while (entry.interior != RECORD_NONE && place < inside->count && inside->entries[place].interior == RECORD_NONE) {
+        place++;
+    }
     if (inside->count < INSIDE_MAX) {
-        for (uint32_t i = inside->count++; i > 0; i--) {
+        for (uint32_t i = inside->count++; i > place; i--) {
             inside->entries[i] = inside->entries[i - 1];
         }
-        inside->entries[0] = (InsideEntry){order, interior};
+        inside->entries[place] = entry;
     }
 }
 
@@ -56,13 +61,15 @@ static void walk(const Prepared *prepared, Ray ray, Inside *inside)
         go_through(prepared->geometry, &ray, &start, &hit, &order, &material);
         uint32_t interior =
             material & MATERIAL_COMPOUND ? prepared->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
+        bool is_solid = prepared->scene->fogs.count > 0 && !scene_is_hollow(prepared->scene, material) &&
+                        !geometry_is_flat(prepared->geometry, hit.shape);
         if (!hit.inside) {
-            inside_enter(&entered, order, interior);
+            inside_enter(&entered, order, interior, is_solid);
         } else if (holds(&entered, order)) {
             inside_leave(&entered, order);
-        } else if (interior != RECORD_NONE && !holds(inside, order)) {
-            // Shapes without an interior change nothing here: rays that start inside of them are in empty space.
-            put_below(inside, order, interior);
+        } else if ((interior != RECORD_NONE || is_solid) && !holds(inside, order)) {
+            // Other shapes change nothing here: rays that start inside of them are in empty space.
+            put_below(inside, (InsideEntry){order, interior, is_solid});
         }
     }
 }
@@ -71,7 +78,7 @@ static void walk(const Prepared *prepared, Ray ray, Inside *inside)
 void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside)
 {
     inside->count = 0;
-    if (prepared->scene->interiors.count > 0) {
+    if (prepared->scene->interiors.count > 0 || prepared->scene->fogs.count > 0) {
         walk(prepared, (Ray){point, odd_direction}, inside);
         walk(prepared, (Ray){point, vec3_neg(odd_direction)}, inside);
     }

@@ -21,6 +21,7 @@ enum { INSIDE_MAX = 64 }; // shapes that are entered while a ray is inside of so
 typedef struct InsideEntry {
     uint32_t order;    // of the shape
     uint32_t interior; // Scene.interiors, or RECORD_NONE for empty space
+    bool is_solid;     // of a scene with fog: there is none inside of it
 } InsideEntry;
 
 typedef struct Inside {
@@ -36,11 +37,20 @@ static inline void inside_copy(Inside *to, const Inside *from)
     }
 }
 
-static inline void inside_enter(Inside *inside, uint32_t order, uint32_t interior)
+static inline void inside_enter(Inside *inside, uint32_t order, uint32_t interior, bool is_solid)
 {
     if (inside->count < INSIDE_MAX) {
-        inside->entries[inside->count++] = (InsideEntry){order, interior};
+        inside->entries[inside->count++] = (InsideEntry){order, interior, is_solid};
     }
+}
+
+static inline bool inside_is_solid(const Inside *inside)
+{
+    bool is_solid = false;
+    for (uint32_t i = 0; i < inside->count; i++) {
+        is_solid |= inside->entries[i].is_solid;
+    }
+    return is_solid;
 }
 
 // The shape need not be the one entered last, nor be there at all.

@@ -65,8 +65,11 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const K
     X(many_glass, "tree+planes+textures+glass", GEOMETRY_MANY, SHADING_ANY | RENDER_TEXTURES | RENDER_INTERIORS)       \
     X(many_lights, "tree+planes+lights", GEOMETRY_MANY, SHADING_ANY | RENDER_LIGHTS)                                   \
     X(any_shadows, "all shapes+shadows", GEOMETRY_ANY, SHADING_SHADOWS)                                                \
-    X(any_any, "everything", GEOMETRY_ANY,                                                                             \
-      SHADING_ANY | RENDER_EXPONENT | RENDER_TEXTURES | RENDER_INTERIORS | RENDER_LIGHTS)
+    X(many_sky, "tree+planes+textures+sky", GEOMETRY_MANY, SHADING_ANY | RENDER_TEXTURES | RENDER_SKY)                 \
+    X(many_fog, "tree+planes+textures+glass+fog", GEOMETRY_MANY,                                                       \
+      SHADING_ANY | RENDER_TEXTURES | RENDER_INTERIORS | RENDER_FOG)                                                   \
+    X(any_any, "everything", GEOMETRY_ANY, SHADING_ANY | RENDER_EXPONENT | RENDER_TEXTURES | RENDER_INTERIORS |        \
+                                               RENDER_LIGHTS | RENDER_SKY | RENDER_FOG)
 
 #define DEFINE_KERNEL(name, text, geometry, shading)                                                                   \
     static void trace_##name(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,    \

@@ -22,7 +22,9 @@ typedef enum RenderFeature {
     RENDER_TEXTURES = 1 << 14,     // patterns or layers
     RENDER_INTERIORS = 1 << 15,    // refraction, fading, Fresnel's mirror
     RENDER_LIGHTS = 1 << 16,       // lights of one place, direction or distance: spotlight, fading, area
-    RENDER_ALL_FEATURES = 0x1ff << 8,
+    RENDER_SKY = 1 << 17,          // layers before the background
+    RENDER_FOG = 1 << 18,          // asks for RENDER_INTERIORS too: there is none inside of what is not hollow
+    RENDER_ALL_FEATURES = 0x7ff << 8,
 } RenderFeature;
 
 // Pixels left <= x < right, top <= y < bottom.

@@ -299,6 +299,7 @@ static void follow_step(Follower *follower, const ShadeStep *step, int parent, L
         .first_layer = life->layers.count,
         .light = step->light,
         .adds = rgb_mul(now->share, step->light),
+        .fog = step->fog,
     };
     follow_spheres(follower, &ray, now);
     if (step->is_hit) {

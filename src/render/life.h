@@ -85,6 +85,7 @@ typedef struct LifeRay {
     Rgb through, reflectance;
     Rgb light; // that of the hit, or of the background
     Rgb adds;  // share × light
+    Rgb fog;   // what fog on its way adds beside that
 } LifeRay;
 
 typedef struct Life {

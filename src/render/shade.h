@@ -15,6 +15,7 @@
 #include "render/kernel.h"
 #include "render/light.h"
 #include "render/prepared.h"
+#include "render/sky.h"
 #include "render/texture.h"
 #include "trace/query.h"
 
@@ -345,13 +346,15 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
 }
 
 // Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind it.
-RT_ALWAYS_INLINE void shade_cross(const Prepared *p, ShadePoint *at, const Inside *before, Inside *behind)
+RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoint *at, const Inside *before,
+                                  Inside *behind)
 {
     inside_copy(behind, before);
     if (at->inside) {
         inside_leave(behind, at->order);
     } else {
-        inside_enter(behind, at->order, at->interior);
+        bool is_solid = (features & RENDER_FOG) && !scene_is_hollow(p->scene, at->material);
+        inside_enter(behind, at->order, at->interior, is_solid);
     }
     at->ior_ratio = inside_ior(p->interiors, behind) / inside_ior(p->interiors, before);
 }
@@ -541,6 +544,26 @@ RT_ALWAYS_INLINE void pending_add(Pending *pending, const PendingRay *ray, Rgb l
     *sum = rgb_add(*sum, rgb_mul(ray->share, light));
 }
 
+// What a ray sees that meets nothing.
+RT_ALWAYS_INLINE Rgb shade_miss(const Prepared *p, unsigned features, Vec3 direction)
+{
+    return features & RENDER_SKY ? sky_light(p, direction) : p->background;
+}
+
+// Fog on the way of a ray that is inside of `before`: what it adds, which is returned, is added, and what lies behind it
+// will be dimmed.
+RT_ALWAYS_INLINE Rgb shade_fog(const Prepared *p, double way, const Inside *before, PendingRay *ray, Pending *pending)
+{
+    if (inside_is_solid(before)) {
+        return rgb_grey(0.0);
+    }
+    FogShare fog = fog_between(p, &ray->ray, way);
+    Rgb adds = rgb_mul(ray->share, fog.own);
+    pending_add(pending, ray, fog.own);
+    ray->share = rgb_mul(ray->share, fog.through);
+    return adds;
+}
+
 // What one turn of a path found: the ray that was taken, what it hit, and what the hit sends on.
 typedef struct ShadeStep {
     PendingRay ray;
@@ -548,6 +571,7 @@ typedef struct ShadeStep {
     ShadeOnward onward;  // is_hit
     Inside before, behind; // is_hit, where there are interiors
     Rgb light;           // what the ray's share is multiplied with
+    Rgb fog;             // what fog adds on the ray's way, where there may be some; ray.share is already less by it
     bool is_hit;
 } ShadeStep;
 
@@ -558,7 +582,7 @@ RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, con
     pending->rays[0] = *first;
     pending->sums[0] = rgb_grey(0.0);
     if (features & RENDER_INTERIORS) {
-        if (p->camera.type == CAMERA_PERSPECTIVE) {
+        if (p->camera.type != CAMERA_ORTHOGRAPHIC) {
             inside_copy(&pending->inside[0], &p->start);
         } else {
             prepared_inside(p, first->ray.origin, &pending->inside[0]);
@@ -574,6 +598,7 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
     PendingRay *now = &step->ray;
     *now = pending->rays[--pending->count];
     step->is_hit = false;
+    step->fog = rgb_grey(0.0);
     if ((features & RENDER_EXPONENT) && now->closes) {
         step->light = shade_rgb_power(pending->sums[pending->open--], now->exponent);
         pending_add(pending, now, step->light);
@@ -581,14 +606,20 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
         step->is_hit = true;
         if (features & RENDER_INTERIORS) {
             inside_copy(&step->before, &pending->inside[pending->count]);
-            shade_cross(p, &step->at, &step->before, &step->behind);
+            shade_cross(p, features, &step->at, &step->before, &step->behind);
+        }
+        if (features & RENDER_FOG) {
+            step->fog = shade_fog(p, step->at.way, &step->before, now, pending);
         }
         // Its own light first: a reflected ray may open a sum of its own.
         step->light = shade_surface(p, features, &step->at, now->weight, &step->onward, statistics);
         pending_add(pending, now, step->light);
         shade_go_on(p, features, &step->onward, &step->at, now, &step->before, &step->behind, pending, statistics);
     } else {
-        step->light = p->background;
+        if (features & RENDER_FOG) {
+            step->fog = shade_fog(p, (double)INFINITY, &pending->inside[pending->count], now, pending);
+        }
+        step->light = shade_miss(p, features, now->ray.direction);
         pending_add(pending, now, step->light);
     }
 }
@@ -622,7 +653,7 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, co
     ShadePoint at;
     ShadeOnward onward;
     return shade_find(p, features, &first, stream, &at) ? shade_surface(p, features, &at, 1.0, &onward, statistics)
-                                                : p->background;
+                                                        : shade_miss(p, features, ray.direction);
 }
 
 #endif

@@ -181,6 +181,28 @@ typedef struct BackgroundBlueprint {
     Rgbft colour;
 } BackgroundBlueprint;
 
+typedef struct SkyLayer SkyLayer;
+struct SkyLayer {
+    const SkyLayer *below;
+    PigmentBlueprint pigment;
+};
+
+typedef struct SkySphereBlueprint {
+    Transform transform; // of all layers, wherever it stands
+    const SkyLayer *top;
+    Rgb emission;
+} SkySphereBlueprint;
+
+typedef struct FogBlueprint {
+    Transform transform; // moves what `up` is so far
+    int type;
+    double distance, offset, alt;
+    Vec3 up;
+    Rgbft colour;
+    double ignored; // what says how turbulence would look
+    Vec3 turbulence;
+} FogBlueprint;
+
 typedef struct SettingsBlueprint {
     Rgb ambient_light;
     double adc_bailout;
@@ -225,6 +247,8 @@ typedef union Blueprint {
     SmoothTriangleBlueprint smooth_triangle;
     UnionBlueprint group;
     BackgroundBlueprint background;
+    SkySphereBlueprint sky;
+    FogBlueprint fog;
     SettingsBlueprint settings;
     PigmentBlueprint pigment;
     FinishBlueprint finish;

@@ -153,15 +153,16 @@ static void dump_material(const Material *material, size_t number, TextBuffer *o
 // The texture of a shape, which is its last property.
 void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer *out)
 {
+    const char *hollow = scene_is_hollow(scene, material) ? " hollow" : "";
     if (material & MATERIAL_COMPOUND) {
         const Compound *compound = &scene->compounds.items[material & ~MATERIAL_COMPOUND];
-        text_printf(out, " texture { T%lu }", (unsigned long)compound->texture + 1);
+        text_printf(out, "%s texture { T%lu }", hollow, (unsigned long)compound->texture + 1);
         if (compound->interior != RECORD_NONE) {
             text_printf(out, " interior { I%lu }", (unsigned long)compound->interior + 1);
         }
         text_append(out, " }\n");
     } else {
-        text_printf(out, " texture { M%lu } }\n", (unsigned long)material + 1);
+        text_printf(out, "%s texture { M%lu } }\n", hollow, (unsigned long)material + 1);
     }
 }
 
@@ -206,6 +207,19 @@ static void dump_shapes(const Scene *scene, TextBuffer *out)
     }
 }
 
+static void dump_fog(const Fog *fog, TextBuffer *out)
+{
+    text_append(out, fog->is_ground ? "fog { fog_type 2" : "fog {");
+    dump_number(out, " distance ", fog->distance);
+    if (fog->is_ground) {
+        dump_number(out, " fog_offset ", fog->offset);
+        dump_number(out, " fog_alt ", fog->alt);
+        dump_vector(out, " up ", fog->up);
+    }
+    dump_rgbft(out, " ", fog->colour);
+    text_append(out, " }\n");
+}
+
 void scene_dump(const Scene *scene, TextBuffer *out)
 {
     dump_settings(&scene->settings, out);
@@ -214,6 +228,9 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     }
     dump_rgbft(out, "background { ", scene->background);
     text_append(out, " }\n");
+    for (size_t i = 0; i < scene->fogs.count; i++) {
+        dump_fog(&scene->fogs.items[i], out);
+    }
     for (size_t i = 0; i < scene->lights.count; i++) {
         dump_light(&scene->lights.items[i], out);
     }
@@ -225,4 +242,5 @@ void scene_dump(const Scene *scene, TextBuffer *out)
     }
     dump_textures(scene, out);
     dump_shapes(scene, out);
+    dump_sky(scene, out);
 }

@@ -71,21 +71,21 @@ typedef struct Walk {
     uint32_t part;
 } Walk;
 
-static void dump_node(Walk *walk, uint8_t hidden, TextBuffer *out);
+static void dump_node(Walk *walk, uint8_t hidden, const char *hollow, TextBuffer *out);
 
 // The next child of a node: the next node of all, or the next part, whichever was declared first.
 static void dump_child(Walk *walk, uint32_t parent, TextBuffer *out)
 {
     const Node *node = walk->node < walk->node_end ? &walk->scene->nodes.items[walk->node] : NULL;
     if (node && node->parent == parent && node->first_part <= walk->part) {
-        dump_node(walk, 0, out);
+        dump_node(walk, 0, "", out);
     } else {
         dump_part(walk->scene, &walk->scene->parts.items[walk->part++], out);
     }
 }
 
 // Recursive, as deep as the language lets objects nest. The object that is clipped comes first, then each of its clips.
-static void dump_node(Walk *walk, uint8_t hidden, TextBuffer *out)
+static void dump_node(Walk *walk, uint8_t hidden, const char *hollow, TextBuffer *out)
 {
     static const char *const heads[] = {
         [NODE_UNION] = "union {\n",
@@ -103,11 +103,23 @@ static void dump_node(Walk *walk, uint8_t hidden, TextBuffer *out)
         text_append(out, is_clip ? "}\n" : "");
     }
     dump_words(node->is_inverse, hidden, "", " ", out);
-    text_append(out, "}\n");
+    text_printf(out, "%s}\n", hollow);
+}
+
+// All parts that are seen are hollow, or none is; members without surfaces have no say.
+static const char *hollow_word(const Scene *scene, const Composite *composite)
+{
+    for (uint32_t i = 0; i < composite->part_count; i++) {
+        const Part *part = &scene->parts.items[composite->first_part + i];
+        if (!(part->flags & PART_UNSEEN) && scene_is_hollow(scene, part->material)) {
+            return "hollow ";
+        }
+    }
+    return "";
 }
 
 void dump_composite(const Scene *scene, const Composite *composite, TextBuffer *out)
 {
     Walk walk = {scene, composite->first_node, composite->first_node + composite->node_count, composite->first_part};
-    dump_node(&walk, composite->hidden, out);
+    dump_node(&walk, composite->hidden, hollow_word(scene, composite), out);
 }

@@ -128,3 +128,18 @@ void dump_textures(const Scene *scene, TextBuffer *out)
         }
     }
 }
+
+void dump_sky(const Scene *scene, TextBuffer *out)
+{
+    if (scene->sky.count == 0) {
+        return;
+    }
+    text_append(out, "sky_sphere {\n");
+    for (size_t i = scene->sky.count; i-- > 0;) {
+        text_append(out, "  pigment { ");
+        dump_pigment_items(&scene->sky.items[i], out);
+        text_append(out, " }\n");
+    }
+    dump_rgb(out, "  emission ", scene->sky_emission);
+    text_append(out, "\n}\n");
+}

@@ -17,6 +17,7 @@ _Static_assert(sizeof(Finish) == 24 * sizeof(double) + sizeof(uint64_t), "no pad
 void scene_init(Scene *scene)
 {
     *scene = (Scene){
+        .sky_emission = {1.0, 1.0, 1.0},
         .camera =
             {
                 .type = CAMERA_PERSPECTIVE,
@@ -38,6 +39,8 @@ void scene_init(Scene *scene)
 
 void scene_fini(Scene *scene)
 {
+    ARRAY_FREE(&scene->sky);
+    ARRAY_FREE(&scene->fogs);
     ARRAY_FREE(&scene->lights);
     ARRAY_FREE(&scene->finishes);
     ARRAY_FREE(&scene->materials);
@@ -137,12 +140,22 @@ static size_t list_bytes(size_t count, size_t capacity, size_t item_bytes)
 size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
-    return LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) + LIST_BYTES(scene->finishes) +
+    return LIST_BYTES(scene->sky) + LIST_BYTES(scene->fogs) + LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) + LIST_BYTES(scene->finishes) +
            LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->texture_entries) +
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites);
 #undef LIST_BYTES
+}
+
+bool scene_add_sky_layer(Scene *scene, const Pigment *layer)
+{
+    return ARRAY_PUSH(&scene->sky, *layer);
+}
+
+bool scene_add_fog(Scene *scene, const Fog *fog)
+{
+    return ARRAY_PUSH(&scene->fogs, *fog);
 }
 
 bool scene_add_light(Scene *scene, const Light *light)

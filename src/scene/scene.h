@@ -58,6 +58,7 @@ typedef struct Light {
 enum {
     FINISH_CONSERVE_ENERGY = 1, // what is let through loses what is reflected
     FINISH_FRESNEL = 2,         // the way from reflection_min to reflection_max is that of the interior's surface
+    FINISH_HOLLOW = 4,          // of a plain material: the shape is hollow, see Compound
 };
 
 // As resolved: no albedo forms are left, and nothing is clamped (negative shares are for the shading to ignore or use).
@@ -137,8 +138,9 @@ typedef struct Interior {
 
 // What is more than a plain material.
 typedef struct Compound {
-    uint32_t texture;  // Scene.textures
-    uint32_t interior; // Scene.interiors, or RECORD_NONE
+    uint32_t texture;   // Scene.textures
+    uint32_t interior;  // Scene.interiors, or RECORD_NONE
+    uint32_t is_hollow; // fog goes on inside of it
 } Compound;
 
 // Index into Scene.materials, or into Scene.compounds when MATERIAL_COMPOUND is set.
@@ -241,6 +243,16 @@ typedef struct Composite {
     uint64_t source;
 } Composite;
 
+// Light that is lost on the way of a ray, and the fog's own that comes in its place.
+typedef struct Fog {
+    bool is_ground; // below `offset` as everywhere, above it ever thinner
+    double distance; // > 0: exp(-1) is left after it
+    double offset, alt; // is_ground: heights along `up`; the density is halved at offset + alt; alt > 0
+    Vec3 up;            // of unit length
+    Rgbft colour;
+    Span span;
+} Fog;
+
 // How the values of the picture relate to light, see docs/language.md, "Gamma".
 typedef enum GammaModel {
     GAMMA_LINEAR, // the working space is linear light
@@ -262,6 +274,9 @@ typedef struct Scene {
     Span whole; // the text it was made from, for messages about the scene as a whole
     Settings settings;
     Rgbft background;
+    ARRAY(Pigment) sky; // layers before the background, the topmost first; a pattern's point is the ray's direction
+    Rgb sky_emission;   // what their light is multiplied with
+    ARRAY(Fog) fogs;
     bool has_camera; // the scene said so; else camera is the language's default
     Camera camera;
     ARRAY(Light) lights;
@@ -301,6 +316,14 @@ static inline Rgbft material_pigment(const Material *material)
     return (Rgbft){material->red, material->green, material->blue, material->filter, material->transmit};
 }
 
+// Whether a shape of this material is hollow.
+static inline bool scene_is_hollow(const Scene *scene, MaterialIndex material)
+{
+    return material & MATERIAL_COMPOUND
+               ? scene->compounds.items[material & ~MATERIAL_COMPOUND].is_hollow
+               : scene->finishes.items[scene->materials.items[material].finish].flags & FINISH_HOLLOW;
+}
+
 // The same for the parts of textures. Lists are made from their ends.
 bool scene_add_finish(Scene *scene, const Finish *finish, FinishIndex *index) RT_MUST_CHECK;
 bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *index) RT_MUST_CHECK;
@@ -319,6 +342,8 @@ static inline Rgbft pigment_colour(const Pigment *pigment)
 
 // Add a record; `order` and shape_count are set here. False when out of memory.
 bool scene_add_light(Scene *scene, const Light *light) RT_MUST_CHECK;
+bool scene_add_fog(Scene *scene, const Fog *fog) RT_MUST_CHECK;
+bool scene_add_sky_layer(Scene *scene, const Pigment *layer) RT_MUST_CHECK; // below the others
 bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex material, uint64_t source) RT_MUST_CHECK;
 bool scene_add_ellipsoid(Scene *scene, const Transform *to_world, const Transform *to_object, MaterialIndex material,
                          uint64_t source) RT_MUST_CHECK;

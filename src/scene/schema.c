@@ -68,7 +68,7 @@ static const SchemaProperty object_modifiers[] = {
     {"no_shadow", TYPE_FLAG, AT(ObjectPart, no_shadow), .doc = "takes no light from others"},
     {"no_image", TYPE_FLAG, AT(ObjectPart, no_image), .doc = "is not seen by the camera, nor through others"},
     {"no_reflection", TYPE_FLAG, AT(ObjectPart, no_reflection), .doc = "is not seen in mirrors"},
-    {"hollow", TYPE_SWITCH, AT(ObjectPart, hollow), .doc = "accepted; changes no picture without media"},
+    {"hollow", TYPE_SWITCH, AT(ObjectPart, hollow), .doc = "what is inside of it is not free of fog"},
     {"no_radiosity", TYPE_FLAG, AT(ObjectPart, ignored), .doc = "accepted; changes no picture"},
 };
 
@@ -224,6 +224,34 @@ static const SchemaProperty background_arguments[] = {
 };
 
 static const BackgroundBlueprint background_defaults = {.colour = {0, 0, 0, 0, 0}};
+
+static const SchemaProperty sky_sphere_properties[] = {
+    {"pigment", TYPE_BLOCK, ACTION_SKY_LAYER, .doc = "a layer over those before it; the ray's direction, of length 1, is its point"},
+    {"emission", TYPE_RGB, AT(SkySphereBlueprint, emission), .doc = "multiplies the light of the layers"},
+};
+
+static const SkySphereBlueprint sky_sphere_defaults = {.transform = IDENTITY, .emission = GREY(1.0)};
+
+static const SchemaProperty fog_arguments[] = {
+    {"colour", TYPE_COLOUR, AT(FogBlueprint, colour), .is_optional = true, .is_anywhere = true,
+     .doc = "black if left out; begins with a colour word or the name of a colour, and may stand anywhere"},
+};
+
+static const SchemaProperty fog_properties[] = {
+    {"fog_type", TYPE_INTEGER, AT(FogBlueprint, type), .doc = "2: it lies on the ground; else it is everywhere"},
+    {"distance", TYPE_NUMBER, AT(FogBlueprint, distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+     .doc = "the way on which all but 1/e of the light is lost; 0: no fog"},
+    {"fog_offset", TYPE_NUMBER, AT(FogBlueprint, offset), .doc = "type 2: the height up to which it is as dense as anywhere"},
+    {"fog_alt", TYPE_NUMBER, AT(FogBlueprint, alt), .doc = "type 2: how far above that it is half as dense; more than 0"},
+    {"up", TYPE_VECTOR, AT(FogBlueprint, up), .doc = "type 2: the direction of height, of any length but 0"},
+    {"turbulence", TYPE_ACTION, ACTION_TURBULENCE, .doc = "only 0 is supported"},
+    {"turb_depth", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"omega", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"lambda", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"octaves", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
+};
+
+static const FogBlueprint fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}};
 
 static const SchemaProperty settings_properties[] = {
     {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
@@ -474,6 +502,19 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                          .defaults = &background_defaults,
                          .arguments = LIST(background_arguments),
                          .doc = "The last one counts."},
+    [KIND_SKY_SPHERE] = {.word = "sky_sphere",
+                         .size = sizeof(SkySphereBlueprint),
+                         .defaults = &sky_sphere_defaults,
+                         .is_declarable = true,
+                         .groups = {LIST(sky_sphere_properties), TRANSFORMS},
+                         .doc = "Seen where nothing is hit, before the background. The last one counts."},
+    [KIND_FOG] = {.word = "fog",
+                  .size = sizeof(FogBlueprint),
+                  .defaults = &fog_defaults,
+                  .is_declarable = true,
+                  .arguments = LIST(fog_arguments),
+                  .groups = {LIST(fog_properties), TRANSFORMS},
+                  .doc = "There may be several. Transforms turn `up`."},
     [KIND_GLOBAL_SETTINGS] = {.word = "global_settings",
                               .size = sizeof(SettingsBlueprint),
                               .defaults = &settings_defaults,
@@ -556,7 +597,6 @@ static const SchemaUnsupported unsupported[] = {
     {"bicubic_patch", true, NULL},
     {"blob", true, "use a `union` of spheres"},
     {"cubic", true, NULL},
-    {"fog", true, NULL},
     {"height_field", true, NULL},
     {"isosurface", true, NULL},
     {"julia_fractal", true, NULL},
@@ -574,7 +614,6 @@ static const SchemaUnsupported unsupported[] = {
     {"quadric", true, "use a sphere with `scale`"},
     {"quartic", true, NULL},
     {"rainbow", true, NULL},
-    {"sky_sphere", true, "use `background`"},
     {"sor", true, NULL},
     {"sphere_sweep", true, "use a `union` of spheres"},
     {"superellipsoid", true, "use a sphere with `scale`"},

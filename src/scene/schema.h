@@ -32,6 +32,8 @@ typedef enum SchemaKind {
     KIND_DIFFERENCE,
     KIND_OBJECT,
     KIND_BACKGROUND,
+    KIND_SKY_SPHERE,
+    KIND_FOG,
     KIND_GLOBAL_SETTINGS,
     KIND_TEXTURE,
     KIND_PIGMENT,
@@ -89,6 +91,8 @@ typedef enum SchemaAction {
     ACTION_SHADOWLESS,
     ACTION_AREA_LIGHT,
     ACTION_ASSUMED_GAMMA,
+    ACTION_SKY_LAYER,
+    ACTION_TURBULENCE,
     ACTION_COUNT
 } SchemaAction;
 
@@ -113,6 +117,7 @@ typedef struct SchemaProperty {
     uint16_t given;    // offset of a bool that turns true; 0: none
     bool is_optional;  // an argument that may be left out
     bool is_first;     // stands before every other item of the block
+    bool is_anywhere;  // an optional argument that may also stand among the properties, again and again
     double bare;       // TYPE_OPTIONAL_NUMBER without a number
     SchemaRange range; // of numbers
     const char *doc;   // one line

@@ -131,3 +131,8 @@ size_t geometry_bytes(const Geometry *geometry)
            spheres->bvh.node_count * sizeof(BvhNode) + geometry->ellipsoid_count * sizeof(EllipsoidEntry) +
            geometry->plane_count * sizeof(PlaneEntry) + shapes_bytes(&geometry->shapes);
 }
+
+bool geometry_is_flat(const Geometry *geometry, ShapeId shape)
+{
+    return shape_kind(shape) == SHAPE_PART && geometry->shapes.solids[part_index(shape)].kind >= PART_DISC;
+}

@@ -97,6 +97,9 @@ void geometry_free(Geometry *geometry);
 // The TraceFeature bits that this geometry needs.
 unsigned geometry_features(const Geometry *geometry);
 
+// True for a disc or triangle, which nothing is inside of.
+bool geometry_is_flat(const Geometry *geometry, ShapeId shape);
+
 // Bytes held.
 size_t geometry_bytes(const Geometry *geometry);
 
