@@ -48,6 +48,7 @@ bool objects_finish(Eval *ev)
         return true;
     }
     ev->scene->sky_emission = sky->emission;
+    ev->scene->sky_span = span;
     for (const SkyLayer *layer = sky->top; layer; layer = layer->below) {
         Pigment record;
         if (!eval_step(ev, span) || !pigment_place(ev, &layer->pigment, &sky->transform, span, &record)) {

@@ -12,7 +12,7 @@ enum {
     COVERED = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_ELLIPSOIDS | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
               RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_EXPONENT | RENDER_TEXTURES |
               RENDER_INTERIORS,
-    REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS,
+    REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG,
 };
 
 static const struct {
@@ -97,6 +97,12 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     bool covers = lights_are_covered(scene, p, diags);
     if (scene->parts.count > 0) {
         covers = refuse(diags, source_span(scene->parts.items[0].source), "a shape other than spheres and planes");
+    }
+    if (scene->sky.count > 0) {
+        covers = refuse(diags, scene->sky_span, "a sky_sphere");
+    }
+    if (scene->fogs.count > 0) {
+        covers = refuse(diags, scene->fogs.items[0].span, "fog");
     }
     for (size_t i = 0; i < scene->compounds.count; i++) {
         if (!compound_is_plain(scene, &scene->compounds.items[i])) {

@@ -571,7 +571,7 @@ static void real_join(const RealScene *s, const RealWay *way, const Inside *insi
     if (j->at.inside) {
         inside_leave(&j->behind, j->at.order);
     } else {
-        inside_enter(&j->behind, j->at.order, study_interior(s->p, j->at.material));
+        inside_enter(&j->behind, j->at.order, study_interior(s->p, j->at.material), false);
     }
     j->ior_ratio = (Real)inside_ior(s->p->interiors, &j->behind) / (Real)inside_ior(s->p->interiors, inside);
     j->reflectance = real_grey(0);

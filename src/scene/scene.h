@@ -276,6 +276,7 @@ typedef struct Scene {
     Rgbft background;
     ARRAY(Pigment) sky; // layers before the background, the topmost first; a pattern's point is the ray's direction
     Rgb sky_emission;   // what their light is multiplied with
+    Span sky_span;
     ARRAY(Fog) fogs;
     bool has_camera; // the scene said so; else camera is the language's default
     Camera camera;
