@@ -158,6 +158,7 @@ test_scripts = \
   %D%/system/run_system.py \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
+  %D%/system/check_stability.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
   %D%/povray/check_includes.py \
@@ -230,9 +231,10 @@ update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_d
 
 # What takes too long for every day.
 .PHONY: check-long
-check-long: rtlang$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
+check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
 

@@ -24,6 +24,9 @@
 #include "check/report.h"
 #include "check/report_html.h"
 #include "check/report_scenes.h"
+#ifdef WITH_STUDY
+#include "check/stability.h"
+#endif
 #include "image/image.h"
 #include "rtlang/rtlang.h"
 
@@ -403,18 +406,73 @@ static bool include_paths_resolve(Check *check)
     return true;
 }
 
+#ifdef WITH_STUDY
+static bool stability_write(const Check *check, const Stability *stability)
+{
+    char path[PATH_MAX], scratch[PATH_MAX + 16];
+    const char *folder = check->options->report;
+    ReportPage *page;
+    bool fine;
+
+    if (folder == NULL) {
+        return true;
+    }
+    snprintf(path, sizeof path, "%s/index.html", folder);
+    snprintf(scratch, sizeof scratch, "%s/page.png", check->folder);
+    page = (mkdir(folder, 0777) == 0 || errno == EEXIST) ? report_page_open(path) : NULL;
+    if (page == NULL) {
+        return false;
+    }
+    fine = stability_page(stability, page, scratch);
+    fine = report_page_close(page) && fine;
+    snprintf(path, sizeof path, "%s/stability.json", folder);
+    FILE *out = fine ? fopen(path, "wb") : NULL;
+    if (out == NULL) {
+        return false;
+    }
+    stability_json(stability, out);
+    return (ferror(out) == 0) & (fclose(out) == 0);
+}
+
+static int stability_check(Check *check)
+{
+    Stability *stability = calloc(1, sizeof *stability);
+    int exit_code = EXIT_USAGE;
+
+    if (stability != NULL && stability_measure(stability, check->options, check->povray, check->folder)) {
+        check->options->json ? stability_json(stability, stdout) : stability_print(stability, stdout);
+        exit_code = stability_holds(stability) ? EXIT_AGREE : EXIT_DIFFER;
+        exit_code = stability_write(check, stability) ? exit_code : report_complain(check->options->report);
+    } else {
+        fprintf(stderr, "rtcheck: out of memory\n");
+    }
+    if (stability != NULL) {
+        stability_fini(stability);
+    }
+    free(stability);
+    return exit_code;
+}
+#else
+static int stability_check(Check *check)
+{
+    (void)check;
+    fprintf(stderr, "rtcheck: built with --disable-study, so that --stability is not there\n");
+    return EXIT_USAGE;
+}
+#endif
+
 static int run(const Options *options)
 {
     Check check = {.options = options};
     int exit_code = EXIT_USAGE;
 
     check.povray = povray_find(options->povray);
-    if (check.povray == NULL) {
+    if (check.povray == NULL && !options->is_stability) {
         fprintf(stderr, "rtcheck: no program `%s` found (Debian: apt-get install povray)\n", options->povray);
         return EXIT_NO_TOOL;
     }
     if (include_paths_resolve(&check) && folder_make(&check)) {
-        exit_code = scenes_report(&check);
+        exit_code = options->is_stability ? stability_check(&check) : scenes_report(&check);
         folder_remove(&check);
     }
     for (int i = 0; check.include_paths != NULL && i < options->include_path_count; i++) {

@@ -117,6 +117,23 @@ static bool apply_report(Options *options, const char *argument)
     return argument[0] != '\0';
 }
 
+static bool apply_stability(Options *options, const char *argument)
+{
+    (void)argument;
+    options->is_stability = true;
+    return true;
+}
+
+static bool apply_cases(Options *options, const char *argument)
+{
+    return parse_integer(argument, 1, 1000000000, &options->cases);
+}
+
+static bool apply_seed(Options *options, const char *argument)
+{
+    return parse_integer(argument, 0, 1000000000, &options->seed);
+}
+
 static bool apply_json(Options *options, const char *argument)
 {
     (void)argument;
@@ -138,6 +155,10 @@ static const OptionRow rows[] = {
      "threads of each renderer (default: all processors)"},
     {0, "keep", "FOLDER", apply_keep, "a folder", "keep the pictures and POV-Ray's messages there"},
     {0, "report", "FOLDER", apply_report, "a folder", "write index.html there, with all pictures in it"},
+    {0, "stability", NULL, apply_stability, "",
+     "measure how numbers hold up: formulas, stiff scenes, and the scenes put elsewhere"},
+    {0, "cases", "N", apply_cases, "a whole number from 1 to 1000000000", "with --stability: cases of each family (default 20000)"},
+    {0, "seed", "N", apply_seed, "a whole number from 0 to 1000000000", "with --stability: other random cases (default 0)"},
     {0, "json", NULL, apply_json, "", "print one JSON object a scene; with --report also results.json"},
     {'V', "version", NULL, NULL, "", "print the version and stop"},
     {'h', "help", NULL, NULL, "", "print this and stop"},
@@ -149,6 +170,7 @@ enum { FIRST_VAL = 256, SHORT_ROOM = 2 * COUNT_OF(rows) + 2 };
 static void print_help(void)
 {
     printf("Usage: rtcheck [OPTION]... SCENE...\n"
+           "       rtcheck --stability [OPTION]... [SCENE]...\n"
            "Renders each scene with rtlang and with POV-Ray, without anti-aliasing, and compares the pictures in\n"
            "linear 16 bit. Differences are printed in steps of 1/65535.\n\n");
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -227,7 +249,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     char short_options[SHORT_ROOM];
     int val;
 
-    *options = (Options){.width = 320, .height = 240, .threshold = 2.0 / 65535.0, .ties = 1e-4, .povray = "povray"};
+    *options = (Options){.width = 320, .height = 240, .threshold = 2.0 / 65535.0, .ties = 1e-4, .povray = "povray", .cases = 20000};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
     if (options->include_paths == NULL) {
         return complain("out of memory", "");
@@ -242,7 +264,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     }
     options->scenes = argv + optind;
     options->scene_count = argc - optind;
-    return options->scene_count > 0 ? OPTIONS_GO : complain("no scene given", "");
+    return options->scene_count > 0 || options->is_stability ? OPTIONS_GO : complain("no scene given", "");
 }
 
 void options_fini(Options *options)

@@ -19,6 +19,8 @@ typedef struct Options {
     const char *report; // folder for the page; NULL: none is written
     const char **include_paths; // owned list
     int include_path_count;
+    bool is_stability; // numbers instead of pictures beside POV-Ray's
+    int cases, seed;   // is_stability: of each family; added to the seed
     bool json;
     char **scenes;
     int scene_count;

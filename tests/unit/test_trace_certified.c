@@ -12,7 +12,7 @@
 
 #include "trace/sphere.h"
 #include "unit/random.h"
-#include "unit/sphere_cases.h"
+#include "study/cases.h"
 #include "unit/tap.h"
 
 #ifdef WITH_MPFR

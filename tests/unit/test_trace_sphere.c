@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "trace/sphere.h"
-#include "unit/sphere_cases.h"
+#include "study/cases.h"
 #include "unit/tap.h"
 
 typedef enum Class { CLASS_MISS, CLASS_NEAR, CLASS_FAR } Class;

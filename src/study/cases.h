@@ -1,13 +1,14 @@
-// Families of rays that are hard for a sphere test, each in its own way, for the tests that compare with exact arithmetic.
+// Families of rays that are hard for a sphere test, each in its own way, for those who compare with exact
+// arithmetic.
 //
 // SPDX-License-Identifier: MIT
-#ifndef UNIT_SPHERE_CASES_H
-#define UNIT_SPHERE_CASES_H
+#ifndef STUDY_CASES_H
+#define STUDY_CASES_H
 
 #include <stdbool.h>
 
 #include "math/ray.h"
-#include "unit/random.h"
+#include "math/random.h"
 
 typedef struct SphereCase {
     Ray ray;
@@ -45,7 +46,7 @@ static const SphereFamily sphere_families[] = {
 
 // A sphere, an origin at the distance, and a ray that passes the centre at the impact parameter. Every eighth ray, and
 // every ray from inside or from the surface, goes anywhere.
-__attribute__((unused)) static SphereCase sphere_case(const SphereFamily *family, Random *random)
+static inline SphereCase sphere_case(const SphereFamily *family, Random *random)
 {
     Vec3 centre = vec3_scale(family->offset, random_direction(random));
     double radius = family->radius * random_between(random, 0.5, 2.0);

@@ -1,0 +1,243 @@
+// The section on stability of the HTML report: tables, a plot of error against distance, and POV-Ray's limits.
+//
+// SPDX-License-Identifier: MIT
+#include <inttypes.h>
+#include <math.h>
+
+#include "check/stability.h"
+#include "study/oracle.h"
+
+static void head(FILE *out, const char *const *titles)
+{
+    fputs("<div class=\"scroll\"><table class=\"sortable\"><thead><tr>", out);
+    for (; *titles; titles++) {
+        fputs("<th>", out);
+        html_text(out, *titles);
+        fputs("</th>", out);
+    }
+    fputs("</tr></thead><tbody>\n", out);
+}
+
+static void tail(FILE *out)
+{
+    fputs("</tbody></table></div>\n", out);
+}
+
+static void cell_number(FILE *out, double value, double bar)
+{
+    fprintf(out, "<td class=\"number %s\">%.3g</td>", value <= bar ? "good" : "bad", value);
+}
+
+static void put_families(const Stability *stability, FILE *out)
+{
+    static const char *const titles[] = {"Family",
+                                         "Cases",
+                                         "Textbook: backward error, u",
+                                         "Textbook: t, ulps",
+                                         "Textbook: wrong classes",
+                                         "Textbook: no t",
+                                         "rtlang: backward error, u",
+                                         "rtlang: t, ulps",
+                                         "rtlang: wrong classes",
+                                         "rtlang: no t",
+                                         "By double words",
+                                         NULL};
+    fputs("<p>A ray against a sphere in families of hard cases, beside exact arithmetic (", out);
+    html_text(out, oracle_name());
+    fputs("). The backward error is how far the point is off the sphere beside what rounding of the input would do, in "
+          "u = 2<sup>-53</sup>; "
+          "the class is miss, near or far root.</p>\n",
+          out);
+    head(out, titles);
+    for (size_t i = 0; i < stability->family_count; i++) {
+        const SphereRow *row = &stability->families[i];
+        fputs("<tr><td>", out);
+        html_text(out, row->family);
+        fprintf(out, "</td><td class=\"number\">%" PRIu64 "</td>", row->cases);
+        for (int formula = 0; formula < FORMULAS; formula++) {
+            cell_number(out, row->of[formula].backward, 4.0);
+            cell_number(out, row->of[formula].ulps, 4.0);
+            cell_number(out, (double)row->of[formula].wrong, 0.0);
+            cell_number(out, (double)row->of[formula].not_finite, 0.0);
+        }
+        fprintf(out, "<td class=\"number\">%" PRIu64 "</td></tr>\n", row->doubtful);
+    }
+    tail(out);
+}
+
+// ---- the plot: decades of error over decades of distance
+
+enum { LEFT = 60, TOP = 12, PLOT_WIDTH = 560, PLOT_HEIGHT = 260, DECADES_ACROSS = 15, DECADES_UP = 18 };
+
+static double across(double distance)
+{
+    return LEFT + PLOT_WIDTH * log10(distance) / DECADES_ACROSS;
+}
+
+// From 1e-2 u up.
+static double up(double error)
+{
+    double decades = fmin(fmax(log10(error) + 2.0, 0.0), DECADES_UP);
+    return TOP + PLOT_HEIGHT * (1.0 - decades / DECADES_UP);
+}
+
+static void put_curve(const Stability *stability, bool is_ulps, int formula, const char *style, FILE *out)
+{
+    fputs("<path fill=\"none\" ", out);
+    fprintf(out, "style=\"%s\" d=\"", style);
+    for (int i = 0; i < DISTANCE_POINTS; i++) {
+        const DistancePoint *point = &stability->distances[i];
+        double error = is_ulps ? point->ulps[formula] : point->backward[formula];
+        fprintf(out, "%c%.1f %.1f", i > 0 ? 'L' : 'M', across(point->distance), up(error));
+    }
+    fputs("\"/>\n", out);
+}
+
+static void put_plot(const Stability *stability, FILE *out)
+{
+    fprintf(out,
+            "<h3>Error against distance</h3>\n<svg class=\"plot\" viewBox=\"0 0 %d %d\" role=\"img\" "
+            "aria-label=\"Greatest errors of the textbook's formula and of rtlang's against the distance in radii\">\n",
+            LEFT + PLOT_WIDTH + 20, TOP + PLOT_HEIGHT + 44);
+    for (int decade = 0; decade <= DECADES_ACROSS; decade += 3) {
+        double x = across(pow(10.0, decade));
+        fprintf(out,
+                "<line x1=\"%.1f\" y1=\"%d\" x2=\"%.1f\" y2=\"%d\"/><text x=\"%.1f\" y=\"%d\" "
+                "text-anchor=\"middle\">1e%d</text>\n",
+                x, TOP, x, TOP + PLOT_HEIGHT, x, TOP + PLOT_HEIGHT + 16, decade);
+    }
+    for (int decade = -2; decade <= DECADES_UP - 2; decade += 3) {
+        double y = up(pow(10.0, decade));
+        fprintf(out,
+                "<line x1=\"%d\" y1=\"%.1f\" x2=\"%d\" y2=\"%.1f\"/><text x=\"%d\" y=\"%.1f\" "
+                "text-anchor=\"end\">1e%d</text>\n",
+                LEFT, y, LEFT + PLOT_WIDTH, y, LEFT - 6, y + 4.0, decade);
+    }
+    put_curve(stability, false, FORMULA_TEXTBOOK, "stroke:var(--bad);stroke-width:2", out);
+    put_curve(stability, true, FORMULA_TEXTBOOK, "stroke:var(--bad);stroke-width:2;stroke-dasharray:5 4", out);
+    put_curve(stability, false, FORMULA_OURS, "stroke:var(--good);stroke-width:2", out);
+    put_curve(stability, true, FORMULA_OURS, "stroke:var(--good);stroke-width:2;stroke-dasharray:5 4", out);
+    fprintf(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">distance / radius</text></svg>\n",
+            LEFT + PLOT_WIDTH / 2, TOP + PLOT_HEIGHT + 36);
+    fputs("<p class=\"faint\"><span class=\"bad\">Textbook</span> and <span class=\"good\">rtlang</span>: backward "
+          "error in u (whole line) "
+          "and error of t in ulps (dashed), the greatest of some hundred rays at each distance.</p>\n",
+          out);
+}
+
+static void put_secondary(const Stability *stability, FILE *out)
+{
+    static const char *const titles[] = {"Scale",
+                                         "None: false shadows",
+                                         "None: wrong exits",
+                                         "None: missed contacts",
+                                         "t > 0.001: false shadows",
+                                         "t > 0.001: wrong exits",
+                                         "t > 0.001: missed contacts",
+                                         "rtlang: false shadows",
+                                         "rtlang: wrong exits",
+                                         "rtlang: missed contacts",
+                                         NULL};
+    fputs("<h3>Rays that start on a surface, in %</h3>\n", out);
+    head(out, titles);
+    for (int i = 0; i < SCALES; i++) {
+        const SecondaryRow *row = &stability->secondary[i];
+        fprintf(out, "<tr><td class=\"number\">%.0e</td>", row->scale);
+        for (int rule = 0; rule < RULES; rule++) {
+            cell_number(out, 100.0 * (double)row->false_shadows[rule] / (double)row->cases, 0.0);
+            cell_number(out, 100.0 * (double)row->wrong_exits[rule] / (double)row->cases, 0.0);
+            cell_number(out, 100.0 * (double)row->missed_contacts[rule] / (double)row->cases, 0.0);
+        }
+        fputs("</tr>\n", out);
+    }
+    tail(out);
+}
+
+static void put_mirrors(const Stability *stability, FILE *out)
+{
+    static const char *const titles[] = {"Gap",  "Growth a bounce", "float", "theory", "double", "theory",
+                                         "quad", "theory",          NULL};
+    fputs("<h3>Two unit mirrors: bounces until the path is lost</h3>\n", out);
+    head(out, titles);
+    for (int i = 0; i < MIRRORS; i++) {
+        const MirrorRow *row = &stability->mirrors[i];
+        fprintf(out, "<tr><td class=\"number\">%g</td><td class=\"number\">%.2f</td>", row->gap, row->growth);
+        for (int k = 0; k < 3; k++) {
+            fprintf(out, "<td class=\"number\">%d</td><td class=\"number\">%.1f</td>", row->bounces[k], row->theory[k]);
+        }
+        fputs("</tr>\n", out);
+    }
+    tail(out);
+}
+
+static void put_pictures(const Stability *stability, FILE *out)
+{
+    static const char *const titles[] = {"Scene", "Put", "Beside", "Bits", "Values off by 1e-6", "RMSE", NULL};
+    fputs("<h3>Pictures</h3>\n", out);
+    head(out, titles);
+    for (size_t i = 0; i < stability->picture_count; i++) {
+        const PictureRow *row = &stability->pictures[i];
+        fputs("<tr><td>", out);
+        html_text(out, row->scene);
+        fputs("</td><td>", out);
+        html_text(out, row->what);
+        fprintf(out, "</td><td>%s</td>", row->beside);
+        if (row->is_made) {
+            fprintf(out,
+                    "<td class=\"%s\">%s</td><td class=\"number\">%" PRIu64
+                    "</td><td class=\"number\">%.2g</td></tr>\n",
+                    row->is_same ? "good" : "", row->is_same ? "same" : "differ", row->off, row->rmse);
+        } else {
+            fputs("<td>not possible</td><td></td><td></td></tr>\n", out);
+        }
+    }
+    tail(out);
+}
+
+static bool put_picture(const Image *image, const char *caption, const char *scratch, FILE *out)
+{
+    static const ImageEncoding encoding = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_SRGB};
+    fputs("<figure><img alt=\"\" src=\"", out);
+    bool fine = html_picture(out, image, &encoding, scratch);
+    fprintf(out, "\"><figcaption>%s</figcaption></figure>\n", caption);
+    return fine;
+}
+
+static bool put_breaks(const Stability *stability, const char *scratch, FILE *out)
+{
+    bool fine = true;
+    fputs("<h3>Where POV-Ray's range ends</h3>\n<p>The same scene in other units and places. Pixels are counted that "
+          "differ by more "
+          "than 2/255 from the scene as it is.</p>\n",
+          out);
+    for (size_t i = 0; i < stability->break_count; i++) {
+        const BreakRow *row = &stability->breaks[i];
+        char caption[128];
+        fprintf(out, "<article><h3>%s</h3><div class=\"pictures\">\n", row->what);
+        snprintf(caption, sizeof caption, "rtlang: %" PRIu64 " of %" PRIu64 " pixels differ", row->off, row->pixels);
+        fine = put_picture(&row->ours, caption, scratch, out) && fine;
+        if (row->has_povray) {
+            snprintf(caption, sizeof caption, "POV-Ray: %" PRIu64 " of %" PRIu64 " pixels differ", row->povray_off,
+                     row->pixels);
+            fine = put_picture(&row->povray, caption, scratch, out) && fine;
+        } else {
+            fputs("<p class=\"bad\">POV-Ray makes no picture of it.</p>\n", out);
+        }
+        fputs("</div></article>\n", out);
+    }
+    return fine;
+}
+
+bool stability_page(const Stability *stability, ReportPage *page, const char *scratch)
+{
+    FILE *out = report_page_section(page, "stability", "Numerical stability");
+    fprintf(out, "<p>%s</p>\n",
+            stability_holds(stability) ? "All that docs/numerics.md promises holds."
+                                       : "Something that docs/numerics.md promises does not hold.");
+    put_families(stability, out);
+    put_plot(stability, out);
+    put_secondary(stability, out);
+    put_mirrors(stability, out);
+    put_pictures(stability, out);
+    return put_breaks(stability, scratch, out) && !ferror(out);
+}
