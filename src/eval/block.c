@@ -89,6 +89,7 @@ void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
         record->settings.ambient_light = settings->ambient_light;
         record->settings.adc_bailout = settings->adc_bailout;
         record->settings.max_trace_level = settings->max_trace_level;
+        record->settings.noise_generator = settings->noise_generator;
         break;
     default: break;
     }

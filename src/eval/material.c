@@ -55,28 +55,12 @@ static bool add_pigment_entries(const Builder *builder, const PatternMap *map, u
     return true;
 }
 
-static const PatternEntry grey_entries[] = {
-    {.at = 0.0, .colour = {0.0, 0.0, 0.0, 0.0, 0.0}}, {.at = 1.0, .colour = {1.0, 1.0, 1.0, 0.0, 0.0}}};
-static const PatternMap grey_map = {grey_entries, RT_COUNT_OF(grey_entries)};
-// Of `radial`, as measured.
-static const PatternEntry rainbow_entries[] = {{.at = 0.0, .colour = {0.0, 1.0, 1.0, 0.0, 0.0}},
-                                               {.at = 0.333, .colour = {1.0, 1.0, 0.0, 0.0, 0.0}},
-                                               {.at = 0.666, .colour = {1.0, 0.0, 1.0, 0.0, 0.0}},
-                                               {.at = 1.0, .colour = {0.0, 1.0, 1.0, 0.0, 0.0}}};
-static const PatternMap rainbow_map = {rainbow_entries, RT_COUNT_OF(rainbow_entries)};
-
-// What lies along a pattern of which nothing is said.
-static const PatternMap *default_map(const Pattern *pattern)
-{
-    return pattern->type == PATTERN_RADIAL ? &rainbow_map : &grey_map;
-}
-
 static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer,
                           Pigment *out)
 {
     PatternedPigment record = {.pattern = pigment->part.pattern};
     if (!place_pattern(builder, &pigment->part.transform, outer, &record.to_world) ||
-        !add_pigment_entries(builder, pigment->part.map ? pigment->part.map : default_map(&record.pattern),
+        !add_pigment_entries(builder, pigment->part.map ? pigment->part.map : pattern_default_map((PatternType)record.pattern.type),
                              &record.entries)) {
         return false;
     }

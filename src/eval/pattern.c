@@ -229,6 +229,7 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
         block->record->patterned.map = NULL;
     }
     pattern->type = type;
+    pattern->wave = info->wave != WAVE_RAMP ? info->wave : pattern->wave;
     if (type == PATTERN_BRICK) {
         pattern->vector = vec3(8.0, 3.0, 4.5);
         pattern->mortar = 0.5;
@@ -254,9 +255,12 @@ bool pattern_wave_action(Block *block, const SchemaProperty *property, const Ast
     return wave != WAVE_POLY || block_value(block, &exponent, item->span);
 }
 
+// POV-Ray keeps lambda and omega in single precision.
 bool pattern_close(Block *block)
 {
-    const PatternPart *part = &block->record->patterned;
+    PatternPart *part = &block->record->patterned;
+    part->pattern.lambda = (float)part->pattern.lambda;
+    part->pattern.omega = (float)part->pattern.omega;
     const Vec3 *size = &part->pattern.vector;
     if (part->pattern.type == PATTERN_BRICK && (size->x == 0.0 || size->y == 0.0 || size->z == 0.0)) {
         return block_fault(block, DIAG_E0342, block->node->span, "no component of `brick_size` can be 0");

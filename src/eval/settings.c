@@ -55,5 +55,6 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)
     settings->ambient_light = record->settings.ambient_light;
     settings->adc_bailout = record->settings.adc_bailout;
     settings->max_trace_level = record->settings.max_trace_level;
+    settings->noise_generator = record->settings.noise_generator;
     return true;
 }

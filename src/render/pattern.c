@@ -7,66 +7,90 @@
 
 #include <math.h>
 
+#include "render/pattern_noise.h"
+
 static const double pi = 3.14159265358979323846;
 
 // ---- values
 
 // Begins anew at 1, but not at 0; so does onion.
-static double gradient(const Pattern *pattern, Vec3 p)
+static double gradient(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
+    (void)source;
     double along = vec3_dot(pattern->vector, p) / vec3_length(pattern->vector);
     return along > 1.0 ? fmod(along, 1.0) : along;
 }
 
-static double radial(const Pattern *pattern, Vec3 p)
+static double radial(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
+    (void)source;
     return p.x == 0.0 && p.z == 0.0 ? 0.25 : 0.25 + (atan2(p.x, p.z) + pi) / (2.0 * pi);
 }
 
-static double onion(const Pattern *pattern, Vec3 p)
+static double onion(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
+    (void)source;
     return fmod(vec3_length(p), 1.0);
 }
 
-static double leopard(const Pattern *pattern, Vec3 p)
+static double leopard(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
+    (void)source;
     double mean = (sin(p.x) + sin(p.y) + sin(p.z)) / 3.0;
     return mean * mean;
 }
 
-static double spherical(const Pattern *pattern, Vec3 p)
+static double spherical(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
+    (void)source;
     return fmax(1.0 - vec3_length(p), 0.0);
 }
 
-static double planar(const Pattern *pattern, Vec3 p)
+static double planar(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
+    (void)source;
     return fmax(1.0 - fabs(p.y), 0.0);
 }
 
-static double boxed(const Pattern *pattern, Vec3 p)
+static double boxed(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
+    (void)source;
     return fmax(1.0 - vec3_max_abs(p), 0.0);
 }
 
-static double cylindrical(const Pattern *pattern, Vec3 p)
+static double cylindrical(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
+    (void)source;
     return fmax(1.0 - sqrt(p.x * p.x + p.z * p.z), 0.0);
 }
 
-typedef double (*ValueFunction)(const Pattern *pattern, Vec3 p);
-
-static const ValueFunction values[PATTERN_COUNT] = {
-    [PATTERN_GRADIENT] = gradient,       [PATTERN_RADIAL] = radial, [PATTERN_ONION] = onion,
-    [PATTERN_LEOPARD] = leopard,         [PATTERN_SPHERICAL] = spherical, [PATTERN_PLANAR] = planar,
-    [PATTERN_BOXED] = boxed,             [PATTERN_CYLINDRICAL] = cylindrical,
+static const PatternFunction values[PATTERN_COUNT] = {
+    [PATTERN_GRADIENT] = gradient,
+    [PATTERN_RADIAL] = radial,
+    [PATTERN_ONION] = onion,
+    [PATTERN_LEOPARD] = leopard,
+    [PATTERN_SPHERICAL] = spherical,
+    [PATTERN_PLANAR] = planar,
+    [PATTERN_BOXED] = boxed,
+    [PATTERN_CYLINDRICAL] = cylindrical,
+    [PATTERN_BOZO] = pattern_noise,
+    [PATTERN_BUMPS] = pattern_noise,
+    [PATTERN_SPOTTED] = pattern_noise,
+    [PATTERN_GRANITE] = pattern_granite,
+    [PATTERN_AGATE] = pattern_agate,
+    [PATTERN_MARBLE] = pattern_marble,
+    [PATTERN_WOOD] = pattern_wood,
+    [PATTERN_WRINKLES] = pattern_wrinkles,
+    [PATTERN_DENTS] = pattern_dents,
+    [PATTERN_RIPPLES] = pattern_ripples,
+    [PATTERN_WAVES] = pattern_waves,
 };
 
 static double wave(const Pattern *pattern, double x)
@@ -89,9 +113,23 @@ static double fold(double x)
     return x > 1.0 ? fmod(x, 1.00001) : x;
 }
 
-double pattern_value(const Pattern *pattern, Vec3 point)
+bool pattern_needs_noise(const Pattern *pattern)
 {
-    double x = fold(values[pattern->type](pattern, point)) * pattern->frequency + pattern->phase;
+    return pattern_info((PatternType)pattern->type)->uses_noise || vec3_max_abs(pattern->turbulence) > 0.0;
+}
+
+// Turbulence moves a point last, in the pattern's own space, wherever it was said.
+static Vec3 moved(const Pattern *pattern, const NoiseSource *source, Vec3 point)
+{
+    bool is_moved = vec3_max_abs(pattern->turbulence) > 0.0 &&
+                    !pattern_info((PatternType)pattern->type)->has_own_turbulence;
+    return is_moved ? pattern_turbulent(pattern, source, point) : point;
+}
+
+double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point)
+{
+    double value = values[pattern->type](pattern, source, moved(pattern, source, point));
+    double x = fold(value) * pattern->frequency + pattern->phase;
     x = x < 0.0 ? 1.0 + fmod(x, 1.00001) : fold(x);
     return wave(pattern, x);
 }
@@ -148,7 +186,7 @@ static const BlockFunction blocks[PATTERN_COUNT] = {
     [PATTERN_BRICK] = brick,
 };
 
-unsigned pattern_block(const Pattern *pattern, Vec3 point)
+unsigned pattern_block(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
-    return blocks[pattern->type](pattern, point);
+    return blocks[pattern->type](pattern, moved(pattern, source, point));
 }

@@ -7,13 +7,23 @@
 #ifndef RENDER_PATTERN_H
 #define RENDER_PATTERN_H
 
+#include "math/noise.h"
 #include "math/vec3.h"
 #include "scene/pattern.h"
 
-// From 0 to 1, after frequency, phase and wave. For patterns without blocks.
-double pattern_value(const Pattern *pattern, Vec3 point);
+// Whether a pattern's value depends on noise.
+bool pattern_needs_noise(const Pattern *pattern);
+
+// What a scene's patterns take their noise from.
+typedef struct NoiseSource {
+    const Noise *noise;       // NULL when no pattern of the scene needs noise
+    NoiseGenerator generator; // of patterns that say nothing else
+} NoiseSource;
+
+// From 0 to 1, after turbulence, frequency, phase and wave. For patterns without blocks.
+double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point);
 
 // The number of the block that holds the point, less than the pattern's count of blocks.
-unsigned pattern_block(const Pattern *pattern, Vec3 point);
+unsigned pattern_block(const Pattern *pattern, const NoiseSource *source, Vec3 point);
 
 #endif

@@ -8,12 +8,41 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "render/pattern.h"
-
 static Transform way_back(const Transform *to_world)
 {
     Transform back = transform_identity();
     return transform_invert(to_world, &back) ? back : transform_identity(); // the evaluator saw that there is one
+}
+
+static bool needs_noise(const Scene *scene)
+{
+    for (size_t i = 0; i < scene->patterns.count; i++) {
+        if (pattern_needs_noise(&scene->patterns.items[i].pattern)) {
+            return true;
+        }
+    }
+    for (size_t i = 0; i < scene->textures.count; i++) {
+        if (pattern_needs_noise(&scene->textures.items[i].pattern)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool find_noise(TextureTable *table, const Scene *scene)
+{
+    if (!needs_noise(scene)) {
+        return true;
+    }
+    NoiseGenerator usual = scene->settings.version < 3.5 ? NOISE_ORIGINAL : NOISE_CORRECTED;
+    int said = scene->settings.noise_generator;
+    table->noise = malloc(sizeof *table->noise);
+    if (!table->noise) {
+        return false;
+    }
+    noise_init(table->noise);
+    table->source = (NoiseSource){table->noise, said != 0 ? noise_generator(said) : usual};
+    return true;
 }
 
 bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
@@ -21,7 +50,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
     *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
     table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
     table->texture_to_pattern = malloc((scene->textures.count + 1) * sizeof *table->texture_to_pattern);
-    if (!table->to_pattern || !table->texture_to_pattern) {
+    if (!table->to_pattern || !table->texture_to_pattern || !find_noise(table, scene)) {
         texture_table_fini(table);
         return false;
     }
@@ -36,6 +65,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
 
 void texture_table_fini(TextureTable *table)
 {
+    free(table->noise);
     free(table->to_pattern);
     free(table->texture_to_pattern);
     *table = (TextureTable){0};
@@ -84,11 +114,11 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     const PigmentEntry *entries = table->scene->pigment_entries.items;
     Vec3 point = transform_point(&table->to_pattern[index], outer);
     if (pattern_info((PatternType)record->pattern.type)->blocks) {
-        uint32_t entry = nth_pigment(entries, record->entries, pattern_block(&record->pattern, point));
+        uint32_t entry = nth_pigment(entries, record->entries, pattern_block(&record->pattern, &table->source, point));
         return texture_pigment(table, &entries[entry].pigment, point);
     }
     Place place;
-    double value = pattern_value(&record->pattern, point);
+    double value = pattern_value(&record->pattern, &table->source, point);
     FIND_PLACE(entries, record->entries, value, &place);
     Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
     return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
@@ -126,12 +156,12 @@ static void walk_pattern(Walk *walk, uint32_t index, Vec3 outer, double part, Rg
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
     Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer);
     if (pattern_info((PatternType)texture->pattern.type)->blocks) {
-        uint32_t entry = nth_texture(entries, texture->entries, pattern_block(&texture->pattern, point));
+        uint32_t entry = nth_texture(entries, texture->entries, pattern_block(&texture->pattern, &walk->table->source, point));
         walk_layers(walk, entries[entry].texture, point, part, above);
         return;
     }
     Place place;
-    double value = pattern_value(&texture->pattern, point);
+    double value = pattern_value(&texture->pattern, &walk->table->source, point);
     FIND_PLACE(entries, texture->entries, value, &place);
     walk_layers(walk, entries[place.low].texture, point, (1.0 - place.share) * part, above);
     if (place.share > 0.0) {

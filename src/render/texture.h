@@ -12,11 +12,14 @@
 #include "base/attributes.h"
 #include "math/colour.h"
 #include "math/transform.h"
+#include "render/pattern.h"
 #include "scene/scene.h"
 
 typedef struct TextureTable {
     const Scene *scene;
     double scale;                  // from prepared lengths to the scene's, a power of two
+    Noise *noise;                  // NULL when no pattern needs it
+    NoiseSource source;
     Transform *to_pattern;         // for each of the scene's patterns
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
 } TextureTable;

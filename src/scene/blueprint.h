@@ -207,6 +207,7 @@ typedef struct SettingsBlueprint {
     Rgb ambient_light;
     double adc_bailout;
     int max_trace_level;
+    int noise_generator;
     double ignored; // settings that change no picture here
 } SettingsBlueprint;
 

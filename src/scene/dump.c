@@ -61,6 +61,9 @@ static void dump_settings(const Settings *settings, TextBuffer *out)
     }
     dump_rgb(out, "  ambient_light ", settings->ambient_light);
     text_printf(out, "\n  max_trace_level %d", settings->max_trace_level);
+    if (settings->noise_generator != 0) {
+        text_printf(out, "\n  noise_generator %d", settings->noise_generator);
+    }
     dump_number(out, "\n  adc_bailout ", settings->adc_bailout);
     text_append(out, "\n}\n");
 }

@@ -23,6 +23,25 @@ static void dump_pigment_items(const Pigment *pigment, TextBuffer *out)
     }
 }
 
+// Only where they are not what they are without being said, so that patterns without noise stay short.
+static void dump_noise_modifiers(const Pattern *pattern, TextBuffer *out)
+{
+    bool is_turbulent = vec3_max_abs(pattern->turbulence) > 0.0 || pattern->type == PATTERN_AGATE;
+    if (is_turbulent) {
+        dump_vector(out, "  turbulence ", pattern->turbulence);
+        dump_number(out, " lambda ", pattern->lambda);
+        dump_number(out, " omega ", pattern->omega);
+        text_printf(out, " octaves %d\n", (int)pattern->octaves);
+    }
+    if (pattern->type == PATTERN_AGATE) {
+        dump_number(out, "  agate_turb ", pattern->agate_turb);
+        text_append(out, "\n");
+    }
+    if (pattern->generator != 0) {
+        text_printf(out, "  noise_generator %d\n", (int)pattern->generator);
+    }
+}
+
 static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
 {
     if (pattern->type == PATTERN_BRICK) {
@@ -30,6 +49,7 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
         dump_number(out, " mortar ", pattern->mortar);
         text_append(out, "\n");
     }
+    dump_noise_modifiers(pattern, out);
     dump_number(out, "  frequency ", pattern->frequency);
     dump_number(out, " phase ", pattern->phase);
     text_printf(out, " %s", pattern_wave_word((WaveType)pattern->wave));

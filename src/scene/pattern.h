@@ -25,6 +25,17 @@ typedef enum PatternType {
     PATTERN_PLANAR,
     PATTERN_BOXED,
     PATTERN_CYLINDRICAL,
+    PATTERN_BOZO,
+    PATTERN_BUMPS,
+    PATTERN_SPOTTED,
+    PATTERN_GRANITE,
+    PATTERN_AGATE,
+    PATTERN_MARBLE,
+    PATTERN_WOOD,
+    PATTERN_WRINKLES,
+    PATTERN_DENTS,
+    PATTERN_RIPPLES,
+    PATTERN_WAVES,
     PATTERN_COUNT
 } PatternType;
 
@@ -33,16 +44,24 @@ typedef enum WaveType { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_
 typedef struct Pattern {
     uint32_t type; // PatternType
     uint32_t wave; // WaveType
+    int32_t generator; // NoiseGenerator, 0: the scene's
+    int32_t octaves;   // of turbulence, at least 1
     Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar
     double mortar; // brick: width of the mortar
     double frequency, phase;
     double exponent; // WAVE_POLY
+    double agate_turb; // agate: of its own turbulence
+    Vec3 turbulence;
+    double lambda, omega; // of turbulence, see Octaves
 } Pattern;
 
 typedef struct PatternInfo {
     const char *word;    // of the language
     uint32_t blocks;     // kinds of block that fill space, 0 for a pattern of values
     bool has_direction;  // a vector follows the word
+    bool uses_noise;
+    bool has_own_turbulence; // turbulence is part of the formula
+    WaveType wave;           // if none is said
 } PatternInfo;
 
 // The entry of a type, never NULL; PATTERN_NONE's word is "".

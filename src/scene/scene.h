@@ -267,6 +267,7 @@ typedef struct Settings {
     Rgb ambient_light;
     int max_trace_level; // >= 1
     double adc_bailout;
+    int noise_generator; // 1 to 3, 0: that of the version
     double version; // the language version in force at the end, 3.7 if none was given
 } Settings;
 

@@ -44,6 +44,25 @@ static const SchemaProperty pattern_modifiers[] = {
     {"planar", TYPE_ACTION, ACTION_PATTERN, .doc = "1 at y = 0, 0 at distance 1 and beyond"},
     {"boxed", TYPE_ACTION, ACTION_PATTERN, .doc = "1 at the origin, 0 on the cube from <-1, -1, -1> to <1, 1, 1>"},
     {"cylindrical", TYPE_ACTION, ACTION_PATTERN, .doc = "1 on the y axis, 0 at distance 1 and beyond"},
+    {"bozo", TYPE_ACTION, ACTION_PATTERN, .doc = "noise"},
+    {"bumps", TYPE_ACTION, ACTION_PATTERN, .doc = "the same noise"},
+    {"spotted", TYPE_ACTION, ACTION_PATTERN, .doc = "the same noise"},
+    {"granite", TYPE_ACTION, ACTION_PATTERN, .doc = "six octaves of noise, each folded at its middle"},
+    {"agate", TYPE_ACTION, ACTION_PATTERN, .doc = "bands along z, made uneven by noise of its own"},
+    {"marble", TYPE_ACTION, ACTION_PATTERN, .doc = "bands along x, made uneven by `turbulence`"},
+    {"wood", TYPE_ACTION, ACTION_PATTERN, .doc = "rings around z, made uneven by `turbulence`"},
+    {"wrinkles", TYPE_ACTION, ACTION_PATTERN, .doc = "ten octaves of noise"},
+    {"dents", TYPE_ACTION, ACTION_PATTERN, .doc = "the cube of noise"},
+    {"ripples", TYPE_ACTION, ACTION_PATTERN, .doc = "waves from ten points near the origin"},
+    {"waves", TYPE_ACTION, ACTION_PATTERN, .doc = "the same, each of another length"},
+    {"turbulence", TYPE_VECTOR, PATTERN_AT(turbulence), .doc = "moves each point by noise, so much in x, y and z"},
+    {"octaves", TYPE_INTEGER, PATTERN_AT(octaves), .range = {RANGE_CLAMP, false, 1.0, 10.0},
+     .doc = "of turbulence: noises added up"},
+    {"lambda", TYPE_NUMBER, PATTERN_AT(lambda), .doc = "of turbulence: how much finer each octave is"},
+    {"omega", TYPE_NUMBER, PATTERN_AT(omega), .doc = "of turbulence: how much weaker each octave is"},
+    {"agate_turb", TYPE_NUMBER, PATTERN_AT(agate_turb), .doc = "of `agate`: how uneven its bands are"},
+    {"noise_generator", TYPE_INTEGER, PATTERN_AT(generator), .range = {RANGE_CLAMP, false, 0.0, 3.0},
+     .doc = "1, 2 or 3; 0 is that of the scene"},
     {"frequency", TYPE_NUMBER, PATTERN_AT(frequency), .doc = "how often the map is run through"},
     {"phase", TYPE_NUMBER, PATTERN_AT(phase), .doc = "where in the map it begins"},
     {"ramp_wave", TYPE_ACTION, ACTION_WAVE, .doc = "rises evenly, then starts again"},
@@ -260,7 +279,8 @@ static const SchemaProperty settings_properties[] = {
     {"max_trace_level", TYPE_INTEGER, AT(SettingsBlueprint, max_trace_level), .range = {RANGE_CLAMP, false, 1.0, 256.0},
      .doc = "generations of mirrored rays, the camera's included"},
     {"adc_bailout", TYPE_NUMBER, AT(SettingsBlueprint, adc_bailout), .doc = "rays that weigh less are not followed"},
-    {"noise_generator", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"noise_generator", TYPE_INTEGER, AT(SettingsBlueprint, noise_generator), .range = {RANGE_CLAMP, false, 0.0, 3.0},
+     .doc = "of all patterns that say nothing else: 1, 2 or 3; 0 is 2, or 1 before version 3.5"},
     {"number_of_waves", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
     {"max_intersections", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
     {"mm_per_unit", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
@@ -342,7 +362,8 @@ static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
 
 #define PATTERN_PART                                                                                                   \
     {                                                                                                                  \
-        .transform = IDENTITY, .pattern = {.frequency = 1.0, .exponent = 1.0}                                          \
+        .transform = IDENTITY, .pattern = {.frequency = 1.0, .exponent = 1.0, .agate_turb = 1.0, .octaves = 6,        \
+                                            .lambda = 2.0, .omega = 0.5}                                               \
     }
 
 static const PigmentBlueprint pigment_defaults = {.part = PATTERN_PART};

@@ -1,0 +1,277 @@
+// Noise, from tables of hashes and gradients.
+//
+// Turns points into numbers. The tables are POV-Ray's, worked out anew from its random sequence where they come from
+// there, else as measured. Owns constant data only.
+//
+// SPDX-License-Identifier: MIT
+#include "math/noise.h"
+
+#include <math.h>
+
+// ---- tables
+
+// At a lattice point whose hash is h, half of lattice[h] is the value and the three numbers after it are the gradient;
+// of the second and third component of noise_vector, the same from lattice[h + 4] and lattice[h + 8] on.
+static const double lattice[256 + 11] = {
+    -1.0, 0.604974, -0.937102, 0.414115, 0.576226, -0.0161593, 0.432334, 0.103685, 0.590539, 0.0286412, 0.46981,
+    -0.84622, -0.0734112, -0.304097, -0.40206, -0.210132, -0.919127, 0.652033, -0.83151, -0.183948, -0.671107,
+    0.852476, 0.043595, -0.404532, 0.75494, -0.335653, 0.618433, 0.605707, 0.708583, -0.477195, 0.899474, 0.490623,
+    0.221729, -0.400381, -0.853727, -0.932586, 0.659113, 0.961303, 0.325948, -0.750851, 0.842466, 0.734401, -0.649866,
+    0.394491, -0.466056, -0.434073, 0.109026, 0.0847028, -0.738857, 0.241505, 0.16228, -0.71426, -0.883665, -0.150408,
+    -0.90396, -0.686549, -0.785214, 0.488548, 0.0246433, 0.142473, -0.602136, 0.375845, -0.00779736, 0.498955,
+    -0.268147, 0.856382, -0.386007, -0.596094, -0.867735, -0.570977, -0.914366, 0.28896, 0.672206, -0.233783, 0.94815,
+    0.895262, 0.343252, -0.173388, -0.767971, -0.314748, 0.824308, -0.342092, 0.721431, -0.24004, -0.63653, 0.553277,
+    0.376272, 0.158984, -0.452659, 0.396323, -0.420676, -0.454154, 0.122179, 0.295857, 0.0664225, -0.202075,
+    -0.724788, 0.453513, 0.224567, -0.908812, 0.176349, -0.320516, -0.697139, 0.742702, -0.900786, 0.471489,
+    -0.133532, 0.119127, -0.889769, -0.23183, -0.669673, -0.046891, -0.803433, -0.966735, 0.475578, -0.652644,
+    0.0112459, -0.730007, 0.128283, 0.145647, -0.619318, 0.272023, 0.392966, 0.646418, -0.0207675, -0.315908,
+    0.480797, 0.535668, -0.250172, -0.83093, -0.653773, -0.443809, 0.119982, -0.897642, 0.89453, 0.165789, 0.633875,
+    -0.886839, 0.930877, -0.537194, 0.587732, 0.722011, -0.209461, -0.0424659, -0.814267, -0.919432, 0.280262,
+    -0.66302, -0.558099, -0.537469, -0.598779, 0.929656, -0.170794, -0.537163, 0.312581, 0.959442, 0.722652, 0.499931,
+    0.175616, -0.534874, -0.685115, 0.444999, 0.17171, 0.108202, -0.768704, -0.463828, 0.254231, 0.546014, 0.869474,
+    0.875212, -0.944427, 0.130724, -0.110185, 0.312184, -0.33138, -0.629206, 0.0606546, 0.722866, -0.0979477,
+    0.821561, 0.0931258, -0.972808, 0.0318151, -0.867033, -0.387228, 0.280995, -0.218189, -0.539178, -0.427359,
+    -0.602075, 0.311971, 0.277974, 0.773159, 0.592493, -0.0331884, -0.630854, -0.269947, 0.339132, 0.581079, 0.209461,
+    -0.317433, -0.284993, 0.181323, 0.341634, 0.804959, -0.229572, -0.758907, -0.336721, 0.605463, -0.991272,
+    -0.0188754, -0.300191, 0.368307, -0.176135, -0.3832, -0.749569, 0.62356, -0.573938, 0.278309, -0.971313, 0.839994,
+    -0.830686, 0.439078, 0.66128, 0.694514, 0.0565042, 0.54342, -0.438804, -0.0228428, -0.687068, 0.857267, 0.301991,
+    -0.494255, -0.941039, 0.775509, 0.410575, -0.362081, -0.671534, -0.348379, 0.932433, 0.886442, 0.868681,
+    -0.225666, -0.062211, -0.0976425, -0.641444, -0.848112, 0.724697, 0.473503, 0.998749, 0.174701, 0.559625,
+    -0.029099, -0.337392, -0.958129, -0.659785, 0.236042, -0.246937, 0.659449, -0.027512, 0.821897, -0.226215,
+    0.0181735, 0.500481, -0.420127, -0.427878, 0.566186,
+};
+
+// The numbers that follow in POV-Ray's random sequence, of 16 bits.
+static unsigned next_random(uint32_t *state)
+{
+    *state = *state * UINT32_C(1812433253) + UINT32_C(12345);
+    return *state >> 16;
+}
+
+static void swap(uint16_t *list, unsigned i, unsigned j)
+{
+    uint16_t was = list[i];
+    list[i] = list[j];
+    list[j] = was;
+}
+
+static void shuffle_hash(uint16_t *hash)
+{
+    uint32_t state = 0;
+    for (unsigned i = 0; i < NOISE_CELLS; i++) {
+        hash[i] = (uint16_t)i;
+    }
+    for (unsigned i = NOISE_CELLS; i-- > 0;) {
+        swap(hash, i, next_random(&state) % NOISE_CELLS);
+    }
+}
+
+// Points of a cube, those outside of the ball left out, pushed to the sphere.
+static Vec3 next_gradient(uint32_t *state)
+{
+    for (;;) {
+        double v[3];
+        for (int i = 0; i < 3; i++) {
+            v[i] = (double)(next_random(state) % (2 * NOISE_GRADIENTS)) / NOISE_GRADIENTS - 1.0;
+        }
+        Vec3 point = vec3(v[0], v[1], v[2]);
+        if (vec3_length_squared(point) <= 1.0) {
+            return vec3_normalize(point);
+        }
+    }
+}
+
+// Only every second number is moved, and the first one is swapped with a 0 behind the list, so that it is lost.
+static void shuffle_order(uint16_t *order, uint32_t *state)
+{
+    for (unsigned i = 0; i < NOISE_GRADIENTS; i++) {
+        order[i] = (uint16_t)i;
+    }
+    order[next_random(state) % NOISE_GRADIENTS] = 0;
+    for (unsigned i = NOISE_GRADIENTS - 2; i > 0; i -= 2) {
+        swap(order, i, next_random(state) % NOISE_GRADIENTS);
+    }
+}
+
+void noise_init(Noise *noise)
+{
+    uint32_t state = 1;
+    shuffle_hash(noise->hash);
+    for (unsigned i = 0; i < NOISE_GRADIENTS; i++) {
+        noise->gradients[i] = next_gradient(&state);
+    }
+    shuffle_order(noise->order, &state);
+    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
+        noise->wave_sources[i] = vec3_normalize(noise_vector(noise, vec3(i, 0.0, 0.0)));
+    }
+}
+
+NoiseGenerator noise_generator(double number)
+{
+    return number >= NOISE_PERLIN ? NOISE_PERLIN : number >= NOISE_CORRECTED ? NOISE_CORRECTED : NOISE_ORIGINAL;
+}
+
+// ---- the lattice
+
+// Where a coordinate lies in the lattice.
+typedef struct Cell {
+    unsigned index[2]; // of the lattice points before and after it, below the period
+    double way[2];     // from them to it
+    double weight[2];  // what they count, 3 t^2 - 2 t^3
+} Cell;
+
+// All coordinates are moved by `offset`, so that POV-Ray meets none below 0; its points lie at these places.
+static Cell cell_of(double x, double offset, unsigned period)
+{
+    static const double largest = 1e15; // beyond, a double has no fraction left to speak of
+    double moved = x + offset, whole = floor(moved), t = moved - whole;
+    long long number = (long long)fmax(fmin(whole, largest), -largest);
+    unsigned index = (unsigned)number & (period - 1);
+    double weight = t * t * (3.0 - 2.0 * t);
+    return (Cell){{index, (index + 1) & (period - 1)}, {t, t - 1.0}, {1.0 - weight, weight}};
+}
+
+static double cut(double x)
+{
+    return fmin(fmax(x, 0.0), 1.0);
+}
+
+typedef struct Lattice {
+    Cell x, y, z;
+    unsigned hash[2][2][2]; // of the corners, below 256
+} Lattice;
+
+static unsigned hash_of(const Noise *noise, unsigned x, unsigned y, unsigned z)
+{
+    return noise->hash[noise->hash[noise->hash[x] ^ y] ^ z];
+}
+
+// The fraction is that of the coordinate itself; the offset only chooses the hash.
+static Cell hashed_cell(double x)
+{
+    Cell cell = cell_of(x, 0.0, NOISE_CELLS);
+    for (int i = 0; i < 2; i++) {
+        cell.index[i] = (cell.index[i] + 10000) & (NOISE_CELLS - 1);
+    }
+    return cell;
+}
+
+static void find_lattice(const Noise *noise, Vec3 p, Lattice *at)
+{
+    at->x = hashed_cell(p.x);
+    at->y = hashed_cell(p.y);
+    at->z = hashed_cell(p.z);
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            for (int k = 0; k < 2; k++) {
+                at->hash[i][j][k] = hash_of(noise, at->x.index[i], at->y.index[j], at->z.index[k]) & 255;
+            }
+        }
+    }
+}
+
+static double component(const Lattice *at, unsigned which)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            for (int k = 0; k < 2; k++) {
+                const double *row = &lattice[at->hash[i][j][k] + 4 * which];
+                sum += at->x.weight[i] * at->y.weight[j] * at->z.weight[k] *
+                       (0.5 * row[0] + row[1] * at->x.way[i] + row[2] * at->y.way[j] + row[3] * at->z.way[k]);
+            }
+        }
+    }
+    return sum;
+}
+
+static double original(const Noise *noise, Vec3 p)
+{
+    Lattice at;
+    find_lattice(noise, p, &at);
+    return component(&at, 0);
+}
+
+// Perlin's lattice: gradients follow one another along z.
+static double perlin(const Noise *noise, Vec3 p)
+{
+    static const double offset = 10000000.023157213; // as measured, to the last bit
+    Cell x = cell_of(p.x, offset, NOISE_GRADIENTS), y = cell_of(p.y, offset, NOISE_GRADIENTS),
+         z = cell_of(p.z, offset, NOISE_GRADIENTS);
+    double sum = 0.0;
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            unsigned row = noise->order[(noise->order[x.index[i]] + y.index[j]) % NOISE_GRADIENTS];
+            for (int k = 0; k < 2; k++) {
+                Vec3 way = vec3(x.way[i], y.way[j], z.way[k]);
+                sum += x.weight[i] * y.weight[j] * z.weight[k] *
+                       vec3_dot(noise->gradients[(row + z.index[k]) % NOISE_GRADIENTS], way);
+            }
+        }
+    }
+    return sum;
+}
+
+double noise_value(const Noise *noise, NoiseGenerator generator, Vec3 p)
+{
+    switch (generator) {
+    case NOISE_PERLIN: return cut(0.4925 + 0.795 * perlin(noise, p));
+    case NOISE_CORRECTED: return cut(0.48985582 * (original(noise, p) + 1.05242));
+    default: return cut(original(noise, p) + 0.5);
+    }
+}
+
+double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p)
+{
+    double value = noise_value(noise, generator, p);
+    return generator == NOISE_ORIGINAL ? value : cut(2.0 * value - 0.5);
+}
+
+Vec3 noise_vector(const Noise *noise, Vec3 p)
+{
+    Lattice at;
+    find_lattice(noise, p, &at);
+    return vec3(component(&at, 0), component(&at, 1), component(&at, 2));
+}
+
+unsigned noise_cell(const Noise *noise, Vec3 p)
+{
+    return hash_of(noise, hashed_cell(p.x).index[0], hashed_cell(p.y).index[0], hashed_cell(p.z).index[0]);
+}
+
+// ---- sums
+
+// Only the first octave of the spread generators is cut.
+double noise_sum(const Noise *noise, NoiseGenerator generator, const Octaves *octaves, Vec3 p)
+{
+    double sum = noise_spread(noise, generator, p), scale = octaves->lambda, weight = octaves->omega;
+    for (unsigned i = 1; i < octaves->count; i++) {
+        double value = noise_value(noise, generator, vec3_scale(scale, p));
+        sum += weight * (generator == NOISE_ORIGINAL ? value : 2.0 * value - 0.5);
+        scale *= octaves->lambda;
+        weight *= octaves->omega;
+    }
+    return sum;
+}
+
+Vec3 noise_vector_sum(const Noise *noise, const Octaves *octaves, Vec3 p)
+{
+    Vec3 sum = noise_vector(noise, p);
+    double scale = octaves->lambda, weight = octaves->omega;
+    for (unsigned i = 1; i < octaves->count; i++) {
+        sum = vec3_add_scaled(sum, weight, noise_vector(noise, vec3_scale(scale, p)));
+        scale *= octaves->lambda;
+        weight *= octaves->omega;
+    }
+    return sum;
+}
+
+// ---- waves
+
+double noise_wave_frequency(unsigned i)
+{
+    // Ten numbers that follow one another in POV-Ray's random sequence.
+    static const uint16_t numbers[NOISE_WAVE_SOURCES] = {29789, 31130, 13866, 22914, 22255,
+                                                         32159, 25328, 12801, 7198,  5194};
+    return numbers[i] / 32767.0 + 0.01;
+}

@@ -1,0 +1,65 @@
+// Noise: smooth random numbers over space, the same as POV-Ray's three generators give.
+//
+// A point becomes a number, or a vector of three. How each generator works was found by evaluating POV-Ray's functions
+// at chosen points; docs/language.md, "Noise", says how, and what the numbers of noise.c are. The tables are worked out
+// once by whoever needs noise, and only read afterwards.
+//
+// SPDX-License-Identifier: MIT
+#ifndef MATH_NOISE_H
+#define MATH_NOISE_H
+
+#include <stdint.h>
+
+#include "math/vec3.h"
+
+enum {
+    NOISE_CELLS = 4096,      // period of the first two generators, of the shuffled numbers below it
+    NOISE_GRADIENTS = 2048,  // period of the third
+    NOISE_WAVE_SOURCES = 10,
+};
+
+typedef enum NoiseGenerator {
+    NOISE_ORIGINAL = 1, // gradients and values at lattice points, cut to 0 and 1
+    NOISE_CORRECTED,    // the same, stretched so that nothing is cut
+    NOISE_PERLIN,       // gradients only, as in K. Perlin, "An Image Synthesizer", SIGGRAPH 1985
+} NoiseGenerator;
+
+typedef struct Noise {
+    uint16_t hash[NOISE_CELLS];
+    uint16_t order[NOISE_GRADIENTS];
+    Vec3 gradients[NOISE_GRADIENTS]; // of unit length
+    Vec3 wave_sources[NOISE_WAVE_SOURCES]; // of `ripples` and `waves`, at distance 1 from the origin
+} Noise;
+
+void noise_init(Noise *noise);
+
+// The nearest generator to a number of the language; 0 stands for none.
+NoiseGenerator noise_generator(double number);
+
+// From 0 to 1.
+double noise_value(const Noise *noise, NoiseGenerator generator, Vec3 p);
+
+// The same with its middle half stretched to fill 0 to 1, but for the first generator, which is as it is.
+double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p);
+
+// Three independent numbers around 0, the first generator's first.
+Vec3 noise_vector(const Noise *noise, Vec3 p);
+
+// The hash of the unit cube that p is in, 0 to NOISE_CELLS - 1.
+unsigned noise_cell(const Noise *noise, Vec3 p);
+
+// How noise is added up: octave i (from 0) is finer by lambda^i and weighs omega^i.
+typedef struct Octaves {
+    double lambda, omega;
+    unsigned count; // at least 1
+} Octaves;
+
+// A sum of numbers that are mostly from 0 to 1.
+double noise_sum(const Noise *noise, NoiseGenerator generator, const Octaves *octaves, Vec3 p);
+// A sum of noise_vector.
+Vec3 noise_vector_sum(const Noise *noise, const Octaves *octaves, Vec3 p);
+
+// Waves per unit length from a source of `waves`.
+double noise_wave_frequency(unsigned i);
+
+#endif

@@ -1,0 +1,112 @@
+// Patterns made of noise, one small function for each.
+//
+// Turns a point into a number; owns constant data only. The formulas are POV-Ray's, found by experiment;
+// docs/language.md, "Noise".
+//
+// SPDX-License-Identifier: MIT
+#include "render/pattern_noise.h"
+
+#include <math.h>
+
+static const double two_pi = 6.28318530717958647693;
+
+static NoiseGenerator generator_of(const Pattern *pattern, const NoiseSource *source)
+{
+    return pattern->generator != 0 ? noise_generator(pattern->generator) : source->generator;
+}
+
+static Octaves octaves_of(const Pattern *pattern)
+{
+    return (Octaves){pattern->lambda, pattern->omega, (unsigned)pattern->octaves};
+}
+
+static double sine_wave(double x)
+{
+    return (1.0 + sin(two_pi * x)) / 2.0;
+}
+
+double pattern_noise(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return noise_value(source->noise, generator_of(pattern, source), p);
+}
+
+double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    double sum = 0.0, weight = 1.0;
+    for (int i = 0; i < 6; i++) {
+        double value = noise_spread(source->noise, generator_of(pattern, source), vec3_scale(4.0 / weight, p));
+        sum += weight * fabs(value - 0.5);
+        weight /= 2.0;
+    }
+    return sum;
+}
+
+double pattern_agate(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    Octaves octaves = octaves_of(pattern);
+    double sum = noise_sum(source->noise, generator_of(pattern, source), &octaves, p);
+    return pow(sine_wave(1.3 * pattern->agate_turb * sum + 1.1 * p.z), 0.77);
+}
+
+double pattern_marble(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    if (pattern->turbulence.x == 0.0) {
+        return p.x;
+    }
+    Octaves octaves = octaves_of(pattern);
+    return p.x + pattern->turbulence.x * noise_sum(source->noise, generator_of(pattern, source), &octaves, p);
+}
+
+double pattern_wood(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    if (vec3_max_abs(pattern->turbulence) > 0.0) {
+        Octaves octaves = octaves_of(pattern);
+        Vec3 noise = noise_vector_sum(source->noise, &octaves, p);
+        p.x += sin(two_pi * pattern->turbulence.x * (p.x + noise.x));
+        p.y += sin(two_pi * pattern->turbulence.y * (p.y + noise.y));
+    }
+    return sqrt(p.x * p.x + p.y * p.y);
+}
+
+double pattern_wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    double sum = 0.0, scale = 1.0;
+    for (int i = 0; i < 10; i++) {
+        sum += noise_spread(source->noise, generator_of(pattern, source), vec3_scale(scale, p)) / (2.0 * scale);
+        scale *= 2.0;
+    }
+    return sum;
+}
+
+double pattern_dents(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    double value = noise_value(source->noise, generator_of(pattern, source), p);
+    return value * value * value;
+}
+
+// Frequency and phase change the waves, too, before they change the map.
+double pattern_ripples(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    double sum = 0.0;
+    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
+        double way = vec3_length(vec3_sub(p, source->noise->wave_sources[i]));
+        sum += sine_wave(way * pattern->frequency + pattern->phase);
+    }
+    return sum / NOISE_WAVE_SOURCES;
+}
+
+double pattern_waves(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    double sum = 0.0;
+    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
+        double way = vec3_length(vec3_sub(p, source->noise->wave_sources[i])), frequency = noise_wave_frequency(i);
+        sum += sin(two_pi * (way * pattern->frequency * frequency + pattern->phase)) / frequency;
+    }
+    return 0.5 + 0.2 * sum / NOISE_WAVE_SOURCES;
+}
+
+Vec3 pattern_turbulent(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    Octaves octaves = octaves_of(pattern);
+    return vec3_add(p, vec3_mul(pattern->turbulence, noise_vector_sum(source->noise, &octaves, p)));
+}

@@ -1,0 +1,25 @@
+// Patterns made of noise; private to pattern.c.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_PATTERN_NOISE_H
+#define RENDER_PATTERN_NOISE_H
+
+#include "render/pattern.h"
+
+// A pattern's value before frequency, phase and wave, at a point that turbulence has moved.
+typedef double (*PatternFunction)(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+
+double pattern_noise(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_agate(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_marble(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_wood(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_dents(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_ripples(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_waves(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+
+// Where turbulence moves a point to.
+Vec3 pattern_turbulent(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+
+#endif
