@@ -34,6 +34,7 @@ unit_programs = \
   tests/unit/test_base_suggest \
   tests/unit/test_base_text \
   tests/unit/test_math \
+  tests/unit/test_noise \
   tests/unit/test_trace_sphere \
   tests/unit/test_trace_certified \
   tests/unit/test_trace_geometry \
@@ -71,6 +72,8 @@ tests_unit_test_base_suggest_SOURCES = %D%/unit/test_base_suggest.c
 tests_unit_test_base_suggest_LDADD = $(UNIT_BASE)
 tests_unit_test_base_text_SOURCES = %D%/unit/test_base_text.c
 tests_unit_test_base_text_LDADD = $(UNIT_BASE)
+tests_unit_test_noise_SOURCES = %D%/unit/test_noise.c
+tests_unit_test_noise_LDADD = libmath.la libbase.la
 tests_unit_test_math_SOURCES = %D%/unit/test_math.c
 tests_unit_test_math_LDADD = libmath.la libbase.la
 tests_unit_test_trace_sphere_SOURCES = %D%/unit/test_trace_sphere.c %D%/unit/sphere_cases.h

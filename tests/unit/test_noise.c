@@ -1,0 +1,124 @@
+// Noise: what POV-Ray's f_noise_generator and vturbulence give at the same points, and what must hold everywhere.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/attributes.h"
+#include "math/noise.h"
+#include "unit/random.h"
+#include "unit/tap.h"
+
+static bool near(Vec3 a, Vec3 b)
+{
+    return vec3_max_abs(vec3_sub(a, b)) <= 1e-14;
+}
+
+// A point, its three noises, its vector, and a sum of four vectors with lambda 3 and omega 3/4, as POV-Ray prints them.
+static void test_values(const Noise *noise)
+{
+    static const struct {
+        Vec3 p, values, vector, sum;
+    } cases[] = {
+        {{0, 0, 0},
+         {0.056580499999999978, 0.29832243930790991, 0.51135430537303594},
+         {-0.44341950000000002, 0.36100549999999998, -0.45971600000000001},
+         {-1.2124751953124999, 0.98712441406249996, -1.2570359375000002}},
+        {{0.5, 0.5, 0.5},
+         {0.41346047124999996, 0.47314217026615513, 0.67210384355265762},
+         {-0.086539528750000039, -0.19951749374999994, 0.073615243750000031},
+         {0.086309199453124957, -0.18042866601562491, 0.02221229394531252}},
+        {{-0.25, 3.75, -7.125},
+         {0.21727328747653962, 0.377038736485316, 0.35095539740799897},
+         {-0.28272671252346043, 0.13264149579000473, 0.072679884476089487},
+         {-0.14492242209667058, 0.16796157906189113, -0.24222966881506369}},
+        {{100.3, -20.7, 4095.5},
+         {0.54080478892960127, 0.53552252542543666, 0.53081233235111724},
+         {0.040804788929601252, -0.35760155397760046, 0.20092713349887925},
+         {0.088640421213385473, -0.033112682267620111, 0.47872186585983145}},
+        {{-12345.678, 0.001, 9999.999},
+         {0.44659686934309417, 0.48937422772589423, 0.59199257688469775},
+         {-0.053403130656905842, 0.11185008419585171, 0.071049871916036789},
+         {-0.39198372337780091, -0.10484657620933244, -0.15177148139974445}},
+        {{3, -4, 5},
+         {0.88657950000000008, 0.70490228005208999, 0.49879441608529024},
+         {0.38657950000000002, -0.1349735, -0.15871650000000001},
+         {0.52008182031250005, 0.19990410156249999, -0.53492810156249992}},
+        {{-4.762, 5.977, 42.421},
+         {0.50075689851131922, 0.5159048332253191, 0.27553370889491613},
+         {0.00075689851131927001, 0.080777159189317771, -0.34202355656846023},
+         {-0.097340136500068619, -0.16245627947189867, -0.23493042094317942}},
+        {{-3.435, 0.784, 8.738},
+         {0.3210131684141001, 0.42785632092868708, 0.16102093688261032},
+         {-0.17898683158589984, -0.24236374344964756, 0.046269081910089389},
+         {0.36442549399562313, -0.38724014356305658, -0.098890753738400783}},
+        {{-31.534, 1.191, 12.988},
+         {0.20623902462976962, 0.37163353861041593, 0.46090158430129136},
+         {-0.29376097537023044, 0.086944004830284166, 0.4691171123839567},
+         {-0.1373420853615864, 0.42419171685542395, 0.41517976491782227}},
+        {{29.298, -40.588, -19.66},
+         {0.21558945648129146, 0.3762139020723973, 0.56736931210923514},
+         {-0.28441054351870854, -0.27431961518817677, 0.20203871391571876},
+         {-0.56510810748165552, 0.032364872880817241, 0.062552308652425392}},
+        {{-40.933, 30.964, 19.344},
+         {0.60198678909654979, 0.56549288428645739, 0.68028535272647006},
+         {0.10198678909654985, -0.38476218082088309, 0.40907084562207424},
+         {0.14341811469430349, -0.48101759941072386, 0.44873687366203674}},
+        {{-45.812, 48.219, 46.476},
+         {0.11341517522945843, 0.32616323574687001, 0.3730283102284046},
+         {-0.38658482477054157, -0.097110249921219097, -0.50856335281423148},
+         {-0.52611400013046195, -0.12156925846882875, -0.61082873396193116}},
+    };
+    static const Octaves octaves = {3.0, 0.75, 4};
+    for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
+        Vec3 p = cases[i].p;
+        Vec3 values = vec3(noise_value(noise, NOISE_ORIGINAL, p), noise_value(noise, NOISE_CORRECTED, p),
+                           noise_value(noise, NOISE_PERLIN, p));
+        tap_ok(near(values, cases[i].values), "numbers of the three generators at point %zu", i);
+        tap_ok(near(noise_vector(noise, p), cases[i].vector), "the vector at point %zu", i);
+        tap_ok(near(noise_vector_sum(noise, &octaves, p), cases[i].sum), "four octaves of it at point %zu", i);
+    }
+}
+
+// Whole periods change nothing but the last bits of the fractions; tiny steps change little; far points are fine.
+static void test_everywhere(const Noise *noise)
+{
+    Random random = {4};
+    int outside = 0, odd_period = 0, jumps = 0;
+    for (int turn = 0; turn < 20000; turn++) {
+        Vec3 p = vec3_scale(random_between(&random, 0, 3000), random_direction(&random));
+        for (int generator = NOISE_ORIGINAL; generator <= NOISE_PERLIN; generator++) {
+            NoiseGenerator which = (NoiseGenerator)generator;
+            double value = noise_value(noise, which, p);
+            double next = noise_value(noise, which, vec3_add(p, vec3(4096.0, -8192.0, 4096.0)));
+            double beside = noise_value(noise, which, vec3_add(p, vec3(1e-6, 1e-6, -1e-6)));
+            outside += !(value >= 0.0 && value <= 1.0);
+            odd_period += fabs(next - value) > 1e-7;
+            jumps += fabs(beside - value) > 1e-5;
+        }
+    }
+    tap_ok(outside == 0, "noise is from 0 to 1 (%d are not)", outside);
+    tap_ok(odd_period == 0, "noise has period 4096 (%d differ)", odd_period);
+    tap_ok(jumps == 0, "noise is smooth (%d jumps)", jumps);
+    static const double far[] = {1e9, -1e15, 1e300, -1e308};
+    int wild = 0;
+    for (size_t i = 0; i < RT_COUNT_OF(far); i++) {
+        for (int generator = NOISE_ORIGINAL; generator <= NOISE_PERLIN; generator++) {
+            double value = noise_value(noise, (NoiseGenerator)generator, vec3(far[i], 0.5, -far[i]));
+            wild += !(value >= 0.0 && value <= 1.0);
+        }
+    }
+    tap_ok(wild == 0, "noise far away is from 0 to 1, too (%d are not)", wild);
+}
+
+int main(void)
+{
+    Noise *noise = malloc(sizeof *noise);
+    if (tap_ok(noise != NULL, "memory for the tables")) {
+        noise_init(noise);
+        test_values(noise);
+        test_everywhere(noise);
+    }
+    free(noise);
+    return tap_done();
+}
