@@ -159,6 +159,7 @@ test_scripts = \
   %D%/golden/check_golden.py \
   %D%/system/check_messages.py \
   %D%/system/run_system.py \
+  %D%/system/check_image_files.py \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
   %D%/system/check_stability.py \

@@ -187,7 +187,7 @@ static rt_status load(rt_session *session, Source *source, double start)
     };
     session->scene.whole = SPAN_WHOLE(source_base(source));
     bool fine = eval_source(&options, source, &session->scene) && scene_validate(&session->scene, &session->diags) &&
-                session->diags.error_count == 0;
+                session->diags.error_count == 0 && session_load_pictures(session);
     source_close(source);
     diag_finish(&session->diags);
     session->loaded = fine;

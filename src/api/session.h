@@ -77,6 +77,9 @@ rt_status session_status(rt_session *session, bool fine);
 // Reports what became of writing `path`, and turns it into a status.
 rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error);
 
+// Reads the pictures that the scene uses; reports the first that cannot be.
+bool session_load_pictures(rt_session *session);
+
 // Opens a scene file; reports why not.
 bool session_open(rt_session *session, const char *path, Source **source);
 

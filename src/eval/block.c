@@ -23,7 +23,8 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
     [ACTION_PATTERN] = pattern_action,        [ACTION_WAVE] = pattern_wave_action,
     [ACTION_MAP] = pattern_map_action,        [ACTION_INTERIOR] = interior_action,
-    [ACTION_MATERIAL] = material_action,
+    [ACTION_MATERIAL] = material_action,      [ACTION_IMAGE_MAP] = image_map_action,
+    [ACTION_IMAGE] = image_action,
     [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
@@ -40,6 +41,7 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_COLOUR_MAP] = pattern_map_body,
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,
+    [KIND_IMAGE_MAP] = image_body,
 };
 
 // At the closing brace.
@@ -50,6 +52,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
     [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
     [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close,     [KIND_LIGHT_SOURCE] = light_close,
+    [KIND_IMAGE_MAP] = image_close,
 };
 
 SchemaKind block_kind(const Eval *ev, const AstNode *node)

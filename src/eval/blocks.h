@@ -145,7 +145,17 @@ bool fog_turbulence_action(Block *block, const SchemaProperty *property, const A
 bool fog_close(Block *block) RT_MUST_CHECK;
 bool fog_place(Eval *ev, const FogBlueprint *fog, Span span) RT_MUST_CHECK;
 
+// image.c
+bool image_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool image_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool image_body(Block *block) RT_MUST_CHECK; // of image_map
+bool image_close(Block *block) RT_MUST_CHECK;
+// The scene's record of a picture that is laid over something.
+bool image_place(Eval *ev, const ImageBlueprint *image, uint32_t *index) RT_MUST_CHECK;
+
 // settings.c
+// A gamma after its word, whose name and place are for messages: a number, or `srgb`, which leaves *gamma as it is.
+bool settings_read_gamma(Block *block, const char *name, Span word, GammaModel *model, double *gamma) RT_MUST_CHECK;
 bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
 

@@ -146,14 +146,18 @@ static void fini(Eval *ev)
     arena_fini(&ev->parse);
 }
 
+bool eval_knows_37(const Eval *ev)
+{
+    return ev->version_given && (ev->version > 3.7 || numbers_equal(ev->version, 3.7));
+}
+
 // A scene that names no gamma is linear when a #version says that it knows 3.7, and is not converted at all otherwise,
 // as in POV-Ray.
 static void settle_version(const Eval *ev)
 {
     Settings *settings = &ev->scene->settings;
     settings->version = ev->version;
-    bool is_modern = ev->version_given && (ev->version > 3.7 || numbers_equal(ev->version, 3.7));
-    if (settings->gamma_model == GAMMA_NONE && is_modern) {
+    if (settings->gamma_model == GAMMA_NONE && eval_knows_37(ev)) {
         settings->gamma_model = GAMMA_LINEAR;
         settings->assumed_gamma = 1.0;
     }

@@ -29,6 +29,7 @@ static const struct {
 } uses[] = {
     [FILE_INCLUDE] = {"include file", ".inc"},
     [FILE_DATA] = {"data file", NULL},
+    [FILE_IMAGE] = {"image file", NULL},
 };
 
 typedef struct Search {
@@ -342,4 +343,28 @@ bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
     }
     text_fini(&search.path);
     return is_found && !ev->stop;
+}
+
+const char *file_find(Eval *ev, const AstNode *name_node, const char *text, const char *const *endings)
+{
+    Search search = {.name = text};
+    text_init(&search.path);
+    bool is_found = find(ev, &search, NULL);
+    for (; !is_found && *endings != NULL && !has_ending(text); endings++) {
+        is_found = find(ev, &search, *endings);
+    }
+    const char *path = NULL;
+    if (search.path.failed) {
+        eval_no_memory(ev, name_node->span);
+    } else if (!is_found) {
+        report_missing(ev, &search, FILE_IMAGE, name_node);
+    } else if (may_read(ev, text_get(&search.path), name_node->span)) {
+        Symbol symbol = intern_text(ev->options.names, text_get(&search.path), search.path.length);
+        path = symbol != SYMBOL_NONE ? eval_text(ev, symbol) : NULL;
+        if (path == NULL) {
+            eval_no_memory(ev, name_node->span);
+        }
+    }
+    text_fini(&search.path);
+    return path;
 }

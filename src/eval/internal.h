@@ -277,6 +277,8 @@ bool eval_condition(Eval *ev, const AstNode *node, bool *holds) RT_MUST_CHECK;
 
 // As the language compares: numbers that differ by 1e-10 or less are equal, and such a number is false.
 bool numbers_equal(double one, double other);
+// A #version said that the text knows 3.7.
+bool eval_knows_37(const Eval *ev);
 bool number_is_true(double number);
 
 // Warns when a result is not finite; called where all that it is made of is.
@@ -399,7 +401,7 @@ bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds) RT_MUST_
 
 // ---- files
 
-typedef enum FileUse { FILE_INCLUDE, FILE_DATA } FileUse;
+typedef enum FileUse { FILE_INCLUDE, FILE_DATA, FILE_IMAGE } FileUse;
 
 bool files_init(Eval *ev, const Source *scene) RT_MUST_CHECK;
 void files_fini(Eval *ev);
@@ -408,6 +410,10 @@ void files_fini(Eval *ev);
 bool file_open(Eval *ev, const AstNode *name, FileUse use, Source **source) RT_MUST_CHECK;
 // Whether there is such a file. False when it may not be asked for; that is reported.
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
+
+// The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a list
+// that NULL ends is added in turn. `node` is the expression that gave the name.
+const char *file_find(Eval *ev, const AstNode *node, const char *name, const char *const *endings) RT_MUST_CHECK;
 
 // #fopen, #fclose, #read and #write
 void data_file_run(Cursor *cursor, const AstNode *node);

@@ -58,10 +58,13 @@ static bool add_pigment_entries(const Builder *builder, const PatternMap *map, u
 static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer,
                           Pigment *out)
 {
-    PatternedPigment record = {.pattern = pigment->part.pattern};
-    if (!place_pattern(builder, &pigment->part.transform, outer, &record.to_world) ||
-        !add_pigment_entries(builder, pigment->part.map ? pigment->part.map : pattern_default_map((PatternType)record.pattern.type),
-                             &record.entries)) {
+    const PatternPart *part = &pigment->part;
+    bool is_picture = part->pattern.type == PATTERN_IMAGE_MAP;
+    PatternedPigment record = {.pattern = part->pattern, .entries = RECORD_NONE};
+    if (!place_pattern(builder, &part->transform, outer, &record.to_world) ||
+        (is_picture && !image_place(builder->ev, part->image, &record.pattern.image)) ||
+        (!is_picture && !add_pigment_entries(builder, part->map ? part->map : pattern_default_map((PatternType)part->pattern.type),
+                                             &record.entries))) {
         return false;
     }
     *out = (Pigment){.pattern = 0};

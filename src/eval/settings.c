@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
 
-static bool read_gamma(Block *block, const AstNode *word, GammaModel *model, double *gamma)
+bool settings_read_gamma(Block *block, const char *name, Span word, GammaModel *model, double *gamma)
 {
     if (cursor_at_word(&block->cursor, W_srgb)) {
         cursor_skip(&block->cursor);
@@ -14,14 +14,14 @@ static bool read_gamma(Block *block, const AstNode *word, GammaModel *model, dou
     }
     const AstNode *item = cursor_peek(&block->cursor);
     if (!item || item->kind == AST_WORD || !cursor_at_value(&block->cursor)) {
-        return block_fault(block, DIAG_E0253, word->span, "`assumed_gamma` needs a number or `srgb` after it");
+        return block_fault(block, DIAG_E0253, word, "`%s` needs a number or `srgb` after it", name);
     }
     Span span = item->span;
-    if (!cursor_number(&block->cursor, gamma, &span) || !block_finite(block, *gamma, span, "assumed_gamma")) {
+    if (!cursor_number(&block->cursor, gamma, &span) || !block_finite(block, *gamma, span, name)) {
         return false;
     }
     if (!(*gamma > 0.0)) {
-        return block_fault(block, DIAG_E0341, span, "`assumed_gamma` must be greater than 0, not %g", *gamma);
+        return block_fault(block, DIAG_E0341, span, "`%s` must be greater than 0, not %g", name, *gamma);
     }
     *model = *gamma == 1.0 ? GAMMA_LINEAR : GAMMA_POWER;
     return true;
@@ -32,8 +32,7 @@ bool settings_gamma_action(Block *block, const SchemaProperty *property, const A
     Settings *settings = &block->ev->scene->settings;
     GammaModel model = GAMMA_NONE;
     double gamma = 1.0;
-    (void)property;
-    if (!read_gamma(block, item, &model, &gamma)) {
+    if (!settings_read_gamma(block, property->word, item->span, &model, &gamma)) {
         return false;
     }
     if (settings->gamma_model != GAMMA_NONE) {

@@ -5,18 +5,14 @@
 // SPDX-License-Identifier: MIT
 #include "image/image.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "image/atomic_file.h"
 #include "image/encode.h"
 #include "image/image_error.h"
 #include "image/module.h"
-#include "image/png_read.h"
+#include "image/picture_file.h"
 #include "image/png_write.h"
 
 enum { ENDING_MAX = 8 };
@@ -180,56 +176,59 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
     return status;
 }
 
-// Only regular files are read: a pipe would block, and the readers seek. NULL: the error says why.
-static FILE *open_readable(const char *path, ImageError *error)
-{
-    struct stat status;
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    FILE *stream = NULL;
+// ---- reading
 
-    if (fd < 0 || fstat(fd, &status) != 0) {
-        image_error_system(error, path, errno);
-    } else if (!S_ISREG(status.st_mode)) {
-        image_error_set(error, "%s: not a regular file", path);
-    } else {
-        stream = fdopen(fd, "rb");
-        if (stream == NULL) {
-            image_error_system(error, path, errno);
-        }
+static float sample_at(const PictureFile *file, size_t i)
+{
+    switch (file->depth) {
+    case IMAGE_DEPTH_8: return (float)((const uint8_t *)file->samples)[i] / 255.0f;
+    case IMAGE_DEPTH_16: return (float)((const uint16_t *)file->samples)[i] / 65535.0f;
+    case IMAGE_DEPTH_FLOAT: break;
     }
-    if (stream == NULL && fd >= 0) {
-        close(fd);
-    }
-    return stream;
+    return ((const float *)file->samples)[i];
 }
 
-static ImageStatus read_by_module(const char *path, uint64_t pixel_limit, Image *image, ImageError *error)
+static void values_widen(const PictureFile *file, Image *image)
 {
-    const OiioModule *module = module_load(error);
+    size_t pixels = (size_t)file->width * (size_t)file->height;
+    const uint8_t *places = file->samples;
 
-    return module == NULL ? IMAGE_NO_MODULE : module->read(path, pixel_limit, image_init, image, error);
+    for (size_t i = 0; file->palette_count == 0 && i < pixels * (size_t)file->channels; i++) {
+        image->values[i] = sample_at(file, i);
+    }
+    for (size_t i = 0; file->palette_count > 0 && i < pixels; i++) {
+        for (int c = 0; c < image->channels; c++) {
+            image->values[i * (size_t)image->channels + (size_t)c] = (float)file->palette[places[i]][c] / 255.0f;
+        }
+    }
+}
+
+static bool palette_is_opaque(const PictureFile *file)
+{
+    for (int i = 0; i < file->palette_count; i++) {
+        if (file->palette[i][3] != UINT8_MAX) {
+            return false;
+        }
+    }
+    return true;
 }
 
 ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error)
 {
-    FILE *stream;
-    ImageStatus status;
-    bool is_png;
+    PictureLimit limit = {.pixels = pixel_limit, .bytes = UINT64_MAX};
+    PictureFile file;
+    ImageStatus status = picture_file_read(path, NULL, &limit, &file, error);
 
     *image = (Image){0};
-    image_error_clear(error);
-    stream = open_readable(path, error);
-    if (stream == NULL) {
-        return IMAGE_IO;
-    }
-    is_png = png_is_there(stream);
-    status = is_png ? png_read(stream, pixel_limit, image, error) : IMAGE_OK;
-    fclose(stream);
-    if (!is_png) {
-        status = read_by_module(path, pixel_limit, image, error);
-    }
     if (status != IMAGE_OK) {
-        image_fini(image);
+        return status;
     }
+    int channels = file.palette_count == 0 ? file.channels : palette_is_opaque(&file) ? 3 : 4;
+    if (image_init(image, file.width, file.height, channels)) {
+        values_widen(&file, image);
+    } else {
+        status = IMAGE_NO_MEMORY;
+    }
+    picture_file_fini(&file);
     return status;
 }

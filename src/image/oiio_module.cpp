@@ -149,17 +149,29 @@ ImageStatus picture_save(const OiioPicture *picture, const OiioSink *sink, Image
     return status == IMAGE_OK ? sink->put(sink->client, file.buffer().data(), file.buffer().size(), error) : status;
 }
 
-ImageStatus judge_size(const OIIO::ImageSpec &spec, uint64_t pixel_limit)
+using Allocate = ImageStatus (*)(PictureFile *file, const PictureLimit *limit);
+
+bool has_size(const OIIO::ImageSpec &spec)
 {
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0) {
-        return IMAGE_NOT_A_PICTURE;
-    }
-    uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-    return pixels > pixel_limit ? IMAGE_TOO_LARGE : IMAGE_OK;
+    return spec.width > 0 && spec.height > 0 && spec.depth <= 1 && spec.nchannels > 0;
 }
 
-ImageStatus picture_load(const char *path, uint64_t pixel_limit, bool (*allocate)(Image *, int, int, int), Image *image,
-                         ImageError *error)
+ImageDepth depth_of(OIIO::TypeDesc type)
+{
+    switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+    case OIIO::TypeDesc::INT8:
+        return IMAGE_DEPTH_8;
+    case OIIO::TypeDesc::UINT16:
+    case OIIO::TypeDesc::INT16:
+        return IMAGE_DEPTH_16;
+    default:
+        return IMAGE_DEPTH_FLOAT;
+    }
+}
+
+ImageStatus picture_load(const char *path, const char *format, const PictureLimit *limit, Allocate allocate,
+                         PictureFile *file, ImageError *error)
 {
     // A relative path that looks like an address of the network is still a path.
     std::string name = path[0] == '/' ? std::string(path) : std::string("./") + path;
@@ -171,15 +183,22 @@ ImageStatus picture_load(const char *path, uint64_t pixel_limit, bool (*allocate
         set_detail(error, OIIO::geterror());
         return IMAGE_NOT_A_PICTURE;
     }
-    ImageStatus status = judge_size(input->spec(), pixel_limit);
+    const OIIO::ImageSpec &spec = input->spec();
+    if (!has_size(spec) || (format != nullptr && std::strcmp(input->format_name(), format) != 0)) {
+        set_detail(error, std::string("it is of type ") + input->format_name());
+        return IMAGE_NOT_A_PICTURE;
+    }
+    file->width = spec.width;
+    file->height = spec.height;
+    file->channels = std::min(spec.nchannels, 4);
+    file->depth = depth_of(spec.format);
+    file->bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
+    file->is_associated = spec.alpha_channel >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+    ImageStatus status = allocate(file, limit);
     if (status != IMAGE_OK) {
         return status;
     }
-    int channels = std::min(input->spec().nchannels, 4);
-    if (!allocate(image, input->spec().width, input->spec().height, channels)) {
-        return IMAGE_NO_MEMORY;
-    }
-    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, image->values)) {
+    if (!input->read_image(0, 0, 0, file->channels, sample_type(file->depth), file->samples)) {
         set_detail(error, input->geterror());
         return IMAGE_NOT_A_PICTURE;
     }
@@ -216,10 +235,10 @@ static ImageStatus module_write(const OiioPicture *picture, const OiioSink *sink
     return guarded(picture_save, error, picture, sink);
 }
 
-static ImageStatus module_read(const char *path, uint64_t pixel_limit, bool (*allocate)(Image *, int, int, int),
-                               Image *image, ImageError *error) noexcept
+static ImageStatus module_read(const char *path, const char *format, const PictureLimit *limit, Allocate allocate,
+                               PictureFile *file, ImageError *error) noexcept
 {
-    return guarded(picture_load, error, path, pixel_limit, allocate, image);
+    return guarded(picture_load, error, path, format, limit, allocate, file);
 }
 
 const OiioModule rtlang_oiio_module = {OIIO_MODULE_VERSION, module_check, module_write, module_read};

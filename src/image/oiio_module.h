@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "image/image.h"
+#include "image/picture_file.h"
 
 // Raised with each change of the structures below; a module of another version is passed over.
 #define OIIO_MODULE_VERSION 2u
@@ -38,9 +39,10 @@ typedef struct OiioModule {
     // Whether the format can be written, and at this depth.
     ImageStatus (*check)(const char *ending, ImageDepth depth, ImageError *error);
     ImageStatus (*write)(const OiioPicture *picture, const OiioSink *sink, ImageError *error);
-    // Reads a file; the size is judged before memory is asked of `allocate`, which is image_init.
-    ImageStatus (*read)(const char *path, uint64_t pixel_limit,
-                        bool (*allocate)(Image *image, int width, int height, int channels), Image *image,
+    // Reads a file of the format that OpenImageIO calls so, or of any (NULL), in its own depth, or in the least above. The
+    // size is judged before memory is taken by `allocate`, which is picture_file_allocate.
+    ImageStatus (*read)(const char *path, const char *format, const PictureLimit *limit,
+                        ImageStatus (*allocate)(PictureFile *file, const PictureLimit *limit), PictureFile *file,
                         ImageError *error);
 } OiioModule;
 

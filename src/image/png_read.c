@@ -1,4 +1,4 @@
-// A PNG stream to an Image: values of 8 and 16 bits as they are stored, palettes and small depths widened.
+// A PNG stream to samples of 8 or 16 bits as they are stored, with its palette and what it says of its gamma.
 //
 // OpenImageIO reads PNG too, but through a libpng that prints its errors. libpng reports them by longjmp; the only
 // function that it may return into is read_guarded, which owns nothing.
@@ -17,12 +17,11 @@ enum { SIGNATURE_BYTES = 8, PASSES_MAX = 7 };
 
 typedef struct PngReader {
     FILE *stream;
-    uint64_t pixel_limit;
-    Image *image;
+    const PictureLimit *limit;
+    PictureFile *file;
     ImageError *error;
     png_structp png;
     png_infop info;
-    unsigned char *rows; // the whole picture as it is stored
     ImageStatus status;
 } PngReader;
 
@@ -56,44 +55,73 @@ bool png_is_there(FILE *stream)
     return is_png;
 }
 
-// Asks for 8 or 16 bits in each of 1 to 4 channels, 16 of them in the order of this machine.
+// Asks for whole bytes, 16 bits in the order of this machine. Grey of less than 8 bits is widened, places in a palette
+// are not, and a colour that is to be transparent stays as it is.
 static void form_choose(const PngReader *reader)
 {
-    png_set_expand(reader->png);
+    if (png_get_color_type(reader->png, reader->info) == PNG_COLOR_TYPE_PALETTE) {
+        png_set_packing(reader->png);
+    } else {
+        png_set_expand_gray_1_2_4_to_8(reader->png);
+    }
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     png_set_swap(reader->png);
 #endif
 }
 
+static void palette_take(const PngReader *reader)
+{
+    PictureFile *file = reader->file;
+    png_colorp colours;
+    png_bytep alphas = NULL;
+    int count = 0, alpha_count = 0;
+
+    file->has_key = png_get_valid(reader->png, reader->info, PNG_INFO_tRNS) != 0;
+    if (png_get_PLTE(reader->png, reader->info, &colours, &count) == 0 ||
+        png_get_color_type(reader->png, reader->info) != PNG_COLOR_TYPE_PALETTE) {
+        return;
+    }
+    if (file->has_key && png_get_tRNS(reader->png, reader->info, &alphas, &alpha_count, NULL) == 0) {
+        alpha_count = 0;
+    }
+    file->has_key = false;
+    file->palette_count = count;
+    for (int i = 0; i < count; i++) {
+        uint8_t alpha = i < alpha_count ? alphas[i] : UINT8_MAX;
+        memcpy(file->palette[i], (uint8_t[]){colours[i].red, colours[i].green, colours[i].blue, alpha}, 4);
+    }
+}
+
+// The chunk sRGB goes before gAMA, as the format's definition has it.
+static void gamma_take(const PngReader *reader)
+{
+    int intent;
+    double exponent;
+
+    if (png_get_sRGB(reader->png, reader->info, &intent) != 0) {
+        reader->file->has_gamma = true;
+    } else if (png_get_gAMA(reader->png, reader->info, &exponent) != 0 && exponent > 0.0) {
+        reader->file->has_gamma = true;
+        reader->file->gamma = 1.0 / exponent;
+    }
+}
+
 static bool memory_take(PngReader *reader)
 {
-    uint64_t width = png_get_image_width(reader->png, reader->info);
-    uint64_t height = png_get_image_height(reader->png, reader->info);
+    PictureFile *file = reader->file;
+    uint32_t width = png_get_image_width(reader->png, reader->info);
+    uint32_t height = png_get_image_height(reader->png, reader->info);
 
-    if (width * height > reader->pixel_limit || width > INT32_MAX || height > INT32_MAX) {
+    if (width > INT32_MAX || height > INT32_MAX) {
         reader->status = IMAGE_TOO_LARGE;
         return false;
     }
-    reader->rows = malloc(png_get_rowbytes(reader->png, reader->info) * (size_t)height);
-    reader->status = IMAGE_NO_MEMORY;
-    return reader->rows != NULL &&
-           image_init(reader->image, (int)width, (int)height, png_get_channels(reader->png, reader->info));
-}
-
-static void values_make(const PngReader *reader)
-{
-    const Image *image = reader->image;
-    size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-
-    for (size_t i = 0; i < count; i++) {
-        if (png_get_bit_depth(reader->png, reader->info) == 16) {
-            uint16_t code;
-            memcpy(&code, reader->rows + 2 * i, sizeof code);
-            image->values[i] = (float)code / 65535.0f;
-        } else {
-            image->values[i] = (float)reader->rows[i] / 255.0f;
-        }
-    }
+    file->width = (int)width;
+    file->height = (int)height;
+    file->channels = png_get_channels(reader->png, reader->info);
+    file->depth = png_get_bit_depth(reader->png, reader->info) == 16 ? IMAGE_DEPTH_16 : IMAGE_DEPTH_8;
+    reader->status = picture_file_allocate(file, reader->limit);
+    return reader->status == IMAGE_OK;
 }
 
 // No local variable is live across the jump.
@@ -104,26 +132,29 @@ static void read_guarded(PngReader *reader)
         return;
     }
     png_read_info(reader->png, reader->info);
+    reader->file->bits = png_get_bit_depth(reader->png, reader->info);
     form_choose(reader);
     (void)png_set_interlace_handling(reader->png);
     png_read_update_info(reader->png, reader->info);
+    palette_take(reader);
+    gamma_take(reader);
     if (!memory_take(reader)) {
         return;
     }
     for (int pass = png_get_interlace_type(reader->png, reader->info) == PNG_INTERLACE_NONE ? PASSES_MAX - 1 : 0;
          pass < PASSES_MAX; pass++) {
-        for (int y = 0; y < reader->image->height; y++) {
-            png_read_row(reader->png, reader->rows + (size_t)y * png_get_rowbytes(reader->png, reader->info), NULL);
+        for (int y = 0; y < reader->file->height; y++) {
+            png_bytep rows = reader->file->samples;
+            png_read_row(reader->png, rows + (size_t)y * png_get_rowbytes(reader->png, reader->info), NULL);
         }
     }
     png_read_end(reader->png, NULL);
-    values_make(reader);
     reader->status = IMAGE_OK;
 }
 
-ImageStatus png_read(FILE *stream, uint64_t pixel_limit, Image *image, ImageError *error)
+ImageStatus png_read(FILE *stream, const PictureLimit *limit, PictureFile *file, ImageError *error)
 {
-    PngReader reader = {.stream = stream, .pixel_limit = pixel_limit, .image = image, .error = error};
+    PngReader reader = {.stream = stream, .limit = limit, .file = file, .error = error};
 
     reader.status = IMAGE_NO_MEMORY;
     reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, error, on_error, on_warning);
@@ -131,9 +162,9 @@ ImageStatus png_read(FILE *stream, uint64_t pixel_limit, Image *image, ImageErro
     if (reader.info != NULL) {
         png_set_read_fn(reader.png, &reader, on_read);
         png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_benign_errors(reader.png, 1); // what is wrong beside the pixels
         read_guarded(&reader);
     }
     png_destroy_read_struct(&reader.png, &reader.info, NULL);
-    free(reader.rows);
     return reader.status;
 }

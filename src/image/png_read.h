@@ -7,12 +7,12 @@
 #include <stdio.h>
 
 #include "base/attributes.h"
-#include "image/image.h"
+#include "image/picture_file.h"
 
 // Whether the stream begins as PNG does; it stands at its beginning before and after.
 bool png_is_there(FILE *stream) RT_MUST_CHECK;
 
-// Reads the picture of the stream, as image_read does.
-ImageStatus png_read(FILE *stream, uint64_t pixel_limit, Image *image, ImageError *error) RT_MUST_CHECK;
+// Reads the picture of the stream, as picture_file_read does; on failure its samples may have been allocated.
+ImageStatus png_read(FILE *stream, const PictureLimit *limit, PictureFile *file, ImageError *error) RT_MUST_CHECK;
 
 #endif

@@ -52,6 +52,11 @@ static inline double rgb_max(Rgb a)
     return fmax(a.red, fmax(a.green, a.blue));
 }
 
+static inline double rgb_max_abs(Rgb a)
+{
+    return fmax(fabs(a.red), fmax(fabs(a.green), fabs(a.blue)));
+}
+
 // The scene language's grey.
 static inline double rgb_luminance(Rgb a)
 {

@@ -119,7 +119,7 @@ bool pattern_needs_noise(const Pattern *pattern)
 }
 
 // Turbulence moves a point last, in the pattern's own space, wherever it was said.
-static Vec3 moved(const Pattern *pattern, const NoiseSource *source, Vec3 point)
+Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
     bool is_moved = vec3_max_abs(pattern->turbulence) > 0.0 &&
                     !pattern_info((PatternType)pattern->type)->has_own_turbulence;
@@ -128,7 +128,7 @@ static Vec3 moved(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 
 double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
-    double value = values[pattern->type](pattern, source, moved(pattern, source, point));
+    double value = values[pattern->type](pattern, source, pattern_moved(pattern, source, point));
     double x = fold(value) * pattern->frequency + pattern->phase;
     x = x < 0.0 ? 1.0 + fmod(x, 1.00001) : fold(x);
     return wave(pattern, x);
@@ -188,5 +188,5 @@ static const BlockFunction blocks[PATTERN_COUNT] = {
 
 unsigned pattern_block(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
-    return blocks[pattern->type](pattern, moved(pattern, source, point));
+    return blocks[pattern->type](pattern, pattern_moved(pattern, source, point));
 }

@@ -20,6 +20,9 @@ typedef struct NoiseSource {
     NoiseGenerator generator; // of patterns that say nothing else
 } NoiseSource;
 
+// Where turbulence moves a point to.
+Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point);
+
 // From 0 to 1, after turbulence, frequency, phase and wave. For patterns without blocks.
 double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point);
 

@@ -108,8 +108,11 @@ static unsigned finish_features(const PreparedFinish *finish)
            (finish->reflects && finish->reflection_exponent != 1.0 ? (unsigned)RENDER_EXPONENT : 0);
 }
 
-static unsigned pigments_features(const Scene *scene)
+static unsigned pigments_features(const Scene *scene, const TextureTable *textures)
 {
+    if (texture_table_has_transparent_image(textures)) {
+        return RENDER_TRANSPARENCY;
+    }
     for (size_t i = 0; i < scene->materials.count; i++) {
         const Material *material = &scene->materials.items[i];
         if (material->filter != 0.0F || material->transmit != 0.0F) {
@@ -133,7 +136,7 @@ static unsigned pigments_features(const Scene *scene)
 
 static unsigned needed_features(const Prepared *p, const Scene *scene)
 {
-    unsigned features = geometry_features(p->geometry) | pigments_features(scene);
+    unsigned features = geometry_features(p->geometry) | pigments_features(scene, &p->textures);
     for (size_t i = 0; i < p->light_count; i++) {
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
         features |= p->lights[i].is_plain ? 0 : (unsigned)RENDER_LIGHTS;

@@ -50,7 +50,8 @@ bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
     *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
     table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
     table->texture_to_pattern = malloc((scene->textures.count + 1) * sizeof *table->texture_to_pattern);
-    if (!table->to_pattern || !table->texture_to_pattern || !find_noise(table, scene)) {
+    table->images = images_new(scene);
+    if (!table->to_pattern || !table->texture_to_pattern || !table->images || !find_noise(table, scene)) {
         texture_table_fini(table);
         return false;
     }
@@ -68,7 +69,18 @@ void texture_table_fini(TextureTable *table)
     free(table->noise);
     free(table->to_pattern);
     free(table->texture_to_pattern);
+    images_free(table->images, table->scene ? table->scene->image_maps.count : 0);
     *table = (TextureTable){0};
+}
+
+bool texture_table_has_transparent_image(const TextureTable *table)
+{
+    for (size_t i = 0; i < table->scene->image_maps.count; i++) {
+        if (image_is_transparent(&table->images[i])) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // ---- pigments
@@ -113,16 +125,22 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     const PatternedPigment *record = &table->scene->patterns.items[index];
     const PigmentEntry *entries = table->scene->pigment_entries.items;
     Vec3 point = transform_point(&table->to_pattern[index], outer);
-    if (pattern_info((PatternType)record->pattern.type)->blocks) {
-        uint32_t entry = nth_pigment(entries, record->entries, pattern_block(&record->pattern, &table->source, point));
-        return texture_pigment(table, &entries[entry].pigment, point);
+    PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
+    if (form == PATTERN_OF_VALUES) {
+        Place place;
+        double value = pattern_value(&record->pattern, &table->source, point);
+        FIND_PLACE(entries, record->entries, value, &place);
+        Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
+        return place.share > 0.0
+                   ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
+                   : low;
     }
-    Place place;
-    double value = pattern_value(&record->pattern, &table->source, point);
-    FIND_PLACE(entries, record->entries, value, &place);
-    Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
-    return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
-                             : low;
+    if (form == PATTERN_OF_COLOURS) {
+        return image_colour(&table->images[record->pattern.image],
+                            pattern_moved(&record->pattern, &table->source, point));
+    }
+    uint32_t entry = nth_pigment(entries, record->entries, pattern_block(&record->pattern, &table->source, point));
+    return texture_pigment(table, &entries[entry].pigment, point);
 }
 
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
@@ -183,12 +201,12 @@ static void walk_layers(Walk *walk, uint32_t index, Vec3 point, double part, Rgb
         }
         above = rgb_mul(above, rgb_add(rgb_scale(layer.pigment.filter, rgbft_rgb(layer.pigment)),
                                        rgb_grey(layer.pigment.transmit)));
-        if (rgb_is_black(above) || rgb_luminance(above) < walk->cut) {
+        if (rgb_is_black(above) || fabs(rgb_luminance(above)) < walk->cut) {
             return;
         }
     }
     walk->through.light = rgb_add_scaled(walk->through.light, part, above);
-    walk->through.weight = fmax(walk->through.weight, rgb_max(above));
+    walk->through.weight = fmax(walk->through.weight, rgb_max_abs(above));
 }
 
 TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,

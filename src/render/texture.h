@@ -12,6 +12,7 @@
 #include "base/attributes.h"
 #include "math/colour.h"
 #include "math/transform.h"
+#include "render/image.h"
 #include "render/pattern.h"
 #include "scene/scene.h"
 
@@ -22,11 +23,15 @@ typedef struct TextureTable {
     NoiseSource source;
     Transform *to_pattern;         // for each of the scene's patterns
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
+    PreparedImage *images;         // for each of its image maps
 } TextureTable;
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. False when out of memory.
 bool texture_table_init(TextureTable *table, const Scene *scene, int exponent) RT_MUST_CHECK;
 void texture_table_fini(TextureTable *table);
+
+// Whether some picture lets light through.
+bool texture_table_has_transparent_image(const TextureTable *table);
 
 // The colour of a pigment at a point in the scene's lengths.
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);

@@ -26,12 +26,23 @@ typedef struct CameraBlueprint {
     bool has_right, has_up, has_look_at, has_angle;
 } CameraBlueprint;
 
+// A picture as it is laid over a surface.
+typedef struct ImageBlueprint {
+    PictureSource source; // no path: none was named
+    ImageMap map;         // its picture and shades are not set
+    bool is_once, ignored;
+    Span span; // of the file's name
+    const PictureShade *shades; // their `next` is not set
+    size_t shade_count;
+} ImageBlueprint;
+
 // A pattern in space and what lies along it; with PATTERN_NONE, what the pigment or texture around it says.
 typedef struct PatternMap PatternMap;
 typedef struct PatternPart {
     Transform transform; // from the pattern's space; also moves what lies below a texture
     Pattern pattern;
     const PatternMap *map; // NULL: the pattern's own
+    const ImageBlueprint *image; // PATTERN_IMAGE_MAP
 } PatternPart;
 
 typedef struct PigmentBlueprint {
@@ -255,6 +266,7 @@ typedef union Blueprint {
     FinishBlueprint finish;
     PatternPart patterned; // of a pigment or texture
     PatternMap map;
+    ImageBlueprint image;
     TextureBlueprint texture;
     InteriorBlueprint interior;
     MaterialBlueprint material;

@@ -68,6 +68,55 @@ static void dump_pattern_word(const Pattern *pattern, TextBuffer *out)
     }
 }
 
+// In a string a backslash and a quote need one before them.
+static void dump_string(TextBuffer *out, const char *text)
+{
+    text_append(out, "\"");
+    for (; *text; text++) {
+        text_printf(out, "%s%c", *text == '\\' || *text == '"' ? "\\" : "", *text);
+    }
+    text_append(out, "\"");
+}
+
+static void dump_source(const PictureSource *source, TextBuffer *out)
+{
+    text_printf(out, "  image_map {\n    %s ", picture_format_word((PictureFormat)source->format));
+    dump_string(out, source->path);
+    if (source->encoding == PICTURE_GAMMA_POWER) {
+        dump_number(out, " gamma ", source->gamma);
+    } else if (source->encoding == PICTURE_GAMMA_SRGB) {
+        text_append(out, " gamma srgb");
+    }
+    if (source->alpha != PICTURE_ALPHA_UNSAID) {
+        text_printf(out, " premultiplied %s", source->alpha == PICTURE_ALPHA_ASSOCIATED ? "on" : "off");
+    }
+}
+
+static void dump_image_map(const Scene *scene, const PatternedPigment *record, size_t number, TextBuffer *out)
+{
+    const ImageMap *map = &scene->image_maps.items[record->pattern.image];
+    text_printf(out, "#declare P%zu = pigment {\n", number);
+    dump_source(&scene->picture_sources.items[map->picture], out);
+    text_printf(out, " map_type %lu%s", (unsigned long)map->projection, map->is_once ? " once" : "");
+    if (map->interpolation != INTERPOLATION_NONE) {
+        text_printf(out, " interpolate %lu", (unsigned long)map->interpolation);
+    }
+    for (uint32_t i = map->shades; i != RECORD_NONE; i = scene->picture_shades.items[i].next) {
+        const PictureShade *shade = &scene->picture_shades.items[i];
+        text_printf(out, "\n    %s ", shade->is_filter ? "filter" : "transmit");
+        if (shade->place == SHADE_ALL) {
+            text_append(out, "all");
+        } else {
+            text_printf(out, "%lu,", (unsigned long)shade->place);
+        }
+        dump_number(out, " ", shade->amount);
+    }
+    text_append(out, " }\n");
+    dump_modifiers(&record->pattern, out);
+    dump_matrix(&record->to_world, out);
+    text_append(out, "}\n");
+}
+
 static void dump_pigment(const Scene *scene, const PatternedPigment *record, size_t number, TextBuffer *out)
 {
     bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
@@ -137,7 +186,9 @@ void dump_textures(const Scene *scene, TextBuffer *out)
         dump_interior(&scene->interiors.items[i], i + 1, out);
     }
     for (size_t i = 0; i < scene->patterns.count; i++) {
-        dump_pigment(scene, &scene->patterns.items[i], i + 1, out);
+        const PatternedPigment *record = &scene->patterns.items[i];
+        bool is_picture = record->pattern.type == PATTERN_IMAGE_MAP;
+        (is_picture ? dump_image_map : dump_pigment)(scene, record, i + 1, out);
     }
     for (size_t i = 0; i < scene->textures.count; i++) {
         const Texture *record = &scene->textures.items[i];

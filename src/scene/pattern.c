@@ -7,9 +7,9 @@
 
 static const PatternInfo patterns[PATTERN_COUNT] = {
     [PATTERN_NONE] = {""},
-    [PATTERN_CHECKER] = {"checker", .blocks = 2},
-    [PATTERN_HEXAGON] = {"hexagon", .blocks = 3},
-    [PATTERN_BRICK] = {"brick", .blocks = 2},
+    [PATTERN_CHECKER] = {"checker", PATTERN_OF_BLOCKS, .blocks = 2},
+    [PATTERN_HEXAGON] = {"hexagon", PATTERN_OF_BLOCKS, .blocks = 3},
+    [PATTERN_BRICK] = {"brick", PATTERN_OF_BLOCKS, .blocks = 2},
     [PATTERN_GRADIENT] = {"gradient", .has_direction = true},
     [PATTERN_RADIAL] = {"radial"},
     [PATTERN_ONION] = {"onion"},
@@ -29,6 +29,7 @@ static const PatternInfo patterns[PATTERN_COUNT] = {
     [PATTERN_DENTS] = {"dents", .uses_noise = true},
     [PATTERN_RIPPLES] = {"ripples", .uses_noise = true},
     [PATTERN_WAVES] = {"waves", .uses_noise = true},
+    [PATTERN_IMAGE_MAP] = {"image_map", PATTERN_OF_COLOURS},
 };
 
 static const char *const waves[] = {

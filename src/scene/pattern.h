@@ -36,6 +36,7 @@ typedef enum PatternType {
     PATTERN_DENTS,
     PATTERN_RIPPLES,
     PATTERN_WAVES,
+    PATTERN_IMAGE_MAP, // colours of a picture, of pigments only
     PATTERN_COUNT
 } PatternType;
 
@@ -53,11 +54,17 @@ typedef struct Pattern {
     double agate_turb; // agate: of its own turbulence
     Vec3 turbulence;
     double lambda, omega; // of turbulence, see Octaves
+    uint32_t image;  // PATTERN_IMAGE_MAP: of Scene.image_maps; else 0
+    uint32_t unused;
 } Pattern;
+
+// What a pattern gives for a point.
+typedef enum PatternForm { PATTERN_OF_VALUES, PATTERN_OF_BLOCKS, PATTERN_OF_COLOURS } PatternForm;
 
 typedef struct PatternInfo {
     const char *word;    // of the language
-    uint32_t blocks;     // kinds of block that fill space, 0 for a pattern of values
+    PatternForm form;
+    uint32_t blocks;     // kinds of block that fill space, 0 for another form
     bool has_direction;  // a vector follows the word
     bool uses_noise;
     bool has_own_turbulence; // turbulence is part of the formula

@@ -7,11 +7,14 @@
 #include "scene/scene.h"
 
 _Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
-_Static_assert(sizeof(Pattern) == 4 * sizeof(uint32_t) + 13 * sizeof(double), "no padding in a pattern");
+_Static_assert(sizeof(Pattern) == 6 * sizeof(uint32_t) + 13 * sizeof(double), "no padding in a pattern");
 _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(PatternedPigment) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(Pattern) + 4 * sizeof(uint32_t),
                "no padding in a texture");
+_Static_assert(sizeof(PictureSource) == sizeof(char *) + 4 * sizeof(uint32_t) + 2 * sizeof(double) + sizeof(uint64_t),
+               "no padding in a source of a picture");
+_Static_assert(sizeof(PictureShade) == sizeof(double) + sizeof(uint64_t) + 4 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Finish) == 24 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
 
 void scene_init(Scene *scene)
@@ -46,6 +49,13 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->materials);
     ARRAY_FREE(&scene->pigment_entries);
     ARRAY_FREE(&scene->patterns);
+    for (size_t i = 0; i < scene->pictures.count; i++) {
+        picture_fini(&scene->pictures.items[i]);
+    }
+    ARRAY_FREE(&scene->picture_sources);
+    ARRAY_FREE(&scene->picture_shades);
+    ARRAY_FREE(&scene->image_maps);
+    ARRAY_FREE(&scene->pictures);
     ARRAY_FREE(&scene->texture_entries);
     ARRAY_FREE(&scene->textures);
     ARRAY_FREE(&scene->interiors);
@@ -64,6 +74,9 @@ void scene_fini(Scene *scene)
     unique_fini(&scene->texture_index);
     unique_fini(&scene->interior_index);
     unique_fini(&scene->compound_index);
+    unique_fini(&scene->picture_source_index);
+    unique_fini(&scene->picture_shade_index);
+    unique_fini(&scene->image_map_index);
     scene_init(scene);
 }
 
@@ -87,6 +100,23 @@ bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *
 bool scene_add_pattern(Scene *scene, const PatternedPigment *pattern, uint32_t *index)
 {
     return ADD_ONCE(&scene->patterns, &scene->pattern_index, pattern, index);
+}
+
+bool scene_add_picture_shade(Scene *scene, const PictureShade *shade, uint32_t *index)
+{
+    return ADD_ONCE(&scene->picture_shades, &scene->picture_shade_index, shade, index);
+}
+
+bool scene_add_image_map(Scene *scene, const ImageMap *map, uint32_t *index)
+{
+    return ADD_ONCE(&scene->image_maps, &scene->image_map_index, map, index);
+}
+
+bool scene_add_picture(Scene *scene, const PictureSource *source, Span span, uint32_t *index)
+{
+    return ARRAY_RESERVE(&scene->pictures, scene->pictures.count + 1) &&
+           ADD_ONCE(&scene->picture_sources, &scene->picture_source_index, source, index) &&
+           (*index < scene->pictures.count || ARRAY_PUSH(&scene->pictures, ((Picture){.span = span})));
 }
 
 bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *index)
@@ -137,6 +167,15 @@ static size_t list_bytes(size_t count, size_t capacity, size_t item_bytes)
     return (count == capacity ? 3 * capacity : capacity) * item_bytes;
 }
 
+static size_t pictures_bytes(const Scene *scene)
+{
+    size_t bytes = 0;
+    for (size_t i = 0; i < scene->pictures.count; i++) {
+        bytes += picture_bytes(&scene->pictures.items[i]);
+    }
+    return bytes;
+}
+
 size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
@@ -144,7 +183,9 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->texture_entries) +
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
-           LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites);
+           LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
+           LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
+           LIST_BYTES(scene->pictures) + pictures_bytes(scene);
 #undef LIST_BYTES
 }
 

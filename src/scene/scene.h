@@ -19,6 +19,7 @@
 #include "math/transform.h"
 #include "math/vec3.h"
 #include "scene/pattern.h"
+#include "scene/picture.h"
 #include "scene/unique.h"
 
 typedef enum CameraType { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraType;
@@ -286,6 +287,10 @@ typedef struct Scene {
     ARRAY(Material) materials; // each different one once
     ARRAY(PigmentEntry) pigment_entries; // of these six, too, each different one once
     ARRAY(PatternedPigment) patterns;
+    ARRAY(PictureSource) picture_sources; // and these three
+    ARRAY(PictureShade) picture_shades;
+    ARRAY(ImageMap) image_maps;
+    ARRAY(Picture) pictures; // beside picture_sources: what was read
     ARRAY(TextureEntry) texture_entries;
     ARRAY(Texture) textures;
     ARRAY(Interior) interiors;
@@ -298,14 +303,14 @@ typedef struct Scene {
     ARRAY(Composite) composites;
     uint32_t shape_count; // spheres, ellipsoids, planes, composites and parts that stand alone
     UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, texture_entry_index, texture_index,
-        interior_index, compound_index;
+        interior_index, compound_index, picture_source_index, picture_shade_index, image_map_index;
 } Scene;
 
 // An empty scene with the language's defaults. Nothing is allocated.
 void scene_init(Scene *scene);
 void scene_fini(Scene *scene);
 
-// Bytes that its records take, counted as if each list that is full had grown already for one more.
+// Bytes that its records and pictures take, records counted as if each list that is full had grown already for one more.
 size_t scene_bytes(const Scene *scene);
 
 // The index of an equal material, added if there is none; the pigment is rounded to single precision. False when out of
@@ -330,6 +335,10 @@ static inline bool scene_is_hollow(const Scene *scene, MaterialIndex material)
 bool scene_add_finish(Scene *scene, const Finish *finish, FinishIndex *index) RT_MUST_CHECK;
 bool scene_add_pigment_entry(Scene *scene, const PigmentEntry *entry, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_pattern(Scene *scene, const PatternedPigment *pattern, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_picture_shade(Scene *scene, const PictureShade *shade, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_image_map(Scene *scene, const ImageMap *map, uint32_t *index) RT_MUST_CHECK;
+// A picture that is not loaded yet.
+bool scene_add_picture(Scene *scene, const PictureSource *source, Span span, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_texture(Scene *scene, const Texture *texture, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_interior(Scene *scene, const Interior *interior, uint32_t *index) RT_MUST_CHECK;

@@ -307,9 +307,34 @@ static const SchemaProperty pigment_properties[] = {
     {"color_map", TYPE_BLOCK, ACTION_MAP, .doc = "colours along a pattern of values"},
     {"colour_map", TYPE_BLOCK, ACTION_MAP, .doc = "the same"},
     {"pigment_map", TYPE_BLOCK, ACTION_MAP, .doc = "pigments along a pattern of values"},
+    {"image_map", TYPE_BLOCK, ACTION_IMAGE_MAP, .doc = "the colours of a picture"},
     {"quick_color", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
     {"quick_colour", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
 };
+
+#define FILE_TYPE(word, text) {word, TYPE_ACTION, ACTION_IMAGE, .is_first = true, .doc = text}
+
+static const SchemaProperty image_properties[] = {
+    FILE_TYPE("png", "then the name of a PNG file, with or without its ending"),
+    FILE_TYPE("jpeg", "of a JPEG file"),
+    FILE_TYPE("tga", "of a Targa file"),
+    FILE_TYPE("ppm", "of a PPM file"),
+    FILE_TYPE("pgm", "of a PGM file"),
+    FILE_TYPE("tiff", "of a TIFF file of 8 bits without alpha"),
+    FILE_TYPE("exr", "of an OpenEXR file"),
+    FILE_TYPE("hdr", "of a Radiance file"),
+    {"gamma", TYPE_ACTION, ACTION_IMAGE, .doc = "right after the name: how the values are encoded, a number above 0 or `srgb`"},
+    {"premultiplied", TYPE_ACTION, ACTION_IMAGE, .doc = "right after the name: whether colours are multiplied with alpha"},
+    {"map_type", TYPE_ACTION, ACTION_IMAGE, .doc = "0 plane, 1 sphere, 2 cylinder, 5 torus"},
+    {"interpolate", TYPE_ACTION, ACTION_IMAGE, .doc = "2 bilinear, 3 bicubic, 4 by distance"},
+    {"once", TYPE_FLAG, AT(ImageBlueprint, is_once), .doc = "transparent beyond the picture, which is else repeated"},
+    {"filter", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
+    {"transmit", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
+    {"use_color", TYPE_FLAG, AT(ImageBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"use_colour", TYPE_FLAG, AT(ImageBlueprint, ignored), .doc = "accepted; changes no picture"},
+};
+
+static const ImageBlueprint image_defaults = {.map = {.picture = 0}};
 
 #define FINISH_AT(field) .at = (uint16_t)offsetof(FinishBlueprint, finish.field)
 
@@ -576,6 +601,11 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                           .defaults = &map_defaults,
                           .is_declarable = true,
                           .doc = "`[value texture]`, the texture being what may stand in `texture { }`."},
+    [KIND_IMAGE_MAP] = {.word = "image_map",
+                        .size = sizeof(ImageBlueprint),
+                        .defaults = &image_defaults,
+                        .groups = {LIST(image_properties)},
+                        .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name tells it."},
     [KIND_INTERIOR] = {.word = "interior",
                        .size = sizeof(InteriorBlueprint),
                        .defaults = &interior_defaults,
@@ -647,6 +677,10 @@ static const SchemaUnsupported unsupported[] = {
     {"inverse", false, "leave it out: both sides of a surface look alike"},
     {"no_shadow", false, "a light may be `shadowless`"},
     {"fresnel", false, "give `reflection { min, max }`"},
+    {"gif", false, "save the picture as PNG"},
+    {"iff", false, "save the picture as PNG"},
+    {"sys", false, "POV-Ray does not read it here either: save the picture as PNG"},
+    {"use_index", false, NULL},
     {"ior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
 };
 

@@ -41,6 +41,7 @@ typedef enum SchemaKind {
     KIND_COLOUR_MAP,
     KIND_PIGMENT_MAP,
     KIND_TEXTURE_MAP,
+    KIND_IMAGE_MAP,
     KIND_INTERIOR,
     KIND_MATERIAL,
     KIND_CLIPPED_BY, // braces of an object's properties; read as objects
@@ -79,6 +80,8 @@ typedef enum SchemaAction {
     ACTION_PATTERN,
     ACTION_WAVE,
     ACTION_MAP,
+    ACTION_IMAGE_MAP, // its braces
+    ACTION_IMAGE,     // what stands in them
     ACTION_INTERIOR,
     ACTION_MATERIAL,
     ACTION_REFLECTION,
