@@ -1,8 +1,9 @@
 // The boxes that min_extent and max_extent tell of.
 //
 // A box is POV-Ray's, as measured: a corner and lengths in single precision. A sphere that was only moved, turned and
-// scaled evenly has its own box; any other transform turns the corners of the box that it had before. A union's box is
-// that of its members, and each transform of the union turns that box again. Knows nothing of what is drawn.
+// scaled evenly has its own box; of any other shape, or after any other transform, the corners of a box in the shape's own
+// space are turned. The box of a union or intersection is made of those of its members, and each transform of it turns that
+// box again. What clips or bounds an object gives its box instead where that is smaller. Knows nothing of what is drawn.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -13,8 +14,20 @@ typedef struct Extent {
     float corner[3], lengths[3];
 } Extent;
 
-// Half the side of a box without bounds, and the length from which a union is without bounds.
-static const double boundless = 1e10, union_length_max = 1e6;
+// Half the side of a box without bounds, and the length from which a union or intersection is without bounds.
+static const double boundless = 1e10, group_length_max = 1e6;
+
+// How near to an axis the normal of a plane in an intersection counts as along it; 1e-12 does and 1e-9 does not.
+static const double plane_axis_slack = 1e-10;
+
+// How near to z an axis counts as z, by its cosine; 6e-11 does and 2e-10 does not.
+static const double frame_axis_slack = 1e-10;
+
+// Half of what a disc is thick.
+static const double disc_thickness = 0.001;
+
+// How far the box of a triangle stands off it.
+static const double triangle_distance = 1e-10;
 
 static Extent extent_of(const double least[3], const double greatest[3])
 {
@@ -77,58 +90,236 @@ static Extent sphere_extent(const SphereBlueprint *sphere)
     return turned(&extent, &rest);
 }
 
+// ---- shapes with a space of their own
+
+// The turn that takes z to `axis` by the shortest way, half a turn about x where that is not unique; then to `origin`.
+static Transform frame(Vec3 axis, double across, double along, Vec3 origin)
+{
+    Vec3 w = vec3_normalize(axis);
+    Vec3 u = vec3(1.0, 0.0, 0.0), v = vec3(0.0, 1.0, 0.0);
+    if (1.0 - fabs(w.z) < frame_axis_slack) {
+        w = vec3(0.0, 0.0, copysign(1.0, w.z));
+        v.y = w.z;
+    } else {
+        double turn = 1.0 / (1.0 + w.z);
+        u = vec3(1.0 - w.x * w.x * turn, -w.x * w.y * turn, -w.x);
+        v = vec3(u.y, 1.0 - w.y * w.y * turn, -w.y);
+    }
+    u = vec3_scale(across, u);
+    v = vec3_scale(across, v);
+    w = vec3_scale(along, w);
+    return (Transform){{{u.x, u.y, u.z}, {v.x, v.y, v.z}, {w.x, w.y, w.z}, {origin.x, origin.y, origin.z}}};
+}
+
+static Extent turned_from(const Extent *own, Transform to_object, const Transform *transform)
+{
+    Transform whole = transform_compose(to_object, *transform);
+    return turned(own, &whole);
+}
+
+static Extent box_extent(const void *object, const Transform *transform)
+{
+    const BoxBlueprint *box = object;
+    Vec3 low = vec3_least(box->corner, box->other_corner), high = vec3_greatest(box->corner, box->other_corner);
+    Extent own = extent_of((double[]){low.x, low.y, low.z}, (double[]){high.x, high.y, high.z});
+    return turned(&own, transform);
+}
+
+// A cone's own space has its tip at 0 and its wide end at z = 1, a cylinder's its cap at 0 and its base at 1.
+static Extent cone_box(Vec3 base, double base_radius, Vec3 cap, double cap_radius, const Transform *transform)
+{
+    bool is_wide_at_cap = cap_radius > base_radius;
+    Vec3 wide = is_wide_at_cap ? cap : base, narrow = is_wide_at_cap ? base : cap;
+    double radius = fmax(base_radius, cap_radius), begin = fmin(base_radius, cap_radius) / radius;
+    begin = begin == 1.0 ? 0.0 : begin;
+    Vec3 axis = vec3_scale(1.0 / (1.0 - begin), vec3_sub(wide, narrow));
+    Extent own = extent_of((double[]){-1.0, -1.0, begin}, (double[]){1.0, 1.0, 1.0});
+    return turned_from(&own, frame(axis, radius, vec3_length(axis), vec3_sub(wide, axis)), transform);
+}
+
+static Extent cylinder_extent(const void *object, const Transform *transform)
+{
+    const CylinderBlueprint *cylinder = object;
+    return cone_box(cylinder->base, cylinder->radius, cylinder->cap, cylinder->radius, transform);
+}
+
+static Extent cone_extent(const void *object, const Transform *transform)
+{
+    const ConeBlueprint *cone = object;
+    return cone_box(cone->base, cone->base_radius, cone->cap, cone->cap_radius, transform);
+}
+
+static Extent disc_extent(const void *object, const Transform *transform)
+{
+    const DiscBlueprint *disc = object;
+    Extent own = extent_of((double[]){-disc->radius, -disc->radius, -disc_thickness},
+                           (double[]){disc->radius, disc->radius, disc_thickness});
+    return turned_from(&own, frame(disc->normal, 1.0, 1.0, disc->centre), transform);
+}
+
+static Extent corners_extent(const Vec3 corners[3], const Transform *transform)
+{
+    Vec3 low = transform_point(transform, corners[0]), high = low;
+    for (int i = 1; i < 3; i++) {
+        Vec3 corner = transform_point(transform, corners[i]);
+        low = vec3_least(low, corner);
+        high = vec3_greatest(high, corner);
+    }
+    const double off = triangle_distance;
+    return extent_of((double[]){low.x - off, low.y - off, low.z - off},
+                     (double[]){high.x + off, high.y + off, high.z + off});
+}
+
+static Extent triangle_extent(const void *object, const Transform *transform)
+{
+    return corners_extent(((const TriangleBlueprint *)object)->corners, transform);
+}
+
+static Extent smooth_triangle_extent(const void *object, const Transform *transform)
+{
+    return corners_extent(((const SmoothTriangleBlueprint *)object)->corners, transform);
+}
+
+// By all transforms of the shape at once.
+static Extent (*const shape_extents[KIND_COUNT])(const void *object, const Transform *transform) = {
+    [KIND_BOX] = box_extent,           [KIND_CYLINDER] = cylinder_extent,
+    [KIND_CONE] = cone_extent,         [KIND_DISC] = disc_extent,
+    [KIND_TRIANGLE] = triangle_extent, [KIND_SMOOTH_TRIANGLE] = smooth_triangle_extent,
+};
+
+// ---- groups
+
 static Extent object_extent(SchemaKind kind, const void *object);
+
+static bool is_long(const double least[3], const double greatest[3])
+{
+    bool is = false;
+    for (unsigned i = 0; i < 3; i++) {
+        is = is || !(greatest[i] - least[i] <= group_length_max && greatest[i] >= least[i]);
+    }
+    return is;
+}
 
 static Extent members_extent(const UnionBlueprint *group)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, greatest[3] = {-INFINITY, -INFINITY, -INFINITY};
-    bool is_long = group->members == NULL;
     for (const UnionMember *member = group->members; member != NULL; member = member->next) {
         Extent extent = object_extent(member->kind, member->object);
         for (unsigned i = 0; i < 3; i++) {
             least[i] = fmin(least[i], extent.corner[i]);
             greatest[i] = fmax(greatest[i], upper(&extent, i));
-            is_long = is_long || greatest[i] - least[i] > union_length_max;
         }
     }
-    return is_long ? extent_boundless() : extent_of(least, greatest);
+    return is_long(least, greatest) ? extent_boundless() : extent_of(least, greatest);
+}
+
+// A plane along an axis bounds an intersection on one side.
+static void plane_narrows(const PlaneBlueprint *plane, bool is_inverse, double least[3], double greatest[3])
+{
+    Transform inverse;
+    if (!transform_invert(&plane->part.transform, &inverse)) {
+        return;
+    }
+    Vec3 normal = transform_normal(&inverse, vec3_normalize(plane->normal));
+    Vec3 point = transform_point(&plane->part.transform, vec3_scale(plane->distance, vec3_normalize(plane->normal)));
+    normal = vec3_scale(is_inverse ? -1.0 : 1.0, vec3_normalize(normal));
+    const double n[3] = {normal.x, normal.y, normal.z}, p[3] = {point.x, point.y, point.z};
+    for (unsigned i = 0; i < 3; i++) {
+        if (n[i] > 1.0 - plane_axis_slack && fabs(n[(i + 1) % 3]) + fabs(n[(i + 2) % 3]) < plane_axis_slack) {
+            greatest[i] = fmin(greatest[i], p[i]);
+        } else if (-n[i] > 1.0 - plane_axis_slack && fabs(n[(i + 1) % 3]) + fabs(n[(i + 2) % 3]) < plane_axis_slack) {
+            least[i] = fmax(least[i], p[i]);
+        }
+    }
+}
+
+// Members that are inside out bound nothing, and so do those that a difference takes away.
+static Extent common_extent(const UnionBlueprint *group, bool is_difference)
+{
+    double least[3] = {-boundless, -boundless, -boundless}, greatest[3] = {boundless, boundless, boundless};
+    for (const UnionMember *member = group->members; member != NULL; member = member->next) {
+        bool is_inverse = ((const ObjectPart *)member->object)->is_inverse != (is_difference && member != group->members);
+        if (member->kind == KIND_PLANE) {
+            plane_narrows(member->object, is_inverse, least, greatest);
+        } else if (!is_inverse) {
+            Extent extent = object_extent(member->kind, member->object);
+            for (unsigned i = 0; i < 3; i++) {
+                least[i] = fmax(least[i], extent.corner[i]);
+                greatest[i] = fmin(greatest[i], upper(&extent, i));
+            }
+        }
+    }
+    return is_long(least, greatest) ? extent_boundless() : extent_of(least, greatest);
 }
 
 // The steps are linked newest first; a scene has few on one union.
-static Extent stepped(const UnionBlueprint *group, const UnionStep *step)
+static Extent stepped(SchemaKind kind, const UnionBlueprint *group, const UnionStep *step)
 {
     if (step == NULL) {
-        return members_extent(group);
+        return kind == KIND_UNION || kind == KIND_MERGE ? members_extent(group)
+                                                        : common_extent(group, kind == KIND_DIFFERENCE);
     }
-    Extent before = stepped(group, step->earlier);
+    Extent before = stepped(kind, group, step->earlier);
     return is_boundless(&before) ? before : turned(&before, &step->transform);
+}
+
+// ---- what clips and bounds
+
+static double volume(const Extent *extent)
+{
+    return (double)extent->lengths[0] * (double)extent->lengths[1] * (double)extent->lengths[2];
+}
+
+// Of an object of clipped_by or bounded_by, which was moved after it was complete.
+static Extent moved_extent(const Clip *clip)
+{
+    const ObjectPart *part = clip->object;
+    Transform whole = transform_compose(part->transform, clip->transform);
+    double factor;
+    if (shape_extents[clip->kind]) {
+        return shape_extents[clip->kind](clip->object, &whole);
+    }
+    if (clip->kind == KIND_SPHERE) {
+        SphereBlueprint sphere = *(const SphereBlueprint *)clip->object;
+        const Transform before = sphere.part.transform;
+        sphere.part.transform = whole;
+        if (sphere.rigid == NULL && !transform_is_similarity(&clip->transform, &factor)) {
+            sphere.rigid = &before;
+        }
+        return sphere_extent(&sphere);
+    }
+    Extent own = object_extent(clip->kind, clip->object);
+    return is_boundless(&own) ? own : turned(&own, &clip->transform);
+}
+
+// The box of what clips, where it is smaller.
+static void narrow(Extent *extent, const Clip *clips)
+{
+    double least[3] = {-boundless, -boundless, -boundless}, greatest[3] = {boundless, boundless, boundless};
+    for (const Clip *clip = clips; clip != NULL; clip = clip->next) {
+        Extent own = ((const ObjectPart *)clip->object)->is_inverse ? extent_boundless() : moved_extent(clip);
+        for (unsigned i = 0; i < 3; i++) {
+            least[i] = fmax(least[i], own.corner[i]);
+            greatest[i] = fmin(greatest[i], upper(&own, i));
+        }
+    }
+    Extent common = extent_of(least, greatest);
+    if (clips != NULL && volume(&common) < volume(extent)) {
+        *extent = common;
+    }
 }
 
 // Recursive: object_members keeps trees from growing deeper than the limit.
 static Extent object_extent(SchemaKind kind, const void *object)
 {
-    switch (kind) {
-    case KIND_SPHERE: return sphere_extent(object);
-    case KIND_UNION: return stepped(object, ((const UnionBlueprint *)object)->steps);
-    default: return extent_boundless();
-    }
-}
-
-// POV-Ray's boxes of other shapes, and of what is clipped, are not known.
-static bool has_known_extent(SchemaKind kind, const void *object)
-{
     const ObjectPart *part = object;
-    if (kind == KIND_LIGHT_SOURCE || kind == KIND_PLANE) {
-        return true;
-    }
-    if ((kind != KIND_SPHERE && kind != KIND_UNION) || part->clips || part->bounds || part->is_inverse) {
-        return false;
-    }
-    const UnionMember *member = kind == KIND_UNION ? ((const UnionBlueprint *)object)->members : NULL;
-    while (member && has_known_extent(member->kind, member->object)) {
-        member = member->next;
-    }
-    return !member;
+    Extent extent = kind == KIND_LIGHT_SOURCE || kind == KIND_PLANE ? extent_boundless()
+                    : kind == KIND_SPHERE                           ? sphere_extent(object)
+                    : shape_extents[kind] ? shape_extents[kind](object, &part->transform)
+                                          : stepped(kind, object, ((const UnionBlueprint *)object)->steps);
+    narrow(&extent, part->clips);
+    narrow(&extent, part->bounds);
+    return extent;
 }
 
 bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
@@ -148,10 +339,6 @@ bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
     if (object.kind != VALUE_BLOCK || !schema_kind((SchemaKind)object.block)->is_object) {
         return eval_fault(ev, DIAG_E0264, name->span, "expected the name of an object, found %s",
                           value_describe(&object));
-    }
-    if (!has_known_extent((SchemaKind)object.block, object.record)) {
-        return eval_fault(ev, DIAG_E0285, name->span,
-                          "the extent of objects other than spheres, planes and their unions is not supported");
     }
     Extent extent = object_extent((SchemaKind)object.block, object.record);
     *value = (Value){.kind = VALUE_VECTOR, .components = 3};
@@ -184,7 +371,8 @@ static bool note_union(Block *block, const Transform *transform)
 
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span)
 {
-    bool fine = block->is == KIND_UNION                      ? note_union(block, transform)
+    bool is_group = block->is >= KIND_UNION && block->is <= KIND_DIFFERENCE;
+    bool fine = is_group                                     ? note_union(block, transform)
                 : block->is == KIND_SPHERE && !keeps_spheres ? note_sphere(block)
                                                              : true;
     return fine || eval_no_memory(block->ev, span);
