@@ -100,7 +100,7 @@ RT_API rt_status rt_set_warning(rt_session *session, const char *what);
 typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON } rt_format;
 RT_API void rt_set_format(rt_session *session, rt_format format);
 /* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the lengths of
- * fading scale along, so that the picture would be the same but for rounding. scale > 0. Fog and skies stay. */
+ * fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */
 RT_API rt_status rt_set_world(rt_session *session, double scale, const double shift[3]);
 /* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height.
  * Default 320 x 240. */

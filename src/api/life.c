@@ -10,11 +10,13 @@
 
 #include "api/session.h"
 #include "render/life.h"
+#include "scene/near.h"
 
 typedef struct Printer {
     TextBuffer *out;
     DiagSink *diags; // for places in the text
     const Life *life;
+    Vec3 origin; // to be added to places
 } Printer;
 
 static const char *const kind_words[] = {
@@ -77,6 +79,11 @@ static void tell_vector(const Printer *p, const char *what, Vec3 a)
     put_three(p, "<", ">", a.x, a.y, a.z);
 }
 
+static void tell_place_of(const Printer *p, const char *what, Vec3 place)
+{
+    tell_vector(p, what, vec3_add(place, p->origin));
+}
+
 static void tell_colour(const Printer *p, const char *what, Rgb a)
 {
     put(p, what);
@@ -95,7 +102,7 @@ static void tell_sphere(const Printer *p, const LifeSphere *s)
 {
     put(p, "  sphere");
     tell_place(p, s->source);
-    tell_vector(p, ": centre ", s->centre);
+    tell_place_of(p, ": centre ", s->centre);
     tell(p, ", radius ", s->radius);
     tell(p, "\n    a = d·d = ", s->a);
     tell(p, ", b = 2 d·(e - centre) = ", s->b);
@@ -139,7 +146,7 @@ static void tell_layer(const Printer *p, const LifeLayer *layer)
     for (size_t i = layer->first_light; i < layer->first_light + layer->light_count; i++) {
         const LifeLight *light = &p->life->lights.items[i];
         text_printf(p->out, "    light %zu", light->number + 1);
-        tell_vector(p, " at ", light->position);
+        tell_place_of(p, " at ", light->position);
         tell(p, ": distance ", light->distance);
         tell(p, ", N·L = ", light->cosine);
         tell_colour(p, ", visible ", light->visible);
@@ -155,7 +162,7 @@ static void tell_hit(const Printer *p, const LifeRay *ray)
     text_printf(p->out, " from the %s", ray->is_inside ? "inside" : "outside");
     tell(p, " at t = ", ray->t);
     tell(p, ", off by less than ", ray->bound);
-    tell_vector(p, "\n    point ", ray->point);
+    tell_place_of(p, "\n    point ", ray->point);
     tell_vector(p, ", normal N = ", ray->normal);
     put(p, "\n");
     for (size_t i = ray->first_layer; i < ray->first_layer + ray->layer_count; i++) {
@@ -182,9 +189,9 @@ static void tell_ray(const Printer *p, size_t number)
         text_printf(p->out, " where ray %d hits, level %d", ray->parent + 1, ray->level);
         tell_colour(p, ", its light counts times ", ray->share);
     }
-    tell_vector(p, "\n  e = ", ray->origin);
+    tell_place_of(p, "\n  e = ", ray->origin);
     if (ray->kind == LIFE_CAMERA) {
-        tell_vector(p, ", through the screen at ", p->life->screen);
+        tell_place_of(p, ", through the screen at ", p->life->screen);
     }
     tell_vector(p, "\n  d = ", ray->direction);
     put(p, ", of length 1\n");
@@ -241,6 +248,11 @@ static void json_vector(const Printer *p, const char *name, Vec3 a)
     put_three(p, "[", "]", a.x, a.y, a.z);
 }
 
+static void json_place_of(const Printer *p, const char *name, Vec3 place)
+{
+    json_vector(p, name, vec3_add(place, p->origin));
+}
+
 static void json_colour(const Printer *p, const char *name, Rgb a)
 {
     member(p, name);
@@ -278,7 +290,7 @@ static void json_spheres(const Printer *p, const LifeRay *ray)
         const LifeSphere *s = &p->life->spheres.items[ray->first_sphere + i];
         put(p, i > 0 ? ", {" : "{");
         json_place(p, s->source);
-        json_vector(p, "centre", s->centre);
+        json_place_of(p, "centre", s->centre);
         json_number(p, "radius", s->radius);
         json_number(p, "a", s->a);
         json_number(p, "b", s->b);
@@ -311,7 +323,7 @@ static void json_lights(const Printer *p, const LifeLayer *layer)
         const LifeLight *light = &p->life->lights.items[layer->first_light + i];
         put(p, i > 0 ? ", {" : "{");
         json_number(p, "light", (double)light->number + 1);
-        json_vector(p, "position", light->position);
+        json_place_of(p, "position", light->position);
         json_number(p, "distance", light->distance);
         json_number(p, "cosine", light->cosine);
         json_colour(p, "visible", light->visible);
@@ -330,7 +342,7 @@ static void json_hit(const Printer *p, const LifeRay *ray)
     json_number(p, "t", ray->t);
     json_number(p, "t_error", ray->bound);
     json_truth(p, "inside", ray->is_inside);
-    json_vector(p, "point", ray->point);
+    json_place_of(p, "point", ray->point);
     json_vector(p, "normal", ray->normal);
     json_number(p, "ior_ratio", ray->ior_ratio);
     json_colour(p, "reflectance", ray->reflectance);
@@ -362,10 +374,10 @@ static void json_ray(const Printer *p, size_t number)
     if (ray->parent != LIFE_NONE) {
         json_number(p, "from", ray->parent + 1);
     } else {
-        json_vector(p, "screen", p->life->screen);
+        json_place_of(p, "screen", p->life->screen);
     }
     json_number(p, "level", ray->level);
-    json_vector(p, "e", ray->origin);
+    json_place_of(p, "e", ray->origin);
     json_vector(p, "d", ray->direction);
     json_colour(p, "share", ray->share);
     json_number(p, "weight", ray->weight);
@@ -411,11 +423,13 @@ rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)
     }
     Life life = {.more_rays = 0};
     GeometryOptions geometry = {.threads = render_default_threads(), .isa = session->isa};
+    Vec3 origin = scene_move_near(&session->scene);
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     bool is_traced = prepared && life_trace(&life, prepared, session->width, session->height, x, y);
     prepared_free(prepared);
+    scene_move_back(&session->scene, origin);
     if (is_traced) {
-        Printer printer = {&session->dump, &session->diags, &life};
+        Printer printer = {&session->dump, &session->diags, &life, origin};
         // As the film has it: in single precision first.
         float values[] = {(float)life.colour.red, (float)life.colour.green, (float)life.colour.blue};
         Film pixel = {.width = 1, .height = 1, .rgb = values};

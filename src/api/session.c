@@ -19,6 +19,7 @@
 #include "image/image.h"
 #include "render/linear.h"
 #include "render/study.h"
+#include "scene/near.h"
 #include "scene/reach.h"
 
 #ifndef PACKAGE_VERSION
@@ -334,15 +335,8 @@ static RenderResult trace_film(rt_session *session, const Prepared *prepared, co
     return render_film(prepared, options, &session->film, &session->statistics, &session->error);
 }
 
-rt_status rt_render(rt_session *session, int threads)
+static rt_status render_scene(rt_session *session, int threads)
 {
-    bool is_study = session->precision != RT_PRECISION_DOUBLE;
-    if (!session->loaded || session->rendered || threads < 0 || (is_study && session->is_sampled)) {
-        return RT_FAULT_USAGE;
-    }
-    if (!session_memory_suffices(session)) {
-        return session_status(session, false);
-    }
     double start = session_clock();
     threads = threads ? threads : render_default_threads();
     session->threads = threads;
@@ -383,6 +377,21 @@ rt_status rt_render(rt_session *session, int threads)
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory rendering");
     }
     return session_status(session, result == RENDER_OK);
+}
+
+rt_status rt_render(rt_session *session, int threads)
+{
+    bool is_study = session->precision != RT_PRECISION_DOUBLE;
+    if (!session->loaded || session->rendered || threads < 0 || (is_study && session->is_sampled)) {
+        return RT_FAULT_USAGE;
+    }
+    if (!session_memory_suffices(session)) {
+        return session_status(session, false);
+    }
+    Vec3 origin = scene_move_near(&session->scene);
+    rt_status status = render_scene(session, threads);
+    scene_move_back(&session->scene, origin);
+    return status;
 }
 
 void rt_cancel(rt_session *session)

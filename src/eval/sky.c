@@ -95,14 +95,16 @@ bool fog_close(Block *block)
 
 bool fog_place(Eval *ev, const FogBlueprint *fog, Span span)
 {
-    Fog record = {.is_ground = fog->type == 2, .distance = fog->distance, .colour = fog->colour, .span = span};
+    double scale = world_scale(ev);
+    Vec3 shift = ev->options.world ? ev->options.world->shift : vec3(0.0, 0.0, 0.0);
+    Fog record = {.is_ground = fog->type == 2, .distance = fog->distance * scale, .colour = fog->colour, .span = span};
     if (record.distance == 0.0) {
         return true;
     }
     if (record.is_ground) {
-        record.offset = fog->offset;
-        record.alt = fog->alt;
         record.up = vector_unit(fog->up);
+        record.offset = fog->offset * scale + vec3_dot(record.up, shift);
+        record.alt = fog->alt * scale;
     }
     return scene_add_fog(ev->scene, &record) || eval_no_memory(ev, span);
 }

@@ -227,6 +227,43 @@ static void check_points(const Watch *watch, const Scene *scene)
     }
 }
 
+// Of length about 1, so that products are in range; zero stays zero.
+static Vec3 roughly_unit(Vec3 a)
+{
+    double greatest = vec3_max_abs(a);
+    return greatest > 0.0 ? vec3_scale(1.0 / sqrt(3.0), vec3_scale(1.0 / greatest, a)) : a;
+}
+
+// Three products and two sums of numbers up to 1 are off by less than 8 u: what is not above is 0 but for rounding.
+static void check_camera(const Camera *camera, DiagSink *diags)
+{
+    const double least = 8.0 * DBL_EPSILON;
+    Vec3 direction = roughly_unit(camera->direction);
+    Vec3 across = vec3_cross(roughly_unit(camera->right), roughly_unit(camera->up));
+    const char *seen = NULL;
+    if (vec3_equal(direction, vec3(0.0, 0.0, 0.0))) {
+        seen = "the direction of the camera is 0";
+    } else if (vec3_max_abs(across) <= least) {
+        seen = "`right` and `up` of the camera are parallel, or one is 0";
+    } else if (fabs(vec3_dot(direction, across)) <= least) {
+        seen = "the direction of the camera lies in the plane of `right` and `up`";
+    }
+    if (seen && diag_report(diags, DIAG_W0445, camera->span, "%s", seen)) {
+        diag_note(diags, SPAN_NONE, "the picture shows a point or a line, drawn out");
+    }
+}
+
+static void check_directions(const Scene *scene, DiagSink *diags)
+{
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        const Light *light = &scene->lights.items[i];
+        if (light->type != LIGHT_POINT && vec3_equal(light->position, light->point_at)) {
+            diag_report(diags, DIAG_W0447, light->span, "the light shines at its own location: it has no direction");
+        }
+    }
+    check_camera(&scene->camera, diags);
+}
+
 void scene_warn_of_range(const Scene *scene, DiagSink *diags)
 {
     int exponent = scene_exponent(scene);
@@ -252,4 +289,5 @@ void scene_warn_of_range(const Scene *scene, DiagSink *diags)
         }
     }
     check_points(&watch, scene);
+    check_directions(scene, diags);
 }

@@ -1,0 +1,131 @@
+// Looks at each axis by itself, then moves all places along those that gain.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/near.h"
+
+#include <math.h>
+
+enum { GAIN_LEAST = 16 }; // four bits; below, a scene stays as it is written
+
+typedef struct Axis {
+    double origin;
+    double greatest, left; // coordinates before and after
+    bool is_exact;
+} Axis;
+
+// The error of a rounded difference (Møller, Knuth) is 0 where it is exact.
+static void axis_add(Axis *axis, double coordinate)
+{
+    double difference = coordinate - axis->origin;
+    double part = difference - coordinate;
+    double error = (coordinate - (difference - part)) + (-axis->origin - part);
+    axis->is_exact = axis->is_exact && error == 0.0;
+    axis->greatest = fmax(axis->greatest, fabs(coordinate));
+    axis->left = fmax(axis->left, fabs(difference));
+}
+
+static double coordinate_of(const Vec3 *place, int axis)
+{
+    return axis == 0 ? place->x : axis == 1 ? place->y : place->z;
+}
+
+// A plane that is at right angles to the axis moves as a point does; one that is slanted to it keeps it from moving.
+static void axis_add_plane(Axis *axis, int number, const Vec3 *normal, double distance)
+{
+    double along = coordinate_of(normal, number);
+    if (fabs(along) == 1.0) {
+        axis_add(axis, along * distance);
+    } else if (along != 0.0) {
+        axis->is_exact = false;
+    }
+}
+
+static bool axis_gains(const Scene *scene, int number)
+{
+    double origin = coordinate_of(&scene->camera.location, number);
+    Axis axis = {origin, fabs(origin), 0.0, origin != 0.0};
+    for (size_t i = 0; axis.is_exact && i < scene->lights.count; i++) {
+        const Light *light = &scene->lights.items[i];
+        axis_add(&axis, coordinate_of(&light->position, number));
+        if (light->type != LIGHT_POINT) {
+            axis_add(&axis, coordinate_of(&light->point_at, number));
+        }
+    }
+    for (size_t i = 0; axis.is_exact && i < scene->spheres.count; i++) {
+        axis_add(&axis, coordinate_of(&scene->spheres.items[i].centre, number));
+    }
+    for (size_t i = 0; axis.is_exact && i < scene->ellipsoids.count; i++) {
+        axis_add(&axis, scene->ellipsoids.items[i].to_world.m[3][number]);
+    }
+    for (size_t i = 0; axis.is_exact && i < scene->planes.count; i++) {
+        axis_add_plane(&axis, number, &scene->planes.items[i].normal, scene->planes.items[i].distance);
+    }
+    for (size_t i = 0; axis.is_exact && i < scene->parts.count; i++) {
+        const Part *part = &scene->parts.items[i];
+        if (part->kind == PART_PLANE) {
+            axis_add_plane(&axis, number, &part->data[0], part->data[1].x);
+        } else {
+            axis_add(&axis, part->to_world.m[3][number]);
+        }
+    }
+    return axis.is_exact && axis.left * GAIN_LEAST <= axis.greatest;
+}
+
+static void move_row(double row[3], Vec3 by)
+{
+    row[0] += by.x;
+    row[1] += by.y;
+    row[2] += by.z;
+}
+
+// All that has a place. The inverses of transforms are asked for their linear parts only, once a scene is made.
+static void move(Scene *scene, Vec3 by)
+{
+    scene->camera.location = vec3_add(scene->camera.location, by);
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        Light *light = &scene->lights.items[i];
+        light->position = vec3_add(light->position, by);
+        if (light->type != LIGHT_POINT) {
+            light->point_at = vec3_add(light->point_at, by);
+        }
+    }
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        scene->spheres.items[i].centre = vec3_add(scene->spheres.items[i].centre, by);
+    }
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        move_row(scene->ellipsoids.items[i].to_world.m[3], by);
+    }
+    for (size_t i = 0; i < scene->planes.count; i++) {
+        scene->planes.items[i].distance += vec3_dot(scene->planes.items[i].normal, by);
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        Part *part = &scene->parts.items[i];
+        if (part->kind == PART_PLANE) {
+            part->data[1].x += vec3_dot(part->data[0], by);
+        } else {
+            move_row(part->to_world.m[3], by);
+        }
+    }
+}
+
+Vec3 scene_move_near(Scene *scene)
+{
+    Vec3 origin = {0.0, 0.0, 0.0};
+    if (scene->compounds.count > 0 || scene->fogs.count > 0) {
+        return origin;
+    }
+    origin.x = axis_gains(scene, 0) ? scene->camera.location.x : 0.0;
+    origin.y = axis_gains(scene, 1) ? scene->camera.location.y : 0.0;
+    origin.z = axis_gains(scene, 2) ? scene->camera.location.z : 0.0;
+    if (!vec3_equal(origin, vec3(0.0, 0.0, 0.0))) {
+        move(scene, vec3_neg(origin));
+    }
+    return origin;
+}
+
+void scene_move_back(Scene *scene, Vec3 origin)
+{
+    if (!vec3_equal(origin, vec3(0.0, 0.0, 0.0))) {
+        move(scene, origin);
+    }
+}

@@ -1,0 +1,20 @@
+// A scene far from the origin, put near it for as long as it is traced.
+//
+// Moves the camera's place to the origin along those axes where every difference of coordinates is exact and the
+// greatest coordinate becomes much less, so that points on surfaces are rounded to the scene's own size and not to its
+// distance from the origin. Exact, so the way back is, too. Scenes whose look depends on places (textures, interiors,
+// fog) stay.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_NEAR_H
+#define SCENE_NEAR_H
+
+#include "scene/scene.h"
+
+// Moves a valid scene; returns what was subtracted from all places, 0 along axes that stay.
+Vec3 scene_move_near(Scene *scene);
+
+// The scene as it was before.
+void scene_move_back(Scene *scene, Vec3 origin);
+
+#endif
