@@ -86,6 +86,7 @@ bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn 
     begin(&state, context, source);
     state.item = item;
     state.client = client;
+    state.takes_literals = context->hooks != NULL && context->hooks->literal != NULL;
     return run(&state);
 }
 

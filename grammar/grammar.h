@@ -9,6 +9,7 @@
 #define GRAMMAR_GRAMMAR_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "ast/ast.h"
 #include "ast/words.h"
@@ -23,6 +24,26 @@ typedef struct GrammarLoop {
     Span span;
     double end, step;
 } GrammarLoop;
+
+// A statement `sphere { <n, n, n>, n … }` of nothing but numbers and words of the language.
+typedef struct GrammarLiteral {
+    Span span;
+    double centre[3], radius;
+    double colour[5];  // of its pigment: red, green, blue, filter, transmit
+    unsigned colours;  // how many of them the text says: 0, 3 or 5
+} GrammarLiteral;
+
+// What the evaluator keeps of such statements that differ in these numbers only.
+typedef struct GrammarLiteralKind {
+    uint32_t finish;
+    float colour[5];
+} GrammarLiteralKind;
+
+typedef enum LiteralResult {
+    LITERAL_TAKEN,
+    LITERAL_LEFT, // nothing was done: to be parsed as any other statement
+    LITERAL_STOP, // taken, and reading is to stop
+} LiteralResult;
 
 // Where a directive holds no whole items, text is read again in a *splice*: conditions, loops and macro calls are
 // resolved token by token, as POV-Ray does it, and what is left is parsed. These functions are the evaluator's part: all
@@ -55,6 +76,13 @@ typedef struct GrammarHooks {
     Source *(*include)(void *client, const AstNode *directive);
     void (*leave)(void *client);
     bool (*is_stopped)(void *client);
+    // Literal spheres (grammar/literal.c). The next item is one: to be watched. Then: what it gave, which the next one of its
+    // kind would give, too; false: not so. Then others of that kind, without a tree. `literal_state` changes whenever a
+    // kind may give something else than before. NULL in `literal`: all are parsed.
+    const uint64_t *literal_state;
+    void (*literal_watch)(void *client, const GrammarLiteral *literal);
+    bool (*literal_learn)(void *client, GrammarLiteralKind *kind);
+    LiteralResult (*literal)(void *client, const GrammarLiteral *literal, const GrammarLiteralKind *kind);
 } GrammarHooks;
 
 // Everything a parse needs; plain data, filled by the caller, shared by nested parses (#include).

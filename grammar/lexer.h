@@ -48,6 +48,9 @@ typedef struct Opener {
     bool header_done; // of a directive: its parentheses are closed
 } Opener;
 
+typedef struct LiteralPattern LiteralPattern;
+enum { LITERAL_PATTERNS = 8 };
+
 typedef struct GrammarState {
     const GrammarContext *context;
     AstBuilder builder;
@@ -80,6 +83,14 @@ typedef struct GrammarState {
     unsigned comment_depth;
     int comment_return; // start condition
     TextBuffer string;
+
+    // Literal spheres.
+    bool takes_literals;
+    LiteralPattern *literals[LITERAL_PATTERNS]; // the one used last first
+    LiteralPattern *learning;  // of the statement that is being parsed, or NULL
+    uint64_t learning_end;     // where that ends
+    uint64_t literal_state;    // of the hooks, when they were learnt
+    unsigned literal_misses;   // in a row
 
     // Token stream.
     Token previous, current; // the last two delivered to the parser
@@ -115,6 +126,12 @@ typedef struct GrammarState {
 int grammar_scan(Token *token, void *scanner);
 bool grammar_scan_begin(GrammarState *state) RT_MUST_CHECK;
 void grammar_scan_end(GrammarState *state);
+
+// Between two top-level items, with nothing read ahead: hands over the literal spheres that come next.
+void grammar_scan_literals(GrammarState *state);
+// The same for the scanner's buffer, which ends with a zero: returns where reading goes on, and moves `offset` there.
+const char *grammar_literals_read(GrammarState *state, const char *at, const char *end);
+void grammar_literals_forget(GrammarState *state);
 
 // Token stream: the symbol and directive tables.
 int grammar_word_token(Symbol symbol);

@@ -8,10 +8,11 @@ libgrammar_la_SOURCES = \
   %D%/grammar.h \
   %D%/lexer.h \
   %D%/lexer.l \
+  %D%/literal.c \
   %D%/messages.c \
   %D%/parser.y \
   %D%/splice.c \
   %D%/tokens.c
 # The generated header is included by files of this folder only, so the rule stands here by hand.
-%D%/grammar.lo %D%/lexer.lo %D%/messages.lo %D%/splice.lo %D%/tokens.lo: %D%/parser.h
+%D%/grammar.lo %D%/lexer.lo %D%/literal.lo %D%/messages.lo %D%/splice.lo %D%/tokens.lo: %D%/parser.h
 MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

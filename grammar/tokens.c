@@ -457,6 +457,9 @@ static void next_token(GrammarState *state)
         grammar_splice_token(state, &state->current);
         return;
     }
+    if (state->item_begin == 0 && state->takes_literals && state->held_count == 0) {
+        grammar_scan_literals(state);
+    }
     grammar_read_token(state, &state->current);
     if (state->item_begin == 0) {
         state->item_begin = state->current.span.begin;

@@ -157,6 +157,7 @@ test_scripts = \
   %D%/check-docs.py \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
+  %D%/system/check_literals.py \
   %D%/system/check_messages.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
@@ -240,6 +241,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_literals.py 5000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
 
 # Error against samples, with all seeds and scenes.

@@ -138,6 +138,10 @@ RT_API rt_status rt_check_format(rt_session *session, const char *path);
 /* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
+/* Whether spheres of nothing but numbers are read by their text alone, as is the default (1). With 0 they are parsed like all
+ * else; the scene and its messages are the same. */
+RT_API void rt_set_literals(rt_session *session, int on);
+
 /* Names of the instruction sets that the tracer can use on this machine, from plain C to the best, and NULL past the end. */
 RT_API const char *rt_isa(size_t i);
 /* Use one of them; the best is used if nothing is said. The picture does not depend on it. */

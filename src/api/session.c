@@ -182,6 +182,7 @@ static rt_status load(rt_session *session, Source *source, double start)
         .clock = session->clock,
         .clock_on = session->clock_on,
         .world = session->world.scale > 0.0 ? &session->world : NULL,
+        .no_literals = session->no_literals,
         .cancel = &session->cancel,
         .message = forward_message,
         .client = session,
@@ -234,6 +235,11 @@ void session_film_to_linear(const Settings *settings, Film *film)
     for (size_t i = 0; i < count && linear_is_needed(settings); i++) {
         film->rgb[i] = (float)linear_value(settings, film->rgb[i]);
     }
+}
+
+void rt_set_literals(rt_session *session, int on)
+{
+    session->no_literals = !on;
 }
 
 const char *rt_isa(size_t i)

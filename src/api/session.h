@@ -34,6 +34,7 @@ struct rt_session {
     double clock;
     bool clock_on;
     EvalWorld world;
+    bool no_literals;
     int width, height;
     rt_precision precision;
     const char *isa; // of geometry_isa; NULL for the best

@@ -109,6 +109,7 @@ static rt_status configure(rt_session *session, const Options *options)
     for (int i = 0; !status && i < LIMIT_COUNT; i++) {
         status = options->limits[i] ? rt_set_limit(session, (rt_limit)i, options->limits[i]) : RT_OK;
     }
+    rt_set_literals(session, !options->no_literals);
     if (!status && options->clock_given) {
         status = rt_set_clock(session, options->clock);
     }

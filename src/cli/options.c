@@ -84,6 +84,13 @@ static bool apply_isa(Options *options, const char *argument, const char **expec
     return false;
 }
 
+static bool apply_no_literals(Options *options, const char *argument, const char **expected)
+{
+    (void)argument;
+    *expected = "";
+    return options->no_literals = true;
+}
+
 static bool apply_include_path(Options *options, const char *argument, const char **expected)
 {
     *expected = "a folder";
@@ -374,6 +381,8 @@ static const OptionRow rows[] = {
     {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
     {0, "isa", "NAME", apply_isa,
      "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
+    {0, "no-literals", NULL, apply_no_literals,
+     "parse spheres of nothing but numbers as all else is, not by their text; the scene is the same"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
     {'K', "clock", "NUMBER", apply_clock, "the scene's clock (default 0)"},

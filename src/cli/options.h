@@ -51,6 +51,7 @@ typedef struct Options {
     int read_folder_count;
     double clock;
     bool clock_given;
+    bool no_literals;
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     bool quiet;
     char complaint[COMPLAINT_SIZE]; // OPTIONS_WRONG: what is wrong

@@ -37,6 +37,11 @@ typedef struct Block {
     bool has_fault;
 } Block;
 
+// Whether the sphere that is watched is one with nothing but a centre, a radius and a texture.
+void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record);
+// Adds a sphere of a plain material; false after a fault.
+bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span) RT_MUST_CHECK;
+
 // block.c
 
 // Fills *record with what a block of the kind is before anything is said in it.

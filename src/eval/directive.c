@@ -94,6 +94,7 @@ static void run_default(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     ev->faulty = !eval_default(ev, node) || ev->faulty;
+    ev->literal.state++;
 }
 
 static void run_version(Cursor *cursor, const AstNode *node)
@@ -113,6 +114,7 @@ static void run_version(Cursor *cursor, const AstNode *node)
     }
     ev->version = version;
     ev->version_given = true;
+    ev->literal.state++;
 }
 
 // ---- branches

@@ -57,6 +57,7 @@ typedef struct EvalOptions {
     double clock;
     bool clock_on;             // a clock was given
     const EvalWorld *world;    // NULL: where it says
+    bool no_literals;          // statements of nothing but numbers are parsed like all others
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console
     // does. What #warning and #error say is a diagnostic. May be NULL.

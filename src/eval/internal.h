@@ -9,6 +9,7 @@
 //   directive.c  what each directive does           include.c   #include
 //   files.c      finding and opening files          datafile.c  #fopen, #read and #fclose
 //   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
+//   literal.c    spheres that are read without a tree
 //   lint.c       what is suspicious in the text
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
 //   misfit.c     what is said of items that do not fit into a block
@@ -114,6 +115,14 @@ typedef struct FileState FileState;     // files.c
 typedef struct Lint Lint;               // lint.c
 typedef struct ObjectState ObjectState; // object.c: default texture, scratch of the objects
 
+// The literal sphere that is evaluated as any other item, to see what it gives (literal.c).
+typedef struct LiteralWatch {
+    uint64_t state; // changed by whatever changes what such a statement gives
+    GrammarLiteral literal;
+    size_t shapes, spheres, messages; // before it
+    bool is_watching, is_plain;
+} LiteralWatch;
+
 typedef struct Eval {
     EvalOptions options;
     Scene *scene;
@@ -141,6 +150,7 @@ typedef struct Eval {
     unsigned splice_nesting;      // of fragments that are being parsed
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
+    LiteralWatch literal;
     bool has_stray_word; // at the top level, reported: its values are not reported as well
     bool faulty;         // something was reported, if only before
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
@@ -451,6 +461,7 @@ typedef struct Splice {
 typedef struct SpliceStream SpliceStream;
 
 void splice_init(Splice *splice, Eval *ev);
+void literal_hooks(Eval *ev, GrammarHooks *hooks);
 void splice_fini(Splice *splice);
 
 // Items of a text, on demand. `owned` (NULL or the text) is freed with it. NULL when out of memory.

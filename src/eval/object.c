@@ -211,7 +211,11 @@ bool eval_place(Eval *ev, const AstNode *item)
     Blueprint record;
     SchemaKind is;
     block_defaults(ev, kind, &record);
-    bool is_fine = block_read(ev, item, kind, arena, &record, &is) && place_record(ev, item, is, &record);
+    bool is_fine = block_read(ev, item, kind, arena, &record, &is);
+    if (is_fine && ev->literal.is_watching && item->span.begin == ev->literal.literal.span.begin) {
+        literal_note(ev, is, &record);
+    }
+    is_fine = is_fine && place_record(ev, item, is, &record);
     arena_rewind(&ev->scratch, mark);
     return is_fine;
 }

@@ -118,6 +118,14 @@ static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placemen
     return scene_add_sphere(ev->scene, centre, image, material, span.begin) || eval_no_memory(ev, span);
 }
 
+bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span)
+{
+    MaterialIndex index;
+    return may_add(ev, span) && ((scene_add_material_record(ev->scene, material, &index) &&
+                                  scene_add_sphere(ev->scene, centre, radius, index, span.begin)) ||
+                                 eval_no_memory(ev, span));
+}
+
 static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner, const Part *part)
 {
     MaterialIndex material;

@@ -227,6 +227,7 @@ void splice_init(Splice *splice, Eval *ev)
                   .leave = leave,
                   .is_stopped = is_stopped},
     };
+    literal_hooks(ev, &splice->hooks);
 }
 
 void splice_fini(Splice *splice)

@@ -142,6 +142,12 @@ bool scene_add_compound(Scene *scene, const Compound *compound, MaterialIndex *i
     return is_added;
 }
 
+bool scene_add_material_record(Scene *scene, const Material *material, MaterialIndex *index)
+{
+    return scene->materials.count < MATERIAL_COMPOUND &&
+           ADD_ONCE(&scene->materials, &scene->material_index, material, index);
+}
+
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index)
 {
     Material material = {
@@ -151,8 +157,7 @@ bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, Mater
         .filter = (float)pigment.filter,
         .transmit = (float)pigment.transmit,
     };
-    return scene->materials.count < MATERIAL_COMPOUND && scene_add_finish(scene, finish, &material.finish) &&
-           ADD_ONCE(&scene->materials, &scene->material_index, &material, index);
+    return scene_add_finish(scene, finish, &material.finish) && scene_add_material_record(scene, &material, index);
 }
 
 Pigment pigment_of(Rgbft colour)

@@ -316,6 +316,7 @@ size_t scene_bytes(const Scene *scene);
 // The index of an equal material, added if there is none; the pigment is rounded to single precision. False when out of
 // memory.
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index) RT_MUST_CHECK;
+bool scene_add_material_record(Scene *scene, const Material *material, MaterialIndex *index) RT_MUST_CHECK;
 
 // The pigment of a material.
 static inline Rgbft material_pigment(const Material *material)

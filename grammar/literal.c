@@ -1,0 +1,393 @@
+// Literal spheres: statements of nothing but numbers, read without tokens, a parser or a tree.
+//
+// Turns `sphere { <n, n, n>, n … }` at the top level of a file into calls of the evaluator's `literal`, as long as what
+// follows the radius is text that was seen before: a statement that is like none before is parsed like any other, and
+// when the evaluator says what it has become, its text is kept as a pattern, with a gap where the numbers of its
+// pigment stand. All that is not sure to be read alike is left to the scanner.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "grammar/lexer.h"
+
+enum {
+    TEXT_LONGEST = 4096,  // of what follows the radius
+    NUMBER_LONGEST = 250, // a longer one is left to the scanner
+    MISSES_MOST = 64,     // so many texts in a row that no statement repeats: from then on few are kept
+};
+
+static const char *skip_blanks(const char *at)
+{
+    // The scanner's buffer ends in zeros.
+    while (*at == ' ' || *at == '\n' || *at == '\t' || *at == '\r') {
+        at++;
+    }
+    return at;
+}
+
+static bool is_digit(char c)
+{
+    return (unsigned char)(c - '0') < 10;
+}
+
+static bool is_letter(char c)
+{
+    return (unsigned char)((c | ' ') - 'a') < 26 || c == '_';
+}
+
+// Digits behind those of the mantissa. Eight are looked at at a time: a byte holds a digit when its high half is 3 and
+// adding 6 to the low half does not carry; then pairs, pairs of pairs and so on are put together by multiplication.
+static const char *read_digits(const char *at, const char *end, uint64_t *mantissa)
+{
+    static const uint64_t tens[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+    uint64_t value = *mantissa;
+#if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    if (RT_LIKELY(end - at >= 8)) {
+        uint64_t chunk;
+        memcpy(&chunk, at, sizeof chunk);
+        chunk ^= UINT64_C(0x3030303030303030);
+        uint64_t others = (chunk | (chunk + UINT64_C(0x0606060606060606))) & UINT64_C(0xf0f0f0f0f0f0f0f0);
+        unsigned count = others != 0 ? (unsigned)__builtin_ctzll(others) / 8 : 8;
+        if (count == 0) {
+            return at;
+        }
+        chunk <<= 64 - 8 * count; // zeros before the first digit
+        chunk = chunk * 10 + (chunk >> 8);
+        chunk = ((chunk & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x000f424000000064) +
+                 (chunk >> 16 & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x0000271000000001)) >> 32;
+        value = value * tens[count] + chunk;
+        at += count;
+        if (count < 8) {
+            *mantissa = value;
+            return at;
+        }
+    }
+#endif
+    for (; is_digit(*at); at++) {
+        value = value * 10 + (uint64_t)(*at - '0');
+    }
+    *mantissa = value;
+    return at;
+}
+
+// A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
+static const char *read_number(const char *at, const char *end, double *number)
+{
+    static const double tens[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+    enum { DIGITS_EXACT = 15 }; // an integer of so many digits is a double, and so is the power of ten that divides it
+    bool is_negative = *at == '-';
+    const char *first = at += is_negative;
+    uint64_t mantissa = 0;
+    for (; is_digit(*at); at++) { // few, most of the time
+        mantissa = mantissa * 10 + (uint64_t)(*at - '0');
+    }
+    if (at == first) {
+        return NULL;
+    }
+    const char *point = at;
+    if (*at == '.') {
+        at = read_digits(at + 1, end, &mantissa);
+    }
+    size_t fraction = at > point ? (size_t)(at - point) - 1 : 0;
+    if (RT_LIKELY((size_t)(point - first) + fraction <= DIGITS_EXACT && (*at | ' ') != 'e')) {
+        *number = (double)mantissa / tens[fraction];
+    } else {
+        size_t length = (size_t)(end - first), used;
+        length = length < NUMBER_LONGEST ? length : NUMBER_LONGEST;
+        if (number_scan(first, length, number, &used) != NUMBER_OK || used >= NUMBER_LONGEST) {
+            return NULL;
+        }
+        at = first + used;
+        if (!is_digit(at[-1]) && at[-1] != '.') {
+            return NULL;
+        }
+    }
+    *number = is_negative ? -*number : *number;
+    return is_letter(*at) || *at == '.' ? NULL : at;
+}
+
+// `count` numbers with commas between them and blanks around.
+static const char *read_numbers(const char *at, const char *end, unsigned count, double *numbers)
+{
+    for (unsigned i = 0; i < count; i++) {
+        if (i > 0) {
+            if (*at != ',') {
+                return NULL;
+            }
+            at++;
+        }
+        at = read_number(skip_blanks(at), end, &numbers[i]);
+        if (at == NULL) {
+            return NULL;
+        }
+        at = skip_blanks(at);
+    }
+    return at;
+}
+
+// `sphere { <n, n, n>, n`; NULL: something else.
+static const char *read_head(const char *at, const char *end, GrammarLiteral *literal)
+{
+    static const char word[] = "sphere";
+    if ((size_t)(end - at) < sizeof word || memcmp(at, word, sizeof word - 1) != 0) {
+        return NULL;
+    }
+    at = skip_blanks(at + sizeof word - 1);
+    if (*at != '{' || *(at = skip_blanks(at + 1)) != '<') {
+        return NULL;
+    }
+    at = read_numbers(at + 1, end, 3, literal->centre);
+    if (at == NULL || *at != '>' || *(at = skip_blanks(at + 1)) != ',') {
+        return NULL;
+    }
+    return read_number(skip_blanks(at + 1), end, &literal->radius);
+}
+
+// ---- patterns
+
+struct LiteralPattern {
+    char *text;          // before the gap, then after it
+    size_t before, after;
+    Word word;           // before the numbers in the gap; 0: there is none
+    bool is_used;        // the evaluator knows what it gives; else such statements are not read here
+    GrammarLiteralKind kind;
+};
+
+void grammar_literals_forget(GrammarState *state)
+{
+    for (unsigned i = 0; i < LITERAL_PATTERNS; i++) {
+        free(state->literals[i] != NULL ? state->literals[i]->text : NULL);
+        free(state->literals[i]);
+        state->literals[i] = NULL;
+    }
+    state->learning = NULL;
+}
+
+// The numbers of a pigment, in the order red, green, blue, filter, transmit.
+static const char *read_colour(const char *at, const char *end, Word word, GrammarLiteral *literal)
+{
+    double *colour = literal->colour;
+    unsigned count = word == W_rgb ? 3 : word == W_rgbft ? 5 : 4;
+    colour[3] = colour[4] = 0.0;
+    at = read_numbers(at, end, count, colour);
+    if (at != NULL && word == W_rgbt) {
+        colour[4] = colour[3];
+        colour[3] = 0.0;
+    }
+    literal->colours = word == W_rgb ? 3 : 5;
+    return at;
+}
+
+// The end of a statement whose text after the radius is that of a pattern; NULL: it is not.
+static const char *match(const LiteralPattern *pattern, const char *at, const char *end, GrammarLiteral *literal)
+{
+    if ((size_t)(end - at) <= pattern->before + pattern->after || memcmp(at, pattern->text, pattern->before) != 0) {
+        return NULL;
+    }
+    at += pattern->before;
+    literal->colours = 0;
+    if (pattern->word != 0) {
+        at = read_colour(at, end, pattern->word, literal);
+        if (at == NULL || (size_t)(end - at) <= pattern->after) {
+            return NULL;
+        }
+    }
+    return memcmp(at, pattern->text + pattern->before, pattern->after) == 0 ? at + pattern->after : NULL;
+}
+
+// Where the words of a text are known to be words of the language, its braces pair up, and all else is numbers and
+// commas: its end, after the brace that closes the sphere. *gap: the numbers of the only pigment, if they are all that
+// is said of its colour.
+typedef struct Gap {
+    const char *begin, *end;
+    Word word;
+} Gap;
+
+// `}`, after `rgb <…>` perhaps with a filter and a transmit before it.
+static bool ends_colour(const char *at, const char *end, Word word)
+{
+    static const char filter[] = "filter ", transmit[] = "transmit ";
+    double number;
+    for (unsigned i = 0; word == W_rgb && i < 2 && at != NULL && *at != '}'; i++) {
+        size_t length = strncmp(at, filter, sizeof filter - 1) == 0       ? sizeof filter - 1
+                        : strncmp(at, transmit, sizeof transmit - 1) == 0 ? sizeof transmit - 1
+                                                                          : 0;
+        at = length > 0 ? read_number(skip_blanks(at + length), end, &number) : NULL;
+        at = at != NULL ? skip_blanks(at) : NULL;
+    }
+    return at != NULL && *at == '}';
+}
+
+static void find_gap(const char *at, const char *end, Symbol word, Gap *gap)
+{
+    GrammarLiteral literal;
+    at = skip_blanks(at);
+    if ((word != W_rgb && word != W_rgbf && word != W_rgbt && word != W_rgbft) || *at != '<') {
+        return;
+    }
+    const char *after = read_colour(at + 1, end, (Word)word, &literal);
+    if (after != NULL && *after == '>' && ends_colour(skip_blanks(after + 1), end, (Word)word)) {
+        *gap = (Gap){at + 1, after, (Word)word};
+    }
+}
+
+static const char *survey(const GrammarState *state, const char *at, const char *end, Gap *gap)
+{
+    unsigned depth = 1, pigments = 0;
+    bool begins_pigment = false, is_after_number = true; // the radius
+    const char *limit = end - at > TEXT_LONGEST ? at + TEXT_LONGEST : end;
+    *gap = (Gap){0};
+    while (at < limit && depth > 0) {
+        const char *begin = at;
+        if (is_letter(*at)) {
+            while (is_letter(*at) || is_digit(*at)) {
+                at++;
+            }
+            Symbol word = intern_find(state->context->names, begin, (size_t)(at - begin));
+            if (word == SYMBOL_NONE || word >= WORD_COUNT || word_class(word) == WORD_DIRECTIVE) {
+                return NULL;
+            }
+            pigments += word == W_pigment;
+            if (begins_pigment) {
+                find_gap(at, end, word, gap);
+            }
+            begins_pigment = word == W_pigment || (begins_pigment && (word == W_color || word == W_colour));
+            is_after_number = false;
+        } else if (is_digit(*at) || *at == '.' || (*at == '-' && !is_after_number)) {
+            double number;
+            at = read_number(at, end, &number);
+            if (at == NULL) {
+                return NULL;
+            }
+            is_after_number = true;
+        } else if (strchr("{}<>, \n\t\r", *at) != NULL && *at != '\0') {
+            depth += (*at == '{') - (unsigned)(*at == '}');
+            is_after_number = is_after_number && strchr("{<,", *at) == NULL;
+            at++;
+        } else {
+            return NULL;
+        }
+    }
+    if (pigments != 1) {
+        *gap = (Gap){0};
+    }
+    return depth == 0 ? at : NULL;
+}
+
+static LiteralPattern *new_pattern(const char *text, const char *end, const Gap *gap)
+{
+    LiteralPattern *pattern = malloc(sizeof *pattern);
+    char *copy = malloc((size_t)(end - text));
+    if (pattern == NULL || copy == NULL) {
+        free(pattern);
+        free(copy);
+        return NULL;
+    }
+    *pattern = (LiteralPattern){.text = copy, .word = gap->word};
+    pattern->before = (size_t)((gap->word != 0 ? gap->begin : end) - text);
+    pattern->after = (size_t)(gap->word != 0 ? end - gap->end : 0);
+    memcpy(copy, text, pattern->before);
+    memcpy(copy + pattern->before, end - pattern->after, pattern->after);
+    return pattern;
+}
+
+// Keeps the text of a statement that begins here, which is parsed as any other, to see what becomes of it.
+static void begin_learning(GrammarState *state, const char *begin, const char *text, const char *end,
+                           const GrammarLiteral *literal)
+{
+    Gap gap;
+    if (++state->literal_misses > MISSES_MOST && state->literal_misses % MISSES_MOST != 0) {
+        return;
+    }
+    const char *after = survey(state, text, end, &gap);
+    LiteralPattern *last = state->literals[LITERAL_PATTERNS - 1];
+    LiteralPattern *pattern = after != NULL ? new_pattern(text, after, &gap) : NULL;
+    if (pattern == NULL) {
+        return;
+    }
+    if (last != NULL) {
+        free(last->text);
+        free(last);
+    }
+    memmove(state->literals + 1, state->literals, (LITERAL_PATTERNS - 1) * sizeof *state->literals);
+    state->literals[0] = state->learning = pattern;
+    state->learning_end = state->offset + (uint64_t)(after - begin);
+    GrammarLiteral copy = *literal;
+    copy.span = (Span){state->offset, state->learning_end};
+    copy.colours = 0;
+    if (gap.word != 0) {
+        (void)read_colour(gap.begin, end, gap.word, &copy);
+    }
+    const GrammarHooks *hooks = state->context->hooks;
+    hooks->literal_watch(hooks->client, &copy);
+}
+
+static void end_learning(GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    LiteralPattern *pattern = state->learning;
+    state->learning = NULL;
+    // Nothing but blanks was read since.
+    pattern->is_used = hooks->literal_learn(hooks->client, &pattern->kind) && state->offset == state->learning_end;
+}
+
+// The pattern that the text after a radius has, moved to the front; NULL: none.
+static const LiteralPattern *find(GrammarState *state, const char *at, const char *end, GrammarLiteral *literal,
+                                  const char **after)
+{
+    for (unsigned i = 0; i < LITERAL_PATTERNS && state->literals[i] != NULL; i++) {
+        LiteralPattern *pattern = state->literals[i];
+        *after = match(pattern, at, end, literal);
+        if (*after != NULL) {
+            memmove(state->literals + 1, state->literals, i * sizeof *state->literals);
+            state->literals[0] = pattern;
+            return pattern;
+        }
+    }
+    return NULL;
+}
+
+const char *grammar_literals_read(GrammarState *state, const char *at, const char *end)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    if (state->learning != NULL) {
+        end_learning(state);
+    }
+    if (*hooks->literal_state != state->literal_state) {
+        grammar_literals_forget(state);
+        state->literal_state = *hooks->literal_state;
+    }
+    while (!state->ended) {
+        GrammarLiteral literal;
+        const char *begin = skip_blanks(at), *after = NULL;
+        const char *text = read_head(begin, end, &literal);
+        if (text == NULL || !(literal.radius > 0.0)) {
+            break;
+        }
+        uint64_t offset = state->offset + (uint64_t)(begin - at);
+        const LiteralPattern *pattern = find(state, text, end, &literal, &after);
+        if (pattern == NULL) {
+            state->offset = offset; // nothing before it but blanks, which are passed over
+            begin_learning(state, begin, text, end, &literal);
+            return begin;
+        }
+        if (!pattern->is_used) {
+            break;
+        }
+        state->literal_misses = 0;
+        literal.span = (Span){offset, offset + (uint64_t)(after - begin)};
+        LiteralResult result = hooks->literal(hooks->client, &literal, &pattern->kind);
+        if (result == LITERAL_LEFT) {
+            break;
+        }
+        at = after;
+        state->offset = literal.span.end;
+        if (result == LITERAL_STOP) {
+            state->client_ended = state->ended = true;
+        }
+    }
+    return at;
+}

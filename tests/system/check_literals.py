@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""Spheres that are read by their text alone are those that the parser reads: random texts, each read in both ways.
+
+Usage: check_literals.py [COUNT [SEED]]   Prints TAP, a line for each batch of texts; `check_literals.py -SEED` prints one.
+The scene's dump, every message with its place, and the exit code must be the same. SPDX-License-Identifier: MIT
+"""
+import concurrent.futures
+import os
+import random
+import subprocess
+import sys
+import tempfile
+
+COUNT, SEED, BATCH = 400, 1, 50
+# What makes a text faulty; one in two has none of it.
+FAULTY = {"<{c}>", "finish { phnog 1 }", "finish { diffuse -1 }", "torus", "3", "alpha 1", "srgb <{c}>", "}", ";", ",", "}\n", "#end",
+          "sphere", "5", "sphere { <1, 2, 3", "union { sphere { 0, 1 } ", "0", "-1", "", ",,", "interior { ior 1.5 }",
+          "clipped_by { plane { y, 9 } }"}
+SCANNER_BLOCK = 256 * 1024
+
+
+class Text:
+    """Statements of which most are literal spheres of few kinds, and some are nearly so."""
+
+    def __init__(self, seed):
+        self.dice = random.Random(seed)
+        self.is_sane = self.dice.random() < 0.5
+        self.kinds = [self.rest() for _ in range(self.dice.randrange(1, 6))]
+
+    def pick(self, *choices):
+        sane = [choice for choice in choices if choice not in FAULTY]
+        return self.dice.choice(sane if self.is_sane and sane else choices)
+
+    def number(self):
+        dice = self.dice
+        return dice.choice([
+            lambda: f"{dice.uniform(-5, 5):.{dice.randrange(1, 8)}f}", lambda: str(dice.randrange(-3, 9)),
+            lambda: f"{dice.uniform(-1, 1)!r}", lambda: f"{dice.uniform(0, 9):.3e}", lambda: f"{dice.randrange(9)}.",
+            lambda: f"-0.{dice.randrange(10)}"])()
+
+    def odd_number(self):
+        if self.is_sane:
+            return self.pick(".5", "-.25", "+1", "- 2", "1e", "-0", "1e5", "pi", "(1)", "9" * 30, "0." + "3" * 240, "1e-400")
+        return self.pick(".5", "-.25", "+1", "- 2", "1e", "1e400", "1.2.3", "2x", "0x10", "1e-400", "-0", "--1", "pi", "1/0",
+                         "9" * 30, "0." + "3" * 260, "1" * 256, "(1)", "1 .x", "clock", "A", "x", "\"1\"", "1e5", "5 .5")
+
+    def numbers(self, count, odd=0.0):
+        blank = self.pick("", " ", "  ", "\n", "\t")
+        return f",{blank}".join(self.odd_number() if self.dice.random() < odd else self.number() for _ in range(count))
+
+    def colour(self):
+        return self.pick("color rgb <{c}>", "rgb <{c}>", "colour rgb <{c}>", "rgb <{c}> transmit 0.25", "rgb<{c}>",
+                         "rgbf <{c4}>", "rgbt <{c4}>", "rgbft <{c5}>", "rgb <{c}> filter 0.1 transmit .2", "rgb 0.5",
+                         "rgb <{c}> red 1", "rgb <0.5, 0, 0> red 0.5", "srgb <{c}>", "<{c}>", "Red", "rgb <{c}> * 2",
+                         "color red 1 green 0.5", "rgb <{c4}>", "checker rgb <{c}> rgb 1")
+
+    def rest(self):
+        """What follows the radius; {c} are the numbers of a colour."""
+        finish = self.pick("finish { ambient 0.1 diffuse 0.7 phong 0.3 phong_size 20 }", "finish { phong 1 reflection 0.1 }",
+                           "finish { ambient rgb <0.1, 0.2, 0.3> }", "finish{}", "", "", "finish { diffuse -1 }",
+                           "finish { phnog 1 }", "finish { Shiny }", "finish { reflection { 0.1, 0.4 fresnel on } }")
+        pigment = f"pigment {{ {self.colour()} }}"
+        body = self.pick(f"{pigment} {finish}", f"texture {{ {pigment} {finish} }}", pigment, finish,
+                         f"texture {{ {pigment} }} {finish}", f"{pigment} {pigment}", f"texture {{ T }} {pigment}")
+        more = self.pick(*[""] * 8, "translate x", "scale 2", "rotate 90*y", "no_shadow", "interior { ior 1.5 }", "hollow",
+                         "inverse", "rotate 0", "translate <0, 0, 0>", "// why\n", "/* no */", "clipped_by { plane { y, 9 } }",
+                         "#debug \"within\\n\"", "M()", "torus", "texture { pigment { rgbt <1, 1, 1, 0.5> } }", "3", "alpha 1")
+        return f"{self.pick(' ', '  ', chr(10))}{self.pick(body, body, body, body + ' ' + more)} }}"
+
+    def sphere(self, odd):
+        rest = self.dice.choice(self.kinds) if self.dice.random() > odd else self.rest()
+        for gap, count in ("{c5}", 5), ("{c4}", 4), ("{c}", 3):
+            rest = rest.replace(gap, self.numbers(count, odd / 4))
+        radius = self.pick("0", "-1", "1e-320", self.odd_number()) if self.dice.random() < odd / 4 else \
+            f"{self.dice.uniform(0.01, 3):.6f}"
+        centre = f"<{self.numbers(3, odd / 8)}>" if self.dice.random() > odd / 8 else self.pick("0", "<1, 2>", "<1 2 3>", "x")
+        between = ", " if self.dice.random() > odd / 8 else self.pick(" ", ",", ",,", "")
+        blank = self.pick("", " ", "\n")
+        return f"sphere {{{blank}{centre}{between}{radius}{rest}"
+
+    def other(self):
+        return self.pick("#default { pigment { rgb <1, 0, 0> } }", "#default { finish { ambient 0.5 } }", "#declare A = 1.5;",
+                         "box { 0, 1 }", "#macro M() scale 2 #end", "plane { y, -1 }", "// sphere { <1, 2, 3>, 1 }",
+                         "#declare Red = rgb <1, 0, 0>;", "#declare Shiny = finish { phong 1 }", "union { sphere { 0, 1 } ",
+                         "light_source { 9, 1 }", "#version 3.6;", "global_settings { assumed_gamma 1 }", ";", ",", "}", "sphere",
+                         "#if (A) sphere { <0, 0, 0>, 1 } #end", "#declare T = texture { pigment { rgb 1 } }", "}\n", "#end", "5",
+                         "#for (I, 1, 3) sphere { I*x, 1 } #end", "/* " + "x" * 300 + " */", "sphere { <1, 2, 3", "#local A = 2;")
+
+    def write(self):
+        odd = self.pick(0.0, 0.05, 0.05, 0.4)
+        text = self.pick("0" if self.is_sane else "", "#declare A = 1; #declare Red = rgb x; #declare Shiny = finish { phong 1 }\n"
+                             "#declare T = texture { pigment { rgb 1 } } #macro M() scale 2 #end\n")
+        if self.dice.random() < 0.05:  # statements across the end of the scanner's block
+            text += "// " + "-" * (SCANNER_BLOCK - len(text) - self.dice.randrange(600)) + "\n"
+        for _ in range(self.dice.randrange(1, 60)):
+            text += (self.other() if self.dice.random() < odd else self.sphere(odd)) + self.pick("\n", "\n", " ", "", "\r\n\n")
+        return text
+
+
+def read(folder, name, *options):
+    done = subprocess.run([os.environ["RTLANG"], "-Wall", "--dump=scene", *options, name], cwd=folder, check=False,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return done.returncode, done.stdout, done.stderr
+
+
+def compare(seeds):
+    """The seeds of texts that are not read alike, and how many were read without a fault."""
+    wrong, fine = [], 0
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in seeds:
+            name = "text.scn"
+            with open(os.path.join(folder, name), "w", encoding="latin-1", newline="") as file:
+                file.write(Text(seed).write())
+            by_text, by_parser = read(folder, name), read(folder, name, "--no-literals")
+            fine += by_parser[0] == 0
+            wrong += [seed] if by_text != by_parser else []
+    return wrong, fine
+
+
+def main():
+    if sys.argv[1:] and sys.argv[1].startswith("-"):
+        sys.stdout.write(Text(int(sys.argv[1][1:])).write())
+        return 0
+    count, seed = (int(argument) for argument in (sys.argv[1:] + [COUNT, SEED][len(sys.argv) - 1:])[:2])
+    seeds = list(range(seed * 1000000, seed * 1000000 + count))
+    batches = [seeds[i:i + BATCH] for i in range(0, count, BATCH)]
+    failed = total = 0
+    print(f"1..{len(batches) + 1}\n# seed {seed}")
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        for number, (batch, (wrong, fine)) in enumerate(zip(batches, pool.map(compare, batches)), 1):
+            failed += bool(wrong)
+            total += fine
+            print(f"{'not ok' if wrong else 'ok'} {number} - texts {batch[0]} to {batch[-1]}, {fine} without a fault", flush=True)
+            for which in wrong:
+                print(f"# check_literals.py -{which}")
+    few = total < count // 4
+    failed += few
+    print(f"{'not ok' if few else 'ok'} {len(batches) + 1} - one text in four has no fault")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
