@@ -22,6 +22,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_TRANSFORM] = transform_action,    [ACTION_TEXTURE] = texture_action,
     [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
     [ACTION_PATTERN] = pattern_action,        [ACTION_WAVE] = pattern_wave_action,
+    [ACTION_PATTERN_SOLID] = pattern_solid_action,
     [ACTION_MAP] = pattern_map_action,        [ACTION_INTERIOR] = interior_action,
     [ACTION_MATERIAL] = material_action,      [ACTION_IMAGE_MAP] = image_map_action,
     [ACTION_IMAGE] = image_action,

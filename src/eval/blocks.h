@@ -97,6 +97,7 @@ bool block_read_entry(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *ar
                       Blueprint *record) RT_MUST_CHECK;
 
 // pattern.c
+bool pattern_solid_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

@@ -217,10 +217,31 @@ static bool read_block_entries(Block *block, PatternType type, Span span)
     return kept || eval_no_memory(block->ev, span);
 }
 
+// The steps of mandel and julia.
+static bool check_count(Block *block, const Pattern *pattern, Span span)
+{
+    bool has_steps = pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA;
+    if (has_steps && (pattern->count < 1 || pattern->count > PATTERN_STEPS_MOST)) {
+        return block_fault(block, DIAG_E0342, span, "`%s` takes 1 to %d steps, not %d",
+                           pattern_info((PatternType)pattern->type)->word, (int)PATTERN_STEPS_MOST, (int)pattern->count);
+    }
+    return true;
+}
+
+bool pattern_solid_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    (void)property;
+    (void)item;
+    block->record->patterned.pattern.is_solid = 1;
+    return true;
+}
+
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    static const SchemaProperty direction = {"gradient", TYPE_VECTOR, ACTION_NONE,
-                                             .at = offsetof(PatternPart, pattern.vector)};
+    const SchemaProperty direction = {property->word, TYPE_VECTOR, ACTION_NONE,
+                                      .at = offsetof(PatternPart, pattern.vector)};
+    const SchemaProperty count = {property->word, TYPE_INTEGER, ACTION_NONE,
+                                  .at = offsetof(PatternPart, pattern.count)};
     Pattern *pattern = &block->record->patterned.pattern;
     PatternType type = type_of(property->word);
     const PatternInfo *before = pattern_info((PatternType)pattern->type), *info = pattern_info(type);
@@ -234,10 +255,14 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
         pattern->vector = vec3(8.0, 3.0, 4.5);
         pattern->mortar = 0.5;
     }
-    if (info->has_direction) {
-        return block_value(block, &direction, item->span) &&
-               (vec3_length_squared(pattern->vector) > 0.0 ||
-                block_fault(block, DIAG_E0342, item->span, "the direction of a gradient cannot be <0, 0, 0>"));
+    if (info->has_direction && !block_value(block, &direction, item->span)) {
+        return false;
+    }
+    if (type == PATTERN_GRADIENT && vec3_length_squared(pattern->vector) == 0.0) {
+        return block_fault(block, DIAG_E0342, item->span, "the direction of a gradient cannot be <0, 0, 0>");
+    }
+    if (info->has_count) {
+        return block_value(block, &count, item->span) && check_count(block, pattern, item->span);
     }
     return !info->blocks || read_block_entries(block, type, item->span);
 }
@@ -255,6 +280,16 @@ bool pattern_wave_action(Block *block, const SchemaProperty *property, const Ast
     return wave != WAVE_POLY || block_value(block, &exponent, item->span);
 }
 
+static bool average_has_weights(Block *block)
+{
+    const PatternMap *map = block->record->patterned.map;
+    double sum = 0.0;
+    for (size_t i = 0; map && i < map->count; i++) {
+        sum += map->entries[i].at;
+    }
+    return sum > 0.0 || block_fault(block, DIAG_E0253, block->node->span, "`average` needs a map of weights above 0");
+}
+
 // POV-Ray keeps lambda and omega in single precision.
 bool pattern_close(Block *block)
 {
@@ -264,6 +299,9 @@ bool pattern_close(Block *block)
     const Vec3 *size = &part->pattern.vector;
     if (part->pattern.type == PATTERN_BRICK && (size->x == 0.0 || size->y == 0.0 || size->z == 0.0)) {
         return block_fault(block, DIAG_E0342, block->node->span, "no component of `brick_size` can be 0");
+    }
+    if (part->pattern.type == PATTERN_AVERAGE && !average_has_weights(block)) {
+        return false;
     }
     if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && !part->map) {
         return block_fault(block, DIAG_E0253, block->node->span, "a pattern of textures needs a `texture_map`");

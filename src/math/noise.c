@@ -93,8 +93,30 @@ static void shuffle_order(uint16_t *order, uint32_t *state)
     }
 }
 
+// The Mersenne twister MT19937 with the seed 5489 that its authors use where none is said (M. Matsumoto, T. Nishimura,
+// "Mersenne Twister", ACM TOMACS 8, 1998); fills the list with its numbers over 2^32.
+static void fill_sites(double *sites)
+{
+    enum { WORDS = 624, APART = 397 };
+    uint32_t state[WORDS] = {5489};
+    for (uint32_t i = 1; i < WORDS; i++) {
+        state[i] = UINT32_C(1812433253) * (state[i - 1] ^ (state[i - 1] >> 30)) + i;
+    }
+    for (unsigned i = 0; i < NOISE_SITES; i++) {
+        uint32_t *word = &state[i % WORDS];
+        uint32_t both = (*word & UINT32_C(0x80000000)) | (state[(i + 1) % WORDS] & UINT32_C(0x7fffffff));
+        *word = state[(i + APART) % WORDS] ^ (both >> 1) ^ (both & 1 ? UINT32_C(0x9908b0df) : 0);
+        uint32_t number = *word ^ (*word >> 11);
+        number ^= (number << 7) & UINT32_C(0x9d2c5680);
+        number ^= (number << 15) & UINT32_C(0xefc60000);
+        number ^= number >> 18;
+        sites[i] = number * 0x1p-32;
+    }
+}
+
 void noise_init(Noise *noise)
 {
+    fill_sites(noise->sites);
     uint32_t state = 1;
     shuffle_hash(noise->hash);
     for (unsigned i = 0; i < NOISE_GRADIENTS; i++) {
@@ -234,9 +256,23 @@ Vec3 noise_vector(const Noise *noise, Vec3 p)
     return vec3(component(&at, 0), component(&at, 1), component(&at, 2));
 }
 
-unsigned noise_cell(const Noise *noise, Vec3 p)
+// Here nothing is added to the coordinates.
+static const double *site_numbers(const Noise *noise, Vec3 corner)
 {
-    return hash_of(noise, hashed_cell(p.x).index[0], hashed_cell(p.y).index[0], hashed_cell(p.z).index[0]);
+    return &noise->sites[hash_of(noise, cell_of(corner.x, 0.0, NOISE_CELLS).index[0],
+                                 cell_of(corner.y, 0.0, NOISE_CELLS).index[0],
+                                 cell_of(corner.z, 0.0, NOISE_CELLS).index[0])];
+}
+
+double noise_cell(const Noise *noise, Vec3 corner)
+{
+    return site_numbers(noise, corner)[0];
+}
+
+Vec3 noise_site(const Noise *noise, Vec3 corner)
+{
+    const double *numbers = site_numbers(noise, corner);
+    return vec3_add(corner, vec3(numbers[0], numbers[1], numbers[2]));
 }
 
 // ---- sums

@@ -16,6 +16,7 @@ enum {
     NOISE_CELLS = 4096,      // period of the first two generators, of the shuffled numbers below it
     NOISE_GRADIENTS = 2048,  // period of the third
     NOISE_WAVE_SOURCES = 10,
+    NOISE_SITES = NOISE_CELLS + 2,
 };
 
 typedef enum NoiseGenerator {
@@ -28,6 +29,7 @@ typedef struct Noise {
     uint16_t hash[NOISE_CELLS];
     uint16_t order[NOISE_GRADIENTS];
     Vec3 gradients[NOISE_GRADIENTS]; // of unit length
+    double sites[NOISE_SITES]; // from 0 to 1, see noise_site
     Vec3 wave_sources[NOISE_WAVE_SOURCES]; // of `ripples` and `waves`, at distance 1 from the origin
 } Noise;
 
@@ -45,8 +47,9 @@ double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p);
 // Three independent numbers around 0, the first generator's first.
 Vec3 noise_vector(const Noise *noise, Vec3 p);
 
-// The hash of the unit cube that p is in, 0 to NOISE_CELLS - 1.
-unsigned noise_cell(const Noise *noise, Vec3 p);
+// Of the unit cube from `corner`, whose coordinates are whole, to <1, 1, 1> beyond: a number from 0 to 1, and a point in it.
+double noise_cell(const Noise *noise, Vec3 corner);
+Vec3 noise_site(const Noise *noise, Vec3 corner);
 
 // How noise is added up: octave i (from 0) is finer by lambda^i and weighs omega^i.
 typedef struct Octaves {

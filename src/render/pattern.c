@@ -71,6 +71,40 @@ static double cylindrical(const Pattern *pattern, const NoiseSource *source, Vec
     return fmax(1.0 - sqrt(p.x * p.x + p.z * p.z), 0.0);
 }
 
+// The arms begin at -y and turn towards +x.
+static double spiral1(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)source;
+    double turn = atan2(p.y, p.x) / (2.0 * pi) + 0.25;
+    return p.z + sqrt(p.x * p.x + p.y * p.y) + pattern->count * (turn < 0.0 ? turn + 1.0 : turn);
+}
+
+// The share of the steps z -> z^2 + c after which z is farther than 2 from 0, or 1.
+static double escape(double x, double y, double c_x, double c_y, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        double next = x * x - y * y + c_x;
+        y = 2.0 * x * y + c_y;
+        x = next;
+        if (x * x + y * y > 4.0) {
+            return (double)i / steps;
+        }
+    }
+    return 1.0;
+}
+
+static double mandel(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)source;
+    return escape(p.x, p.y, p.x, p.y, pattern->count);
+}
+
+static double julia(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)source;
+    return escape(p.x, p.y, pattern->vector.x, pattern->vector.y, pattern->count);
+}
+
 static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_GRADIENT] = gradient,
     [PATTERN_RADIAL] = radial,
@@ -91,6 +125,11 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_DENTS] = pattern_dents,
     [PATTERN_RIPPLES] = pattern_ripples,
     [PATTERN_WAVES] = pattern_waves,
+    [PATTERN_CELLS] = pattern_cells,
+    [PATTERN_CRACKLE] = pattern_crackle,
+    [PATTERN_SPIRAL1] = spiral1,
+    [PATTERN_MANDEL] = mandel,
+    [PATTERN_JULIA] = julia,
 };
 
 static double wave(const Pattern *pattern, double x)

@@ -110,3 +110,80 @@ Vec3 pattern_turbulent(const Pattern *pattern, const NoiseSource *source, Vec3 p
     Octaves octaves = octaves_of(pattern);
     return vec3_add(p, vec3_mul(pattern->turbulence, noise_vector_sum(source->noise, &octaves, p)));
 }
+
+// ---- cells
+
+static Vec3 whole(Vec3 p)
+{
+    return vec3(floor(p.x), floor(p.y), floor(p.z));
+}
+
+double pattern_cells(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)pattern;
+    return noise_cell(source->noise, whole(p));
+}
+
+// The length of a way, or for a metric m (|x|^m + |y|^m + |z|^m + |offset|^m)^(1/m).
+static double length_of(const Pattern *pattern, Vec3 way)
+{
+    double m = pattern->metric, x = fabs(way.x), y = fabs(way.y), z = fabs(way.z), w = fabs(pattern->offset);
+    if (m == 2.0) {
+        return sqrt(x * x + y * y + z * z + w * w);
+    }
+    return m == 1.0 ? x + y + z + w : pow(pow(x, m) + pow(y, m) + pow(z, m) + pow(w, m), 1.0 / m);
+}
+
+// The nearest sites, nearest first.
+typedef struct Nearest {
+    double way[3];
+    Vec3 site; // the nearest of all
+} Nearest;
+
+static void keep_nearest(Nearest *nearest, double way, Vec3 site)
+{
+    if (way < nearest->way[0]) {
+        nearest->site = site;
+    }
+    for (int i = 0; i < 3; i++) {
+        if (way < nearest->way[i]) {
+            double next = nearest->way[i];
+            nearest->way[i] = way;
+            way = next;
+        }
+    }
+}
+
+// How far p is from the unit cube that begins at `corner` by one coordinate.
+static double gap(double p, double corner)
+{
+    return fmax(fmax(corner - p, p - corner - 1.0), 0.0);
+}
+
+// Cubes up to two away may hold one of the three; most of them are too far to look into.
+static Nearest find_nearest(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    static const int order[] = {0, -1, 1, -2, 2};
+    Nearest nearest = {.way = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .site = p};
+    Vec3 centre = whole(p);
+    for (int i = 0; i < 125; i++) {
+        Vec3 corner = vec3_add(centre, vec3(order[i / 25], order[i / 5 % 5], order[i % 5]));
+        Vec3 least = vec3(gap(p.x, corner.x), gap(p.y, corner.y), gap(p.z, corner.z));
+        if (length_of(pattern, least) < nearest.way[2]) {
+            Vec3 site = noise_site(source->noise, corner);
+            keep_nearest(&nearest, length_of(pattern, vec3_sub(p, site)), site);
+        }
+    }
+    return nearest;
+}
+
+double pattern_crackle(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    Nearest nearest = find_nearest(pattern, source, p);
+    if (pattern->is_solid) {
+        return noise_value(source->noise, generator_of(pattern, source), nearest.site);
+    }
+    double sum = pattern->form.x * nearest.way[0] + pattern->form.y * nearest.way[1] +
+                 pattern->form.z * nearest.way[2];
+    return fmin(fmax(sum, 0.0), 1.0);
+}

@@ -19,6 +19,9 @@ double pattern_dents(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_ripples(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_waves(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 
+double pattern_cells(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+double pattern_crackle(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+
 // Where turbulence moves a point to.
 Vec3 pattern_turbulent(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 

@@ -120,6 +120,27 @@ static uint32_t nth_pigment(const PigmentEntry *entries, uint32_t first, unsigne
     return first;
 }
 
+static Rgbft plus_share(Rgbft sum, double share, Rgbft colour)
+{
+    return (Rgbft){sum.red + share * colour.red, sum.green + share * colour.green, sum.blue + share * colour.blue,
+                   sum.filter + share * colour.filter, sum.transmit + share * colour.transmit};
+}
+
+// All entries at once; their values are weights.
+static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
+{
+    const PigmentEntry *entries = table->scene->pigment_entries.items;
+    Rgbft sum = {0.0, 0.0, 0.0, 0.0, 0.0};
+    double weights = 0.0;
+    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
+        weights += entries[at].at;
+    }
+    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
+        sum = plus_share(sum, entries[at].at / weights, texture_pigment(table, &entries[at].pigment, point));
+    }
+    return sum;
+}
+
 static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
 {
     const PatternedPigment *record = &table->scene->patterns.items[index];
@@ -138,6 +159,9 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     if (form == PATTERN_OF_COLOURS) {
         return image_colour(&table->images[record->pattern.image],
                             pattern_moved(&record->pattern, &table->source, point));
+    }
+    if (form == PATTERN_OF_ALL) {
+        return average(table, record->entries, point);
     }
     uint32_t entry = nth_pigment(entries, record->entries, pattern_block(&record->pattern, &table->source, point));
     return texture_pigment(table, &entries[entry].pigment, point);
@@ -168,6 +192,20 @@ static uint32_t nth_texture(const TextureEntry *entries, uint32_t first, unsigne
     return first;
 }
 
+static void walk_average(Walk *walk, uint32_t first, Vec3 point, double part, Rgb above)
+{
+    const TextureEntry *entries = walk->table->scene->texture_entries.items;
+    double weights = 0.0;
+    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
+        weights += entries[at].at;
+    }
+    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
+        if (entries[at].at != 0.0) {
+            walk_layers(walk, entries[at].texture, point, part * entries[at].at / weights, above);
+        }
+    }
+}
+
 static void walk_pattern(Walk *walk, uint32_t index, Vec3 outer, double part, Rgb above)
 {
     const Texture *texture = &walk->table->scene->textures.items[index];
@@ -176,6 +214,10 @@ static void walk_pattern(Walk *walk, uint32_t index, Vec3 outer, double part, Rg
     if (pattern_info((PatternType)texture->pattern.type)->blocks) {
         uint32_t entry = nth_texture(entries, texture->entries, pattern_block(&texture->pattern, &walk->table->source, point));
         walk_layers(walk, entries[entry].texture, point, part, above);
+        return;
+    }
+    if (texture->pattern.type == PATTERN_AVERAGE) {
+        walk_average(walk, texture->entries, point, part, above);
         return;
     }
     Place place;

@@ -37,6 +37,12 @@ static void dump_noise_modifiers(const Pattern *pattern, TextBuffer *out)
         dump_number(out, "  agate_turb ", pattern->agate_turb);
         text_append(out, "\n");
     }
+    if (pattern->type == PATTERN_CRACKLE) {
+        dump_vector(out, "  form ", pattern->form);
+        dump_number(out, " metric ", pattern->metric);
+        dump_number(out, " offset ", pattern->offset);
+        text_append(out, pattern->is_solid ? " solid\n" : "\n");
+    }
     if (pattern->generator != 0) {
         text_printf(out, "  noise_generator %d\n", (int)pattern->generator);
     }
@@ -65,6 +71,9 @@ static void dump_pattern_word(const Pattern *pattern, TextBuffer *out)
     text_printf(out, "  %s", info->word);
     if (info->has_direction) {
         dump_vector(out, " ", pattern->vector);
+    }
+    if (info->has_count) {
+        text_printf(out, info->has_direction ? ", %d" : " %d", (int)pattern->count);
     }
 }
 

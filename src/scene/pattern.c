@@ -30,6 +30,12 @@ static const PatternInfo patterns[PATTERN_COUNT] = {
     [PATTERN_RIPPLES] = {"ripples", .uses_noise = true},
     [PATTERN_WAVES] = {"waves", .uses_noise = true},
     [PATTERN_IMAGE_MAP] = {"image_map", PATTERN_OF_COLOURS},
+    [PATTERN_CELLS] = {"cells", .uses_noise = true},
+    [PATTERN_CRACKLE] = {"crackle", .uses_noise = true},
+    [PATTERN_SPIRAL1] = {"spiral1", .has_count = true, .wave = WAVE_TRIANGLE},
+    [PATTERN_MANDEL] = {"mandel", .has_count = true},
+    [PATTERN_JULIA] = {"julia", .has_direction = true, .has_count = true},
+    [PATTERN_AVERAGE] = {"average", PATTERN_OF_ALL},
 };
 
 static const char *const waves[] = {

@@ -37,8 +37,16 @@ typedef enum PatternType {
     PATTERN_RIPPLES,
     PATTERN_WAVES,
     PATTERN_IMAGE_MAP, // colours of a picture, of pigments only
+    PATTERN_CELLS,
+    PATTERN_CRACKLE,
+    PATTERN_SPIRAL1,
+    PATTERN_MANDEL,
+    PATTERN_JULIA,
+    PATTERN_AVERAGE, // no pattern: all that lies along it, mixed
     PATTERN_COUNT
 } PatternType;
+
+enum { PATTERN_STEPS_MOST = 1000000 }; // of mandel and julia
 
 typedef enum WaveType { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY } WaveType;
 
@@ -47,7 +55,11 @@ typedef struct Pattern {
     uint32_t wave; // WaveType
     int32_t generator; // NoiseGenerator, 0: the scene's
     int32_t octaves;   // of turbulence, at least 1
-    Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar
+    int32_t count;     // spiral1: its arms; mandel, julia: steps, at least 1
+    int32_t is_solid;  // crackle: each cell has one value
+    Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar; julia: its number
+    Vec3 form;     // crackle: what the distances to the nearest three points count
+    double metric, offset; // crackle: exponent of the distance, a distance in a fourth dimension
     double mortar; // brick: width of the mortar
     double frequency, phase;
     double exponent; // WAVE_POLY
@@ -59,13 +71,19 @@ typedef struct Pattern {
 } Pattern;
 
 // What a pattern gives for a point.
-typedef enum PatternForm { PATTERN_OF_VALUES, PATTERN_OF_BLOCKS, PATTERN_OF_COLOURS } PatternForm;
+typedef enum PatternForm {
+    PATTERN_OF_VALUES,
+    PATTERN_OF_BLOCKS,
+    PATTERN_OF_COLOURS,
+    PATTERN_OF_ALL, // nothing: all that lies along it counts, by weights
+} PatternForm;
 
 typedef struct PatternInfo {
     const char *word;    // of the language
     PatternForm form;
     uint32_t blocks;     // kinds of block that fill space, 0 for another form
     bool has_direction;  // a vector follows the word
+    bool has_count;      // a whole number follows
     bool uses_noise;
     bool has_own_turbulence; // turbulence is part of the formula
     WaveType wave;           // if none is said

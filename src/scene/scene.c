@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 _Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
-_Static_assert(sizeof(Pattern) == 6 * sizeof(uint32_t) + 13 * sizeof(double), "no padding in a pattern");
+_Static_assert(sizeof(Pattern) == 8 * sizeof(uint32_t) + 18 * sizeof(double), "no padding in a pattern");
 _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(PatternedPigment) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(uint32_t), "no padding");
 _Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(Pattern) + 4 * sizeof(uint32_t),

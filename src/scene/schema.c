@@ -55,6 +55,17 @@ static const SchemaProperty pattern_modifiers[] = {
     {"dents", TYPE_ACTION, ACTION_PATTERN, .doc = "the cube of noise"},
     {"ripples", TYPE_ACTION, ACTION_PATTERN, .doc = "waves from ten points near the origin"},
     {"waves", TYPE_ACTION, ACTION_PATTERN, .doc = "the same, each of another length"},
+    {"cells", TYPE_ACTION, ACTION_PATTERN, .doc = "unit cubes, each with a value of its own"},
+    {"crackle", TYPE_ACTION, ACTION_PATTERN, .doc = "cells around one point in each unit cube"},
+    {"spiral1", TYPE_ACTION, ACTION_PATTERN, .doc = "so many arms that wind around z"},
+    {"mandel", TYPE_ACTION, ACTION_PATTERN, .doc = "the Mandelbrot set in x and y, after so many steps"},
+    {"julia", TYPE_ACTION, ACTION_PATTERN, .doc = "the Julia set of a complex number, after so many steps"},
+    {"average", TYPE_ACTION, ACTION_PATTERN, .doc = "all entries of the map at once, by their weights"},
+    {"form", TYPE_VECTOR, PATTERN_AT(form), .doc = "of `crackle`: what the distances to the nearest three points count"},
+    {"metric", TYPE_NUMBER, PATTERN_AT(metric), .range = {RANGE_FAULT, true, 0.0, INFINITY},
+     .doc = "of `crackle`: exponent of the distance"},
+    {"offset", TYPE_NUMBER, PATTERN_AT(offset), .doc = "of `crackle`: distance from space in a fourth dimension"},
+    {"solid", TYPE_ACTION, ACTION_PATTERN_SOLID, .doc = "of `crackle`: each cell has one value"},
     {"turbulence", TYPE_VECTOR, PATTERN_AT(turbulence), .doc = "moves each point by noise, so much in x, y and z"},
     {"octaves", TYPE_INTEGER, PATTERN_AT(octaves), .range = {RANGE_CLAMP, false, 1.0, 10.0},
      .doc = "of turbulence: noises added up"},
@@ -388,6 +399,7 @@ static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
 #define PATTERN_PART                                                                                                   \
     {                                                                                                                  \
         .transform = IDENTITY, .pattern = {.frequency = 1.0, .exponent = 1.0, .agate_turb = 1.0, .octaves = 6,        \
+                                            .form = {-1.0, 1.0, 0.0}, .metric = 2.0,                                   \
                                             .lambda = 2.0, .omega = 0.5}                                               \
     }
 

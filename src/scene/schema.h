@@ -79,6 +79,7 @@ typedef enum SchemaAction {
     ACTION_FINISH,
     ACTION_PATTERN,
     ACTION_WAVE,
+    ACTION_PATTERN_SOLID,
     ACTION_MAP,
     ACTION_IMAGE_MAP, // its braces
     ACTION_IMAGE,     // what stands in them
