@@ -10,6 +10,28 @@
 
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
 
+static CameraType camera_type(const CameraBlueprint *camera)
+{
+    CameraType type = CAMERA_TYPES - 1;
+    while (type > CAMERA_PERSPECTIVE && !camera->types[type]) {
+        type--;
+    }
+    return type;
+}
+
+// The second angle of a spherical camera; half of the first when it is left out.
+static bool read_vertical_angle(Block *block)
+{
+    static const SchemaProperty number = {"angle", TYPE_NUMBER, ACTION_NONE,
+                                          .at = offsetof(CameraBlueprint, angle_vertical_deg),
+                                          .range = {RANGE_FAULT, false, 0.0, (double)INFINITY}};
+    CameraBlueprint *camera = &block->record->camera;
+    const AstNode *value = cursor_peek(&block->cursor);
+    camera->angle_vertical_deg = camera->angle_deg / 2.0;
+    return !value || value->kind == AST_WORD || !cursor_at_value(&block->cursor) ||
+           block_value(block, &number, value->span);
+}
+
 bool camera_angle_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     static const SchemaProperty number = {"angle", TYPE_NUMBER, ACTION_NONE,
@@ -19,7 +41,8 @@ bool camera_angle_action(Block *block, const SchemaProperty *property, const Ast
     camera->has_angle = true;
     const AstNode *value = cursor_peek(&block->cursor);
     bool has_value = value && value->kind != AST_WORD && cursor_at_value(&block->cursor);
-    if (!has_value && camera->orthographic) {
+    CameraType type = camera_type(camera);
+    if (!has_value && type == CAMERA_ORTHOGRAPHIC) {
         camera->angle_deg = 0.0;
         return true;
     }
@@ -27,11 +50,12 @@ bool camera_angle_action(Block *block, const SchemaProperty *property, const Ast
     if (!block_value(block, &number, item->span)) {
         return false;
     }
-    if (camera->angle_deg < 0.0 || camera->angle_deg >= 180.0) {
-        return block_fault(block, DIAG_E0341, span, "`angle` must be at least 0 and less than 180, not %g",
-                           camera->angle_deg);
+    bool is_flat = type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
+    if (camera->angle_deg < 0.0 || (is_flat && camera->angle_deg >= 180.0)) {
+        return block_fault(block, DIAG_E0341, span, "`angle` must be at least 0%s, not %g",
+                           is_flat ? " and less than 180" : "", camera->angle_deg);
     }
-    return true;
+    return type != CAMERA_SPHERICAL || read_vertical_angle(block);
 }
 
 // Turns the camera so that look_at is in the middle; only lengths and handedness of the vectors are kept.
@@ -76,7 +100,8 @@ static void set_orthographic_size(CameraBlueprint *camera, Vec3 location, double
 static bool resolve(Block *block)
 {
     CameraBlueprint *camera = &block->record->camera;
-    if (camera->has_angle && camera->angle_deg != 0.0) {
+    CameraType type = camera_type(camera);
+    if (camera->has_angle && camera->angle_deg != 0.0 && type <= CAMERA_ORTHOGRAPHIC) {
         double half_angle = camera->angle_deg * radians_per_degree / 2.0;
         double length = 0.5 * vector_length(camera->right) / tan(half_angle);
         camera->direction = vec3_scale(length, vector_unit(camera->direction));
@@ -85,7 +110,7 @@ static bool resolve(Block *block)
     if (camera->has_look_at && !turn_to_look_at(block)) {
         return false;
     }
-    if (camera->orthographic) {
+    if (type == CAMERA_ORTHOGRAPHIC) {
         set_orthographic_size(camera, camera->location, direction_length);
     }
     return true;
@@ -115,8 +140,15 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
     }
     Transform world = world_transform(ev);
     scene->has_camera = true;
+    static const double default_angles[CAMERA_TYPES] = {
+        [CAMERA_FISHEYE] = 90.0, [CAMERA_ULTRA_WIDE_ANGLE] = 90.0, [CAMERA_SPHERICAL] = 360.0};
+    CameraType type = camera_type(camera);
+    bool is_given = camera->has_angle && default_angles[type] > 0.0;
+    double angle = is_given ? camera->angle_deg : default_angles[type];
     scene->camera = (Camera){
-        .type = camera->orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
+        .type = type,
+        .angle = angle,
+        .angle_vertical = type != CAMERA_SPHERICAL ? 0.0 : is_given ? camera->angle_vertical_deg : angle / 2.0,
         .location = transform_point(&world, camera->location),
         .direction = transform_direction(&world, camera->direction),
         .right = transform_direction(&world, camera->right),

@@ -9,18 +9,21 @@
 
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
 
-RT_ALWAYS_INLINE void places_closest(const Prepared *p, unsigned features, const KernelPlaces *places, Ray *rays, Hit *hits)
+// Returns the places at which the camera sees anything, a bit for each.
+RT_ALWAYS_INLINE uint64_t places_closest(const Prepared *p, unsigned features, const KernelPlaces *places, Ray *rays, Hit *hits)
 {
     const PreparedCamera *camera = &p->camera;
     if (camera->type == CAMERA_PERSPECTIVE) {
         TileView view = {camera->location, camera->direction, camera->right, camera->up};
         geometry_closest_view(p->geometry, features, &view, places->u, places->v, rays, hits);
-        return;
+        return UINT64_MAX;
     }
+    uint64_t seen = 0;
     for (int i = 0; i < TILE_RAYS; i++) {
-        rays[i] = camera_ray(camera, places->u[i], places->v[i]);
+        seen |= (uint64_t)camera_ray(camera, places->u[i], places->v[i], &rays[i]) << i;
     }
     geometry_closest_tile(p->geometry, features, rays, hits);
+    return seen;
 }
 
 RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const KernelPlaces *places,
@@ -29,7 +32,12 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const K
     Ray rays[TILE_RAYS];
     Hit hits[TILE_RAYS];
     RenderStatistics counted = *statistics;
-    places_closest(p, features, places, rays, hits);
+    uint64_t seen = places_closest(p, features, places, rays, hits);
+    for (uint64_t unseen = wanted & ~seen; unseen; unseen &= unseen - 1) {
+        light[__builtin_ctzll(unseen)] = rgb_grey(0.0);
+        counted.camera_rays++;
+    }
+    wanted &= seen;
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
         light[i] = shade_ray(p, features, rays[i], &hits[i], streams ? &streams[i] : NULL, &counted);

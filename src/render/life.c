@@ -314,16 +314,20 @@ bool life_trace(Life *life, const Prepared *prepared, int width, int height, int
     *life = (Life){.more_rays = 0};
     Follower follower = {.life = life, .p = prepared, .scale = prepared->textures.scale};
     double u = (x + 0.5) / width - 0.5, v = (y + 0.5) / height - 0.5;
-    PendingRay first = {.ray = camera_ray(&prepared->camera, u, v),
-                        .start = RAY_START_CAMERA,
+    PendingRay first = {.start = RAY_START_CAMERA,
                         .share = rgb_grey(1.0),
                         .weight = 1.0,
                         .level = 1};
+    if (!camera_ray(&prepared->camera, u, v, &first.ray)) {
+        return true;
+    }
     const Camera *camera = &prepared->scene->camera;
     life->eye = in_scene(&follower, first.ray.origin);
     Vec3 across = vec3_sub(vec3_scale(u, camera->right), vec3_scale(v, camera->up));
-    life->screen = camera->type == CAMERA_ORTHOGRAPHIC ? vec3_add(life->eye, camera->direction)
-                                                       : vec3_add(life->eye, vec3_add(camera->direction, across));
+    Vec3 ahead = camera->type == CAMERA_PERSPECTIVE    ? vec3_add(camera->direction, across)
+                 : camera->type == CAMERA_ORTHOGRAPHIC ? camera->direction
+                                                       : first.ray.direction;
+    life->screen = vec3_add(life->eye, ahead);
     Pending pending;
     RenderStatistics unused = {0};
     int parents[PENDING_MAX] = {LIFE_NONE};

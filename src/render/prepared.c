@@ -35,6 +35,19 @@ static PreparedCamera prepare_camera(const Camera *camera, int exponent)
         out.up = vec3_ldexp(camera->up, -exponent);
         return out;
     }
+    if (camera->type != CAMERA_PERSPECTIVE) {
+        out.direction = camera->direction;
+        out.right = camera->right;
+        out.up = camera->up;
+        out.across = unit(camera->right);
+        out.upright = unit(camera->up);
+        out.ahead = unit(camera->direction);
+        out.width = vec3_length(camera->right);
+        out.height = vec3_length(camera->up);
+        out.angle = camera->angle * radians_per_degree;
+        out.angle_vertical = camera->angle_vertical * radians_per_degree;
+        return out;
+    }
     // Only ratios matter, so the three share a scale of their own.
     double greatest =
         fmax(vec3_max_abs(camera->direction), fmax(vec3_max_abs(camera->right), vec3_max_abs(camera->up)));

@@ -19,6 +19,9 @@
 typedef struct PreparedCamera {
     CameraType type;
     Vec3 location, direction, right, up; // orthographic: direction is of unit length
+    // Of wider ones: unit vectors along right, up and direction, the lengths of the first two, angles in radians.
+    Vec3 across, upright, ahead;
+    double width, height, angle, angle_vertical;
 } PreparedCamera;
 
 typedef struct PreparedLight {

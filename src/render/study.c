@@ -98,6 +98,9 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     if (scene->parts.count > 0) {
         covers = refuse(diags, source_span(scene->parts.items[0].source), "a shape other than spheres and planes");
     }
+    if (scene->camera.type > CAMERA_ORTHOGRAPHIC) {
+        covers = refuse(diags, scene->camera.span, "a camera that is neither perspective nor orthographic");
+    }
     if (scene->sky.count > 0) {
         covers = refuse(diags, scene->sky_span, "a sky_sphere");
     }

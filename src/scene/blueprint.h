@@ -21,8 +21,8 @@
 typedef struct CameraBlueprint {
     Transform transform; // of all transforms so far; identity again once the camera is complete
     Vec3 location, direction, right, up, sky, look_at;
-    double angle_deg;
-    bool orthographic, perspective; // as written; perspective unless orthographic
+    double angle_deg, angle_vertical_deg;
+    bool types[CAMERA_TYPES]; // as written: at most one; else perspective
     bool has_right, has_up, has_look_at, has_angle;
 } CameraBlueprint;
 

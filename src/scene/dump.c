@@ -70,11 +70,21 @@ static void dump_settings(const Settings *settings, TextBuffer *out)
 
 static void dump_camera(const Camera *camera, TextBuffer *out)
 {
-    text_append(out, camera->type == CAMERA_ORTHOGRAPHIC ? "camera {\n  orthographic\n" : "camera {\n");
+    static const char *const types[CAMERA_TYPES] = {
+        [CAMERA_PERSPECTIVE] = "",           [CAMERA_ORTHOGRAPHIC] = "  orthographic\n",
+        [CAMERA_FISHEYE] = "  fisheye\n",    [CAMERA_ULTRA_WIDE_ANGLE] = "  ultra_wide_angle\n",
+        [CAMERA_PANORAMIC] = "  panoramic\n", [CAMERA_SPHERICAL] = "  spherical\n"};
+    text_printf(out, "camera {\n%s", types[camera->type]);
     dump_vector(out, "  location ", camera->location);
     dump_vector(out, "\n  right ", camera->right);
     dump_vector(out, "\n  up ", camera->up);
     dump_vector(out, "\n  direction ", camera->direction);
+    if (camera->type > CAMERA_ORTHOGRAPHIC && camera->type != CAMERA_PANORAMIC) {
+        dump_number(out, "\n  angle ", camera->angle);
+    }
+    if (camera->type == CAMERA_SPHERICAL) {
+        dump_number(out, ", ", camera->angle_vertical);
+    }
     text_append(out, "\n}\n");
 }
 

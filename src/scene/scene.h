@@ -1,7 +1,7 @@
 // Scene records: the treaty between the language and the renderer. Plain structs, no function pointers, no strings.
 //
 // The evaluator adds records in order of declaration; the renderer reads them and changes nothing. All transforms are
-// applied, all identifiers resolved, all defaults filled in. Lengths are in scene units, angles do not occur, colours
+// applied, all identifiers resolved, all defaults filled in. Lengths are in scene units, angles in degrees, colours
 // are in the working space of `assumed_gamma`. Each record keeps where it was written, as a global source offset.
 //
 // SPDX-License-Identifier: MIT
@@ -22,14 +22,24 @@
 #include "scene/picture.h"
 #include "scene/unique.h"
 
-typedef enum CameraType { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraType;
+typedef enum CameraType {
+    CAMERA_PERSPECTIVE,
+    CAMERA_ORTHOGRAPHIC,
+    CAMERA_FISHEYE,
+    CAMERA_ULTRA_WIDE_ANGLE,
+    CAMERA_PANORAMIC,
+    CAMERA_SPHERICAL,
+    CAMERA_TYPES
+} CameraType;
 
 // A pixel at (u, v), each from -1/2 (left, top) to 1/2 (right, bottom), looks
 //   perspective:   from location along direction + u right - v up
 //   orthographic:  from location + u right - v up along direction
+//   else:          from location, as render/camera.h has it
 typedef struct Camera {
     CameraType type;
     Vec3 location, direction, right, up;
+    double angle, angle_vertical; // in degrees; of a fisheye, an ultra wide angle and a spherical camera; of the last, both
     Span span;
 } Camera;
 

@@ -105,8 +105,18 @@ static const SchemaProperty object_modifiers[] = {
 // ---- kinds
 
 static const SchemaProperty camera_properties[] = {
-    {"perspective", TYPE_FLAG, AT(CameraBlueprint, perspective), .is_first = true, .doc = "the default type"},
-    {"orthographic", TYPE_FLAG, AT(CameraBlueprint, orthographic), .is_first = true, .doc = "all rays are parallel"},
+    {"perspective", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_PERSPECTIVE]), .is_first = true,
+     .doc = "the default type"},
+    {"orthographic", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_ORTHOGRAPHIC]), .is_first = true,
+     .doc = "all rays are parallel"},
+    {"fisheye", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_FISHEYE]), .is_first = true,
+     .doc = "a disc of directions, `angle` across, 90; black outside of it"},
+    {"ultra_wide_angle", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_ULTRA_WIDE_ANGLE]), .is_first = true,
+     .doc = "angles grow evenly from the middle, to `angle` across, 90"},
+    {"panoramic", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_PANORAMIC]), .is_first = true,
+     .doc = "half a turn from left to right; heights as on a cylinder"},
+    {"spherical", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_SPHERICAL]), .is_first = true,
+     .doc = "longitude and latitude; `angle` across and, after it, upright: 360 and half of that"},
     {"location", TYPE_VECTOR, AT(CameraBlueprint, location), .doc = "where the eye is"},
     {"direction", TYPE_VECTOR, AT(CameraBlueprint, direction), .doc = "from the eye to the middle of the picture"},
     {"right", TYPE_VECTOR, AT(CameraBlueprint, right), GIVEN(CameraBlueprint, has_right),
@@ -116,7 +126,7 @@ static const SchemaProperty camera_properties[] = {
     {"look_at", TYPE_VECTOR, AT(CameraBlueprint, look_at), GIVEN(CameraBlueprint, has_look_at),
      .doc = "a point in the middle of the picture; `direction`, `right` and `up` keep only their lengths"},
     {"angle", TYPE_ACTION, ACTION_ANGLE, AT(CameraBlueprint, angle_deg), GIVEN(CameraBlueprint, has_angle),
-     .doc = "the field of view from left to right in degrees, 0 to 180; sets the length of `direction`"},
+     .doc = "the field of view from left to right in degrees, of a perspective camera 0 to 180; there it sets the length of `direction`"},
 };
 
 static const CameraBlueprint camera_defaults = {
@@ -682,10 +692,7 @@ static const SchemaUnsupported unsupported[] = {
     {"superellipsoid", true, "use a sphere with `scale`"},
     {"text", true, NULL},
     {"torus", true, "use a `union` of spheres"},
-    {"turbulence", false, NULL},
-    {"omega", false, NULL},
-    {"lambda", false, NULL},
-    {"octaves", false, NULL},
+    {"cylinder", false, "a `panoramic` camera is near"},
     {"inverse", false, "leave it out: both sides of a surface look alike"},
     {"no_shadow", false, "a light may be `shadowless`"},
     {"fresnel", false, "give `reflection { min, max }`"},
