@@ -76,9 +76,9 @@ tests_unit_test_noise_SOURCES = %D%/unit/test_noise.c
 tests_unit_test_noise_LDADD = libmath.la libbase.la
 tests_unit_test_math_SOURCES = %D%/unit/test_math.c
 tests_unit_test_math_LDADD = libmath.la libbase.la
-tests_unit_test_trace_sphere_SOURCES = %D%/unit/test_trace_sphere.c %D%/unit/sphere_cases.h
+tests_unit_test_trace_sphere_SOURCES = %D%/unit/test_trace_sphere.c
 tests_unit_test_trace_sphere_LDADD = $(UNIT_TRACE)
-tests_unit_test_trace_certified_SOURCES = %D%/unit/test_trace_certified.c %D%/unit/sphere_cases.h $(unit_headers)
+tests_unit_test_trace_certified_SOURCES = %D%/unit/test_trace_certified.c $(unit_headers)
 tests_unit_test_trace_certified_LDADD = $(UNIT_TRACE)
 if WITH_MPFR
 tests_unit_test_trace_certified_CPPFLAGS = $(AM_CPPFLAGS) -DWITH_MPFR

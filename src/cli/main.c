@@ -13,6 +13,8 @@
 #include "cli/progress.h"
 #include "rtlang/rtlang.h"
 
+enum { OUTPUT_BUFFER = 1 << 16 }; // more than --help says
+
 // What an interrupt stops, and which one it was; at file scope, because a signal handler has no other way to them.
 static rt_session *volatile interrupted_session;
 static volatile sig_atomic_t interrupted_by;
@@ -358,6 +360,9 @@ static rt_status run(rt_session *session, const Options *options, Progress *prog
 int main(int argc, char **argv)
 {
     Options options;
+    // --help waits there until `print` can say what went wrong. Never freed: it serves to the end of the program.
+    char *buffer = malloc(OUTPUT_BUFFER);
+    setvbuf(stdout, buffer, buffer ? _IOFBF : _IONBF, OUTPUT_BUFFER);
     OptionsResult parsed = options_parse(argc, argv, &options);
     Progress progress = {0};
     rt_callbacks callbacks = {&progress, on_diagnostic, on_message, on_progress};

@@ -139,10 +139,13 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
         eval_warn(ev, DIAG_W0406, span, "more than one camera: only the last one counts");
     }
     Transform world = world_transform(ev);
+    CameraType type = camera_type(camera);
+    // The wide cameras take no lengths from their vectors but those on the screen.
+    bool has_lengths = type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
+    Transform turn = has_lengths ? world : transform_identity();
     scene->has_camera = true;
     static const double default_angles[CAMERA_TYPES] = {
         [CAMERA_FISHEYE] = 90.0, [CAMERA_ULTRA_WIDE_ANGLE] = 90.0, [CAMERA_SPHERICAL] = 360.0};
-    CameraType type = camera_type(camera);
     bool is_given = camera->has_angle && default_angles[type] > 0.0;
     double angle = is_given ? camera->angle_deg : default_angles[type];
     scene->camera = (Camera){
@@ -150,9 +153,9 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
         .angle = angle,
         .angle_vertical = type != CAMERA_SPHERICAL ? 0.0 : is_given ? camera->angle_vertical_deg : angle / 2.0,
         .location = transform_point(&world, camera->location),
-        .direction = transform_direction(&world, camera->direction),
-        .right = transform_direction(&world, camera->right),
-        .up = transform_direction(&world, camera->up),
+        .direction = transform_direction(&turn, camera->direction),
+        .right = transform_direction(&turn, camera->right),
+        .up = transform_direction(&turn, camera->up),
         .span = span,
     };
     return true;

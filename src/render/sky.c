@@ -19,6 +19,9 @@ Rgb sky_light(const Prepared *p, Vec3 direction)
     Rgb above = rgb_grey(1.0), filtered = rgb_grey(1.0);
     double filtering = 1.0, clear = 1.0;
     bool old = is_old(p->scene);
+    if (p->scene->sky.count == 0) {
+        return p->background;
+    }
     for (size_t i = 0; i < p->scene->sky.count; i++) {
         Rgbft layer = texture_pigment(&p->textures, &p->scene->sky.items[i], direction);
         double opaque = 1.0 - layer.filter - layer.transmit;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The same scenes given to rtlang and to POV-Ray by rtcheck: the pictures must agree in every pixel but silhouette ties.
 
-All of tests/povray/*.scn and examples/*.scn at 320x240 without anti-aliasing; a scene's line tells the greatest difference and
-how many pixels are beyond 2/65535. A scene that says nothing of gamma is compared as stored codes, which both programs then
+All of tests/povray/*.scn, tests/povray/mapped/*.scn (whose image files are made first) and examples/*.scn at 320x240
+without anti-aliasing; a scene's line tells the greatest difference and how many pixels are beyond 2/65535. A scene that says nothing of gamma is compared as stored codes, which both programs then
 write as they are. Prints TAP.
 SPDX-License-Identifier: MIT
 """
@@ -23,7 +23,7 @@ MISSING_TOOL = 3  # rtcheck's exit code when it cannot run POV-Ray or cannot rea
 
 
 def scenes():
-    return [scene for folder in ("tests/povray", "examples") for scene in sorted(glob.glob(f"{TOP}/{folder}/*.scn"))]
+    return [scene for folder in ("tests/povray", "tests/povray/mapped", "examples") for scene in sorted(glob.glob(f"{TOP}/{folder}/*.scn"))]
 
 
 def run_rtcheck(names, povray, folders):

@@ -29,6 +29,9 @@ typedef struct Exception {
 
 static const Exception exceptions[] = {
     {"interior_total_reflection", "a border of its checker lies in its plane, so the rounding of 8e20 decides", false},
+    {"pattern_cells", "borders of its cells lie in the middle of pixels", false},
+    {"pigment_below_zero", "a border of its checker lies in its plane", false},
+    {"pattern_noise_marble", "a jump of its map lies in the middle of pixels", false},
 };
 
 static const double nowhere[3] = {0.0, 0.0, 0.0};
