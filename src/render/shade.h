@@ -74,7 +74,7 @@ typedef struct ShadeOnward {
     bool conserves_energy;
 } ShadeOnward;
 
-// The same as shade_surface for patterns and layers; not inline, for it costs more than a call. In kernel.c's company.
+// The same as shade_surface for patterns and layers; not inline, for it costs more than a call. In render/compound.c.
 // `weight` is the ray's.
 Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
                    RenderStatistics *statistics);

@@ -1,0 +1,11 @@
+// Kernels of scenes with any shape.
+//
+// SPDX-License-Identifier: MIT
+#include "render/kernel_instance.h"
+
+#define KERNELS(X)                                                                                                     \
+    X(any_shadows, "all shapes+shadows", GEOMETRY_ANY, SHADING_SHADOWS)                                                \
+    X(any_any, "everything", GEOMETRY_ANY, SHADING_ANY | RENDER_EXPONENT | RENDER_TEXTURES | RENDER_INTERIORS |        \
+                                               RENDER_LIGHTS | RENDER_SKY | RENDER_FOG)
+
+DEFINE_KERNELS(kernels_any, KERNELS)

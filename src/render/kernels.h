@@ -1,0 +1,21 @@
+// The lists of kernels, one for each kernel_*.c; private to render/kernel.c and to them.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_KERNELS_H
+#define RENDER_KERNELS_H
+
+#include <stddef.h>
+
+#include "render/kernel.h"
+
+typedef struct KernelList {
+    const Kernel *kernels;
+    size_t count;
+} KernelList;
+
+extern const KernelList kernels_few;  // some spheres, perhaps planes: no tree
+extern const KernelList kernels_many; // trees of spheres, surfaces of one colour
+extern const KernelList kernels_rich; // trees of spheres with textures, glass, sky or fog
+extern const KernelList kernels_any;  // every shape; the last one does all there is
+
+#endif
