@@ -432,11 +432,11 @@ static void refuse_unsupported(Block *block, const AstNode *item)
 static void refuse_word(Block *block, const AstNode *item)
 {
     SchemaKind kind = block_kind(block->ev, item);
-    if (object_is_statement(kind)) {
-        block_fault(block, DIAG_E0256, item->span,
-                    object_is_group(block->kind) && schema_kind(kind)->is_object ? "`%s` must stand before the properties of the union"
-                                                 : "`%s` cannot stand here",
-                    schema_kind(kind)->word);
+    if (object_is_group(block->kind) && schema_kind(kind)->is_object) {
+        block_fault(block, DIAG_E0256, item->span, "`%s` must stand before the properties of the %s",
+                    schema_kind(kind)->word, block_word(block));
+    } else if (object_is_statement(kind)) {
+        block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand here", schema_kind(kind)->word);
     } else if (word_class(item->symbol) == WORD_COLOUR) {
         block_fault(block, DIAG_E0254, item->span, "no colour is expected here in %s", block_word(block));
     } else if (item->kind == AST_BLOCK && item->symbol >= WORD_COUNT && object_is_group(block->kind)) {

@@ -130,8 +130,8 @@ static Extent cone_box(Vec3 base, double base_radius, Vec3 cap, double cap_radiu
 {
     bool is_wide_at_cap = cap_radius > base_radius;
     Vec3 wide = is_wide_at_cap ? cap : base, narrow = is_wide_at_cap ? base : cap;
-    double radius = fmax(base_radius, cap_radius), begin = fmin(base_radius, cap_radius) / radius;
-    begin = begin == 1.0 ? 0.0 : begin;
+    double radius = fmax(base_radius, cap_radius);
+    double begin = base_radius == cap_radius ? 0.0 : fmin(base_radius, cap_radius) / radius;
     Vec3 axis = vec3_scale(1.0 / (1.0 - begin), vec3_sub(wide, narrow));
     Extent own = extent_of((double[]){-1.0, -1.0, begin}, (double[]){1.0, 1.0, 1.0});
     return turned_from(&own, frame(axis, radius, vec3_length(axis), vec3_sub(wide, axis)), transform);
@@ -371,8 +371,7 @@ static bool note_union(Block *block, const Transform *transform)
 
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span)
 {
-    bool is_group = block->is >= KIND_UNION && block->is <= KIND_DIFFERENCE;
-    bool fine = is_group                                     ? note_union(block, transform)
+    bool fine = object_is_group(block->is)                   ? note_union(block, transform)
                 : block->is == KIND_SPHERE && !keeps_spheres ? note_sphere(block)
                                                              : true;
     return fine || eval_no_memory(block->ev, span);

@@ -42,12 +42,18 @@ typedef struct Branch {
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer);
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *branch);
 
+// Each shape once, be it alone or in a composite.
+static uint64_t shapes_placed(const Scene *scene)
+{
+    return (uint64_t)scene->spheres.count + scene->ellipsoids.count + scene->planes.count + scene->parts.count;
+}
+
 static bool may_add(Eval *ev, Span span)
 {
     if (eval_cancelled(ev)) {
         return false;
     }
-    if ((uint64_t)ev->scene->shape_count + ev->scene->parts.count >= ev->options.limits->objects) {
+    if (shapes_placed(ev->scene) >= ev->options.limits->objects) {
         if (eval_report(ev, DIAG_E0490, span, "more than %llu shapes in the scene",
                         (unsigned long long)ev->options.limits->objects)) {
             diag_suggest(ev->options.diags, "`--max-objects` allows more");
@@ -180,6 +186,11 @@ static bool clips_matter(Eval *ev, const ClipChain *chain, const Part *shape)
 
 static bool add_node(Eval *ev, NodeOp op, bool is_inverse, uint32_t parent, Span span, uint32_t *index)
 {
+    const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
+    if (ev->scene->nodes.count - composite->first_node >= COMPOSITE_NODES_MOST) {
+        return eval_fault(ev, DIAG_E0363, span, "more than %d groups and empty shapes are cut with one another",
+                          COMPOSITE_NODES_MOST);
+    }
     return scene_add_node(ev->scene, op, is_inverse, parent, span.begin, index) || eval_no_memory(ev, span);
 }
 

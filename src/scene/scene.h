@@ -242,8 +242,8 @@ typedef struct Node {
     uint64_t source;
 } Node;
 
-// A ray keeps a few words for each leaf of a composite on its stack.
-enum { COMPOSITE_PARTS_MOST = 10000 };
+// A ray keeps a few words for each leaf and node of a composite on its stack.
+enum { COMPOSITE_PARTS_MOST = 10000, COMPOSITE_NODES_MOST = 20000 };
 
 // A tree of nodes over parts. Nodes and parts stand in the order of the text, a node before what is in it.
 typedef struct Composite {

@@ -693,14 +693,10 @@ static const SchemaUnsupported unsupported[] = {
     {"text", true, NULL},
     {"torus", true, "use a `union` of spheres"},
     {"cylinder", false, "a `panoramic` camera is near"},
-    {"inverse", false, "leave it out: both sides of a surface look alike"},
-    {"no_shadow", false, "a light may be `shadowless`"},
-    {"fresnel", false, "give `reflection { min, max }`"},
     {"gif", false, "save the picture as PNG"},
     {"iff", false, "save the picture as PNG"},
     {"sys", false, "POV-Ray does not read it here either: save the picture as PNG"},
     {"use_index", false, NULL},
-    {"ior", false, "nothing is refracted; `filter` and `transmit` let light through straight"},
 };
 
 const SchemaBlock *schema_kind(SchemaKind kind)
