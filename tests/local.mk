@@ -201,6 +201,7 @@ lang_cases = \
   %D%/lang/limits.test \
   %D%/lang/loops.test \
   %D%/lang/macros.test \
+  %D%/lang/normal.test \
   %D%/lang/pattern.test \
   %D%/lang/pigment.test \
   %D%/lang/plane.test \

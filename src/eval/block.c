@@ -21,8 +21,8 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_SCALE] = transform_action,        [ACTION_MATRIX] = transform_action,
     [ACTION_TRANSFORM] = transform_action,    [ACTION_TEXTURE] = texture_action,
     [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
-    [ACTION_PATTERN] = pattern_action,        [ACTION_WAVE] = pattern_wave_action,
-    [ACTION_PATTERN_SOLID] = pattern_solid_action,
+    [ACTION_NORMAL] = texture_action,         [ACTION_PATTERN] = pattern_action,
+    [ACTION_WAVE] = pattern_wave_action,      [ACTION_PATTERN_SOLID] = pattern_solid_action,
     [ACTION_MAP] = pattern_map_action,        [ACTION_INTERIOR] = interior_action,
     [ACTION_MATERIAL] = material_action,      [ACTION_IMAGE_MAP] = image_map_action,
     [ACTION_IMAGE] = image_action,
@@ -43,6 +43,8 @@ static const BlockHook bodies[KIND_COUNT] = {
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,
     [KIND_IMAGE_MAP] = image_body,
+    [KIND_NORMAL_MAP] = pattern_map_body,
+    [KIND_SLOPE_MAP] = pattern_map_body,
 };
 
 // At the closing brace.
@@ -52,8 +54,8 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
     [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
-    [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close,     [KIND_LIGHT_SOURCE] = light_close,
-    [KIND_IMAGE_MAP] = image_close,
+    [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close, [KIND_NORMAL] = normal_close,
+    [KIND_IMAGE_MAP] = image_close, [KIND_LIGHT_SOURCE] = light_close,
 };
 
 SchemaKind block_kind(const Eval *ev, const AstNode *node)
@@ -88,6 +90,7 @@ void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
     switch (kind) {
     case KIND_TEXTURE: record->texture = *ev->objects->defaults; break;
     case KIND_PIGMENT: record->pigment = ev->objects->defaults->pigment; break;
+    case KIND_NORMAL: record->normal = ev->objects->defaults->normal; break;
     case KIND_FINISH: record->finish.finish = ev->objects->defaults->finish; break;
     case KIND_GLOBAL_SETTINGS:
         record->settings.ambient_light = settings->ambient_light;
@@ -382,8 +385,8 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
 static void read_arguments(Block *block)
 {
     const SchemaList *list = &schema_kind(block->kind)->arguments;
-    // `pigment { P rgb … }` takes P's place in everything else.
-    if (block->has_name && block->kind != KIND_PIGMENT) {
+    // `pigment { P rgb … }` takes P's place in everything else, as does `normal { N 0.3 … }`.
+    if (block->has_name && block->kind != KIND_PIGMENT && block->kind != KIND_NORMAL) {
         return;
     }
     for (size_t i = 0; i < list->count; i++) {

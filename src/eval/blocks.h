@@ -105,6 +105,7 @@ bool pattern_map_body(Block *block) RT_MUST_CHECK;
 // What lies along a pattern of which nothing is said.
 const PatternMap *pattern_default_map(PatternType type);
 bool pattern_close(Block *block) RT_MUST_CHECK; // of a pigment or texture
+bool normal_close(Block *block) RT_MUST_CHECK;
 // A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
 bool block_begins_like_colour(Block *block, const AstNode *item);
 

@@ -85,6 +85,108 @@ static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment,
     return is_added;
 }
 
+// ---- bumps
+
+static bool add_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer, bool keeps_length,
+                       uint32_t *index);
+
+static bool add_slopes(const Builder *builder, const PatternMap *map, uint32_t *first)
+{
+    *first = RECORD_NONE;
+    for (size_t i = map->count; i-- > 0;) {
+        const PatternEntry *from = &map->entries[i];
+        SlopeEntry entry = {.at = from->at, .height = from->height, .slope = from->slope, .next = *first};
+        if (!eval_step(builder->ev, builder->span)) {
+            return false;
+        }
+        if (!scene_add_slope_entry(builder->ev->scene, &entry, first)) {
+            return no_memory(builder);
+        }
+    }
+    return true;
+}
+
+static bool add_normal_entries(const Builder *builder, const PatternMap *map, uint32_t *first)
+{
+    Transform identity = transform_identity();
+    *first = RECORD_NONE;
+    for (size_t i = map->count; i-- > 0;) {
+        NormalEntry entry = {.at = map->entries[i].at, .next = *first};
+        if (!eval_step(builder->ev, builder->span) ||
+            !add_normal(builder, map->entries[i].normal, &identity, false, &entry.normal)) {
+            return false;
+        }
+        if (!scene_add_normal_entry(builder->ev->scene, &entry, first)) {
+            return no_memory(builder);
+        }
+    }
+    return true;
+}
+
+static bool add_one_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer,
+                           bool keeps_length, uint32_t *index)
+{
+    Normal record = {
+        .to_world = transform_identity(),
+        .pattern = normal->part.pattern,
+        .amount = normal->amount,
+        .accuracy = normal->accuracy,
+        .slopes = RECORD_NONE,
+        .entries = RECORD_NONE,
+        .flags = keeps_length || normal->keeps_length ? NORMAL_KEEPS_LENGTH : 0,
+    };
+    if (!place_pattern(builder, &normal->part.transform, outer, &record.to_world) ||
+        (normal->part.map && !add_normal_entries(builder, normal->part.map, &record.entries)) ||
+        (normal->slopes && !normal->part.map && !pattern_info((PatternType)record.pattern.type)->blocks &&
+         !add_slopes(builder, normal->slopes, &record.slopes))) {
+        return false;
+    }
+    return scene_add_normal(builder->ev->scene, &record, index) || no_memory(builder);
+}
+
+static bool add_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer, bool keeps_length,
+                       uint32_t *index)
+{
+    if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
+        return false;
+    }
+    bool is_added = add_one_normal(builder, normal, outer, keeps_length, index);
+    eval_shallow(builder->ev, TREE_DEPTH_WEIGHT);
+    return is_added;
+}
+
+static bool has_bumps(const TextureBlueprint *texture)
+{
+    const NormalBlueprint *normal = &texture->normal;
+    return normal->part.pattern.type != PATTERN_NONE && (normal->amount != 0.0 || normal->part.map);
+}
+
+// In how many directions the bumps of a texture may send rays at one point, but for those of its flat layers.
+static unsigned ways_of(const TextureBlueprint *texture)
+{
+    unsigned ways = 0, most = 0, sum = 0;
+    if (texture->part.pattern.type == PATTERN_NONE) {
+        for (const TextureBlueprint *layer = texture; layer; layer = layer->below) {
+            const Finish *finish = &layer->finish;
+            bool has_mirror = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max);
+            ways += has_bumps(layer) && (layer == texture || has_mirror);
+        }
+        return ways;
+    }
+    const PatternMap *map = texture->part.map;
+    for (size_t i = 0; i < map->count; i++) {
+        ways = ways_of(map->entries[i].texture);
+        most = ways > most ? ways : most;
+        sum += sum > SCENE_NORMALS_MOST ? 0 : ways;
+    }
+    if (pattern_info((PatternType)texture->part.pattern.type)->blocks) {
+        return most;
+    }
+    return texture->part.pattern.type == PATTERN_AVERAGE || sum < 2 * most ? sum : 2 * most;
+}
+
+// ---- textures
+
 static bool add_texture_entries(const Builder *builder, const PatternMap *map, uint32_t *first)
 {
     Transform identity = transform_identity();
@@ -118,6 +220,7 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
         .to_world = transform_identity(),
         .pattern = texture->part.pattern,
         .entries = RECORD_NONE,
+        .normal = RECORD_NONE,
     };
     Transform moved = transform_compose(texture->part.transform, *outer);
     if (!scene_add_finish(builder->ev->scene, &texture->finish, &record.finish)) {
@@ -129,6 +232,8 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
             return false;
         }
     } else if (!add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
+               (has_bumps(texture) &&
+                !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
                (texture->below && !hides_all(texture) &&
                 !add_texture(builder, texture->below, &moved, &record.below))) {
         return false;
@@ -179,10 +284,15 @@ bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *
         return false;
     }
     bool is_plain = texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE;
-    if (is_plain && (!texture->below || hides_all(texture)) && compound.interior == RECORD_NONE) {
+    if (is_plain && !has_bumps(texture) && (!texture->below || hides_all(texture)) &&
+        compound.interior == RECORD_NONE) {
         Finish finish = texture->finish;
         finish.flags |= is_hollow ? FINISH_HOLLOW : 0;
         return scene_add_material(ev->scene, texture->pigment.colour, &finish, index) || eval_no_memory(ev, span);
+    }
+    if (ways_of(texture) > SCENE_NORMALS_MOST) {
+        return eval_fault(ev, DIAG_E0295, span, "the bumps of this texture send rays in more than %d directions",
+                          (int)SCENE_NORMALS_MOST);
     }
     if (!add_texture(&builder, texture, outer, &compound.texture)) {
         return false;

@@ -46,6 +46,7 @@ static bool keep_entry(Block *block, SchemaKind kind, const Blueprint *record, S
     }
     entry->pigment = kind == KIND_PIGMENT ? kept : NULL;
     entry->texture = kind == KIND_TEXTURE ? kept : NULL;
+    entry->normal = kind == KIND_NORMAL ? kept : NULL;
     return true;
 }
 
@@ -80,11 +81,39 @@ static bool read_colour_entry(Block *block, Cursor *cursor, EntryList *list, con
            (read_colour(block, cursor, &second.colour) && add_entry(block, list, &second, node->span));
 }
 
-static bool read_colours(Block *block, EntryList *list, const AstNode *node)
+// `[at <height, slope>]`
+static bool read_slope_entry(Block *block, Cursor *cursor, EntryList *list, const AstNode *node)
+{
+    PatternEntry entry = {0};
+    Value value;
+    Span span = node->span;
+    if (!cursor_number(cursor, &entry.at, &span)) {
+        return false;
+    }
+    const AstNode *item = cursor_peek(cursor);
+    if (!item || !cursor_at_value(cursor)) {
+        return block_fault(block, DIAG_E0253, node->span, "an entry of a slope_map needs `<height, slope>`");
+    }
+    if (!cursor_value(cursor, &value)) {
+        return false;
+    }
+    bool is_pair = value.kind == VALUE_VECTOR && value.components == 2;
+    if (!is_pair && value.kind != VALUE_NUMBER) {
+        return block_fault(block, DIAG_E0254, item->span, "an entry of a slope_map needs `<height, slope>`, not %s",
+                           value_describe(&value));
+    }
+    entry.height = value.v[0]; // a number is a vector of twice the same
+    entry.slope = is_pair ? value.v[1] : value.number;
+    return block_finite(block, entry.at + entry.height + entry.slope, node->span, "slope_map") &&
+           add_entry(block, list, &entry, node->span);
+}
+
+static bool read_values(Block *block, EntryList *list, const AstNode *node)
 {
     Cursor cursor;
     cursor_open(&cursor, block->ev, node->a, node->span);
-    bool is_fine = read_colour_entry(block, &cursor, list, node);
+    bool is_fine = block->kind == KIND_SLOPE_MAP ? read_slope_entry(block, &cursor, list, node)
+                                                 : read_colour_entry(block, &cursor, list, node);
     const AstNode *rest = is_fine ? cursor_peek(&cursor) : NULL;
     if (rest) {
         is_fine = block_fault(block, DIAG_E0254, rest->span, "one value too many in the entry of a map");
@@ -95,10 +124,12 @@ static bool read_colours(Block *block, EntryList *list, const AstNode *node)
 
 static bool read_entry(Block *block, EntryList *list, const AstNode *node)
 {
-    if (block->kind == KIND_COLOUR_MAP) {
-        return read_colours(block, list, node);
+    if (block->kind == KIND_COLOUR_MAP || block->kind == KIND_SLOPE_MAP) {
+        return read_values(block, list, node);
     }
-    SchemaKind kind = block->kind == KIND_PIGMENT_MAP ? KIND_PIGMENT : KIND_TEXTURE;
+    SchemaKind kind = block->kind == KIND_PIGMENT_MAP   ? KIND_PIGMENT
+                      : block->kind == KIND_TEXTURE_MAP ? KIND_TEXTURE
+                                                        : KIND_NORMAL;
     Blueprint record;
     PatternEntry entry = {0};
     block_defaults(block->ev, kind, &record);
@@ -126,10 +157,14 @@ bool pattern_map_body(Block *block)
 
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    (void)property;
     Blueprint record;
     SchemaKind is;
     SchemaKind kind = block_kind(block->ev, item);
+    PatternType type = (PatternType)block->record->patterned.pattern.type;
+    if (pattern_info(type)->blocks || type == PATTERN_QUILTED || (type == PATTERN_AVERAGE && kind == KIND_SLOPE_MAP)) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
+                           pattern_info(type)->word);
+    }
     block_defaults(block->ev, kind, &record);
     if (!block_read(block->ev, item, kind, block->arena, &record, &is)) {
         return false;
@@ -137,6 +172,10 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     PatternMap *map = arena_copy(block->arena, &record.map, sizeof record.map);
     if (!map) {
         return eval_no_memory(block->ev, item->span);
+    }
+    if (block->kind == KIND_NORMAL) {
+        block->record->normal.slopes = kind == KIND_SLOPE_MAP ? map : NULL;
+        map = kind == KIND_SLOPE_MAP ? NULL : map;
     }
     block->record->patterned.map = map;
     return true;
@@ -158,7 +197,7 @@ static bool read_block_entry(Block *block, EntryList *list, bool *is_there)
 {
     PatternEntry entry = {.at = (double)list->count};
     const AstNode *item = cursor_peek(&block->cursor);
-    SchemaKind kind = block->kind == KIND_TEXTURE ? KIND_TEXTURE : KIND_PIGMENT;
+    SchemaKind kind = block->kind;
     *is_there = true;
     if (item && block_kind(block->ev, item) == kind) {
         Blueprint record;
@@ -206,6 +245,13 @@ static bool read_block_entries(Block *block, PatternType type, Span span)
         return block_fault(block, DIAG_E0253, span, "`%s` needs %u textures after it", pattern_info(type)->word,
                            wanted);
     }
+    if (block->kind == KIND_NORMAL && list.count == 0) {
+        return true; // an amount follows
+    }
+    if (block->kind == KIND_NORMAL && list.count < wanted) {
+        return block_fault(block, DIAG_E0253, span, "`%s` needs %u normals after it, or an amount",
+                           pattern_info(type)->word, wanted);
+    }
     while (list.count < wanted) {
         if (!add_entry(block, &list, &defaults[list.count], span)) {
             return false;
@@ -236,6 +282,20 @@ bool pattern_solid_action(Block *block, const SchemaProperty *property, const As
     return true;
 }
 
+// The depth that may follow the pattern of a normal, unless normals do.
+static bool read_amount(Block *block)
+{
+    static const SchemaProperty amount = {"normal", TYPE_NUMBER, ACTION_NONE, .at = offsetof(NormalBlueprint, amount)};
+    const AstNode *item = cursor_peek(&block->cursor);
+    const PatternPart *part = &block->record->patterned;
+    bool has_normals = part->map && pattern_info((PatternType)part->pattern.type)->blocks;
+    if (block->kind != KIND_NORMAL || has_normals || !item || item->kind == AST_WORD ||
+        !cursor_at_value(&block->cursor)) {
+        return true;
+    }
+    return block_value(block, &amount, item->span);
+}
+
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     const SchemaProperty direction = {property->word, TYPE_VECTOR, ACTION_NONE,
@@ -245,8 +305,12 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     Pattern *pattern = &block->record->patterned.pattern;
     PatternType type = type_of(property->word);
     const PatternInfo *before = pattern_info((PatternType)pattern->type), *info = pattern_info(type);
-    // A list of blocks is no map along values, nor the other way round.
-    if (before->blocks) {
+    if (block->items > 1 || block->arguments > 0) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s", property->word,
+                           block_word(block));
+    }
+    // A list of blocks is no map along values, nor the other way round; but a list of normals becomes one. Measured.
+    if (block->kind == KIND_NORMAL ? info->blocks != 0 : before->blocks != 0) {
         block->record->patterned.map = NULL;
     }
     pattern->type = type;
@@ -255,16 +319,19 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
         pattern->vector = vec3(8.0, 3.0, 4.5);
         pattern->mortar = 0.5;
     }
+    if (type == PATTERN_QUILTED) {
+        pattern->vector = vec3(1.0, 1.0, 0.0);
+    }
     if (info->has_direction && !block_value(block, &direction, item->span)) {
         return false;
     }
     if (type == PATTERN_GRADIENT && vec3_length_squared(pattern->vector) == 0.0) {
         return block_fault(block, DIAG_E0342, item->span, "the direction of a gradient cannot be <0, 0, 0>");
     }
-    if (info->has_count) {
-        return block_value(block, &count, item->span) && check_count(block, pattern, item->span);
+    if (info->has_count && (!block_value(block, &count, item->span) || !check_count(block, pattern, item->span))) {
+        return false;
     }
-    return !info->blocks || read_block_entries(block, type, item->span);
+    return (!info->blocks || read_block_entries(block, type, item->span)) && read_amount(block);
 }
 
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item)
@@ -291,14 +358,44 @@ static bool average_has_weights(Block *block)
 }
 
 // POV-Ray keeps lambda and omega in single precision.
-bool pattern_close(Block *block)
+static bool settle_values(Block *block)
 {
     PatternPart *part = &block->record->patterned;
     part->pattern.lambda = (float)part->pattern.lambda;
     part->pattern.omega = (float)part->pattern.omega;
     const Vec3 *size = &part->pattern.vector;
-    if (part->pattern.type == PATTERN_BRICK && (size->x == 0.0 || size->y == 0.0 || size->z == 0.0)) {
-        return block_fault(block, DIAG_E0342, block->node->span, "no component of `brick_size` can be 0");
+    bool is_flat = size->x == 0.0 || size->y == 0.0 || size->z == 0.0;
+    return part->pattern.type != PATTERN_BRICK || !is_flat ||
+           block_fault(block, DIAG_E0342, block->node->span, "no component of `brick_size` can be 0");
+}
+
+bool normal_close(Block *block)
+{
+    const PatternPart *part = &block->record->patterned;
+    if (block->has_unsupported) {
+        return true; // which may have been the pattern
+    }
+    if (part->pattern.type == PATTERN_NONE) {
+        return block_fault(block, DIAG_E0253, block->node->span, "a normal needs a pattern");
+    }
+    if (part->pattern.type == PATTERN_AVERAGE && !average_has_weights(block)) {
+        return false;
+    }
+    if (part->pattern.type == PATTERN_QUILTED && part->map) {
+        return block_fault(block, DIAG_E0256, block->node->span, "`normal_map` cannot stand beside `quilted`");
+    }
+    return settle_values(block);
+}
+
+bool pattern_close(Block *block)
+{
+    const PatternPart *part = &block->record->patterned;
+    if (!settle_values(block)) {
+        return false;
+    }
+    if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && block->record->texture.keeps_length) {
+        block_unsupported(block->ev, "no_bump_scale", block->node->span, KIND_TEXTURE_MAP);
+        block->has_unsupported = true;
     }
     if (part->pattern.type == PATTERN_AVERAGE && !average_has_weights(block)) {
         return false;

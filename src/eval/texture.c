@@ -22,6 +22,7 @@ static bool settle(Eval *ev, Arena *arena, TextureBlueprint *texture, Span span)
         return true;
     }
     texture->pigment.part.transform = transform_compose(texture->pigment.part.transform, *transform);
+    texture->normal.part.transform = transform_compose(texture->normal.part.transform, *transform);
     if (texture->below) {
         TextureBlueprint *below = arena_copy(arena, texture->below, sizeof *below);
         if (!below) {
@@ -49,6 +50,21 @@ static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureBlu
     return true;
 }
 
+static bool read_normal(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+{
+    Blueprint record;
+    SchemaKind is;
+    if (!settle(ev, arena, texture, item->span)) {
+        return false;
+    }
+    record.normal = texture->normal;
+    if (!block_read(ev, item, KIND_NORMAL, arena, &record, &is)) {
+        return false;
+    }
+    texture->normal = record.normal;
+    return true;
+}
+
 static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
 {
     Blueprint record;
@@ -73,8 +89,8 @@ static bool lay_over(Eval *ev, Arena *arena, TextureBlueprint *top, const Textur
         if (!settle(ev, arena, layer, span) || !eval_step(ev, span)) {
             return false;
         }
-        if (layer->part.pattern.type != PATTERN_NONE) {
-            return eval_fault(ev, DIAG_E0290, span, "a pattern of textures can only be the lowest layer");
+        if (layer->part.pattern.type != PATTERN_NONE || below->part.pattern.type != PATTERN_NONE) {
+            return eval_fault(ev, DIAG_E0290, span, "a pattern of textures can be no layer");
         }
         if (!layer->below) {
             layer->below = below;
@@ -98,6 +114,15 @@ static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const Text
     return true;
 }
 
+static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+{
+    switch (action) {
+    case ACTION_PIGMENT: return read_pigment(ev, item, arena, texture);
+    case ACTION_NORMAL: return read_normal(ev, item, arena, texture);
+    default: return read_finish(ev, item, arena, texture);
+    }
+}
+
 const TextureBlueprint **texture_place(Block *block)
 {
     return block->kind == KIND_MATERIAL ? &block->record->material.texture
@@ -109,9 +134,7 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
 {
     Eval *ev = block->ev;
     if (block->kind == KIND_TEXTURE) {
-        TextureBlueprint *texture = &block->record->texture;
-        return property->action == ACTION_PIGMENT ? read_pigment(ev, item, block->arena, texture)
-                                                  : read_finish(ev, item, block->arena, texture);
+        return read_part(ev, property->action, item, block->arena, &block->record->texture);
     }
     const TextureBlueprint **place = texture_place(block);
     const TextureBlueprint *before = *place;
@@ -120,11 +143,8 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
         return eval_no_memory(ev, item->span);
     }
     *place = texture;
-    switch (property->action) {
-    case ACTION_PIGMENT: return read_pigment(ev, item, block->arena, texture);
-    case ACTION_FINISH: return read_finish(ev, item, block->arena, texture);
-    default: return read_texture(ev, item, block->arena, before, texture);
-    }
+    return property->action == ACTION_TEXTURE ? read_texture(ev, item, block->arena, before, texture)
+                                              : read_part(ev, property->action, item, block->arena, texture);
 }
 
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item)
@@ -216,9 +236,10 @@ static bool read_default(Eval *ev, const AstNode *item, TextureBlueprint *textur
     switch (block_kind(ev, item)) {
     case KIND_TEXTURE: return read_texture(ev, item, &ev->program, NULL, texture);
     case KIND_PIGMENT: return read_pigment(ev, item, &ev->program, texture);
+    case KIND_NORMAL: return read_normal(ev, item, &ev->program, texture);
     case KIND_FINISH: return read_finish(ev, item, &ev->program, texture);
     default:
-        return eval_fault(ev, DIAG_E0256, item->span, "#default holds texture, pigment and finish blocks only");
+        return eval_fault(ev, DIAG_E0256, item->span, "#default holds texture, pigment, normal and finish blocks only");
     }
 }
 

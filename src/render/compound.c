@@ -1,10 +1,13 @@
-// The shading of surfaces that are more than one material: patterns, layers and maps of textures.
+// The shading of surfaces that are more than one material: patterns, layers and maps of textures, bumps.
 //
-// Walks what is seen at the point and adds up the light of each, by its share, and what goes on from there. One function
-// with all features: next to the walk, a test for a feature that is not there costs little.
+// Walks what is seen at the point and adds up the light of each, by its share, and what goes on from there. Two functions
+// with all features, one of them without bumps: next to the walk, a test for another feature that is not there costs
+// little.
 //
 // SPDX-License-Identifier: MIT
 #include "render/shade.h"
+
+enum { ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES, FLAT_FEATURES = ALL_FEATURES & ~RENDER_NORMALS };
 
 typedef struct LayerSum {
     const Prepared *p;
@@ -17,32 +20,37 @@ typedef struct LayerSum {
 } LayerSum;
 
 // A mirror is seen undimmed through the layers above, unless the ray would be worth too little; measured.
-static void add_mirror(LayerSum *sum, const TextureLayer *layer, const ShadeMaterial *material)
+RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const TextureLayer *layer, const ShadePoint *at,
+                                 const ShadeMaterial *material, ShadeOnward *onward)
 {
     Rgb reflectance;
-    if (!shade_mirror(RENDER_ALL_FEATURES, material, sum->at, &reflectance)) {
+    if (!shade_mirror(features, material, at, &reflectance)) {
         return;
     }
-    double weight = rgb_luminance(layer->above) * shade_mirror_weight(RENDER_ALL_FEATURES, material->finish, reflectance);
+    double weight = rgb_luminance(layer->above) * shade_mirror_weight(features, material->finish, reflectance);
     if (sum->weight * weight < sum->p->adc_bailout) {
         return;
     }
-    ShadeOnward *onward = sum->onward;
     onward->reflectance = rgb_add_scaled(onward->reflectance, layer->part, reflectance);
     onward->reflection_weight = fmax(onward->reflection_weight, weight);
     onward->reflection_exponent = material->finish->reflection_exponent;
 }
 
+RT_ALWAYS_INLINE void add_light(unsigned features, LayerSum *sum, const TextureLayer *layer, const ShadePoint *at,
+                                const ShadeMaterial *material)
+{
+    Rgb light = shade_local(sum->p, features, material, at, sum->statistics);
+    sum->light = rgb_add(sum->light, rgb_mul(rgb_scale(layer->part, layer->above), light));
+}
+
 static void add_layer(void *client, const TextureLayer *layer)
 {
     LayerSum *sum = client;
-    unsigned features = RENDER_ALL_FEATURES | (unsigned)TRACE_ALL_FEATURES;
-    ShadeMaterial material = shade_material(sum->p, features, layer->pigment, layer->finish);
-    add_mirror(sum, layer, &material);
+    ShadeMaterial material = shade_material(sum->p, FLAT_FEATURES, layer->pigment, layer->finish);
+    add_mirror(FLAT_FEATURES, sum, layer, sum->at, &material, sum->onward);
     sum->onward->conserves_energy |= material.finish->conserves_energy;
     sum->refraction = fmin(sum->refraction, material.finish->refraction);
-    Rgb light = shade_local(sum->p, features, &material, sum->at, sum->statistics);
-    sum->light = rgb_add(sum->light, rgb_mul(rgb_scale(layer->part, layer->above), light));
+    add_light(FLAT_FEATURES, sum, layer, sum->at, &material);
 }
 
 Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
@@ -54,4 +62,102 @@ Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, Shade
     onward->through = rgb_scale(sum.refraction, through.light);
     onward->through_weight = sum.refraction * through.weight;
     return sum.light;
+}
+
+// ---- bumps
+
+// The layers of one texture of a map, from its top to the last one so far.
+typedef struct Stack {
+    Vec3 normal;    // of the top
+    double part, refraction;
+    Rgb through, reflectance;
+    bool conserves_energy;
+} Stack;
+
+typedef struct BumpSum {
+    LayerSum sum; // `onward` and `refraction` are not used
+    ShadeWays *ways;
+    Stack stack;
+    bool has_stack;
+} BumpSum;
+
+// The way on for a normal; there is room for as many as the evaluator lets a texture have.
+static ShadeOnward *way_for(ShadeWays *ways, Vec3 normal)
+{
+    int i = 0;
+    while (i < ways->count && (ways->normals[i].x != normal.x || ways->normals[i].y != normal.y ||
+                               ways->normals[i].z != normal.z)) {
+        i++;
+    }
+    if (i == ways->count && ways->count < SHADE_WAYS_MAX) {
+        ways->normals[i] = normal;
+        ways->onward[i] = (ShadeOnward){.reflection_exponent = 1.0};
+        ways->count++;
+    }
+    return &ways->onward[i < SHADE_WAYS_MAX ? i : SHADE_WAYS_MAX - 1];
+}
+
+// What a texture lets through is bent by the bumps of its top layer. Without bending all goes one way.
+static void end_stack(BumpSum *bumps)
+{
+    const Stack *stack = &bumps->stack;
+    const LayerSum *sum = &bumps->sum;
+    Rgb through = stack->through;
+    if (!bumps->has_stack || rgb_is_black(through) || rgb_luminance(through) < sum->p->adc_bailout) {
+        return;
+    }
+    double weight = stack->refraction * rgb_max(through);
+    if (stack->conserves_energy) {
+        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, stack->reflectance);
+        through = rgb_mul(through, left);
+        weight *= rgb_max(left);
+    }
+    ShadeOnward *way = way_for(bumps->ways, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
+    way->through = rgb_add_scaled(way->through, stack->refraction * stack->part, through);
+    way->through_weight = fmax(way->through_weight, weight);
+    way->part += stack->part;
+}
+
+static void begin_stack(BumpSum *bumps, const TextureLayer *layer, Vec3 normal)
+{
+    end_stack(bumps);
+    bumps->has_stack = true;
+    bumps->stack = (Stack){.normal = normal, .part = layer->part, .refraction = HUGE_VAL};
+}
+
+static void add_bumpy_layer(void *client, const TextureLayer *layer)
+{
+    BumpSum *bumps = client;
+    LayerSum *sum = &bumps->sum;
+    Stack *stack = &bumps->stack;
+    ShadePoint at = *sum->at;
+    if (layer->normal != RECORD_NONE) {
+        at.normal = texture_normal(&sum->p->textures, layer, at.normal);
+    }
+    if (layer->is_top) {
+        begin_stack(bumps, layer, at.normal);
+    }
+    ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
+    Rgb reflectance;
+    if (shade_mirror(ALL_FEATURES, &material, &at, &reflectance)) {
+        add_mirror(ALL_FEATURES, sum, layer, &at, &material, way_for(bumps->ways, at.normal));
+        stack->reflectance = rgb_add(stack->reflectance, reflectance);
+    }
+    stack->conserves_energy |= material.finish->conserves_energy;
+    stack->refraction = fmin(stack->refraction, material.finish->refraction);
+    stack->through = rgb_mul(layer->above, texture_pigment_through(layer->pigment));
+    add_light(ALL_FEATURES, sum, layer, &at, &material);
+}
+
+Rgb shade_bumpy(const Prepared *p, const ShadePoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics)
+{
+    const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
+    BumpSum bumps = {.sum = {p, at, weight, NULL, statistics, HUGE_VAL, rgb_grey(0.0)}, .ways = ways};
+    ways->count = 0;
+    texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);
+    end_stack(&bumps);
+    if (ways->count == 0) {
+        way_for(ways, at->normal);
+    }
+    return bumps.sum.light;
 }

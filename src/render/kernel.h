@@ -24,7 +24,8 @@ typedef enum RenderFeature {
     RENDER_LIGHTS = 1 << 16,       // lights of one place, direction or distance: spotlight, fading, area
     RENDER_SKY = 1 << 17,          // layers before the background
     RENDER_FOG = 1 << 18,          // asks for RENDER_INTERIORS too: there is none inside of what is not hollow
-    RENDER_ALL_FEATURES = 0x7ff << 8,
+    RENDER_NORMALS = 1 << 19,      // bumps
+    RENDER_ALL_FEATURES = 0xfff << 8,
 } RenderFeature;
 
 // Pixels left <= x < right, top <= y < bottom.

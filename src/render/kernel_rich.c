@@ -1,4 +1,4 @@
-// Kernels of scenes of many spheres with patterns, layers, glass, sky or fog.
+// Kernels of scenes of many spheres with patterns, layers, glass, bumps, sky or fog.
 //
 // SPDX-License-Identifier: MIT
 #include "render/kernel_instance.h"
@@ -6,6 +6,8 @@
 #define KERNELS(X)                                                                                                     \
     X(many_textures, "tree+planes+textures", GEOMETRY_MANY, SHADING_ANY | RENDER_TEXTURES)                             \
     X(many_glass, "tree+planes+textures+glass", GEOMETRY_MANY, SHADING_ANY | RENDER_TEXTURES | RENDER_INTERIORS)       \
+    X(many_bumps, "tree+planes+textures+glass+bumps", GEOMETRY_MANY,                                                   \
+      SHADING_ANY | RENDER_TEXTURES | RENDER_INTERIORS | RENDER_NORMALS)                                               \
     X(many_sky, "tree+planes+textures+sky", GEOMETRY_MANY, SHADING_ANY | RENDER_TEXTURES | RENDER_SKY)                 \
     X(many_fog, "tree+planes+textures+glass+fog", GEOMETRY_MANY,                                                       \
       SHADING_ANY | RENDER_TEXTURES | RENDER_INTERIORS | RENDER_FOG)

@@ -15,7 +15,7 @@ typedef struct KernelList {
 
 extern const KernelList kernels_few;  // some spheres, perhaps planes: no tree
 extern const KernelList kernels_many; // trees of spheres, surfaces of one colour
-extern const KernelList kernels_rich; // trees of spheres with textures, glass, sky or fog
+extern const KernelList kernels_rich; // trees of spheres with textures, glass, bumps, sky or fog
 extern const KernelList kernels_any;  // every shape; the last one does all there is
 
 #endif

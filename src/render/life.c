@@ -219,6 +219,12 @@ static void follow_layer(void *client, const TextureLayer *layer)
 {
     Follower *follower = client;
     const Prepared *p = follower->p;
+    const ShadePoint *flat = follower->at;
+    ShadePoint bumpy = *flat;
+    if (layer->normal != RECORD_NONE) {
+        bumpy.normal = texture_normal(&p->textures, layer, flat->inside ? vec3_neg(flat->outward) : flat->outward);
+        follower->at = &bumpy;
+    }
     ShadeMaterial material = shade_material(p, FEATURES, layer->pigment, layer->finish);
     LifeLayer out = {
         .pigment = layer->pigment,
@@ -230,6 +236,7 @@ static void follow_layer(void *client, const TextureLayer *layer)
     for (size_t i = 0; i < p->light_count; i++) {
         follow_light(follower, &material, &p->lights[i]);
     }
+    follower->at = flat;
     out.light_count = follower->life->lights.count - out.first_light;
     follower->failed |= !ARRAY_PUSH(&follower->life->layers, out);
 }
@@ -243,7 +250,7 @@ static void follow_surface(Follower *follower, const ShadePoint *at)
         texture_walk(&p->textures, texture, at->point, p->adc_bailout, follow_layer, follower);
     } else {
         const Material *plain = &p->materials[at->material];
-        TextureLayer layer = {material_pigment(plain), plain->finish, 1.0, rgb_grey(1.0)};
+        TextureLayer layer = {material_pigment(plain), plain->finish, RECORD_NONE, true, NULL, 1.0, rgb_grey(1.0)};
         follow_layer(follower, &layer);
     }
 }

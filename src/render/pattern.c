@@ -165,12 +165,16 @@ Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point
     return is_moved ? pattern_turbulent(pattern, source, point) : point;
 }
 
-double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point)
+static double in_wave(const Pattern *pattern, double x)
 {
-    double value = values[pattern->type](pattern, source, pattern_moved(pattern, source, point));
-    double x = fold(value) * pattern->frequency + pattern->phase;
+    x = x * pattern->frequency + pattern->phase;
     x = x < 0.0 ? 1.0 + fmod(x, 1.00001) : fold(x);
     return wave(pattern, x);
+}
+
+double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point)
+{
+    return in_wave(pattern, fold(values[pattern->type](pattern, source, pattern_moved(pattern, source, point))));
 }
 
 // ---- blocks
@@ -228,4 +232,15 @@ static const BlockFunction blocks[PATTERN_COUNT] = {
 unsigned pattern_block(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
     return blocks[pattern->type](pattern, pattern_moved(pattern, source, point));
+}
+
+unsigned pattern_block_moved(const Pattern *pattern, Vec3 moved)
+{
+    return blocks[pattern->type](pattern, moved);
+}
+
+double pattern_height(const Pattern *pattern, const NoiseSource *source, Vec3 point)
+{
+    return in_wave(pattern, blocks[pattern->type] ? (double)pattern_block_moved(pattern, point)
+                                                  : fold(values[pattern->type](pattern, source, point)));
 }

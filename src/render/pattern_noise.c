@@ -10,7 +10,7 @@
 
 static const double two_pi = 6.28318530717958647693;
 
-static NoiseGenerator generator_of(const Pattern *pattern, const NoiseSource *source)
+NoiseGenerator pattern_generator(const Pattern *pattern, const NoiseSource *source)
 {
     return pattern->generator != 0 ? noise_generator(pattern->generator) : source->generator;
 }
@@ -27,14 +27,14 @@ static double sine_wave(double x)
 
 double pattern_noise(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
-    return noise_value(source->noise, generator_of(pattern, source), p);
+    return noise_value(source->noise, pattern_generator(pattern, source), p);
 }
 
 double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     double sum = 0.0, weight = 1.0;
     for (int i = 0; i < 6; i++) {
-        double value = noise_spread(source->noise, generator_of(pattern, source), vec3_scale(4.0 / weight, p));
+        double value = noise_spread(source->noise, pattern_generator(pattern, source), vec3_scale(4.0 / weight, p));
         sum += weight * fabs(value - 0.5);
         weight /= 2.0;
     }
@@ -44,7 +44,7 @@ double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p
 double pattern_agate(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     Octaves octaves = octaves_of(pattern);
-    double sum = noise_sum(source->noise, generator_of(pattern, source), &octaves, p);
+    double sum = noise_sum(source->noise, pattern_generator(pattern, source), &octaves, p);
     return pow(sine_wave(1.3 * pattern->agate_turb * sum + 1.1 * p.z), 0.77);
 }
 
@@ -54,7 +54,7 @@ double pattern_marble(const Pattern *pattern, const NoiseSource *source, Vec3 p)
         return p.x;
     }
     Octaves octaves = octaves_of(pattern);
-    return p.x + pattern->turbulence.x * noise_sum(source->noise, generator_of(pattern, source), &octaves, p);
+    return p.x + pattern->turbulence.x * noise_sum(source->noise, pattern_generator(pattern, source), &octaves, p);
 }
 
 double pattern_wood(const Pattern *pattern, const NoiseSource *source, Vec3 p)
@@ -72,7 +72,7 @@ double pattern_wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 
 {
     double sum = 0.0, scale = 1.0;
     for (int i = 0; i < 10; i++) {
-        sum += noise_spread(source->noise, generator_of(pattern, source), vec3_scale(scale, p)) / (2.0 * scale);
+        sum += noise_spread(source->noise, pattern_generator(pattern, source), vec3_scale(scale, p)) / (2.0 * scale);
         scale *= 2.0;
     }
     return sum;
@@ -80,7 +80,7 @@ double pattern_wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 
 
 double pattern_dents(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
-    double value = noise_value(source->noise, generator_of(pattern, source), p);
+    double value = noise_value(source->noise, pattern_generator(pattern, source), p);
     return value * value * value;
 }
 

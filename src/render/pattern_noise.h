@@ -1,4 +1,4 @@
-// Patterns made of noise; private to pattern.c.
+// Patterns made of noise; private to pattern.c and normal_special.c.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_PATTERN_NOISE_H
@@ -21,6 +21,7 @@ double pattern_waves(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 
 double pattern_cells(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_crackle(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+NoiseGenerator pattern_generator(const Pattern *pattern, const NoiseSource *source);
 
 // Where turbulence moves a point to.
 Vec3 pattern_turbulent(const Pattern *pattern, const NoiseSource *source, Vec3 p);

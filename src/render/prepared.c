@@ -155,6 +155,7 @@ static unsigned needed_features(const Prepared *p, const Scene *scene)
         features |= p->lights[i].is_plain ? 0 : (unsigned)RENDER_LIGHTS;
     }
     features |= scene->compounds.count ? (unsigned)RENDER_TEXTURES : 0;
+    features |= scene->normals.count ? (unsigned)RENDER_NORMALS : 0;
     features |= scene->interiors.count ? (unsigned)RENDER_INTERIORS : 0;
     features |= scene->sky.count ? (unsigned)RENDER_SKY : 0;
     features |= scene->fogs.count ? (unsigned)(RENDER_FOG | RENDER_INTERIORS) : 0;

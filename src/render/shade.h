@@ -28,12 +28,16 @@ typedef struct PendingRay {
     int level;       // 1 for camera rays; one more after each reflection
     uint64_t passed; // surfaces gone through since the last reflection
     double exponent; // closes: of the light; else unused
-    bool closes;
+    bool opens, closes; // opens: its light is summed by itself, until the one below it closes
     const Hit *known; // what it hits, where that is known already (SHAPE_NONE: nothing); else NULL
 } PendingRay;
 
-// Depth first, each level leaves at most one transmitted ray and one closing entry behind.
-enum { PENDING_MAX = 2 * TRACE_LEVEL_MAX + 4 };
+// Normals that the layers of one surface with bumps may have between them.
+enum { SHADE_WAYS_MAX = SCENE_NORMALS_MOST + 1, SHADE_WAY_RAYS = 3 };
+
+// Depth first, each level leaves at most one transmitted ray and one closing entry behind, and more only where bumps send
+// rays in more than one direction; of those, what would not fit (80 in a row that each do so) is not followed.
+enum { PENDING_MAX = 2 * TRACE_LEVEL_MAX + 4 + 80 * SHADE_WAY_RAYS };
 
 // The rays that wait, and the sums of light that are open: one, and one more for each ray with an exponent.
 typedef struct Pending {
@@ -71,18 +75,23 @@ typedef struct ShadeOnward {
     double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
     double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
     double reflection_exponent;
+    double part; // where there are bumps: of the textures of a map, those whose light goes through this way
     bool conserves_energy;
 } ShadeOnward;
+
+// What a surface with bumps sends on, for each of the normals that its layers have.
+typedef struct ShadeWays {
+    int count;
+    Vec3 normals[SHADE_WAYS_MAX];
+    ShadeOnward onward[SHADE_WAYS_MAX];
+} ShadeWays;
 
 // The same as shade_surface for patterns and layers; not inline, for it costs more than a call. In render/compound.c.
 // `weight` is the ray's.
 Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
                    RenderStatistics *statistics);
-
-RT_ALWAYS_INLINE Rgb shade_pigment_through(Rgbft pigment)
-{
-    return rgb_add(rgb_scale(pigment.filter, rgbft_rgb(pigment)), rgb_grey(pigment.transmit));
-}
+// The same where there may be bumps.
+Rgb shade_bumpy(const Prepared *p, const ShadePoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics);
 
 RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned features, Rgbft pigment, FinishIndex finish)
 {
@@ -114,7 +123,7 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
         const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
         return texture_walk(&p->textures, compound->texture, surface->point, 0.0, NULL, NULL).light;
     }
-    return shade_pigment_through(material_pigment(&p->materials[surface->material]));
+    return texture_pigment_through(material_pigment(&p->materials[surface->material]));
 }
 
 // The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
@@ -219,13 +228,16 @@ RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const Sha
 
 // The share of the pigment in a metallic highlight falls with the light's angle x (in right angles) to the normal as 1 - F,
 // F being the Fresnel curve of P. Strauss, "A Realistic Lighting Model for Computer Animators", IEEE CG&A 10(6), 1990:
-// F(x) = (1 / (x - k)² - 1 / k²) / (1 / (1 - k)² - 1 / k²) with k = 1.12. Renderings agree with it to 1/65535.
-RT_ALWAYS_INLINE Rgb shade_metallic(double metallic, Rgb pigment, double cosine)
+// F(x) = (1 / (x - k)² - 1 / k²) / (1 / (1 - k)² - 1 / k²) with k = 1.12. Renderings agree with it to 1/65535. A normal
+// with bumps may be turned away from the viewer: then F goes on beyond 1 right angle, but not above 1.
+RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigment, double cosine)
 {
     const double k = 1.12;
     const double at_normal = 1.0 / (k * k), at_grazing = 1.0 / ((1.0 - k) * (1.0 - k));
-    double x = acos(fmin(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
+    bool is_bumpy = features & RENDER_NORMALS;
+    double x = acos(is_bumpy ? fmax(fmin(cosine, 1.0), -1.0) : fmin(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
     double fresnel = (1.0 / ((x - k) * (x - k)) - at_normal) / (at_grazing - at_normal);
+    fresnel = is_bumpy ? fmin(fresnel, 1.0) : fresnel;
     double share = metallic * (1.0 - fresnel);
     return rgb(1.0 + share * (pigment.red - 1.0), 1.0 + share * (pigment.green - 1.0),
                1.0 + share * (pigment.blue - 1.0));
@@ -267,7 +279,7 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     Rgb sum = rgb_scale(falloff, rgb_scale(back ? finish->diffuse_back : finish->diffuse, material->opaque));
     if ((features & RENDER_HIGHLIGHTS) && finish->shines && front && !light->shadowless) {
         double shine = shade_highlights(finish, at, towards);
-        Rgb tint = finish->metallic > 0.0 ? shade_metallic(finish->metallic, material->pigment, cosine)
+        Rgb tint = finish->metallic > 0.0 ? shade_metallic(features, finish->metallic, material->pigment, cosine)
                                             : rgb_grey(1.0);
         sum = rgb_add_scaled(sum, shine, tint);
     }
@@ -280,12 +292,12 @@ RT_ALWAYS_INLINE Rgb shade_reflectance(unsigned features, const ShadeMaterial *m
 {
     const PreparedFinish *finish = material->finish;
     double grazing = (features & RENDER_INTERIORS) && finish->is_fresnel
-                         ? inside_fresnel(cosine, ior_ratio)
+                         ? inside_fresnel(features & RENDER_NORMALS ? fmax(cosine, 0.0) : cosine, ior_ratio)
                          : shade_power(fmax(1.0 - cosine, 0.0), finish->reflection_falloff);
     Rgb span = rgb_add_scaled(finish->reflection_max, -1.0, finish->reflection_min);
     Rgb share = rgb_add_scaled(finish->reflection_min, grazing, span);
     if (finish->reflection_metallic > 0.0) {
-        share = rgb_mul(share, shade_metallic(finish->reflection_metallic, material->pigment, cosine));
+        share = rgb_mul(share, shade_metallic(features, finish->reflection_metallic, material->pigment, cosine));
     }
     return share;
 }
@@ -294,6 +306,22 @@ RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
 {
     return rgb(shade_power(light.red, exponent), shade_power(light.green, exponent),
                shade_power(light.blue, exponent));
+}
+
+// Where a mirror sends the ray. With bumps that may be into the surface: such a ray is mirrored once more, at the surface
+// as it is; a normal that is turned away from the viewer is not used at all. Measured.
+RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadePoint *at)
+{
+    Vec3 mirrored = vec3_reflect(at->direction, at->normal);
+    if (features & RENDER_NORMALS) {
+        Vec3 facing = at->inside ? vec3_neg(at->outward) : at->outward;
+        if (vec3_dot(at->normal, at->direction) > 0.0) {
+            mirrored = vec3_reflect(at->direction, facing);
+        } else if (vec3_dot(mirrored, facing) < 0.0) {
+            mirrored = vec3_reflect(mirrored, facing);
+        }
+    }
+    return vec3_normalize(mirrored);
 }
 
 // The mirrored ray, unless it is too deep or worth too little. The angle does not enter its weight.
@@ -305,7 +333,7 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
         return;
     }
     PendingRay ray = {
-        .ray = {at->point, vec3_normalize(vec3_reflect(at->direction, at->normal))},
+        .ray = {at->point, shade_mirrored(features, at)},
         .start = {at->shape, at->inside, HIDDEN_MIRROR},
         .share = rgb_mul(from->share, onward->reflectance),
         .weight = weight,
@@ -314,7 +342,7 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
     if ((features & RENDER_EXPONENT) && onward->reflection_exponent != 1.0) {
         PendingRay end = {.share = ray.share, .exponent = 1.0 / onward->reflection_exponent, .closes = true};
         pending->rays[pending->count++] = end;
-        pending->sums[++pending->open] = rgb_grey(0.0);
+        ray.opens = true;
         ray.share = rgb_grey(1.0);
     }
     pending->rays[pending->count++] = ray;
@@ -361,23 +389,32 @@ RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoi
 
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to the
 // next level.
-RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, const ShadeOnward *onward, Rgb fade, const ShadePoint *at,
-                                 const PendingRay *from, const Inside *before, const Inside *behind, Pending *pending)
+RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ShadeOnward *onward, Rgb fade,
+                                 const ShadePoint *at, const PendingRay *from, const Inside *before,
+                                 const Inside *behind, Pending *pending)
 {
-    Vec3 direction;
-    bool is_bent = inside_bend(at->direction, at->normal, at->ior_ratio, &direction);
+    Vec3 direction, normal = at->normal;
+    if ((features & RENDER_NORMALS) && vec3_dot(normal, at->direction) > 0.0) {
+        normal = vec3_neg(normal);
+    }
+    bool is_bent = inside_bend(at->direction, normal, at->ior_ratio, &direction);
     int place = pending->count;
     if (is_bent) {
         shade_transmit(p, onward, at, from, pending);
     } else if (from->level < p->max_trace_level) {
         pending->rays[pending->count] = *from;
-        pending->rays[pending->count++].share = rgb_mul(from->share, fade);
-        direction = vec3_normalize(vec3_reflect(at->direction, at->normal));
+        pending->rays[pending->count].opens = false;
+        double part = features & RENDER_NORMALS ? onward->part : 1.0;
+        pending->rays[pending->count++].share = rgb_mul(from->share, rgb_scale(part, fade));
+        direction = shade_mirrored(features, at);
     }
     if (pending->count > place) {
         PendingRay *ray = &pending->rays[place];
+        // Bumps may bend a ray back to the side that it came from.
+        bool goes_in = (features & RENDER_NORMALS) && is_bent ? vec3_dot(at->outward, direction) < 0.0
+                                                              : is_bent != at->inside;
         ray->ray = (Ray){at->point, direction};
-        ray->start = (RayStart){at->shape, is_bent != at->inside, from->start.use};
+        ray->start = (RayStart){at->shape, goes_in, from->start.use};
         ray->level = from->level + 1;
         ray->passed = 0;
         ray->known = NULL;
@@ -402,7 +439,7 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
         onward = &faded;
     }
     if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
-        return shade_bend(p, onward, fade, at, from, before, behind, pending);
+        return shade_bend(p, features, onward, fade, at, from, before, behind, pending);
     }
     shade_transmit(p, onward, at, from, pending);
     if ((features & RENDER_INTERIORS) && pending->count > place) {
@@ -489,7 +526,7 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
         onward->reflection_exponent = material.finish->reflection_exponent;
     }
     if (features & RENDER_TRANSPARENCY) {
-        onward->through = rgb_scale(material.finish->refraction, shade_pigment_through(pigment));
+        onward->through = rgb_scale(material.finish->refraction, texture_pigment_through(pigment));
         onward->conserves_energy = material.finish->conserves_energy;
     }
     return shade_local(p, features, &material, at, statistics);
@@ -499,7 +536,7 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
 RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const ShadePoint *at, double weight,
                                    ShadeOnward *onward, RenderStatistics *statistics)
 {
-    *onward = (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0};
+    *onward = (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
     if ((features & RENDER_TEXTURES) && (at->material & MATERIAL_COMPOUND)) {
         return shade_compound(p, at, weight, onward, statistics);
     }
@@ -590,6 +627,29 @@ RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, con
     }
 }
 
+// A hit where there may be bumps: one way on for each of the surface's normals.
+RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, Pending *pending, RenderStatistics *statistics,
+                                 ShadeStep *step)
+{
+    ShadeWays ways;
+    if (step->at.material & MATERIAL_COMPOUND) {
+        step->light = shade_bumpy(p, &step->at, step->ray.weight, &ways, statistics);
+    } else {
+        ways.count = 1;
+        ways.normals[0] = step->at.normal;
+        step->light = shade_surface(p, features, &step->at, step->ray.weight, &ways.onward[0], statistics);
+    }
+    pending_add(pending, &step->ray, step->light);
+    step->onward = ways.onward[0];
+    step->at.normal = ways.normals[0];
+    int kept = 2 * (TRACE_LEVEL_MAX - step->ray.level) + 4; // for the levels to come
+    for (int i = 0; i < ways.count && (i == 0 || pending->count + SHADE_WAY_RAYS + kept <= PENDING_MAX); i++) {
+        ShadePoint at = step->at;
+        at.normal = ways.normals[i];
+        shade_go_on(p, features, &ways.onward[i], &at, &step->ray, &step->before, &step->behind, pending, statistics);
+    }
+}
+
 // Takes the ray that was put on the list last: its light is added, and the rays that go on from where it hits are put on
 // the list.
 RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pending *pending, SampleStream *stream,
@@ -599,6 +659,9 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
     *now = pending->rays[--pending->count];
     step->is_hit = false;
     step->fog = rgb_grey(0.0);
+    if ((features & RENDER_EXPONENT) && now->opens) {
+        pending->sums[++pending->open] = rgb_grey(0.0);
+    }
     if ((features & RENDER_EXPONENT) && now->closes) {
         step->light = shade_rgb_power(pending->sums[pending->open--], now->exponent);
         pending_add(pending, now, step->light);
@@ -610,6 +673,10 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
         }
         if (features & RENDER_FOG) {
             step->fog = shade_fog(p, step->at.way, &step->before, now, pending);
+        }
+        if (features & RENDER_NORMALS) {
+            shade_ways(p, features, pending, statistics, step);
+            return;
         }
         // Its own light first: a reflected ray may open a sum of its own.
         step->light = shade_surface(p, features, &step->at, now->weight, &step->onward, statistics);

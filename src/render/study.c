@@ -12,7 +12,7 @@ enum {
     COVERED = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_ELLIPSOIDS | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
               RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_EXPONENT | RENDER_TEXTURES |
               RENDER_INTERIORS,
-    REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG,
+    REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG | RENDER_NORMALS,
 };
 
 static const struct {
@@ -61,7 +61,7 @@ static bool compound_is_plain(const Scene *scene, const Compound *compound)
 {
     const Texture *texture = &scene->textures.items[compound->texture];
     return texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE &&
-           texture->pigment.pattern == RECORD_NONE;
+           texture->pigment.pattern == RECORD_NONE && texture->normal == RECORD_NONE;
 }
 
 // Where the first shape of a compound material stands.
@@ -109,7 +109,7 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     }
     for (size_t i = 0; i < scene->compounds.count; i++) {
         if (!compound_is_plain(scene, &scene->compounds.items[i])) {
-            covers = refuse(diags, source_span(compound_source(scene, i)), "a texture of patterns or layers");
+            covers = refuse(diags, source_span(compound_source(scene, i)), "a texture of patterns, layers or bumps");
             break;
         }
     }

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "render/along.h"
+
 static Transform way_back(const Transform *to_world)
 {
     Transform back = transform_identity();
@@ -23,6 +25,11 @@ static bool needs_noise(const Scene *scene)
     }
     for (size_t i = 0; i < scene->textures.count; i++) {
         if (pattern_needs_noise(&scene->textures.items[i].pattern)) {
+            return true;
+        }
+    }
+    for (size_t i = 0; i < scene->normals.count; i++) {
+        if (pattern_needs_noise(&scene->normals.items[i].pattern)) {
             return true;
         }
     }
@@ -50,8 +57,10 @@ bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
     *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
     table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
     table->texture_to_pattern = malloc((scene->textures.count + 1) * sizeof *table->texture_to_pattern);
+    table->normal_to_pattern = malloc((scene->normals.count + 1) * sizeof *table->normal_to_pattern);
     table->images = images_new(scene);
-    if (!table->to_pattern || !table->texture_to_pattern || !table->images || !find_noise(table, scene)) {
+    if (!table->to_pattern || !table->texture_to_pattern || !table->normal_to_pattern || !table->images ||
+        !find_noise(table, scene)) {
         texture_table_fini(table);
         return false;
     }
@@ -61,6 +70,9 @@ bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
     for (size_t i = 0; i < scene->textures.count; i++) {
         table->texture_to_pattern[i] = way_back(&scene->textures.items[i].to_world);
     }
+    for (size_t i = 0; i < scene->normals.count; i++) {
+        table->normal_to_pattern[i] = way_back(&scene->normals.items[i].to_world);
+    }
     return true;
 }
 
@@ -69,6 +81,7 @@ void texture_table_fini(TextureTable *table)
     free(table->noise);
     free(table->to_pattern);
     free(table->texture_to_pattern);
+    free(table->normal_to_pattern);
     images_free(table->images, table->scene ? table->scene->image_maps.count : 0);
     *table = (TextureTable){0};
 }
@@ -91,26 +104,6 @@ static Rgbft blend(Rgbft a, double share, Rgbft b)
     return (Rgbft){rest * a.red + share * b.red, rest * a.green + share * b.green, rest * a.blue + share * b.blue,
                    rest * a.filter + share * b.filter, rest * a.transmit + share * b.transmit};
 }
-
-// Where a value stands in a list: at `low`, or the share of `high` that is mixed in.
-typedef struct Place {
-    uint32_t low, high;
-    double share;
-} Place;
-
-#define FIND_PLACE(items, first, value, place)                                                                         \
-    do {                                                                                                               \
-        uint32_t at = (first);                                                                                         \
-        *(place) = (Place){at, at, 0.0};                                                                               \
-        while ((items)[at].next != RECORD_NONE && (value) >= (items)[(items)[at].next].at) {                           \
-            at = (items)[at].next;                                                                                     \
-        }                                                                                                              \
-        *(place) = (Place){at, at, 0.0};                                                                               \
-        if ((value) > (items)[at].at && (items)[at].next != RECORD_NONE) {                                             \
-            uint32_t next = (items)[at].next;                                                                          \
-            *(place) = (Place){at, next, ((value) - (items)[at].at) / ((items)[next].at - (items)[at].at)};            \
-        }                                                                                                              \
-    } while (0)
 
 static uint32_t nth_pigment(const PigmentEntry *entries, uint32_t first, unsigned n)
 {
@@ -148,9 +141,9 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     Vec3 point = transform_point(&table->to_pattern[index], outer);
     PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
     if (form == PATTERN_OF_VALUES) {
-        Place place;
+        AlongPlace place;
         double value = pattern_value(&record->pattern, &table->source, point);
-        FIND_PLACE(entries, record->entries, value, &place);
+        ALONG_FIND(entries, record->entries, value, &place);
         Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
         return place.share > 0.0
                    ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
@@ -182,7 +175,7 @@ typedef struct Walk {
     TextureThrough through;
 } Walk;
 
-static void walk_layers(Walk *walk, uint32_t index, Vec3 point, double part, Rgb above);
+static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above);
 
 static uint32_t nth_texture(const TextureEntry *entries, uint32_t first, unsigned n)
 {
@@ -192,7 +185,7 @@ static uint32_t nth_texture(const TextureEntry *entries, uint32_t first, unsigne
     return first;
 }
 
-static void walk_average(Walk *walk, uint32_t first, Vec3 point, double part, Rgb above)
+static void walk_average(Walk *walk, uint32_t first, const TexturePlace *place, double part, Rgb above)
 {
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
     double weights = 0.0;
@@ -201,48 +194,48 @@ static void walk_average(Walk *walk, uint32_t first, Vec3 point, double part, Rg
     }
     for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
         if (entries[at].at != 0.0) {
-            walk_layers(walk, entries[at].texture, point, part * entries[at].at / weights, above);
+            walk_layers(walk, entries[at].texture, place, part * entries[at].at / weights, above);
         }
     }
 }
 
-static void walk_pattern(Walk *walk, uint32_t index, Vec3 outer, double part, Rgb above)
+static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, double part, Rgb above)
 {
     const Texture *texture = &walk->table->scene->textures.items[index];
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
-    Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer);
+    TexturePlace here = {transform_point(&walk->table->texture_to_pattern[index], outer->point), index, outer};
     if (pattern_info((PatternType)texture->pattern.type)->blocks) {
-        uint32_t entry = nth_texture(entries, texture->entries, pattern_block(&texture->pattern, &walk->table->source, point));
-        walk_layers(walk, entries[entry].texture, point, part, above);
+        uint32_t entry = nth_texture(entries, texture->entries, pattern_block(&texture->pattern, &walk->table->source, here.point));
+        walk_layers(walk, entries[entry].texture, &here, part, above);
         return;
     }
     if (texture->pattern.type == PATTERN_AVERAGE) {
-        walk_average(walk, texture->entries, point, part, above);
+        walk_average(walk, texture->entries, &here, part, above);
         return;
     }
-    Place place;
-    double value = pattern_value(&texture->pattern, &walk->table->source, point);
-    FIND_PLACE(entries, texture->entries, value, &place);
-    walk_layers(walk, entries[place.low].texture, point, (1.0 - place.share) * part, above);
+    AlongPlace place;
+    double value = pattern_value(&texture->pattern, &walk->table->source, here.point);
+    ALONG_FIND(entries, texture->entries, value, &place);
+    walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
     if (place.share > 0.0) {
-        walk_layers(walk, entries[place.high].texture, point, place.share * part, above);
+        walk_layers(walk, entries[place.high].texture, &here, place.share * part, above);
     }
 }
 
-static void walk_layers(Walk *walk, uint32_t index, Vec3 point, double part, Rgb above)
+static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above)
 {
-    for (; index != RECORD_NONE; index = walk->table->scene->textures.items[index].below) {
+    for (uint32_t top = index; index != RECORD_NONE; index = walk->table->scene->textures.items[index].below) {
         const Texture *texture = &walk->table->scene->textures.items[index];
         if (texture->pattern.type != PATTERN_NONE) {
-            walk_pattern(walk, index, point, part, above); // the lowest one, by the evaluator's rule
+            walk_pattern(walk, index, place, part, above); // the lowest one, by the evaluator's rule
             return;
         }
-        TextureLayer layer = {texture_pigment(walk->table, &texture->pigment, point), texture->finish, part, above};
+        Rgbft pigment = texture_pigment(walk->table, &texture->pigment, place->point);
+        TextureLayer layer = {pigment, texture->finish, texture->normal, index == top, place, part, above};
         if (walk->visit) {
             walk->visit(walk->client, &layer);
         }
-        above = rgb_mul(above, rgb_add(rgb_scale(layer.pigment.filter, rgbft_rgb(layer.pigment)),
-                                       rgb_grey(layer.pigment.transmit)));
+        above = rgb_mul(above, texture_pigment_through(layer.pigment));
         if (rgb_is_black(above) || fabs(rgb_luminance(above)) < walk->cut) {
             return;
         }
@@ -255,6 +248,7 @@ TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 po
                             void *client)
 {
     Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0}};
-    walk_layers(&walk, texture, vec3_scale(table->scale, point), 1.0, rgb_grey(1.0));
+    TexturePlace place = {vec3_scale(table->scale, point), RECORD_NONE, NULL};
+    walk_layers(&walk, texture, &place, 1.0, rgb_grey(1.0));
     return walk.through;
 }

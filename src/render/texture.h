@@ -24,6 +24,7 @@ typedef struct TextureTable {
     Transform *to_pattern;         // for each of the scene's patterns
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
     PreparedImage *images;         // for each of its image maps
+    Transform *normal_to_pattern;  // for each of its normals
 } TextureTable;
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. False when out of memory.
@@ -36,10 +37,27 @@ bool texture_table_has_transparent_image(const TextureTable *table);
 // The colour of a pigment at a point in the scene's lengths.
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);
 
+// A point as a pattern of textures sees it.
+typedef struct TexturePlace TexturePlace;
+struct TexturePlace {
+    Vec3 point;
+    uint32_t texture;          // the one with the pattern; RECORD_NONE: the scene's own lengths
+    const TexturePlace *outer; // the same point in the space around it; NULL: there is none
+};
+
+// What a pigment multiplies light with that goes through it.
+static inline Rgb texture_pigment_through(Rgbft pigment)
+{
+    return rgb_add(rgb_scale(pigment.filter, rgbft_rgb(pigment)), rgb_grey(pigment.transmit));
+}
+
 // One of the surfaces that are seen at a point.
 typedef struct TextureLayer {
     Rgbft pigment;
     FinishIndex finish;
+    uint32_t normal; // of the scene's normals, or RECORD_NONE
+    bool is_top;     // of its texture: no layer stands above it
+    const TexturePlace *place;
     double part; // of the texture in a map, 1 without a map
     Rgb above;   // what the layers above let through
 } TextureLayer;
@@ -56,5 +74,9 @@ typedef struct TextureThrough {
 // is darker than `cut` in grey does not go on to the layer below or out of the last one.
 TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
                             void *client);
+
+// The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1. In
+// normal.c.
+Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal);
 
 #endif

@@ -50,10 +50,20 @@ typedef struct PigmentBlueprint {
     Rgbft colour, quick_colour;
 } PigmentBlueprint;
 
+// Bumps; with PATTERN_NONE there are none.
+typedef struct NormalBlueprint {
+    PatternPart part;         // its map is one of normals
+    const PatternMap *slopes; // instead of such a map, or NULL
+    double amount, accuracy;
+    bool keeps_length; // no_bump_scale
+} NormalBlueprint;
+
 typedef struct TextureBlueprint TextureBlueprint;
 struct TextureBlueprint {
     PatternPart part; // a pattern of textures
     PigmentBlueprint pigment;
+    NormalBlueprint normal;
+    bool keeps_length; // no_bump_scale
     Finish finish;
     double ior; // said in the finish, as before version 3.1; 0: not
     const TextureBlueprint *below;
@@ -75,6 +85,8 @@ typedef struct PatternEntry {
     Rgbft colour;
     const PigmentBlueprint *pigment; // instead of the colour, or NULL
     const TextureBlueprint *texture; // of a map of textures
+    const NormalBlueprint *normal;   // of a map of normals
+    double height, slope;            // of a slope map
 } PatternEntry;
 
 struct PatternMap {
@@ -264,7 +276,8 @@ typedef union Blueprint {
     SettingsBlueprint settings;
     PigmentBlueprint pigment;
     FinishBlueprint finish;
-    PatternPart patterned; // of a pigment or texture
+    PatternPart patterned; // of a pigment, normal or texture
+    NormalBlueprint normal;
     PatternMap map;
     ImageBlueprint image;
     TextureBlueprint texture;

@@ -56,6 +56,11 @@ static void dump_modifiers(const Pattern *pattern, TextBuffer *out)
         text_append(out, "\n");
     }
     dump_noise_modifiers(pattern, out);
+    if (pattern->type == PATTERN_QUILTED) {
+        dump_number(out, "  control0 ", pattern->vector.x);
+        dump_number(out, " control1 ", pattern->vector.y);
+        text_append(out, "\n");
+    }
     dump_number(out, "  frequency ", pattern->frequency);
     dump_number(out, " phase ", pattern->phase);
     text_printf(out, " %s", pattern_wave_word((WaveType)pattern->wave));
@@ -149,6 +154,55 @@ static void dump_pigment(const Scene *scene, const PatternedPigment *record, siz
     text_append(out, "}\n");
 }
 
+static void dump_normal_entries(const Scene *scene, const Normal *record, TextBuffer *out)
+{
+    bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    text_append(out, has_blocks ? "" : "  normal_map {");
+    for (uint32_t i = record->entries; i != RECORD_NONE; i = scene->normal_entries.items[i].next) {
+        const NormalEntry *entry = &scene->normal_entries.items[i];
+        if (!has_blocks) {
+            dump_number(out, " [", entry->at);
+        }
+        text_printf(out, has_blocks ? " normal { N%lu }" : " N%lu]", (unsigned long)entry->normal + 1);
+    }
+    text_append(out, has_blocks ? "\n" : " }\n");
+}
+
+static void dump_slopes(const Scene *scene, uint32_t first, TextBuffer *out)
+{
+    text_append(out, "  slope_map {");
+    for (uint32_t i = first; i != RECORD_NONE; i = scene->slope_entries.items[i].next) {
+        const SlopeEntry *entry = &scene->slope_entries.items[i];
+        dump_number(out, " [", entry->at);
+        dump_number(out, " <", entry->height);
+        dump_number(out, ", ", entry->slope);
+        text_append(out, ">]");
+    }
+    text_append(out, " }\n");
+}
+
+static void dump_normal(const Scene *scene, const Normal *record, size_t number, TextBuffer *out)
+{
+    bool has_blocks = pattern_info((PatternType)record->pattern.type)->blocks > 0;
+    text_printf(out, "#declare N%zu = normal {\n", number);
+    dump_pattern_word(&record->pattern, out);
+    if (record->entries == RECORD_NONE || !has_blocks) {
+        text_append(out, "\n");
+    }
+    if (record->entries != RECORD_NONE) {
+        dump_normal_entries(scene, record, out);
+    }
+    if (record->slopes != RECORD_NONE) {
+        dump_slopes(scene, record->slopes, out);
+    }
+    dump_number(out, "  bump_size ", record->amount);
+    dump_number(out, " accuracy ", record->accuracy);
+    text_append(out, record->flags & NORMAL_KEEPS_LENGTH ? " no_bump_scale\n" : "\n");
+    dump_modifiers(&record->pattern, out);
+    dump_matrix(&record->to_world, out);
+    text_append(out, "}\n");
+}
+
 static void dump_layer(const Texture *record, size_t number, TextBuffer *out)
 {
     text_printf(out, "#declare T%zu =", number);
@@ -157,6 +211,9 @@ static void dump_layer(const Texture *record, size_t number, TextBuffer *out)
     }
     text_append(out, " texture { pigment { ");
     dump_pigment_items(&record->pigment, out);
+    if (record->normal != RECORD_NONE) {
+        text_printf(out, " } normal { N%lu", (unsigned long)record->normal + 1);
+    }
     text_printf(out, " } finish { F%lu } }\n", (unsigned long)record->finish + 1);
 }
 
@@ -198,6 +255,9 @@ void dump_textures(const Scene *scene, TextBuffer *out)
         const PatternedPigment *record = &scene->patterns.items[i];
         bool is_picture = record->pattern.type == PATTERN_IMAGE_MAP;
         (is_picture ? dump_image_map : dump_pigment)(scene, record, i + 1, out);
+    }
+    for (size_t i = 0; i < scene->normals.count; i++) {
+        dump_normal(scene, &scene->normals.items[i], i + 1, out);
     }
     for (size_t i = 0; i < scene->textures.count; i++) {
         const Texture *record = &scene->textures.items[i];

@@ -42,6 +42,7 @@ typedef enum PatternType {
     PATTERN_SPIRAL1,
     PATTERN_MANDEL,
     PATTERN_JULIA,
+    PATTERN_QUILTED, // of normals only
     PATTERN_AVERAGE, // no pattern: all that lies along it, mixed
     PATTERN_COUNT
 } PatternType;
@@ -57,7 +58,8 @@ typedef struct Pattern {
     int32_t octaves;   // of turbulence, at least 1
     int32_t count;     // spiral1: its arms; mandel, julia: steps, at least 1
     int32_t is_solid;  // crackle: each cell has one value
-    Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar; julia: its number
+    Vec3 vector;   // gradient: its direction as written; brick: the size of a brick with its mortar; julia: its number;
+                   // quilted: its two control values
     Vec3 form;     // crackle: what the distances to the nearest three points count
     double metric, offset; // crackle: exponent of the distance, a distance in a fourth dimension
     double mortar; // brick: width of the mortar
@@ -87,6 +89,7 @@ typedef struct PatternInfo {
     bool uses_noise;
     bool has_own_turbulence; // turbulence is part of the formula
     WaveType wave;           // if none is said
+    bool is_special_normal;  // turns a normal in a way of its own, not by its value
 } PatternInfo;
 
 // The entry of a type, never NULL; PATTERN_NONE's word is "".

@@ -15,6 +15,8 @@ _Static_assert(sizeof(Texture) == sizeof(Pigment) + sizeof(Transform) + sizeof(P
 _Static_assert(sizeof(PictureSource) == sizeof(char *) + 4 * sizeof(uint32_t) + 2 * sizeof(double) + sizeof(uint64_t),
                "no padding in a source of a picture");
 _Static_assert(sizeof(PictureShade) == sizeof(double) + sizeof(uint64_t) + 4 * sizeof(uint32_t), "no padding");
+_Static_assert(sizeof(Normal) == sizeof(Transform) + sizeof(Pattern) + 2 * sizeof(double) + 4 * sizeof(uint32_t),
+               "no padding in a normal");
 _Static_assert(sizeof(Finish) == 24 * sizeof(double) + sizeof(uint64_t), "no padding in a finish");
 
 void scene_init(Scene *scene)
@@ -56,6 +58,9 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->picture_shades);
     ARRAY_FREE(&scene->image_maps);
     ARRAY_FREE(&scene->pictures);
+    ARRAY_FREE(&scene->slope_entries);
+    ARRAY_FREE(&scene->normal_entries);
+    ARRAY_FREE(&scene->normals);
     ARRAY_FREE(&scene->texture_entries);
     ARRAY_FREE(&scene->textures);
     ARRAY_FREE(&scene->interiors);
@@ -70,6 +75,9 @@ void scene_fini(Scene *scene)
     unique_fini(&scene->material_index);
     unique_fini(&scene->pigment_entry_index);
     unique_fini(&scene->pattern_index);
+    unique_fini(&scene->slope_entry_index);
+    unique_fini(&scene->normal_entry_index);
+    unique_fini(&scene->normal_index);
     unique_fini(&scene->texture_entry_index);
     unique_fini(&scene->texture_index);
     unique_fini(&scene->interior_index);
@@ -117,6 +125,21 @@ bool scene_add_picture(Scene *scene, const PictureSource *source, Span span, uin
     return ARRAY_RESERVE(&scene->pictures, scene->pictures.count + 1) &&
            ADD_ONCE(&scene->picture_sources, &scene->picture_source_index, source, index) &&
            (*index < scene->pictures.count || ARRAY_PUSH(&scene->pictures, ((Picture){.span = span})));
+}
+
+bool scene_add_slope_entry(Scene *scene, const SlopeEntry *entry, uint32_t *index)
+{
+    return ADD_ONCE(&scene->slope_entries, &scene->slope_entry_index, entry, index);
+}
+
+bool scene_add_normal_entry(Scene *scene, const NormalEntry *entry, uint32_t *index)
+{
+    return ADD_ONCE(&scene->normal_entries, &scene->normal_entry_index, entry, index);
+}
+
+bool scene_add_normal(Scene *scene, const Normal *normal, uint32_t *index)
+{
+    return ADD_ONCE(&scene->normals, &scene->normal_index, normal, index);
 }
 
 bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *index)
@@ -184,8 +207,10 @@ static size_t pictures_bytes(const Scene *scene)
 size_t scene_bytes(const Scene *scene)
 {
 #define LIST_BYTES(list) list_bytes((list).count, (list).capacity, sizeof *(list).items)
-    return LIST_BYTES(scene->sky) + LIST_BYTES(scene->fogs) + LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) + LIST_BYTES(scene->finishes) +
-           LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->texture_entries) +
+    return LIST_BYTES(scene->sky) + LIST_BYTES(scene->fogs) + LIST_BYTES(scene->lights) + LIST_BYTES(scene->materials) +
+           LIST_BYTES(scene->finishes) +
+           LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->slope_entries) +
+           LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) + LIST_BYTES(scene->texture_entries) +
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +

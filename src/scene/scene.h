@@ -123,6 +123,38 @@ typedef struct PatternedPigment {
     uint32_t unused;
 } PatternedPigment;
 
+enum {
+    NORMAL_KEEPS_LENGTH = 1, // the depth of the bumps is not scaled along: no normal is made of length 1 on the way
+};
+
+// Bumps: what turns a surface's normal from place to place. Alone, amount × the pattern's height; or what other normals
+// in the pattern's space make of it.
+typedef struct Normal {
+    Transform to_world; // from the pattern's space; of an entry: to the space of the pattern it lies along
+    Pattern pattern;
+    double amount;
+    double accuracy;  // > 0: how far from the point the height is asked for
+    uint32_t slopes;  // the first of Scene.slope_entries, or RECORD_NONE: the pattern's value is the height
+    uint32_t entries; // the first of Scene.normal_entries, or RECORD_NONE
+    uint32_t flags;   // NORMAL_...
+    uint32_t unused;
+} Normal;
+
+// Layers with bumps that may mirror or bend rays at one point of a texture.
+enum { SCENE_NORMALS_MOST = 7 };
+
+// Heights and slopes along a pattern, as a list that ends with RECORD_NONE.
+typedef struct SlopeEntry {
+    double at, height, slope;
+    uint32_t next, unused;
+} SlopeEntry;
+
+// Normals along a pattern; of PATTERN_AVERAGE each with its weight.
+typedef struct NormalEntry {
+    double at;
+    uint32_t normal, next;
+} NormalEntry;
+
 // A texture: a pigment and a finish over what lies below, or textures by a pattern.
 typedef struct Texture {
     Pigment pigment;
@@ -131,7 +163,7 @@ typedef struct Texture {
     Transform to_world; // of the pattern
     Pattern pattern;    // PATTERN_NONE: pigment and finish
     uint32_t entries;   // the first of Scene.texture_entries
-    uint32_t unused;
+    uint32_t normal;    // Scene.normals, or RECORD_NONE
 } Texture;
 
 typedef struct TextureEntry {
@@ -295,12 +327,15 @@ typedef struct Scene {
     ARRAY(Light) lights;
     ARRAY(Finish) finishes;    // each different one once
     ARRAY(Material) materials; // each different one once
-    ARRAY(PigmentEntry) pigment_entries; // of these six, too, each different one once
+    ARRAY(PigmentEntry) pigment_entries; // of these nine, too, each different one once
     ARRAY(PatternedPigment) patterns;
     ARRAY(PictureSource) picture_sources; // and these three
     ARRAY(PictureShade) picture_shades;
     ARRAY(ImageMap) image_maps;
     ARRAY(Picture) pictures; // beside picture_sources: what was read
+    ARRAY(SlopeEntry) slope_entries;
+    ARRAY(NormalEntry) normal_entries;
+    ARRAY(Normal) normals;
     ARRAY(TextureEntry) texture_entries;
     ARRAY(Texture) textures;
     ARRAY(Interior) interiors;
@@ -312,8 +347,9 @@ typedef struct Scene {
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     uint32_t shape_count; // spheres, ellipsoids, planes, composites and parts that stand alone
-    UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, texture_entry_index, texture_index,
-        interior_index, compound_index, picture_source_index, picture_shade_index, image_map_index;
+    UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, slope_entry_index, normal_entry_index,
+        normal_index, texture_entry_index, texture_index, interior_index, compound_index, picture_source_index,
+        picture_shade_index, image_map_index;
 } Scene;
 
 // An empty scene with the language's defaults. Nothing is allocated.
@@ -350,6 +386,9 @@ bool scene_add_picture_shade(Scene *scene, const PictureShade *shade, uint32_t *
 bool scene_add_image_map(Scene *scene, const ImageMap *map, uint32_t *index) RT_MUST_CHECK;
 // A picture that is not loaded yet.
 bool scene_add_picture(Scene *scene, const PictureSource *source, Span span, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_slope_entry(Scene *scene, const SlopeEntry *entry, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_normal_entry(Scene *scene, const NormalEntry *entry, uint32_t *index) RT_MUST_CHECK;
+bool scene_add_normal(Scene *scene, const Normal *normal, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_texture_entry(Scene *scene, const TextureEntry *entry, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_texture(Scene *scene, const Texture *texture, uint32_t *index) RT_MUST_CHECK;
 bool scene_add_interior(Scene *scene, const Interior *interior, uint32_t *index) RT_MUST_CHECK;

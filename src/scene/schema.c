@@ -89,6 +89,7 @@ static const SchemaProperty pattern_modifiers[] = {
 static const SchemaProperty object_modifiers[] = {
     {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; a second one is laid over the first"},
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "the texture's pigment"},
+    {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "the texture's bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "the texture's finish; what is not said stays as it was"},
     {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what it is filled with"},
     {"material", TYPE_BLOCK, ACTION_MATERIAL, .doc = "a texture and an interior"},
@@ -315,8 +316,27 @@ static const SettingsBlueprint settings_defaults = {
 
 static const SchemaProperty texture_properties[] = {
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "its colour"},
+    {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
     {"texture_map", TYPE_BLOCK, ACTION_MAP, .doc = "textures along a pattern of values"},
+    {"no_bump_scale", TYPE_FLAG, AT(TextureBlueprint, keeps_length),
+     .doc = "the depth of its bumps is not scaled with it; not for a pattern of textures"},
+};
+
+static const SchemaProperty normal_arguments[] = {
+    {"amount", TYPE_NUMBER, AT(NormalBlueprint, amount), .is_optional = true, .doc = "how deep: stands after the pattern"},
+};
+
+static const SchemaProperty normal_properties[] = {
+    {"quilted", TYPE_ACTION, ACTION_PATTERN, .doc = "a cushion in each unit cube"},
+    {"control0", TYPE_NUMBER, PATTERN_AT(vector.x), .doc = "of `quilted`: how steep in the middle"},
+    {"control1", TYPE_NUMBER, PATTERN_AT(vector.y), .doc = "of `quilted`: how steep at the seams"},
+    {"bump_size", TYPE_NUMBER, AT(NormalBlueprint, amount), .doc = "how deep"},
+    {"accuracy", TYPE_NUMBER, AT(NormalBlueprint, accuracy), .range = POSITIVE,
+     .doc = "how far from the point the pattern is looked at"},
+    {"slope_map", TYPE_BLOCK, ACTION_MAP, .doc = "heights along a pattern of values"},
+    {"normal_map", TYPE_BLOCK, ACTION_MAP, .doc = "normals along a pattern of values"},
+    {"no_bump_scale", TYPE_FLAG, AT(NormalBlueprint, keeps_length), .doc = "the depth is not scaled with the pattern"},
 };
 
 static const SchemaProperty pigment_arguments[] = {
@@ -414,8 +434,14 @@ static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
     }
 
 static const PigmentBlueprint pigment_defaults = {.part = PATTERN_PART};
+#define NORMAL_DEFAULTS                                                                                                \
+    {                                                                                                                  \
+        .part = PATTERN_PART, .amount = 0.5, .accuracy = 0.02                                                          \
+    }
+
+static const NormalBlueprint normal_defaults = NORMAL_DEFAULTS;
 static const TextureBlueprint texture_defaults = {
-    .part = PATTERN_PART, .pigment = {.part = PATTERN_PART}, .finish = FINISH_DEFAULTS};
+    .part = PATTERN_PART, .pigment = {.part = PATTERN_PART}, .normal = NORMAL_DEFAULTS, .finish = FINISH_DEFAULTS};
 static const SchemaProperty interior_properties[] = {
     {"ior", TYPE_NUMBER, AT(InteriorBlueprint, interior.ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "index of refraction; 0 is 1"},
@@ -593,7 +619,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                       .defaults = &texture_defaults,
                       .is_declarable = true,
                       .groups = {LIST(texture_properties), PATTERNS, TRANSFORMS},
-                      .doc = "A pigment and a finish, or textures by a pattern."},
+                      .doc = "A pigment, bumps and a finish, or textures by a pattern."},
     [KIND_PIGMENT] = {.word = "pigment",
                       .size = sizeof(PigmentBlueprint),
                       .defaults = &pigment_defaults,
@@ -601,6 +627,13 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                       .arguments = LIST(pigment_arguments),
                       .groups = {LIST(pigment_properties), PATTERNS, TRANSFORMS},
                       .doc = "The colour of a surface and how much light it lets through."},
+    [KIND_NORMAL] = {.word = "normal",
+                     .size = sizeof(NormalBlueprint),
+                     .defaults = &normal_defaults,
+                     .is_declarable = true,
+                     .arguments = LIST(normal_arguments),
+                     .groups = {LIST(normal_properties), PATTERNS, TRANSFORMS},
+                     .doc = "Bumps: a pattern turns the surface's normal, not the surface."},
     [KIND_FINISH] = {.word = "finish",
                      .size = sizeof(FinishBlueprint),
                      .defaults = &finish_defaults,
@@ -628,6 +661,16 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                         .defaults = &image_defaults,
                         .groups = {LIST(image_properties)},
                         .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name tells it."},
+    [KIND_NORMAL_MAP] = {.word = "normal_map",
+                         .size = sizeof(PatternMap),
+                         .defaults = &map_defaults,
+                         .is_declarable = true,
+                         .doc = "`[value normal]`, the normal being what may stand in `normal { }`."},
+    [KIND_SLOPE_MAP] = {.word = "slope_map",
+                        .size = sizeof(PatternMap),
+                        .defaults = &map_defaults,
+                        .is_declarable = true,
+                        .doc = "`[value <height, slope>]`, values rising from 0 to 1."},
     [KIND_INTERIOR] = {.word = "interior",
                        .size = sizeof(InteriorBlueprint),
                        .defaults = &interior_defaults,

@@ -1,0 +1,85 @@
+// Bumps that turn a normal by a vector of their own: one small function for each.
+//
+// Turns a point into a vector; owns constant data only. The formulas are POV-Ray's, found by experiment;
+// docs/language.md, "Bumps".
+//
+// SPDX-License-Identifier: MIT
+#include "render/normal_special.h"
+
+#include <math.h>
+
+#include "render/pattern_noise.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+static Vec3 bumps(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)pattern;
+    return noise_vector(source->noise, p);
+}
+
+static Vec3 dents(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    double value = noise_value(source->noise, pattern_generator(pattern, source), p);
+    return vec3_scale(value * value * value, noise_vector(source->noise, p));
+}
+
+static Vec3 wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)pattern;
+    Vec3 sum = vec3(0.0, 0.0, 0.0);
+    double scale = 1.0;
+    for (int i = 0; i < 10; i++) {
+        Vec3 vector = noise_vector(source->noise, vec3_scale(scale, p));
+        sum = vec3_add_scaled(sum, 1.0 / scale, vec3(fabs(vector.x), fabs(vector.y), fabs(vector.z)));
+        scale *= 2.0;
+    }
+    return sum;
+}
+
+// Away from each source by the wave's height.
+static Vec3 waves_of(const Pattern *pattern, const NoiseSource *source, Vec3 p, bool has_frequencies)
+{
+    Vec3 sum = vec3(0.0, 0.0, 0.0);
+    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
+        Vec3 offset = vec3_sub(p, source->noise->wave_sources[i]);
+        double way = vec3_length(offset), frequency = has_frequencies ? noise_wave_frequency(i) : 1.0;
+        if (way > 0.0) {
+            double height = sin(two_pi * (way * pattern->frequency * frequency + pattern->phase)) / frequency;
+            sum = vec3_add_scaled(sum, height / (NOISE_WAVE_SOURCES * way), offset);
+        }
+    }
+    return sum;
+}
+
+static Vec3 ripples(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return waves_of(pattern, source, p, false);
+}
+
+static Vec3 waves(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return waves_of(pattern, source, p, true);
+}
+
+// Away from the middle of each unit cube, by a cubic of the distance.
+static Vec3 quilted(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)source;
+    Vec3 offset = vec3(p.x - floor(p.x) - 0.5, p.y - floor(p.y) - 0.5, p.z - floor(p.z) - 0.5);
+    double t = vec3_length(offset), rest = 1.0 - t;
+    double height = t * (t * (t + 3.0 * rest * pattern->vector.y) + 3.0 * rest * rest * pattern->vector.x);
+    return vec3_scale(2.0 / sqrt(3.0) * height, offset);
+}
+
+typedef Vec3 (*NormalFunction)(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+
+static const NormalFunction functions[PATTERN_COUNT] = {
+    [PATTERN_BUMPS] = bumps,     [PATTERN_DENTS] = dents, [PATTERN_WRINKLES] = wrinkles,
+    [PATTERN_RIPPLES] = ripples, [PATTERN_WAVES] = waves, [PATTERN_QUILTED] = quilted,
+};
+
+Vec3 normal_special(const Pattern *pattern, const NoiseSource *source, Vec3 point)
+{
+    return functions[pattern->type](pattern, source, point);
+}
