@@ -219,12 +219,13 @@ static void follow_layer(void *client, const TextureLayer *layer)
 {
     Follower *follower = client;
     const Prepared *p = follower->p;
-    const ShadePoint *flat = follower->at;
-    ShadePoint bumpy = *flat;
+    const ShadePoint *whole = follower->at;
+    ShadePoint at = *whole; // its normal may be another layer's
+    at.normal = at.inside ? vec3_neg(at.outward) : at.outward;
     if (layer->normal != RECORD_NONE) {
-        bumpy.normal = texture_normal(&p->textures, layer, flat->inside ? vec3_neg(flat->outward) : flat->outward);
-        follower->at = &bumpy;
+        at.normal = texture_normal(&p->textures, layer, at.normal);
     }
+    follower->at = &at;
     ShadeMaterial material = shade_material(p, FEATURES, layer->pigment, layer->finish);
     LifeLayer out = {
         .pigment = layer->pigment,
@@ -236,7 +237,7 @@ static void follow_layer(void *client, const TextureLayer *layer)
     for (size_t i = 0; i < p->light_count; i++) {
         follow_light(follower, &material, &p->lights[i]);
     }
-    follower->at = flat;
+    follower->at = whole;
     out.light_count = follower->life->lights.count - out.first_light;
     follower->failed |= !ARRAY_PUSH(&follower->life->layers, out);
 }

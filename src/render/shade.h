@@ -313,8 +313,8 @@ RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
 RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadePoint *at)
 {
     Vec3 mirrored = vec3_reflect(at->direction, at->normal);
-    if (features & RENDER_NORMALS) {
-        Vec3 facing = at->inside ? vec3_neg(at->outward) : at->outward;
+    Vec3 facing = at->inside ? vec3_neg(at->outward) : at->outward;
+    if ((features & RENDER_NORMALS) && !vec3_equal(at->normal, facing)) {
         if (vec3_dot(at->normal, at->direction) > 0.0) {
             mirrored = vec3_reflect(at->direction, facing);
         } else if (vec3_dot(mirrored, facing) < 0.0) {
