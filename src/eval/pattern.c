@@ -315,6 +315,9 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     }
     pattern->type = type;
     pattern->wave = info->wave != WAVE_RAMP ? info->wave : pattern->wave;
+    if (info->blocks) {
+        pattern->frequency = 0.0; // the numbers of blocks stay as they are
+    }
     if (type == PATTERN_BRICK) {
         pattern->vector = vec3(8.0, 3.0, 4.5);
         pattern->mortar = 0.5;

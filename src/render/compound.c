@@ -20,13 +20,9 @@ typedef struct LayerSum {
 } LayerSum;
 
 // A mirror is seen undimmed through the layers above, unless the ray would be worth too little; measured.
-RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const TextureLayer *layer, const ShadePoint *at,
-                                 const ShadeMaterial *material, ShadeOnward *onward)
+RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const TextureLayer *layer,
+                                 const ShadeMaterial *material, Rgb reflectance, ShadeOnward *onward)
 {
-    Rgb reflectance;
-    if (!shade_mirror(features, material, at, &reflectance)) {
-        return;
-    }
     double weight = rgb_luminance(layer->above) * shade_mirror_weight(features, material->finish, reflectance);
     if (sum->weight * weight < sum->p->adc_bailout) {
         return;
@@ -43,14 +39,17 @@ RT_ALWAYS_INLINE void add_light(unsigned features, LayerSum *sum, const TextureL
     sum->light = rgb_add(sum->light, rgb_mul(rgb_scale(layer->part, layer->above), light));
 }
 
-static void add_layer(void *client, const TextureLayer *layer)
+static Rgb add_layer(void *client, const TextureLayer *layer)
 {
     LayerSum *sum = client;
     ShadeMaterial material = shade_material(sum->p, FLAT_FEATURES, layer->pigment, layer->finish);
-    add_mirror(FLAT_FEATURES, sum, layer, sum->at, &material, sum->onward);
-    sum->onward->conserves_energy |= material.finish->conserves_energy;
+    Rgb reflectance;
+    if (shade_mirror(FLAT_FEATURES, &material, sum->at, &reflectance)) {
+        add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->onward);
+    }
     sum->refraction = fmin(sum->refraction, material.finish->refraction);
     add_light(FLAT_FEATURES, sum, layer, sum->at, &material);
+    return shade_left_below(FLAT_FEATURES, &material, sum->at);
 }
 
 Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
@@ -70,8 +69,7 @@ Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, Shade
 typedef struct Stack {
     Vec3 normal;    // of the top
     double part, refraction;
-    Rgb through, reflectance;
-    bool conserves_energy;
+    Rgb through; // what all of them let through
 } Stack;
 
 typedef struct BumpSum {
@@ -103,18 +101,12 @@ static void end_stack(BumpSum *bumps)
     const Stack *stack = &bumps->stack;
     const LayerSum *sum = &bumps->sum;
     Rgb through = stack->through;
-    if (!bumps->has_stack || rgb_is_black(through) || rgb_luminance(through) < sum->p->adc_bailout) {
+    if (!bumps->has_stack || rgb_is_black(through) || fabs(rgb_luminance(through)) < sum->p->adc_bailout) {
         return;
-    }
-    double weight = stack->refraction * rgb_max(through);
-    if (stack->conserves_energy) {
-        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, stack->reflectance);
-        through = rgb_mul(through, left);
-        weight *= rgb_max(left);
     }
     ShadeOnward *way = way_for(bumps->ways, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
     way->through = rgb_add_scaled(way->through, stack->refraction * stack->part, through);
-    way->through_weight = fmax(way->through_weight, weight);
+    way->through_weight = fmax(way->through_weight, stack->refraction * rgb_max_abs(through));
     way->part += stack->part;
 }
 
@@ -125,7 +117,7 @@ static void begin_stack(BumpSum *bumps, const TextureLayer *layer, Vec3 normal)
     bumps->stack = (Stack){.normal = normal, .part = layer->part, .refraction = HUGE_VAL};
 }
 
-static void add_bumpy_layer(void *client, const TextureLayer *layer)
+static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
 {
     BumpSum *bumps = client;
     LayerSum *sum = &bumps->sum;
@@ -138,15 +130,14 @@ static void add_bumpy_layer(void *client, const TextureLayer *layer)
         begin_stack(bumps, layer, at.normal);
     }
     ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
-    Rgb reflectance;
+    Rgb reflectance, left = shade_left_below(ALL_FEATURES, &material, &at);
     if (shade_mirror(ALL_FEATURES, &material, &at, &reflectance)) {
-        add_mirror(ALL_FEATURES, sum, layer, &at, &material, way_for(bumps->ways, at.normal));
-        stack->reflectance = rgb_add(stack->reflectance, reflectance);
+        add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, way_for(bumps->ways, at.normal));
     }
-    stack->conserves_energy |= material.finish->conserves_energy;
     stack->refraction = fmin(stack->refraction, material.finish->refraction);
-    stack->through = rgb_mul(layer->above, texture_pigment_through(layer->pigment));
+    stack->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
     add_light(ALL_FEATURES, sum, layer, &at, &material);
+    return left;
 }
 
 Rgb shade_bumpy(const Prepared *p, const ShadePoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics)

@@ -66,7 +66,7 @@ static void walk(const Prepared *prepared, Ray ray, Inside *inside)
         if (!hit.inside) {
             inside_enter(&entered, order, interior, is_solid);
         } else if (holds(&entered, order)) {
-            inside_leave(&entered, order);
+            (void)inside_leave(&entered, order);
         } else if ((interior != RECORD_NONE || is_solid) && !holds(inside, order)) {
             // Other shapes change nothing here: rays that start inside of them are in empty space.
             put_below(inside, (InsideEntry){order, interior, is_solid});

@@ -53,8 +53,8 @@ static inline bool inside_is_solid(const Inside *inside)
     return is_solid;
 }
 
-// The shape need not be the one entered last, nor be there at all.
-static inline void inside_leave(Inside *inside, uint32_t order)
+// The shape need not be the one entered last; false when it is not there at all.
+static inline bool inside_leave(Inside *inside, uint32_t order)
 {
     uint32_t at = inside->count;
     while (at > 0 && inside->entries[at - 1].order != order) {
@@ -64,7 +64,9 @@ static inline void inside_leave(Inside *inside, uint32_t order)
         for (inside->count--; at - 1 < inside->count; at++) {
             inside->entries[at - 1] = inside->entries[at];
         }
+        return true;
     }
+    return false;
 }
 
 static inline double inside_ior(const Interior *interiors, const Inside *inside)

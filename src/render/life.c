@@ -215,7 +215,7 @@ static void follow_light(Follower *follower, const ShadeMaterial *material, cons
     follower->failed |= !ARRAY_PUSH(&follower->life->lights, out);
 }
 
-static void follow_layer(void *client, const TextureLayer *layer)
+static Rgb follow_layer(void *client, const TextureLayer *layer)
 {
     Follower *follower = client;
     const Prepared *p = follower->p;
@@ -240,6 +240,7 @@ static void follow_layer(void *client, const TextureLayer *layer)
     follower->at = whole;
     out.light_count = follower->life->lights.count - out.first_light;
     follower->failed |= !ARRAY_PUSH(&follower->life->layers, out);
+    return shade_left_below(FEATURES, &material, follower->at);
 }
 
 static void follow_surface(Follower *follower, const ShadePoint *at)
@@ -252,7 +253,7 @@ static void follow_surface(Follower *follower, const ShadePoint *at)
     } else {
         const Material *plain = &p->materials[at->material];
         TextureLayer layer = {material_pigment(plain), plain->finish, RECORD_NONE, true, NULL, 1.0, rgb_grey(1.0)};
-        follow_layer(follower, &layer);
+        (void)follow_layer(follower, &layer);
     }
 }
 

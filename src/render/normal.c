@@ -39,7 +39,7 @@ static Vec3 lean(const TextureTable *table, const Normal *record, Vec3 point)
     Vec3 sum = vec3(0.0, 0.0, 0.0);
     for (int i = 0; i < 4; i++) {
         Vec3 corner = vec3_add(point, vec3_scale(record->accuracy, corners[i]));
-        double height = pattern_height(&record->pattern, &table->source, corner);
+        double height = pattern_value_moved(&record->pattern, &table->source, corner);
         if (record->slopes != RECORD_NONE) {
             height = slope_height(table->scene->slope_entries.items, record->slopes, height);
         }
@@ -71,15 +71,9 @@ static Vec3 mapped(const TextureTable *table, const Normal *record, Vec3 point, 
     if (record->pattern.type == PATTERN_AVERAGE) {
         return average(table, record->entries, point, normal, keeps_length);
     }
-    AlongPlace place = {record->entries, record->entries, 0.0};
-    if (pattern_info((PatternType)record->pattern.type)->blocks) {
-        for (unsigned n = pattern_block_moved(&record->pattern, point); n > 0 && entries[place.low].next != RECORD_NONE; n--) {
-            place.low = entries[place.low].next;
-        }
-    } else {
-        double value = pattern_height(&record->pattern, &table->source, point);
-        ALONG_FIND(entries, record->entries, value, &place);
-    }
+    AlongPlace place;
+    double value = pattern_value_moved(&record->pattern, &table->source, point);
+    ALONG_FIND(entries, record->entries, value, &place);
     Vec3 low = turned(table, entries[place.low].normal, point, normal, keeps_length);
     if (place.share == 0.0) {
         return low;

@@ -105,7 +105,57 @@ static double julia(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     return escape(p.x, p.y, pattern->vector.x, pattern->vector.y, pattern->count);
 }
 
+// ---- blocks: the number of the kind that is there
+
+static double checker(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)pattern;
+    (void)source;
+    double sum = floor(p.x) + floor(p.y) + floor(p.z);
+    return fabs(fmod(sum, 2.0));
+}
+
+// The middles are at q <3/2, 0, sqrt(3)/2> + r <0, 0, sqrt(3)>. A point belongs to the one that its fractional q, r and
+// s = -q - r round to, the coordinate that was rounded furthest being made the sum of the others.
+static double hexagon(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)pattern;
+    (void)source;
+    double q = p.x / 1.5, r = p.z / sqrt(3.0) - q / 2.0, s = -q - r;
+    double q_whole = floor(q + 0.5), r_whole = floor(r + 0.5), s_whole = floor(s + 0.5);
+    double q_off = fabs(q_whole - q), r_off = fabs(r_whole - r), s_off = fabs(s_whole - s);
+    if (q_off > r_off && q_off > s_off) {
+        q_whole = -r_whole - s_whole;
+    } else if (r_off > s_off) {
+        r_whole = -q_whole - s_whole;
+    }
+    double colour = fmod(2.0 * q_whole + r_whole, 3.0);
+    return colour < 0.0 ? colour + 3.0 : colour;
+}
+
+// What is left of x after whole periods, in [0, period).
+static double remainder_of(double x, double period)
+{
+    return x - period * floor(x / period);
+}
+
+// Mortar (0) fills the end of each period of x, y and z. Odd courses are moved by half a brick in x, even ones in z.
+static double brick(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    (void)source;
+    Vec3 size = pattern->vector;
+    bool is_odd = remainder_of(floor(p.y / size.y), 2.0) != 0.0;
+    double x = remainder_of(is_odd ? p.x + size.x / 2.0 : p.x, size.x);
+    double y = remainder_of(p.y, size.y);
+    double z = remainder_of(is_odd ? p.z : p.z + size.z / 2.0, size.z);
+    bool is_mortar = x >= size.x - pattern->mortar || y >= size.y - pattern->mortar || z >= size.z - pattern->mortar;
+    return is_mortar ? 0.0 : 1.0;
+}
+
 static const PatternFunction values[PATTERN_COUNT] = {
+    [PATTERN_CHECKER] = checker,
+    [PATTERN_HEXAGON] = hexagon,
+    [PATTERN_BRICK] = brick,
     [PATTERN_GRADIENT] = gradient,
     [PATTERN_RADIAL] = radial,
     [PATTERN_ONION] = onion,
@@ -145,13 +195,6 @@ static double wave(const Pattern *pattern, double x)
     return x;
 }
 
-// What is above 1 begins the map anew. POV-Ray does so after 1.00001, so that 1 itself is still the map's end; measured
-// with frequencies up to 10^4.
-static double fold(double x)
-{
-    return x > 1.0 ? fmod(x, 1.00001) : x;
-}
-
 bool pattern_needs_noise(const Pattern *pattern)
 {
     return pattern_info((PatternType)pattern->type)->uses_noise || vec3_max_abs(pattern->turbulence) > 0.0;
@@ -165,82 +208,18 @@ Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point
     return is_moved ? pattern_turbulent(pattern, source, point) : point;
 }
 
-static double in_wave(const Pattern *pattern, double x)
+// What is above 1 begins the map anew. POV-Ray does so after 1.00001, so that 1 itself is still the map's end; measured
+// with frequencies up to 10^4. What is below 0 is counted from 1 down.
+double pattern_value_moved(const Pattern *pattern, const NoiseSource *source, Vec3 moved)
 {
-    x = x * pattern->frequency + pattern->phase;
-    x = x < 0.0 ? 1.0 + fmod(x, 1.00001) : fold(x);
-    return wave(pattern, x);
+    double x = values[pattern->type](pattern, source, moved);
+    if (pattern->frequency != 0.0) {
+        x = fmod(x * pattern->frequency + pattern->phase, 1.00001);
+    }
+    return wave(pattern, x < 0.0 ? x - floor(x) : x);
 }
 
 double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
-    return in_wave(pattern, fold(values[pattern->type](pattern, source, pattern_moved(pattern, source, point))));
-}
-
-// ---- blocks
-
-static unsigned checker(const Pattern *pattern, Vec3 p)
-{
-    (void)pattern;
-    double sum = floor(p.x) + floor(p.y) + floor(p.z);
-    return (unsigned)fabs(fmod(sum, 2.0));
-}
-
-// The middles are at q <3/2, 0, sqrt(3)/2> + r <0, 0, sqrt(3)>. A point belongs to the one that its fractional q, r and
-// s = -q - r round to, the coordinate that was rounded furthest being made the sum of the others.
-static unsigned hexagon(const Pattern *pattern, Vec3 p)
-{
-    (void)pattern;
-    double q = p.x / 1.5, r = p.z / sqrt(3.0) - q / 2.0, s = -q - r;
-    double q_whole = floor(q + 0.5), r_whole = floor(r + 0.5), s_whole = floor(s + 0.5);
-    double q_off = fabs(q_whole - q), r_off = fabs(r_whole - r), s_off = fabs(s_whole - s);
-    if (q_off > r_off && q_off > s_off) {
-        q_whole = -r_whole - s_whole;
-    } else if (r_off > s_off) {
-        r_whole = -q_whole - s_whole;
-    }
-    double colour = fmod(2.0 * q_whole + r_whole, 3.0);
-    return (unsigned)(colour < 0.0 ? colour + 3.0 : colour);
-}
-
-// What is left of x after whole periods, in [0, period).
-static double remainder_of(double x, double period)
-{
-    return x - period * floor(x / period);
-}
-
-// Mortar (0) fills the end of each period of x, y and z. Odd courses are moved by half a brick in x, even ones in z.
-static unsigned brick(const Pattern *pattern, Vec3 p)
-{
-    Vec3 size = pattern->vector;
-    bool is_odd = remainder_of(floor(p.y / size.y), 2.0) != 0.0;
-    double x = remainder_of(is_odd ? p.x + size.x / 2.0 : p.x, size.x);
-    double y = remainder_of(p.y, size.y);
-    double z = remainder_of(is_odd ? p.z : p.z + size.z / 2.0, size.z);
-    bool is_mortar = x >= size.x - pattern->mortar || y >= size.y - pattern->mortar || z >= size.z - pattern->mortar;
-    return is_mortar ? 0 : 1;
-}
-
-typedef unsigned (*BlockFunction)(const Pattern *pattern, Vec3 p);
-
-static const BlockFunction blocks[PATTERN_COUNT] = {
-    [PATTERN_CHECKER] = checker,
-    [PATTERN_HEXAGON] = hexagon,
-    [PATTERN_BRICK] = brick,
-};
-
-unsigned pattern_block(const Pattern *pattern, const NoiseSource *source, Vec3 point)
-{
-    return blocks[pattern->type](pattern, pattern_moved(pattern, source, point));
-}
-
-unsigned pattern_block_moved(const Pattern *pattern, Vec3 moved)
-{
-    return blocks[pattern->type](pattern, moved);
-}
-
-double pattern_height(const Pattern *pattern, const NoiseSource *source, Vec3 point)
-{
-    return in_wave(pattern, blocks[pattern->type] ? (double)pattern_block_moved(pattern, point)
-                                                  : fold(values[pattern->type](pattern, source, point)));
+    return pattern_value_moved(pattern, source, pattern_moved(pattern, source, point));
 }

@@ -20,20 +20,14 @@ typedef struct NoiseSource {
     NoiseGenerator generator; // of patterns that say nothing else
 } NoiseSource;
 
-// From 0 to 1, after turbulence, frequency, phase and wave. For patterns without blocks.
-double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point);
-
-// The number of the block that holds the point, less than the pattern's count of blocks.
-unsigned pattern_block(const Pattern *pattern, const NoiseSource *source, Vec3 point);
-
 // The point at which a pattern is looked at: moved, if it has turbulence that is no part of its formula.
 Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point);
 
-// The block at a point that is moved already.
-unsigned pattern_block_moved(const Pattern *pattern, Vec3 moved);
+// After turbulence, frequency, phase and wave; of blocks the number of the kind that is there, if nothing is said of
+// frequency and wave.
+double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point);
 
-// What a normal takes for height at a point that is moved already: the value, or the number of the block after frequency,
-// phase and wave.
-double pattern_height(const Pattern *pattern, const NoiseSource *source, Vec3 point);
+// The same at a point that is moved already.
+double pattern_value_moved(const Pattern *pattern, const NoiseSource *source, Vec3 moved);
 
 #endif

@@ -57,7 +57,8 @@ typedef struct ShadePoint {
     uint32_t interior; // of the shape
     double ior_ratio;  // index of refraction behind the surface over the one before it
     double way;        // of the ray that found it, in the scene's lengths; where there are interiors
-    bool inside;
+    bool inside;  // the ray met the surface from the side where the shape is
+    bool leaves;  // what the ray is in; where there are interiors
     SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
 } ShadePoint;
 
@@ -374,13 +375,14 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
 }
 
 // Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind it.
+// A ray leaves what it has entered, and enters anything else, from whichever side it comes to a surface: one that is open
+// or flat, too. Measured.
 RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoint *at, const Inside *before,
                                   Inside *behind)
 {
     inside_copy(behind, before);
-    if (at->inside) {
-        inside_leave(behind, at->order);
-    } else {
+    at->leaves = inside_leave(behind, at->order);
+    if (!at->leaves) {
         bool is_solid = (features & RENDER_FOG) && !scene_is_hollow(p->scene, at->material);
         inside_enter(behind, at->order, at->interior, is_solid);
     }
@@ -431,7 +433,7 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
     int place = pending->count;
     ShadeOnward faded = *onward;
     Rgb fade = rgb_grey(1.0);
-    if ((features & RENDER_INTERIORS) && at->inside) {
+    if ((features & RENDER_INTERIORS) && at->leaves) {
         // Only what comes out of it or is mirrored for want of a way out; not what the surface's finish gives off or
         // mirrors. Measured.
         fade = shade_faded(p, at->interior, at->way);
@@ -512,6 +514,15 @@ RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *mater
 RT_ALWAYS_INLINE double shade_mirror_weight(unsigned features, const PreparedFinish *finish, Rgb reflectance)
 {
     return (features & RENDER_INTERIORS) && finish->is_fresnel ? rgb_max(reflectance) : finish->reflection_weight;
+}
+
+// What a layer's mirror leaves of the light of the layers below.
+RT_ALWAYS_INLINE Rgb shade_left_below(unsigned features, const ShadeMaterial *material, const ShadePoint *at)
+{
+    Rgb reflectance;
+    return material->finish->conserves_energy && shade_mirror(features, material, at, &reflectance)
+               ? rgb_add_scaled(rgb_grey(1.0), -1.0, reflectance)
+               : rgb_grey(1.0);
 }
 
 // The light of a surface of one material, and what it sends on.

@@ -105,14 +105,6 @@ static Rgbft blend(Rgbft a, double share, Rgbft b)
                    rest * a.filter + share * b.filter, rest * a.transmit + share * b.transmit};
 }
 
-static uint32_t nth_pigment(const PigmentEntry *entries, uint32_t first, unsigned n)
-{
-    for (; n > 0 && entries[first].next != RECORD_NONE; n--) {
-        first = entries[first].next;
-    }
-    return first;
-}
-
 static Rgbft plus_share(Rgbft sum, double share, Rgbft colour)
 {
     return (Rgbft){sum.red + share * colour.red, sum.green + share * colour.green, sum.blue + share * colour.blue,
@@ -140,15 +132,6 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     const PigmentEntry *entries = table->scene->pigment_entries.items;
     Vec3 point = transform_point(&table->to_pattern[index], outer);
     PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
-    if (form == PATTERN_OF_VALUES) {
-        AlongPlace place;
-        double value = pattern_value(&record->pattern, &table->source, point);
-        ALONG_FIND(entries, record->entries, value, &place);
-        Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
-        return place.share > 0.0
-                   ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
-                   : low;
-    }
     if (form == PATTERN_OF_COLOURS) {
         return image_colour(&table->images[record->pattern.image],
                             pattern_moved(&record->pattern, &table->source, point));
@@ -156,8 +139,12 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     if (form == PATTERN_OF_ALL) {
         return average(table, record->entries, point);
     }
-    uint32_t entry = nth_pigment(entries, record->entries, pattern_block(&record->pattern, &table->source, point));
-    return texture_pigment(table, &entries[entry].pigment, point);
+    AlongPlace place;
+    double value = pattern_value(&record->pattern, &table->source, point);
+    ALONG_FIND(entries, record->entries, value, &place);
+    Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
+    return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
+                             : low;
 }
 
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
@@ -176,14 +163,6 @@ typedef struct Walk {
 } Walk;
 
 static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above);
-
-static uint32_t nth_texture(const TextureEntry *entries, uint32_t first, unsigned n)
-{
-    for (; n > 0 && entries[first].next != RECORD_NONE; n--) {
-        first = entries[first].next;
-    }
-    return first;
-}
 
 static void walk_average(Walk *walk, uint32_t first, const TexturePlace *place, double part, Rgb above)
 {
@@ -204,11 +183,6 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
     const Texture *texture = &walk->table->scene->textures.items[index];
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
     TexturePlace here = {transform_point(&walk->table->texture_to_pattern[index], outer->point), index, outer};
-    if (pattern_info((PatternType)texture->pattern.type)->blocks) {
-        uint32_t entry = nth_texture(entries, texture->entries, pattern_block(&texture->pattern, &walk->table->source, here.point));
-        walk_layers(walk, entries[entry].texture, &here, part, above);
-        return;
-    }
     if (texture->pattern.type == PATTERN_AVERAGE) {
         walk_average(walk, texture->entries, &here, part, above);
         return;
@@ -232,10 +206,8 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
         }
         Rgbft pigment = texture_pigment(walk->table, &texture->pigment, place->point);
         TextureLayer layer = {pigment, texture->finish, texture->normal, index == top, place, part, above};
-        if (walk->visit) {
-            walk->visit(walk->client, &layer);
-        }
-        above = rgb_mul(above, texture_pigment_through(layer.pigment));
+        Rgb left = walk->visit ? walk->visit(walk->client, &layer) : rgb_grey(1.0);
+        above = rgb_mul(rgb_mul(above, left), texture_pigment_through(pigment));
         if (rgb_is_black(above) || fabs(rgb_luminance(above)) < walk->cut) {
             return;
         }

@@ -62,7 +62,8 @@ typedef struct TextureLayer {
     Rgb above;   // what the layers above let through
 } TextureLayer;
 
-typedef void (*TextureVisit)(void *client, const TextureLayer *layer);
+// Returns the share of light, by colour, that goes on to what is below, beside what the pigment lets through.
+typedef Rgb (*TextureVisit)(void *client, const TextureLayer *layer);
 
 // What all layers let through, by colour, and the greatest component of what one texture of a map does.
 typedef struct TextureThrough {

@@ -63,7 +63,7 @@ typedef struct Pattern {
     Vec3 form;     // crackle: what the distances to the nearest three points count
     double metric, offset; // crackle: exponent of the distance, a distance in a fourth dimension
     double mortar; // brick: width of the mortar
-    double frequency, phase;
+    double frequency, phase; // both of no effect where frequency is 0
     double exponent; // WAVE_POLY
     double agate_turb; // agate: of its own turbulence
     Vec3 turbulence;

@@ -37,6 +37,8 @@ H 0.500 1.380 -0.760
 H 2.150 0.100 -1.000
 """
 DRAWN = "drawn"
+# The size of the pictures; the larger one takes too long for every day.
+WIDTH, HEIGHT = (640, 480) if "EXPORTERS_LONG" in os.environ else (320, 240)
 
 
 def call(arguments, folder):
@@ -173,7 +175,7 @@ def check(make, expected, folders):
             blocker, place = refusal(scene, folders)
             if blocker:
                 return blocker == expected, f"refused at {place}: {blocker}; expected: {expected}", []
-            met, words = pictures.verdict(*pictures.compare_programs(scene, folder, folders))
+            met, words = pictures.verdict(*pictures.compare_programs(scene, folder, folders, WIDTH, HEIGHT))
             ours, theirs = counts(scene, folders)
             told = f"drawn, {words}, {ours[0]} objects and {ours[1]} lights, POV-Ray {theirs[0]} and {theirs[1]}"
             return met and ours == theirs and expected == DRAWN, f"{told}; expected: {expected}", []

@@ -126,11 +126,11 @@ def compare(one, other):
     return greatest, beyond, width * height
 
 
-def compare_programs(scene, folder, folders):
+def compare_programs(scene, folder, folders, width=WIDTH, height=HEIGHT):
     """Renders the scene with both into `folder` and compares. Raises RunFailed when one of them fails."""
     ours, theirs = os.path.join(folder, "rtlang.png"), os.path.join(folder, "povray.png")
-    render_rtlang(scene, ours, folders)
-    render_povray(scene, theirs, folders)
+    render_rtlang(scene, ours, folders, width, height)
+    render_povray(scene, theirs, folders, width, height)
     return compare(ours, theirs)
 
 
