@@ -181,7 +181,7 @@ double pattern_crackle(const Pattern *pattern, const NoiseSource *source, Vec3 p
 {
     Nearest nearest = find_nearest(pattern, source, p);
     if (pattern->is_solid) {
-        return noise_value(source->noise, generator_of(pattern, source), nearest.site);
+        return noise_value(source->noise, pattern_generator(pattern, source), nearest.site);
     }
     double sum = pattern->form.x * nearest.way[0] + pattern->form.y * nearest.way[1] +
                  pattern->form.z * nearest.way[2];

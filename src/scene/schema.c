@@ -329,8 +329,8 @@ static const SchemaProperty normal_arguments[] = {
 
 static const SchemaProperty normal_properties[] = {
     {"quilted", TYPE_ACTION, ACTION_PATTERN, .doc = "a cushion in each unit cube"},
-    {"control0", TYPE_NUMBER, PATTERN_AT(vector.x), .doc = "of `quilted`: how steep in the middle"},
-    {"control1", TYPE_NUMBER, PATTERN_AT(vector.y), .doc = "of `quilted`: how steep at the seams"},
+    {"control0", TYPE_NUMBER, PATTERN_AT(vector.x), .doc = "of `quilted`: how steep in the middle; 1 unless said"},
+    {"control1", TYPE_NUMBER, PATTERN_AT(vector.y), .doc = "of `quilted`: how steep at the seams; 1 unless said"},
     {"bump_size", TYPE_NUMBER, AT(NormalBlueprint, amount), .doc = "how deep"},
     {"accuracy", TYPE_NUMBER, AT(NormalBlueprint, accuracy), .range = POSITIVE,
      .doc = "how far from the point the pattern is looked at"},
@@ -736,6 +736,7 @@ static const SchemaUnsupported unsupported[] = {
     {"text", true, NULL},
     {"torus", true, "use a `union` of spheres"},
     {"cylinder", false, "a `panoramic` camera is near"},
+    {"normal", false, NULL},
     {"gif", false, "save the picture as PNG"},
     {"iff", false, "save the picture as PNG"},
     {"sys", false, "POV-Ray does not read it here either: save the picture as PNG"},

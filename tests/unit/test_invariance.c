@@ -31,6 +31,7 @@ static const Exception exceptions[] = {
     {"interior_total_reflection", "a border of its checker lies in its plane, so the rounding of 8e20 decides", false},
     {"pattern_cells", "borders of its cells lie in the middle of pixels", false},
     {"pigment_below_zero", "a border of its checker lies in its plane", false},
+    {"no_bump_scale", "the depth of its bumps is a length that is not scaled, as in POV-Ray", true},
     {"pattern_noise_marble", "a jump of its map lies in the middle of pixels", false},
 };
 
