@@ -56,7 +56,8 @@ unit_programs = \
   tests/unit/test_image_values \
   tests/unit/test_render \
   tests/unit/test_render_sampler \
-  tests/sampling/test_sampling
+  tests/sampling/test_sampling \
+  tests/sampling/test_forward
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
 
 unit_headers = %D%/unit/tap.h %D%/unit/random.h
@@ -133,6 +134,8 @@ tests_unit_test_render_sampler_SOURCES = %D%/unit/test_render_sampler.c
 tests_unit_test_render_sampler_LDADD = librender.la $(UNIT_TRACE)
 tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
 tests_sampling_test_sampling_LDADD = libapi.la
+tests_sampling_test_forward_SOURCES = %D%/sampling/test_forward.c %D%/sampling/scenes.h
+tests_sampling_test_forward_LDADD = libapi.la
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
 tests_lang_run_lang_LDADD = libeval.la libscene.la libgrammar.la libast.la libmath.la libbase.la
 
@@ -166,6 +169,7 @@ test_scripts = \
   %D%/system/check_stability.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
+  %D%/povray/check_blur.sh \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \
   %D%/povray/check_debug.py \

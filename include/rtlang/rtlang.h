@@ -165,9 +165,15 @@ typedef struct rt_sampling {
     double target_error; /* root mean square in linear light, at which the run ends; 0: none */
     double time_limit;   /* seconds of tracing; 0: none */
     int no_estimate;     /* do not work out the error; the picture is the same */
+    int max_trace_level; /* instead of the scene's; 0: the scene's */
 } rt_sampling;
 /* RT_FAULT_USAGE for an unknown name, a number out of range, or goals with "jittered" or "grid". */
 RT_API rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling);
+
+/* How light is followed: from the eye; or, for study, photons from the lights, counted where they pass the lens, or with each hit
+ * connected to it. The latter two know few scenes (docs/sampling.md) and take `photons` instead of samples. */
+typedef enum rt_method { RT_METHOD_BACKWARD, RT_METHOD_FORWARD, RT_METHOD_FORWARD_CONNECT } rt_method;
+RT_API rt_status rt_set_method(rt_session *session, rt_method method, uint64_t photons);
 
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
@@ -192,6 +198,11 @@ typedef struct rt_error {
     double seconds_left;    /* while rendering: predicted, or negative */
 } rt_error;
 RT_API void rt_get_error(const rt_session *session, rt_error *error);
+/* What became of the photons of a forward run: emitted, that met a surface, and how often one counted on the film. */
+typedef struct rt_photons {
+    uint64_t emitted, met, arrived;
+} rt_photons;
+RT_API void rt_get_photons(const rt_session *session, rt_photons *photons);
 /* Write the error of each pixel as a grey picture in linear light. RT_FAULT_USAGE when there is none. */
 RT_API rt_status rt_write_error(rt_session *session, const char *path);
 /* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread or a signal handler. */

@@ -9,11 +9,19 @@
 
 void rt_get_error(const rt_session *session, rt_error *error)
 {
-    static const rt_end ends[] = {[SAMPLING_DONE] = RT_END_DONE, [SAMPLING_TARGET] = RT_END_TARGET,
-                                  [SAMPLING_TIME] = RT_END_TIME, [SAMPLING_INTERRUPTED] = RT_END_INTERRUPTED};
+    static const rt_end ends[] = {[SAMPLING_DONE] = RT_END_DONE,
+                                  [SAMPLING_TARGET] = RT_END_TARGET,
+                                  [SAMPLING_TIME] = RT_END_TIME,
+                                  [SAMPLING_INTERRUPTED] = RT_END_INTERRUPTED};
     const SamplingError *known = &session->error;
-    *error = (rt_error){known->is_known,  known->rmse, known->low,       known->high, known->samples,
-                        known->slope,     known->bias, ends[known->end], session->seconds_left};
+    *error = (rt_error){known->is_known, known->rmse, known->low,       known->high,          known->samples,
+                        known->slope,    known->bias, ends[known->end], session->seconds_left};
+}
+
+void rt_get_photons(const rt_session *session, rt_photons *photons)
+{
+    const ForwardCounts *counts = &session->photon_counts;
+    *photons = (rt_photons){counts->emitted, counts->met, counts->arrived};
 }
 
 rt_status rt_write_error(rt_session *session, const char *path)
@@ -32,7 +40,9 @@ rt_status rt_write_error(rt_session *session, const char *path)
     }
     ImageDepth depth = image_path_depth(path);
     ImageEncoding encoding = {.depth = depth == IMAGE_DEPTH_8 ? IMAGE_DEPTH_16 : depth,
-                              .transfer = IMAGE_TRANSFER_POWER, .gamma = 1.0, .threads = 1};
+                              .transfer = IMAGE_TRANSFER_POWER,
+                              .gamma = 1.0,
+                              .threads = 1};
     ImageStatus status = image_write(&image, &encoding, path, &fault);
     image_fini(&image);
     return session_image_fault(session, status, path, &fault);
@@ -48,20 +58,28 @@ __attribute__((format(printf, 3, 4))) static void note(SessionNotes *notes, cons
     notes->items[notes->count++] = (ImageNote){name, text};
 }
 
+static void note_sampling(SessionNotes *notes, const SamplingOptions *sampling, const SamplingError *error)
+{
+    note(notes, "rtlang:sampler", "%s", sampler_name(sampling->sampler));
+    note(notes, "rtlang:filter", "%s", filter_name(sampling->filter));
+    note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
+    note(notes, "rtlang:samples", "%.17g", error->samples);
+    note(notes, "rtlang:adaptive", "%s", sampling->is_adaptive ? "yes" : "no");
+}
+
 // Everything that the picture follows from, and its error; no times, so that the same run makes the same file.
 void session_make_notes(const rt_session *session, SessionNotes *notes)
 {
     const SamplingOptions *sampling = &session->sampling;
     const SamplingError *error = &session->error;
     notes->count = 0;
-    if (!session->is_sampled) {
-        return;
+    if (session->method != RT_METHOD_BACKWARD) {
+        note(notes, "rtlang:method", session->method == RT_METHOD_FORWARD ? "forward" : "forward-connect");
+        note(notes, "rtlang:photons", "%llu", (unsigned long long)session->photons);
+        note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
+    } else if (session->is_sampled) {
+        note_sampling(notes, sampling, error);
     }
-    note(notes, "rtlang:sampler", "%s", sampler_name(sampling->sampler));
-    note(notes, "rtlang:filter", "%s", filter_name(sampling->filter));
-    note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
-    note(notes, "rtlang:samples", "%.17g", error->samples);
-    note(notes, "rtlang:adaptive", "%s", sampling->is_adaptive ? "yes" : "no");
     if (error->is_known) {
         note(notes, "rtlang:rmse", "%.6g", error->rmse);
         note(notes, "rtlang:rmse-low", "%.6g", error->low);

@@ -193,6 +193,11 @@ static rt_status load(rt_session *session, Source *source, double start)
     source_close(source);
     diag_finish(&session->diags);
     session->loaded = fine;
+    // A lens wants rays; so many as the scene says, if the client does not.
+    if (session->scene.camera.blur_samples > 1 && session->sampling.samples == 0.0 && !session->sampling.is_adaptive) {
+        session->sampling.samples = session->scene.camera.blur_samples;
+        session->is_sampled = true;
+    }
     session->parse_seconds = session_clock() - start;
     return session_status(session, fine);
 }
@@ -270,7 +275,8 @@ static rt_budget budget_of(const rt_session *session)
         .objects = objects,
         .scene = scene,
         .prepared = scene * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
-        .picture = film_bytes(session->width, session->height, session->is_sampled),
+        .picture = film_bytes(session->width, session->height, session->is_sampled) +
+                   (session->method != RT_METHOD_BACKWARD ? forward_bytes(session->width, session->height) : 0),
         .limit = session->limits.memory_bytes,
     };
 }
@@ -328,6 +334,35 @@ static bool precision_covers(rt_session *session, const Prepared *prepared)
 #endif
 }
 
+static void forward_done(void *client, double done)
+{
+    forward_progress(client, &(RenderProgress){.done = done, .seconds_left = -1.0});
+}
+
+static ForwardOptions forward_options(const rt_session *session, const RenderOptions *options)
+{
+    return (ForwardOptions){
+        .connects = session->method == RT_METHOD_FORWARD_CONNECT,
+        .photons = session->photons,
+        .seed = session->sampling.seed,
+        .threads = options->threads,
+        .progress = options->progress ? forward_done : NULL,
+        .client = options->client,
+        .cancel = options->cancel,
+    };
+}
+
+// Whether the forward tracer, if it is asked for, knows all of the scene; reports what it does not.
+static bool forward_fits(rt_session *session, const Prepared *prepared)
+{
+    ForwardOptions options = forward_options(session, &(RenderOptions){.threads = 1});
+    const char *misfit = session->method == RT_METHOD_BACKWARD ? NULL : forward_misfit(prepared, &options);
+    if (misfit) {
+        diag_report(&session->diags, DIAG_E0449, session->scene.whole, "the forward tracer does not know %s", misfit);
+    }
+    return !misfit;
+}
+
 static RenderResult trace_film(rt_session *session, const Prepared *prepared, const RenderOptions *options)
 {
 #ifdef WITH_STUDY
@@ -338,6 +373,11 @@ static RenderResult trace_film(rt_session *session, const Prepared *prepared, co
         return study_film(prepared, precisions[session->precision], options, &session->film, &session->statistics);
     }
 #endif
+    if (session->method != RT_METHOD_BACKWARD) {
+        ForwardOptions forward = forward_options(session, options);
+        session->kernel = forward.connects ? "forward, connected" : "forward";
+        return forward_film(prepared, &forward, &session->film, &session->error, &session->photon_counts);
+    }
     return render_film(prepared, options, &session->film, &session->statistics, &session->error);
 }
 
@@ -347,13 +387,16 @@ static rt_status render_scene(rt_session *session, int threads)
     threads = threads ? threads : render_default_threads();
     session->threads = threads;
     GeometryOptions geometry = {.threads = threads, .isa = session->isa};
+    if (session->max_trace_level > 0) {
+        session->scene.settings.max_trace_level = session->max_trace_level;
+    }
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     if (!prepared || !film_init(&session->film, session->width, session->height)) {
         prepared_free(prepared);
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
         return session_status(session, false);
     }
-    if (!precision_covers(session, prepared)) {
+    if (!precision_covers(session, prepared) || !forward_fits(session, prepared)) {
         prepared_free(prepared);
         film_fini(&session->film);
         return session_status(session, false);
@@ -387,9 +430,12 @@ static rt_status render_scene(rt_session *session, int threads)
 
 rt_status rt_render(rt_session *session, int threads)
 {
-    bool is_study = session->precision != RT_PRECISION_DOUBLE;
-    if (!session->loaded || session->rendered || threads < 0 || (is_study && session->is_sampled)) {
+    if (!session->loaded || session->rendered || threads < 0) {
         return RT_FAULT_USAGE;
+    }
+    if (session->precision != RT_PRECISION_DOUBLE && session->is_sampled) {
+        return rt_report(session, "E0703", "the reference kernels trace one ray a pixel",
+                         "leave out `--samples` and goals, or say `--samples=1`");
     }
     if (!session_memory_suffices(session)) {
         return session_status(session, false);

@@ -14,6 +14,7 @@
 #include "base/source.h"
 #include "base/text.h"
 #include "eval/eval.h"
+#include "forward/forward.h"
 #include "image/image.h"
 #include "render/render.h"
 #include "rtlang/rtlang.h"
@@ -45,6 +46,10 @@ struct rt_session {
     int threads;   // that rendered it
     SamplingOptions sampling;
     bool is_sampled;
+    int max_trace_level; // 0: the scene's
+    rt_method method;
+    uint64_t photons; // of the forward methods
+    ForwardCounts photon_counts;
     SamplingError error;
     double seconds_left; // while rendering
     RenderStatistics statistics;

@@ -170,6 +170,10 @@ rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling)
         (!options.is_adaptive && options.samples != floor(options.samples))) {
         return RT_FAULT_USAGE;
     }
+    if (sampling->max_trace_level < 0 || sampling->max_trace_level > TRACE_LEVEL_MAX) {
+        return RT_FAULT_USAGE;
+    }
+    session->max_trace_level = sampling->max_trace_level;
     session->sampling = options;
     session->is_sampled = options.is_adaptive || options.samples > 1.0;
     return RT_OK;
@@ -191,5 +195,15 @@ rt_status rt_move_camera(rt_session *session, double factor)
         return RT_FAULT_USAGE;
     }
     scene_move_camera(&session->scene, factor);
+    return RT_OK;
+}
+
+rt_status rt_set_method(rt_session *session, rt_method method, uint64_t photons)
+{
+    if (method > RT_METHOD_FORWARD_CONNECT || (method != RT_METHOD_BACKWARD && photons == 0)) {
+        return RT_FAULT_USAGE;
+    }
+    session->method = method;
+    session->photons = photons;
     return RT_OK;
 }

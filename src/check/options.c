@@ -141,6 +141,13 @@ static bool apply_json(Options *options, const char *argument)
     return true;
 }
 
+static bool apply_study(Options *options, const char *argument)
+{
+    (void)argument;
+    options->study = true;
+    return true;
+}
+
 static const OptionRow rows[] = {
     {'W', "width", "PIXELS", apply_width, "a whole number from 1 to 65535", "width of the pictures (default 320)"},
     {'H', "height", "PIXELS", apply_height, "a whole number from 1 to 65535", "height of the pictures (default 240)"},
@@ -160,6 +167,7 @@ static const OptionRow rows[] = {
     {0, "cases", "N", apply_cases, "a whole number from 1 to 1000000000", "with --stability: cases of each family (default 20000)"},
     {0, "seed", "N", apply_seed, "a whole number from 0 to 1000000000", "with --stability: other random cases (default 0)"},
     {0, "json", NULL, apply_json, "", "print one JSON object a scene; with --report also results.json"},
+    {0, "study", NULL, apply_study, "", "error against time instead: ladders of samples, and POV-Ray's own anti-aliasing"},
     {'V', "version", NULL, NULL, "", "print the version and stop"},
     {'h', "help", NULL, NULL, "", "print this and stop"},
 };

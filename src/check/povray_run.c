@@ -19,7 +19,7 @@
 
 extern char **environ;
 
-enum { FIXED_ARGUMENTS = 12, TAIL_BYTES = 400, START_TRIES = 5 };
+enum { FIXED_ARGUMENTS = 12, SWITCHES_MOST = 8, TAIL_BYTES = 400, START_TRIES = 5 };
 
 typedef struct ArgumentList {
     char **items; // ends with NULL
@@ -84,7 +84,7 @@ static bool arguments_make(ArgumentList *list, const PovrayJob *job)
     const char *slash = strrchr(job->scene, '/');
 
     *list = (ArgumentList){0};
-    list->items = calloc((size_t)job->include_path_count + FIXED_ARGUMENTS + 1, sizeof *list->items);
+    list->items = calloc((size_t)job->include_path_count + FIXED_ARGUMENTS + SWITCHES_MOST + 1, sizeof *list->items);
     if (list->items == NULL) {
         return false;
     }
@@ -94,7 +94,12 @@ static bool arguments_make(ArgumentList *list, const PovrayJob *job)
     argument_add(list, "+FN16");
     argument_add(list, "File_Gamma=1.0");
     argument_add(list, "-D");
-    argument_add(list, "-A");
+    for (int i = 0; job->switches != NULL && job->switches[i] != NULL && i < SWITCHES_MOST; i++) {
+        argument_add(list, "%s", job->switches[i]);
+    }
+    if (job->switches == NULL) {
+        argument_add(list, "-A");
+    }
     argument_add(list, "-P");
     argument_add(list, "+W%d", job->width);
     argument_add(list, "+H%d", job->height);
@@ -235,4 +240,28 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     arguments_fini(&arguments);
     free(folder);
     return fine;
+}
+
+// "  Trace Time:       0 hours  0 minutes  1 seconds (1.234 seconds)" and below "using 1 thread(s) with 1.200 CPU-seconds
+// total".
+double povray_trace_seconds(const char *log)
+{
+    FILE *file = fopen(log, "rb");
+    char line[256];
+    double seconds = 0.0;
+    bool is_trace = false;
+
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+        const char *with = strstr(line, " with ");
+
+        is_trace = is_trace || strstr(line, "Trace Time:") != NULL;
+        if (is_trace && with != NULL && strstr(line, "CPU-seconds") != NULL) {
+            seconds = strtod(with + 6, NULL);
+            break;
+        }
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    return seconds;
 }

@@ -248,10 +248,17 @@ static void print_error(const rt_session *session, const Options *options)
     if (!error.known) {
         return;
     }
-    fprintf(stderr, "error: rmse %.3g, with 95 %% confidence %.3g to %.3g, at %.17g samples a pixel%s%s\n", error.rmse,
-            error.low, error.high, error.samples,
+    fprintf(stderr, "error: rmse %.3g, with 95 %% confidence %.3g to %.3g, at %.17g %s a pixel%s%s\n", error.rmse,
+            error.low, error.high, error.samples, options->method != RT_METHOD_BACKWARD ? "photons" : "samples",
             options->sampling.target_error > 0.0 && error.end != RT_END_TARGET ? "; the target is not reached" : "",
             ends[error.end]);
+    if (options->method != RT_METHOD_BACKWARD) {
+        rt_photons photons;
+        rt_get_photons(session, &photons);
+        fprintf(stderr, "photons: %llu, of which %llu met a surface; %llu arrivals on the film, one for %.3g photons\n",
+                (unsigned long long)photons.emitted, (unsigned long long)photons.met,
+                (unsigned long long)photons.arrived, (double)photons.emitted / (double)photons.arrived);
+    }
     if (error.bias > 0.0) {
         fprintf(stderr, "bias: rays cut by max_trace_level or adc_bailout would add about %.2g in the mean%s\n",
                 error.bias, error.bias > error.high ? "; more samples will not help" : "");
@@ -260,11 +267,6 @@ static void print_error(const rt_session *session, const Options *options)
 
 static rt_status set_sampling(rt_session *session, const Options *options)
 {
-    bool is_sampled = options->sampling.samples > 1.0 || options->sampling.target_error > 0.0 ||
-                      options->sampling.time_limit > 0.0;
-    if (is_sampled && options->precision != RT_PRECISION_DOUBLE) {
-        return fail_usage(session, "the reference kernels of `--precision` trace one ray a pixel");
-    }
     if (rt_set_sampling(session, &options->sampling) == RT_OK) {
         return RT_OK;
     }
@@ -312,7 +314,8 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
         return status;
     }
     progress_begin(progress, !options->quiet && options->format == RT_FORMAT_TEXT);
-    status = rt_set_precision(session, options->precision);
+    status = rt_set_method(session, options->method, options->photons);
+    status = status ? status : rt_set_precision(session, options->precision);
     if (status) {
         return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
     }

@@ -265,6 +265,29 @@ static bool apply_no_estimate(Options *options, const char *argument, const char
     return true;
 }
 
+static bool apply_method(Options *options, const char *argument, const char **expected)
+{
+    static const char *const names[] = {[RT_METHOD_BACKWARD] = "backward", [RT_METHOD_FORWARD] = "forward",
+                                        [RT_METHOD_FORWARD_CONNECT] = "forward-connect"};
+    *expected = "backward, forward or forward-connect";
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        if (strcmp(argument, names[i]) == 0) {
+            options->method = (rt_method)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool apply_photons(Options *options, const char *argument, const char **expected)
+{
+    double photons;
+    *expected = "a number from 1 to 1e15, as 1000000 or 1e6";
+    bool fine = parse_positive(argument, &photons) && photons >= 1.0 && photons <= 1e15;
+    options->photons = fine ? (uint64_t)photons : 0;
+    return fine;
+}
+
 static bool apply_error_map(Options *options, const char *argument, const char **expected)
 {
     *expected = "a file name";
@@ -405,6 +428,9 @@ static const OptionRow rows[] = {
     {0, "time-limit", "SECONDS", apply_time_limit, "sample as long as that; rounds are not begun that would take longer"},
     {0, "no-estimate", NULL, apply_no_estimate, "do not work out the error of --samples; the picture is the same"},
     {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
+    {0, "method", "NAME", apply_method,
+     "backward (default), or for study photons from the lights: forward, forward-connect"},
+    {0, "photons", "N", apply_photons, "photons of the forward methods (default 1e6)"},
     {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
     {0, "budget", NULL, apply_budget, "print how much memory rendering the scene takes at most, and stop"},
     {0, "warnings", "WHAT", apply_warnings,
@@ -580,7 +606,7 @@ static void find_format(int argc, char **argv, Options *options)
 
 OptionsResult options_parse(int argc, char **argv, Options *options)
 {
-    *options = (Options){.width = 320, .height = 240, .encoding = {RT_DEPTH_AUTO, 0.0}};
+    *options = (Options){.width = 320, .height = 240, .encoding = {RT_DEPTH_AUTO, 0.0}, .photons = 1000000};
     // No more paths and declarations than arguments.
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);

@@ -39,6 +39,8 @@ typedef struct Options {
     const char *isa; // NULL: the best that the machine has
     rt_output encoding;
     rt_sampling sampling;
+    rt_method method;
+    uint64_t photons;
     const char *error_map; // where the error of each pixel is written; NULL: nowhere
     const char **include_paths; // owned list
     int include_path_count;

@@ -27,6 +27,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_MATERIAL] = material_action,      [ACTION_IMAGE_MAP] = image_map_action,
     [ACTION_IMAGE] = image_action,
     [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
+    [ACTION_BLUR_SAMPLES] = camera_blur_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,

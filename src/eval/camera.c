@@ -8,6 +8,8 @@
 
 #include "eval/blocks.h"
 
+enum { BLUR_SAMPLES_MAX = 1 << 24 };
+
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
 
 static CameraType camera_type(const CameraBlueprint *camera)
@@ -56,6 +58,26 @@ bool camera_angle_action(Block *block, const SchemaProperty *property, const Ast
                            is_flat ? " and less than 180" : "", camera->angle_deg);
     }
     return type != CAMERA_SPHERICAL || read_vertical_angle(block);
+}
+
+// One number is the most, two are the least and the most.
+bool camera_blur_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty values[] = {
+        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[0]),
+         .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
+        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[1]),
+         .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
+    };
+    CameraBlueprint *camera = &block->record->camera;
+    (void)property;
+    camera->blur_samples[1] = 0;
+    if (!block_value(block, &values[0], item->span)) {
+        return false;
+    }
+    const AstNode *next = cursor_peek(&block->cursor);
+    bool has_more = next && next->kind != AST_WORD && cursor_at_value(&block->cursor);
+    return !has_more || block_value(block, &values[1], item->span);
 }
 
 // Turns the camera so that look_at is in the middle; only lengths and handedness of the vectors are kept.
@@ -113,13 +135,30 @@ static bool resolve(Block *block)
     if (type == CAMERA_ORTHOGRAPHIC) {
         set_orthographic_size(camera, camera->location, direction_length);
     }
+    // Transforms do not change it. Measured, as is the distance of 1.
+    camera->focal_distance =
+        camera->has_focal_point ? vector_length(vec3_sub(camera->focal_point, camera->location)) : 1.0;
     return true;
+}
+
+// What cannot be drawn: POV-Ray's own picture of an orthographic camera with a lens is a smear.
+static bool lens_fits(Block *block)
+{
+    const CameraBlueprint *camera = &block->record->camera;
+    if (camera->aperture == 0.0 || camera->blur_samples[0] == 0) {
+        return true;
+    }
+    if (camera_type(camera) != CAMERA_PERSPECTIVE) {
+        return block_fault(block, DIAG_E0341, block->node->span, "only a perspective camera has an `aperture`");
+    }
+    return camera->focal_distance > 0.0 ||
+           block_fault(block, DIAG_E0341, block->node->span, "`focal_point` must be away from the camera's location");
 }
 
 bool camera_close(Block *block)
 {
     CameraBlueprint *camera = &block->record->camera;
-    if (!block->has_name && !resolve(block)) {
+    if (!block->has_name && !(resolve(block) && lens_fits(block))) {
         return false;
     }
     camera->location = transform_point(&camera->transform, camera->location);
@@ -143,6 +182,8 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
     // The wide cameras take no lengths from their vectors but those on the screen.
     bool has_lengths = type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
     Transform turn = has_lengths ? world : transform_identity();
+    double unit = vec3_length(transform_direction(&world, vec3(1.0, 0.0, 0.0)));
+    bool has_lens = camera->aperture != 0.0 && camera->blur_samples[0] > 0;
     scene->has_camera = true;
     static const double default_angles[CAMERA_TYPES] = {
         [CAMERA_FISHEYE] = 90.0, [CAMERA_ULTRA_WIDE_ANGLE] = 90.0, [CAMERA_SPHERICAL] = 360.0};
@@ -156,6 +197,11 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
         .direction = transform_direction(&turn, camera->direction),
         .right = transform_direction(&turn, camera->right),
         .up = transform_direction(&turn, camera->up),
+        .lens_radius = has_lens ? unit * fabs(camera->aperture) / 4.0 : 0.0,
+        .focal_distance = has_lens ? unit * camera->focal_distance : 1.0,
+        .blur_samples = !has_lens                      ? 0
+                        : camera->blur_samples[1] != 0 ? camera->blur_samples[1]
+                                                       : camera->blur_samples[0],
         .span = span,
     };
     return true;

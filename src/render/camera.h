@@ -11,9 +11,12 @@
 #ifndef RENDER_CAMERA_H
 #define RENDER_CAMERA_H
 
+#include <math.h>
+
 #include "base/attributes.h"
 #include "math/ray.h"
 #include "render/prepared.h"
+#include "render/sampler.h"
 
 // The direction of a camera that is neither perspective nor orthographic; as camera_ray.
 bool camera_wide_direction(const PreparedCamera *camera, double u, double v, Vec3 *direction);
@@ -31,6 +34,27 @@ RT_ALWAYS_INLINE bool camera_ray(const PreparedCamera *camera, double u, double 
                ? (Ray){vec3_add(camera->location, across), camera->direction}
                : (Ray){camera->location, vec3_normalize(vec3_add(camera->direction, across))};
     return true;
+}
+
+// A point of the lens, evenly: P. Shirley and K. Chiu, "A low distortion map between disk and square", 1997.
+static inline Vec3 camera_lens_point(const PreparedCamera *camera, SamplePoint at)
+{
+    const double quarter_turn = 0x1.921fb54442d18p-1; // pi / 4
+    double a = 2.0 * at.x - 1.0, b = 2.0 * at.y - 1.0;
+    bool is_wide = fabs(a) > fabs(b);
+    double radius = is_wide ? a : b;
+    double angle = radius == 0.0 ? 0.0 : quarter_turn * (is_wide ? b / a : a / b);
+    double across = radius * (is_wide ? cos(angle) : sin(angle)), upward = radius * (is_wide ? sin(angle) : cos(angle));
+    return vec3_add(camera->location,
+                    vec3_add(vec3_scale(across, camera->lens_right), vec3_scale(upward, camera->lens_up)));
+}
+
+// The ray of a point of the picture through a point of the lens.
+static inline Ray camera_lens_ray(const PreparedCamera *camera, double u, double v, Vec3 lens)
+{
+    Vec3 across = vec3_sub(vec3_scale(u, camera->right), vec3_scale(v, camera->up));
+    Vec3 ahead = vec3_scale(camera->focal_scale, vec3_add(camera->direction, across));
+    return (Ray){lens, vec3_normalize(vec3_sub(ahead, vec3_sub(lens, camera->location)))};
 }
 
 #endif

@@ -10,15 +10,15 @@
 
 const char *filter_name(FilterKind kind)
 {
-    static const char *const names[] = {[FILTER_BOX] = "box", [FILTER_TENT] = "tent", [FILTER_GAUSSIAN] = "gaussian",
-                                        [FILTER_MITCHELL] = "mitchell"};
+    static const char *const names[] = {
+        [FILTER_BOX] = "box", [FILTER_TENT] = "tent", [FILTER_GAUSSIAN] = "gaussian", [FILTER_MITCHELL] = "mitchell"};
     return kind < FILTER_COUNT ? names[kind] : NULL;
 }
 
 static double filter_radius(FilterKind kind)
 {
-    static const double radii[] = {[FILTER_BOX] = 0.5, [FILTER_TENT] = 1.0, [FILTER_GAUSSIAN] = 1.5,
-                                   [FILTER_MITCHELL] = 2.0};
+    static const double radii[] = {
+        [FILTER_BOX] = 0.5, [FILTER_TENT] = 1.0, [FILTER_GAUSSIAN] = 1.5, [FILTER_MITCHELL] = 2.0};
     return radii[kind];
 }
 
@@ -29,13 +29,16 @@ double filter_value(FilterKind kind, double x)
         return 0.0;
     }
     switch (kind) {
-    case FILTER_TENT: return 1.0 - x;
-    case FILTER_GAUSSIAN: return exp(-2.0 * x * x) - exp(-2.0 * 1.5 * 1.5);
+    case FILTER_TENT:
+        return 1.0 - x;
+    case FILTER_GAUSSIAN:
+        return exp(-2.0 * x * x) - exp(-2.0 * 1.5 * 1.5);
     case FILTER_MITCHELL:
         return x < 1.0 ? (7.0 * x * x * x - 12.0 * x * x + 16.0 / 3.0) / 6.0
                        : (-7.0 / 3.0 * x * x * x + 12.0 * x * x - 20.0 * x + 32.0 / 3.0) / 6.0;
     case FILTER_BOX:
-    case FILTER_COUNT: break;
+    case FILTER_COUNT:
+        break;
     }
     return 1.0;
 }

@@ -1,8 +1,8 @@
 // Reconstruction filters: how the light of a pixel is weighted over the points around its middle.
 //
-// Turns a point of the unit square into a place and a weight. A pixel's samples are spread as its filter says, each counts
-// for the same (or, where a filter is negative, for the opposite): M. Ernst et al., "Filter importance sampling", RT 2006.
-// So a pixel needs no other pixel's samples, and errors of pixels are independent.
+// Turns a point of the unit square into a place and a weight. A pixel's samples are spread as its filter says, each
+// counts for the same (or, where a filter is negative, for the opposite): M. Ernst et al., "Filter importance
+// sampling", RT 2006. So a pixel needs no other pixel's samples, and errors of pixels are independent.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_FILTER_H

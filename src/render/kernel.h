@@ -7,6 +7,7 @@
 #ifndef RENDER_KERNEL_H
 #define RENDER_KERNEL_H
 
+#include "math/vec3.h"
 #include "render/render.h"
 #include "render/sampler.h"
 #include "trace/trace.h"
@@ -39,6 +40,7 @@ enum { KERNEL_RAYS = 64, KERNEL_ROW = 8 }; // fastest for eight neighbours a row
 typedef struct KernelPlaces {
     _Alignas(64) double u[KERNEL_RAYS];
     double v[KERNEL_RAYS];
+    const Vec3 *lens; // where they start, KERNEL_RAYS of them; NULL: at the camera's location
 } KernelPlaces;
 
 typedef struct Kernel {

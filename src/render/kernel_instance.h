@@ -16,13 +16,18 @@ _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TIL
 RT_ALWAYS_INLINE uint64_t places_closest(const Prepared *p, unsigned features, const KernelPlaces *places, Ray *rays, Hit *hits)
 {
     const PreparedCamera *camera = &p->camera;
-    if (camera->type == CAMERA_PERSPECTIVE) {
+    if (camera->type == CAMERA_PERSPECTIVE && !places->lens) {
         TileView view = {camera->location, camera->direction, camera->right, camera->up};
         geometry_closest_view(p->geometry, features, &view, places->u, places->v, rays, hits);
         return UINT64_MAX;
     }
     uint64_t seen = 0;
     for (int i = 0; i < TILE_RAYS; i++) {
+        if (places->lens) {
+            rays[i] = camera_lens_ray(camera, places->u[i], places->v[i], places->lens[i]);
+            seen |= UINT64_C(1) << i;
+            continue;
+        }
         seen |= (uint64_t)camera_ray(camera, places->u[i], places->v[i], &rays[i]) << i;
     }
     geometry_closest_tile(p->geometry, features, rays, hits);

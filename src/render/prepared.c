@@ -55,6 +55,11 @@ static PreparedCamera prepare_camera(const Camera *camera, int exponent)
     out.direction = vec3_ldexp(camera->direction, -own);
     out.right = vec3_ldexp(camera->right, -own);
     out.up = vec3_ldexp(camera->up, -own);
+    out.lens_radius = ldexp(camera->lens_radius, -exponent);
+    out.focal_distance = ldexp(camera->focal_distance, -exponent);
+    out.focal_scale = out.focal_distance / vec3_length(out.direction);
+    out.lens_right = vec3_scale(out.lens_radius, unit(camera->right));
+    out.lens_up = vec3_scale(out.lens_radius, unit(camera->up));
     return out;
 }
 

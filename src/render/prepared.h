@@ -1,4 +1,4 @@
-// What a scene is to the kernels: scaled, reduced and constant; private to src/render.
+// What a scene is to the kernels: scaled, reduced and constant; private to src/render and src/forward.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_PREPARED_H
@@ -22,6 +22,9 @@ typedef struct PreparedCamera {
     // Of wider ones: unit vectors along right, up and direction, the lengths of the first two, angles in radians.
     Vec3 across, upright, ahead;
     double width, height, angle, angle_vertical;
+    double lens_radius;                  // 0: a point
+    double focal_distance, focal_scale;  // the second: over the length of direction
+    Vec3 lens_right, lens_up;            // of length lens_radius
 } PreparedCamera;
 
 typedef struct PreparedLight {

@@ -10,8 +10,10 @@
 
 const char *sampler_name(SamplerKind kind)
 {
-    static const char *const names[] = {[SAMPLER_SOBOL] = "sobol", [SAMPLER_HALTON] = "halton",
-                                        [SAMPLER_JITTERED] = "jittered", [SAMPLER_GRID] = "grid",
+    static const char *const names[] = {[SAMPLER_SOBOL] = "sobol",
+                                        [SAMPLER_HALTON] = "halton",
+                                        [SAMPLER_JITTERED] = "jittered",
+                                        [SAMPLER_GRID] = "grid",
                                         [SAMPLER_RANDOM] = "random"};
     return kind < SAMPLER_COUNT ? names[kind] : NULL;
 }
@@ -68,7 +70,8 @@ static uint32_t owen_scramble(uint32_t x, uint32_t seed)
 // ---- Sobol
 
 // Joe and Kuo's numbers for the first two dimensions are bit reversal and Pascal's triangle modulo 2. The latter is a
-// product of five shifts: entry (i, j), C(j, i) mod 2, is 1 where the bits of i are among those of j (Lucas), bit by bit.
+// product of five shifts: entry (i, j), C(j, i) mod 2, is 1 where the bits of i are among those of j (Lucas), bit by
+// bit.
 uint32_t sobol_value(uint32_t index, unsigned dimension)
 {
     uint32_t x = reverse_bits(index);
@@ -82,8 +85,8 @@ uint32_t sobol_value(uint32_t index, unsigned dimension)
     return x;
 }
 
-// The order of the points is shuffled in each pair on its own, so that pairs are independent; a first part whose number is
-// a power of two stays a net.
+// The order of the points is shuffled in each pair on its own, so that pairs are independent; a first part whose number
+// is a power of two stays a net.
 static SamplePoint sobol_point(uint32_t seed, uint32_t index)
 {
     uint32_t shuffled = owen_scramble(index, seed);
@@ -115,8 +118,8 @@ static SamplePoint halton_point(uint32_t seed, uint32_t index, uint32_t pair)
                          halton_value(index, bases[first + 1], hash_add(seed, 2))};
 }
 
-// A permutation of 0 … count - 1: A. Kensler, "Correlated multi-jittered sampling", Pixar 2013; here by walking the cycles
-// of a permutation of the next power of two.
+// A permutation of 0 … count - 1: A. Kensler, "Correlated multi-jittered sampling", Pixar 2013; here by walking the
+// cycles of a permutation of the next power of two.
 static uint32_t permute(uint32_t i, uint32_t count, uint32_t seed)
 {
     uint32_t mask = count - 1;
@@ -151,12 +154,16 @@ SamplePoint sample_next(SampleStream *stream)
 {
     uint32_t pair = stream->pair++, seed = hash_add(stream->seed, pair);
     switch (stream->kind) {
-    case SAMPLER_SOBOL: return sobol_point(seed, stream->index);
-    case SAMPLER_HALTON: return halton_point(seed, stream->index, pair);
+    case SAMPLER_SOBOL:
+        return sobol_point(seed, stream->index);
+    case SAMPLER_HALTON:
+        return halton_point(seed, stream->index, pair);
     case SAMPLER_JITTERED:
-    case SAMPLER_GRID: return cell_point(stream, seed);
+    case SAMPLER_GRID:
+        return cell_point(stream, seed);
     case SAMPLER_RANDOM:
-    case SAMPLER_COUNT: break;
+    case SAMPLER_COUNT:
+        break;
     }
     seed = hash_add(seed, stream->index);
     return (SamplePoint){unit(hash_add(seed, 1)), unit(hash_add(seed, 2))};

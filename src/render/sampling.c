@@ -191,8 +191,14 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
         free(buckets);
         return RENDER_NO_MEMORY;
     }
-    *s = (Sampling){.prepared = prepared, .options = options, .wanted = wanted, .film = film, .statistics = statistics,
-                    .error = error, .start = clock_seconds(), .choice = {.of_pixel = buckets}};
+    *s = (Sampling){.prepared = prepared,
+                    .options = options,
+                    .wanted = wanted,
+                    .film = film,
+                    .statistics = statistics,
+                    .error = error,
+                    .start = clock_seconds(),
+                    .choice = {.of_pixel = buckets}};
     s->round = (Round){.prepared = prepared, .sampling = wanted, .film = film};
     filter_init(&s->round.filter, wanted->filter);
     if (run_alike(s, wanted->is_adaptive ? PILOT_SAMPLES : (uint32_t)wanted->samples) && wanted->is_adaptive) {

@@ -1,8 +1,8 @@
 // Sampled pictures: rounds of samples, what each says of the error, and when it is enough. Private to src/render.
 //
-// A round gives each chosen pixel as many samples as it has, or nearly so, so that old and new ones are two halves whose
-// difference tells of the error. Everything is decided between rounds from the pixels' records, in one order, so pictures
-// and figures are the same for any number of threads. docs/sampling.md tells of the method.
+// A round gives each chosen pixel as many samples as it has, or nearly so, so that old and new ones are two halves
+// whose difference tells of the error. Everything is decided between rounds from the pixels' records, in one order, so
+// pictures and figures are the same for any number of threads. docs/sampling.md tells of the method.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SAMPLING_H

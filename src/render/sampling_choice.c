@@ -1,8 +1,8 @@
 // Where the next samples go: to the pixels where the error falls most for a sample.
 //
-// A pixel whose variance is c n^-p loses about p c n^-p / n for one sample more. What decides is the difference of halves'
-// halves, over a pixel and its neighbours, never that of the halves, from which the error is taken: so that pixels are
-// not left alone because their error looks small by chance. docs/sampling.md, "Adaptive sampling".
+// A pixel whose variance is c n^-p loses about p c n^-p / n for one sample more. What decides is the difference of
+// halves' halves, over a pixel and its neighbours, never that of the halves, from which the error is taken: so that
+// pixels are not left alone because their error looks small by chance. docs/sampling.md, "Adaptive sampling".
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -1,10 +1,10 @@
 // The error of a picture from what its halves differ by.
 //
-// With V(n) the variance of a pixel's mean of n samples, the mean square of half the difference of two halves of n is V(n/2) -
-// V(n): all of V(n) when samples are independent, less when halves complete each other. The same of the halves' halves is
-// V(n/4) - V(n/2); were V to fall by one ratio r in each step, r would be the quotient of the two, and V(n) the
-// first over r - 1. Sums over many pixels and the last steps make it sharp. docs/sampling.md, "The error without a
-// reference".
+// With V(n) the variance of a pixel's mean of n samples, the mean square of half the difference of two halves of n is
+// V(n/2) - V(n): all of V(n) when samples are independent, less when halves complete each other. The same of the
+// halves' halves is V(n/4) - V(n/2); were V to fall by one ratio r in each step, r would be the quotient of the two,
+// and V(n) the first over r - 1. Sums over many pixels and the last steps make it sharp. docs/sampling.md, "The error
+// without a reference".
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -42,8 +42,8 @@ static void add_fresh(Estimate *estimate, const Film *film, const Round *round)
     }
 }
 
-// The last step's ratio, or its geometric mean with that of the step before, whichever is less: ratios go up and down with
-// the shapes of the nets, and fall where light is sampled. How many steps it was taken from in *steps.
+// The last step's ratio, or its geometric mean with that of the step before, whichever is less: ratios go up and down
+// with the shapes of the nets, and fall where light is sampled. How many steps it was taken from in *steps.
 static double ratio_of(const Estimate *estimate, const Round *round, int level, int *steps)
 {
     double sum = 0.0, least = HUGE_VAL;
@@ -77,8 +77,8 @@ static void add_now(Estimate *estimate, const Film *film)
     }
 }
 
-// The square of the relative error of a level's share of the mean square. Squares of normal errors have a variance of two
-// thirds of their own mean square. What the picture is off by varies as much as its outer sum does.
+// The square of the relative error of a level's share of the mean square. Squares of normal errors have a variance of
+// two thirds of their own mean square. What the picture is off by varies as much as its outer sum does.
 static double relative_variance(const LevelSums *sums, double ratio, int steps)
 {
     if (!(sums->outer_now > 0.0)) {
@@ -92,8 +92,8 @@ static double relative_variance(const LevelSums *sums, double ratio, int steps)
     return ((1.0 + by_ratio) * (1.0 + by_ratio) + by_ratio * by_ratio + 1.0) * outer;
 }
 
-// By how much the law of the ratios may be wrong, by level: less, the more steps were seen, and the least where all sets
-// are nets. Measured.
+// By how much the law of the ratios may be wrong, by level: less, the more steps were seen, and the least where all
+// sets are nets. Measured.
 static double law_error(const Round *round, int level)
 {
     static const double errors[] = {0.35, 0.35, 0.20, 0.20, 0.14, 0.08}, not_net = 0.14;

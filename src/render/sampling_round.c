@@ -1,7 +1,8 @@
-// One round: samples are gathered into calls of the kernel, their light is summed by pixel and half, and what the halves
-// say goes into the pixels' records.
+// One round: samples are gathered into calls of the kernel, their light is summed by pixel and half, and what the
+// halves say goes into the pixels' records.
 //
 // SPDX-License-Identifier: MIT
+#include "render/camera.h"
 #include "render/linear.h"
 #include "render/sampling.h"
 #include "render/tiles.h"
@@ -16,6 +17,7 @@ typedef struct Halves {
 // Samples on their way through the kernel.
 typedef struct Batch {
     KernelPlaces places;
+    Vec3 lens[KERNEL_RAYS];
     SampleStream streams[KERNEL_RAYS];
     double weights[KERNEL_RAYS];
     Rgb *sums[KERNEL_RAYS];
@@ -41,6 +43,9 @@ static void batch_flush(const Round *round, Batch *batch, RenderStatistics *coun
     for (int i = batch->count; i < KERNEL_RAYS; i++) {
         batch->places.u[i] = batch->places.u[batch->count - 1];
         batch->places.v[i] = batch->places.v[batch->count - 1];
+        if (batch->places.lens) {
+            batch->lens[i] = batch->lens[batch->count - 1];
+        }
     }
     uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
     p->kernel->trace(p, &batch->places, batch->streams, wanted, batch->light, counted);
@@ -57,6 +62,9 @@ static void batch_add(const Round *round, Batch *batch, int x, int y, SampleStre
     FilterSample at = filter_sample(&round->filter, sample_next(&stream));
     batch->places.u[i] = (x + 0.5 + at.x) / film->width - 0.5;
     batch->places.v[i] = (y + 0.5 + at.y) / film->height - 0.5;
+    if (batch->places.lens) {
+        batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&stream));
+    }
     batch->weights[i] = at.weight;
     batch->streams[i] = stream;
     batch->sums[i] = sum;
@@ -84,8 +92,8 @@ static double square_apart(const Round *round, const float *value, Rgb differenc
 {
     Rgb slope = linear_slope(&round->prepared->scene->settings, value);
     difference = rgb_mul(difference, slope);
-    double square = difference.red * difference.red + difference.green * difference.green +
-                    difference.blue * difference.blue;
+    double square =
+        difference.red * difference.red + difference.green * difference.green + difference.blue * difference.blue;
     return a * b / ((a + b) * (a + b)) * square / 3.0;
 }
 
@@ -124,6 +132,7 @@ void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
     Halves halves[TILE_PIXELS];
     Batch batch;
     batch.count = 0;
+    batch.places.lens = round->prepared->camera.lens_radius > 0.0 ? batch.lens : NULL;
     // Blocks of pixels, so that rays of one call stay near each other.
     for (int i = 0; i < TILE_PIXELS; i++) {
         int block = i / KERNEL_RAYS, blocks = TILE_SIZE / KERNEL_ROW, inside = i % KERNEL_RAYS;

@@ -630,7 +630,7 @@ RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, con
     pending->rays[0] = *first;
     pending->sums[0] = rgb_grey(0.0);
     if (features & RENDER_INTERIORS) {
-        if (p->camera.type != CAMERA_ORTHOGRAPHIC) {
+        if (p->camera.type != CAMERA_ORTHOGRAPHIC && p->camera.lens_radius == 0.0) {
             inside_copy(&pending->inside[0], &p->start);
         } else {
             prepared_inside(p, first->ray.origin, &pending->inside[0]);

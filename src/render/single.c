@@ -15,7 +15,7 @@ typedef struct Single {
 static void trace_beam(const Single *single, Tile tile, RenderStatistics *counted)
 {
     Film *film = single->film;
-    KernelPlaces places;
+    KernelPlaces places = {.lens = NULL};
     Rgb light[KERNEL_RAYS];
     double across[KERNEL_ROW], down[KERNEL_ROW];
     uint64_t wanted = 0;

@@ -101,6 +101,9 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     if (scene->camera.type > CAMERA_ORTHOGRAPHIC) {
         covers = refuse(diags, scene->camera.span, "a camera that is neither perspective nor orthographic");
     }
+    if (p->camera.lens_radius > 0.0) {
+        covers = refuse(diags, scene->camera.span, "a camera with an `aperture`");
+    }
     if (scene->sky.count > 0) {
         covers = refuse(diags, scene->sky_span, "a sky_sphere");
     }

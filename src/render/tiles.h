@@ -12,9 +12,9 @@ enum { TILE_SIZE = 32 };
 // What is done. What it does for a tile depends on nothing that is done for another.
 typedef struct TileWork {
     void *client;
-    int width, height; // of the picture
+    int width, height;                                                 // of the picture
     void (*trace)(void *client, Tile tile, RenderStatistics *counted); // adds to what was counted
-    void (*progress)(void *client, double done);                      // 0 to 1; by one thread at a time; may be NULL
+    void (*progress)(void *client, double done);                       // 0 to 1; by one thread at a time; may be NULL
 } TileWork;
 
 // Runs on options->threads threads; adds to the statistics. False when it was cancelled.

@@ -24,6 +24,11 @@ typedef struct CameraBlueprint {
     double angle_deg, angle_vertical_deg;
     bool types[CAMERA_TYPES]; // as written: at most one; else perspective
     bool has_right, has_up, has_look_at, has_angle;
+    double aperture, confidence, variance;
+    int blur_samples[2]; // the least and the most; the second is 0 where one is given
+    Vec3 focal_point;
+    bool has_focal_point;
+    double focal_distance; // when complete
 } CameraBlueprint;
 
 // A picture as it is laid over a surface.

@@ -85,6 +85,12 @@ static void dump_camera(const Camera *camera, TextBuffer *out)
     if (camera->type == CAMERA_SPHERICAL) {
         dump_number(out, ", ", camera->angle_vertical);
     }
+    if (camera->lens_radius > 0.0) {
+        Vec3 ahead = vec3_scale(camera->focal_distance / vec3_length(camera->direction), camera->direction);
+        dump_number(out, "\n  aperture ", 4.0 * camera->lens_radius);
+        text_printf(out, "\n  blur_samples %d", camera->blur_samples);
+        dump_vector(out, "\n  focal_point ", vec3_add(camera->location, ahead));
+    }
     text_append(out, "\n}\n");
 }
 

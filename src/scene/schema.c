@@ -128,6 +128,13 @@ static const SchemaProperty camera_properties[] = {
      .doc = "a point in the middle of the picture; `direction`, `right` and `up` keep only their lengths"},
     {"angle", TYPE_ACTION, ACTION_ANGLE, AT(CameraBlueprint, angle_deg), GIVEN(CameraBlueprint, has_angle),
      .doc = "the field of view from left to right in degrees, of a perspective camera 0 to 180; there it sets the length of `direction`"},
+    {"aperture", TYPE_NUMBER, AT(CameraBlueprint, aperture), .doc = "of the lens: four times its radius; 0 is a point"},
+    {"blur_samples", TYPE_ACTION, ACTION_BLUR_SAMPLES,
+     .doc = "`[least,] most`: rays a pixel through the lens, unless `--samples` says; without it there is no blur"},
+    {"focal_point", TYPE_VECTOR, AT(CameraBlueprint, focal_point), GIVEN(CameraBlueprint, has_focal_point),
+     .doc = "a point as far from the location as what is sharp; without it that is 1 away"},
+    {"confidence", TYPE_NUMBER, AT(CameraBlueprint, confidence), .doc = "accepted; all rays are traced"},
+    {"variance", TYPE_NUMBER, AT(CameraBlueprint, variance), .doc = "accepted; all rays are traced"},
 };
 
 static const CameraBlueprint camera_defaults = {

@@ -93,6 +93,7 @@ typedef enum SchemaAction {
     ACTION_CLIP,
     ACTION_INVERSE,
     ACTION_ANGLE,
+    ACTION_BLUR_SAMPLES,
     ACTION_POINT_AT,
     ACTION_LIGHT_TYPE,
     ACTION_CONE,

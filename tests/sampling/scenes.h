@@ -11,7 +11,7 @@
 
 #include "rtlang/rtlang.h"
 
-#define SCENE_HEAD "#version 3.7; global_settings { assumed_gamma 1 }\n"
+#define SCENE_HEAD   "#version 3.7; global_settings { assumed_gamma 1 }\n"
 #define SCENE_CAMERA "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 }\n"
 
 typedef struct SamplingScene {
@@ -20,19 +20,19 @@ typedef struct SamplingScene {
 
 // Some hundred spheres: hard edges everywhere.
 static const SamplingScene scene_balls = {
-    "balls", SCENE_HEAD SCENE_CAMERA
-    "light_source { <-8,12,-10> rgb 1 } background { rgb <0.1,0.2,0.4> }\n"
-    "#declare S = seed(7);\n"
-    "#for (I, 1, 300) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*8-4>, 0.1+0.25*rand(S)\n"
-    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.1 diffuse 0.8 } } #end\n"};
+    "balls",
+    SCENE_HEAD SCENE_CAMERA "light_source { <-8,12,-10> rgb 1 } background { rgb <0.1,0.2,0.4> }\n"
+                            "#declare S = seed(7);\n"
+                            "#for (I, 1, 300) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*8-4>, 0.1+0.25*rand(S)\n"
+                            "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.1 diffuse 0.8 } } #end\n"};
 
 // A plane in the half shadow of an area light.
 static const SamplingScene scene_soft = {
-    "soft shadow", SCENE_HEAD SCENE_CAMERA
-    "light_source { <-3,6,-3> rgb 1 area_light <4,0,0>, <0,0,4>, 9, 9 jitter }\n"
-    "plane { y, -1 pigment { rgb 0.8 } finish { ambient 0 diffuse 0.9 } }\n"
-    "sphere { <0,0.5,0>, 1 pigment { rgb <1,0.5,0.3> } finish { ambient 0.1 diffuse 0.7 } }\n"
-    "sphere { <2,0,1>, 0.8 pigment { rgb <0.3,0.5,1> } finish { ambient 0.1 diffuse 0.7 } }\n"};
+    "soft shadow",
+    SCENE_HEAD SCENE_CAMERA "light_source { <-3,6,-3> rgb 1 area_light <4,0,0>, <0,0,4>, 9, 9 jitter }\n"
+                            "plane { y, -1 pigment { rgb 0.8 } finish { ambient 0 diffuse 0.9 } }\n"
+                            "sphere { <0,0.5,0>, 1 pigment { rgb <1,0.5,0.3> } finish { ambient 0.1 diffuse 0.7 } }\n"
+                            "sphere { <2,0,1>, 0.8 pigment { rgb <0.3,0.5,1> } finish { ambient 0.1 diffuse 0.7 } }\n"};
 
 static const SamplingScene scene_mirrors = {
     "mirrors", SCENE_HEAD SCENE_CAMERA
@@ -55,8 +55,8 @@ static const SamplingScene scene_glass = {
     "#for (I, -1, 1) sphere { <I*2, 0, 0>, 0.9 pigment { rgbf <0.95,0.9,1,0.9> }\n"
     "finish { ambient 0 diffuse 0.1 phong 0.5 } interior { ior 1.4 } } #end\n"};
 
-static const SamplingScene *const sampling_scenes[] = {&scene_balls, &scene_soft, &scene_mirrors, &scene_checker,
-                                                       &scene_glass};
+__attribute__((unused)) static const SamplingScene *const sampling_scenes[] = {
+    &scene_balls, &scene_soft, &scene_mirrors, &scene_checker, &scene_glass};
 
 typedef struct Picture {
     int width, height;
@@ -73,7 +73,7 @@ typedef struct Running {
     Picture *picture;
 } Running;
 
-static void on_progress(void *client, double done)
+__attribute__((unused)) static void on_progress(void *client, double done)
 {
     Running *running = client;
     rt_error error;
@@ -92,7 +92,8 @@ static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
 }
 
 // Aborts on failure: the scenes are right.
-static Picture *picture_make(const SamplingScene *scene, int width, int height, const rt_sampling *sampling, int threads)
+__attribute__((unused)) static Picture *picture_make(const SamplingScene *scene, int width, int height,
+                                                     const rt_sampling *sampling, int threads)
 {
     Picture *picture = calloc(1, sizeof *picture);
     Running running = {.picture = picture};
@@ -114,13 +115,13 @@ static Picture *picture_make(const SamplingScene *scene, int width, int height, 
     return picture;
 }
 
-static void picture_free(Picture *picture)
+__attribute__((unused)) static void picture_free(Picture *picture)
 {
     free(picture->rgb);
     free(picture);
 }
 
-static double picture_rmse(const Picture *a, const Picture *b)
+__attribute__((unused)) static double picture_rmse(const Picture *a, const Picture *b)
 {
     size_t count = (size_t)a->width * (size_t)a->height * 3;
     double sum = 0.0;

@@ -1,5 +1,6 @@
-// Sampled pictures through the public interface: error against samples, the error told against the true one, goals, and that
-// nothing depends on threads or on the estimate. With `long` as argument: all seeds, scenes and sizes. No clock decides.
+// Sampled pictures through the public interface: error against samples, the error told against the true one, goals, and
+// that nothing depends on threads or on the estimate. With `long` as argument: all seeds, scenes and sizes. No clock
+// decides.
 //
 // SPDX-License-Identifier: MIT
 #include "sampling/scenes.h"
@@ -16,7 +17,8 @@ static Picture *reference_make(const SamplingScene *scene, int samples)
 }
 
 // Root mean square over some seeds.
-static double error_of(const SamplingScene *scene, const char *sampler, int samples, int seeds, const Picture *reference)
+static double error_of(const SamplingScene *scene, const char *sampler, int samples, int seeds,
+                       const Picture *reference)
 {
     double sum = 0.0;
     for (int seed = 0; seed < seeds; seed++) {
@@ -86,7 +88,8 @@ static void test_adaptive(void)
     Picture *reference = picture_make(&scene_balls, width, height, &halton, THREADS);
     double error[3] = {0.0}, samples = 0.0;
     for (int i = 0; i < 3 * seeds; i++) {
-        rt_sampling sampling = {.samples = i % 3 == 1 ? COUNT / 2 : COUNT, .adaptive = i % 3 == 2, .seed = 2000u + (unsigned)i};
+        rt_sampling sampling = {
+            .samples = i % 3 == 1 ? COUNT / 2 : COUNT, .adaptive = i % 3 == 2, .seed = 2000u + (unsigned)i};
         Picture *picture = picture_make(&scene_balls, width, height, &sampling, THREADS);
         error[i % 3] += picture_rmse(picture, reference) * picture_rmse(picture, reference) / seeds;
         samples += i % 3 == 2 ? picture->error.samples / seeds : 0.0;
@@ -162,8 +165,8 @@ static void test_targets(void)
     tap_ok(met >= 0.95 * all, "--target-error is met in %d of %d runs, at least 95 %%", met, all);
     qsort(off, (size_t)predicted, sizeof off[0], by_size);
     double median = predicted > 0 ? off[predicted / 2] : 1.0;
-    tap_ok(median <= (is_long ? 0.25 : 0.50), "the samples to the goal are predicted within %.0f %% in the median of %d",
-           100.0 * median, predicted);
+    tap_ok(median <= (is_long ? 0.25 : 0.50),
+           "the samples to the goal are predicted within %.0f %% in the median of %d", 100.0 * median, predicted);
 }
 
 static bool same_pictures(const Picture *a, const Picture *b)
@@ -179,8 +182,11 @@ static bool same_errors(const rt_error *a, const rt_error *b)
 
 static void test_same(void)
 {
-    static const rt_sampling runs[] = {{.samples = 20}, {.samples = 30.5, .adaptive = 1}, {.target_error = 0.01},
-                                       {.samples = 9, .sampler = "jittered"}, {.samples = 8, .filter = "mitchell"}};
+    static const rt_sampling runs[] = {{.samples = 20},
+                                       {.samples = 30.5, .adaptive = 1},
+                                       {.target_error = 0.01},
+                                       {.samples = 9, .sampler = "jittered"},
+                                       {.samples = 8, .filter = "mitchell"}};
     for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
         Picture *one = picture_make(&scene_mirrors, 100, 70, &runs[i], 1);
         Picture *other = picture_make(&scene_mirrors, 100, 70, &runs[i], 5);
@@ -190,7 +196,8 @@ static void test_same(void)
         picture_free(other);
     }
     rt_sampling with = {.samples = 24}, without = {.samples = 24, .no_estimate = 1};
-    Picture *one = picture_make(&scene_soft, 100, 70, &with, 2), *other = picture_make(&scene_soft, 100, 70, &without, 2);
+    Picture *one = picture_make(&scene_soft, 100, 70, &with, 2),
+            *other = picture_make(&scene_soft, 100, 70, &without, 2);
     tap_ok(same_pictures(one, other) && !other->error.known, "same picture without the estimate");
     picture_free(one);
     picture_free(other);

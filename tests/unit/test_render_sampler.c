@@ -72,8 +72,12 @@ static void test_cells(void)
         for (uint32_t pair = 0; pair < 2; pair++) {
             bool seen[64] = {false};
             for (uint32_t i = 64; i < 128; i++) {
-                SampleStream stream = {.kind = SAMPLER_JITTERED, .seed = sampler_pixel_seed(1, pixel, 9), .index = i,
-                                       .first = 64, .count = 64, .pair = pair};
+                SampleStream stream = {.kind = SAMPLER_JITTERED,
+                                       .seed = sampler_pixel_seed(1, pixel, 9),
+                                       .index = i,
+                                       .first = 64,
+                                       .count = 64,
+                                       .pair = pair};
                 SamplePoint at = sample_next(&stream);
                 int cell = (int)(at.x * 8.0) + 8 * (int)(at.y * 8.0);
                 wrong += seen[cell];
@@ -91,8 +95,8 @@ static void test_moments(void)
     for (SamplerKind kind = 0; kind < SAMPLER_COUNT; kind++) {
         double x = 0.0, y = 0.0, xy = 0.0, pairs = 0.0, squares = 0.0;
         for (uint32_t pixel = 0; pixel < COUNT; pixel++) {
-            SampleStream stream = {.kind = kind, .seed = sampler_pixel_seed(2, pixel % 200, pixel / 200), .index = 5,
-                                   .count = 7};
+            SampleStream stream = {
+                .kind = kind, .seed = sampler_pixel_seed(2, pixel % 200, pixel / 200), .index = 5, .count = 7};
             SamplePoint first = sample_next(&stream), second = sample_next(&stream);
             x += first.x - 0.5;
             y += first.y - 0.5;

@@ -1,0 +1,101 @@
+// The study of error against time: one scene, several methods, each at a ladder of costs, against one reference.
+//
+// Turns a scene into a table of what each run cost and how far its picture was from the reference, lines through the
+// points, and what follows from them: which methods stay biased, and how long each takes to an equal error. The
+// reference is made by another sampler; its own error is known and is the floor below which nothing is told. The time
+// of metrics is in no run's time. Knows nothing of how it is printed.
+//
+// SPDX-License-Identifier: MIT
+#ifndef CHECK_STUDY_H
+#define CHECK_STUDY_H
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "image/image.h"
+
+enum { STUDY_POINTS = 8, STUDY_METHODS = 20, STUDY_TEXT = 256 };
+
+// One rung of a method's ladder. Errors are of values clamped to 0..1, in linear light.
+typedef struct StudyPoint {
+    char setting[48];
+    double samples; // rays a pixel; 0: not known
+    double seconds; // of processor time, one thread, tracing alone; median of the runs
+    double rmse;    // root of the mean square over the runs
+    double relmse;  // mean of (x - r)² / (r² + 0.01)
+    double greatest, p999, flip;
+    double estimate; // what the run itself said of its error; 0: nothing
+} StudyPoint;
+
+typedef struct StudyMethod {
+    char name[48];
+    bool is_povray;
+    bool is_forward;
+    double photons_an_arrival; // is_forward: how many leave a light for one that counts
+    StudyPoint points[STUDY_POINTS];
+    int count;
+    double slope, slope_spread; // of log rmse in log seconds; half of the 95 % interval; NAN: too few points
+    bool is_biased;             // more time did not help, well above the floor
+} StudyMethod;
+
+// A method's best against POV-Ray's.
+typedef struct StudyRatio {
+    const StudyPoint *povray;
+    const StudyMethod *povray_method;
+    double seconds;       // rtlang's time to the same error; NAN: not to be had
+    bool is_best;         // no other setting of POV-Ray is both faster and nearer
+    bool is_extrapolated; // rtlang's ladder does not reach that far
+    double rmse;          // rtlang's error in the same time
+} StudyRatio;
+
+typedef struct Study {
+    const char *scene;
+    int width, height;
+    StudyMethod methods[STUDY_METHODS];
+    int count;
+    int reference_samples;
+    double floor;             // the reference's own error
+    double model, arithmetic; // root mean squares, one ray a pixel: against POV-Ray, against quad; NAN: not known
+    double depth_bias;        // what a greater max_trace_level changes in the reference; 0: nothing was cut
+    double cut_bias;          // what the renderer says that cut rays would add in the mean
+    double arithmetic_float;  // that of the float reference kernel; NAN: not known
+    char arithmetic_why[STUDY_TEXT]; // not known, why
+    char forward_why[STUDY_TEXT];    // why there is no forward method; "" if there is
+    char fault[STUDY_TEXT];          // why there is no study
+} Study;
+
+typedef struct StudySettings {
+    const char *povray; // NULL: without
+    char *const *include_paths;
+    int include_path_count;
+    int width, height;
+    const double *clock;
+    const char *folder; // for pictures and logs
+    int repeats;        // runs with different seeds, of which means are taken
+    const volatile sig_atomic_t *interrupted;
+} StudySettings;
+
+// False when there is no study: `fault` says why.
+bool study_run(Study *study, const char *scene, const StudySettings *settings);
+
+// The ratios to each of POV-Ray's points; how many.
+int study_ratios(const Study *study, StudyRatio *ratios, int room);
+
+// The geometric mean of POV-Ray's time over rtlang's to equal error, over POV-Ray's best settings whose error rtlang's
+// ladder reaches; how many those are. NAN: none.
+double study_best_ratio(const StudyRatio *ratios, int count, int *best);
+
+// ---- study_metric.c
+
+typedef struct StudyMetric {
+    double rmse, relmse, greatest, p999, flip;
+} StudyMetric;
+
+// Both clamped. False when out of memory or the sizes differ.
+bool study_compare(const Image *picture, const Image *reference, StudyMetric *metric);
+
+// The line through the points, and whether time still helps.
+void study_fit(StudyMethod *method, double floor);
+
+#endif

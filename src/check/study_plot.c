@@ -1,0 +1,159 @@
+// The plot of a study: an <svg> element made of numbers alone.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "check/study_print.h"
+
+enum { WIDTH = 860, HEIGHT = 520, LEFT = 70, RIGHT = 220, TOP = 20, BOTTOM = 50 };
+
+typedef struct Scale {
+    double low_x, high_x, low_y, high_y; // decimal logarithms
+} Scale;
+
+static const char *const colours[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#7f7f7f",
+                                      "#ff7f0e", "#e0a800", "#17becf", "#bcbd22", "#e377c2", "#444444"};
+
+static const char *colour_of(int method)
+{
+    return colours[(size_t)method % (sizeof colours / sizeof colours[0])];
+}
+
+static double place_x(const Scale *scale, double x)
+{
+    return LEFT + (log10(x) - scale->low_x) / (scale->high_x - scale->low_x) * (WIDTH - LEFT - RIGHT);
+}
+
+static double place_y(const Scale *scale, double y)
+{
+    return TOP + (scale->high_y - log10(y)) / (scale->high_y - scale->low_y) * (HEIGHT - TOP - BOTTOM);
+}
+
+static bool is_shown(const StudyPoint *point)
+{
+    return point->seconds > 0.0 && point->rmse > 0.0;
+}
+
+// Whole powers of ten around all points and the floor.
+static Scale scale_of(const Study *study)
+{
+    Scale scale = {INFINITY, -INFINITY, study->floor > 0.0 ? log10(study->floor) : INFINITY, -INFINITY};
+
+    for (int i = 0; i < study->count; i++) {
+        for (int j = 0; j < study->methods[i].count; j++) {
+            const StudyPoint *point = &study->methods[i].points[j];
+            if (is_shown(point)) {
+                scale.low_x = fmin(scale.low_x, log10(point->seconds));
+                scale.high_x = fmax(scale.high_x, log10(point->seconds));
+                scale.low_y = fmin(scale.low_y, log10(point->rmse));
+                scale.high_y = fmax(scale.high_y, log10(point->rmse));
+            }
+        }
+    }
+    scale.low_x = floor(scale.low_x);
+    scale.low_y = floor(scale.low_y);
+    scale.high_x = fmax(ceil(scale.high_x), scale.low_x + 1.0);
+    scale.high_y = fmax(ceil(scale.high_y), scale.low_y + 1.0);
+    return scale;
+}
+
+static void print_line(FILE *out, double x1, double y1, double x2, double y2, const char *style)
+{
+    fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n", x1, y1, x2, y2, style);
+}
+
+static void print_axes(FILE *out, const Scale *scale)
+{
+    static const char grid[] = "stroke=\"currentColor\" stroke-opacity=\"0.15\"";
+
+    for (double x = scale->low_x; x <= scale->high_x; x += 1.0) {
+        double at = place_x(scale, pow(10.0, x));
+        print_line(out, at, TOP, at, HEIGHT - BOTTOM, grid);
+        fprintf(out, "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%g s</text>\n", at, HEIGHT - BOTTOM + 18,
+                pow(10.0, x));
+    }
+    for (double y = scale->low_y; y <= scale->high_y; y += 1.0) {
+        double at = place_y(scale, pow(10.0, y));
+        print_line(out, LEFT, at, WIDTH - RIGHT, at, grid);
+        fprintf(out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%g</text>\n", LEFT - 6, at + 4, pow(10.0, y));
+    }
+    fprintf(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">processor seconds of one thread</text>\n",
+            (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12);
+    fprintf(
+        out,
+        "<text x=\"16\" y=\"%d\" text-anchor=\"middle\" transform=\"rotate(-90 16 %d)\">rmse, linear light</text>\n",
+        (TOP + HEIGHT - BOTTOM) / 2, (TOP + HEIGHT - BOTTOM) / 2);
+}
+
+// From the first point of the first method downward.
+static void print_guide(FILE *out, const Study *study, const Scale *scale, double slope)
+{
+    const StudyPoint *first = &study->methods[0].points[0];
+    double end = pow(10.0, scale->high_x), reach = log10(first->rmse) + slope * (scale->high_x - log10(first->seconds));
+
+    if (reach < scale->low_y) {
+        end = first->seconds * pow(10.0, (scale->low_y - log10(first->rmse)) / slope);
+        reach = scale->low_y;
+    }
+    print_line(out, place_x(scale, first->seconds), place_y(scale, first->rmse), place_x(scale, end),
+               place_y(scale, pow(10.0, reach)),
+               "stroke=\"currentColor\" stroke-opacity=\"0.5\" stroke-dasharray=\"3 4\"");
+    fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" fill-opacity=\"0.7\">%g</text>\n", place_x(scale, end) + 3,
+            place_y(scale, pow(10.0, reach)) - 3, slope);
+}
+
+static void print_method(FILE *out, const Study *study, const Scale *scale, int number)
+{
+    const StudyMethod *method = &study->methods[number];
+    const char *dash = method->is_povray ? " stroke-dasharray=\"6 3\"" : "";
+
+    fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\"%s points=\"", colour_of(number), dash);
+    for (int i = 0; i < method->count; i++) {
+        if (is_shown(&method->points[i])) {
+            fprintf(out, "%.1f,%.1f ", place_x(scale, method->points[i].seconds),
+                    place_y(scale, method->points[i].rmse));
+        }
+    }
+    fputs("\"/>\n", out);
+    for (int i = 0; i < method->count; i++) {
+        const StudyPoint *point = &method->points[i];
+        if (is_shown(point)) {
+            fprintf(out,
+                    "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"><title>%s, %s: %.3g s, rmse "
+                    "%.3g</title></circle>\n",
+                    place_x(scale, point->seconds), place_y(scale, point->rmse), colour_of(number), method->name,
+                    point->setting, point->seconds, point->rmse);
+        }
+    }
+    int y = TOP + 14 + 20 * number;
+    fprintf(out, "<line x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\" stroke=\"%s\" stroke-width=\"2\"%s/>\n",
+            WIDTH - RIGHT + 16, y - 4, WIDTH - RIGHT + 40, y - 4, colour_of(number), dash);
+    fprintf(out, "<text x=\"%d\" y=\"%d\">%s%s</text>\n", WIDTH - RIGHT + 46, y, method->name,
+            method->is_biased ? " (biased)" : "");
+}
+
+void study_plot(const Study *study, FILE *out, bool is_alone)
+{
+    Scale scale = scale_of(study);
+
+    fprintf(out,
+            "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" font-family=\"sans-serif\" "
+            "font-size=\"12\"%s role=\"img\" aria-label=\"Error against time\">\n",
+            WIDTH, HEIGHT,
+            is_alone ? " color=\"black\" fill=\"black\" style=\"background: white\"" : " fill=\"currentColor\"");
+    print_axes(out, &scale);
+    if (study->floor > 0.0) {
+        double y = place_y(&scale, study->floor);
+        print_line(out, LEFT, y, WIDTH - RIGHT, y, "stroke=\"#d62728\" stroke-dasharray=\"1 3\"");
+        fprintf(out, "<text x=\"%d\" y=\"%.1f\" fill-opacity=\"0.7\">the reference's own error</text>\n", LEFT + 6,
+                y - 4);
+    }
+    if (study->count > 0 && study->methods[0].count > 0 && is_shown(&study->methods[0].points[0])) {
+        print_guide(out, study, &scale, -0.5);
+        print_guide(out, study, &scale, -0.75);
+    }
+    for (int i = 0; i < study->count; i++) {
+        print_method(out, study, &scale, i);
+    }
+    fputs("</svg>\n", out);
+}

@@ -1,0 +1,318 @@
+// Tables of a study. All forms say the same: the points, the lines through them, the three kinds of error, the ratios.
+//
+// SPDX-License-Identifier: MIT
+#include "check/study_print.h"
+
+#include <math.h>
+
+enum { RATIOS_MOST = STUDY_METHODS * STUDY_POINTS };
+
+static double efficiency(const StudyPoint *point)
+{
+    return 1.0 / (point->rmse * point->rmse * point->seconds);
+}
+
+// The sentences that tell of bias.
+static void print_bias(const Study *study, FILE *out, const char *before, const char *after)
+{
+    if (study->depth_bias > 3.0 * study->floor) {
+        fprintf(out,
+                "%sbiased by max_trace_level: with 64 levels the picture changes by rmse %.3g; no number of samples of "
+                "the scene as it is gets nearer%s\n",
+                before, study->depth_bias, after);
+    } else if (study->cut_bias > 0.0) {
+        fprintf(out,
+                "%sbiased by rays that are cut: they would add about %.2g in the mean, which more levels do not show "
+                "above the floor%s\n",
+                before, study->cut_bias, after);
+    }
+    for (int i = 0; i < study->count; i++) {
+        const StudyMethod *method = &study->methods[i];
+        if (method->is_biased) {
+            fprintf(out, "%s%s is biased: it stays at rmse %.3g, more time does not help; likely cause: %s%s\n", before,
+                    method->name, method->points[method->count - 1].rmse,
+                    method->is_povray    ? "its threshold"
+                    : method->is_forward ? "light that does not come from light sources"
+                                         : "rays that are cut",
+                    after);
+        }
+    }
+}
+
+static void print_kinds(const Study *study, FILE *out, const char *before, const char *after)
+{
+    fprintf(out, "%ssampling: the ladders below; floor %.3g, that of the reference of %d samples%s\n", before,
+            study->floor, study->reference_samples, after);
+    if (isnan(study->arithmetic)) {
+        fprintf(out, "%sarithmetic: not known: %s%s\n", before, study->arithmetic_why, after);
+    } else {
+        fprintf(out, "%sarithmetic: rmse %.3g in double, %.3g in float, one ray a pixel against quad%s\n", before,
+                study->arithmetic, study->arithmetic_float, after);
+    }
+    if (isnan(study->model)) {
+        fprintf(out, "%smodel: not known, without POV-Ray%s\n", before, after);
+    } else {
+        fprintf(out, "%smodel: rmse %.3g, one ray a pixel, POV-Ray against rtlang%s\n", before, study->model, after);
+    }
+}
+
+// What the lecture says of photons, in numbers: how many arrive, and what equal error takes.
+static void print_forward(const Study *study, FILE *out, const char *before, const char *after)
+{
+    const StudyPoint *goal = &study->methods[0].points[2]; // 16 samples
+
+    if (study->forward_why[0] != '\0') {
+        fprintf(out, "%sforward: not here: %s%s\n", before, study->forward_why, after);
+    }
+    for (int i = 0; i < study->count; i++) {
+        const StudyMethod *method = &study->methods[i];
+        if (!method->is_forward || method->count == 0) {
+            continue;
+        }
+        const StudyPoint *last = &method->points[method->count - 1];
+        double times = (last->rmse / goal->rmse) * (last->rmse / goal->rmse); // slope -1/2
+        fprintf(out,
+                "%s%s: one of %.3g photons counts; the error of %s, %s (%.3g) would take about %.3g photons and %.3g "
+                "seconds, %.3g times as long%s\n",
+                before, method->name, method->photons_an_arrival, study->methods[0].name, goal->setting, goal->rmse,
+                times * last->samples * study->width * study->height, times * last->seconds,
+                times * last->seconds / goal->seconds, after);
+    }
+}
+
+static void print_best(const StudyRatio *ratios, int count, FILE *out, const char *before, const char *after)
+{
+    int best;
+    double ratio = study_best_ratio(ratios, count, &best);
+
+    if (best > 0) {
+        fprintf(
+            out,
+            "%sto equal error POV-Ray takes %.1f times as long as rtlang, geometric mean over its %d best settings%s\n",
+            before, ratio, best, after);
+    }
+}
+
+void study_print_text(const Study *study, FILE *out)
+{
+    StudyRatio ratios[RATIOS_MOST];
+    int count = study_ratios(study, ratios, RATIOS_MOST);
+
+    fprintf(out, "%s, %d x %d\n", study->scene, study->width, study->height);
+    print_kinds(study, out, "  ", "");
+    print_bias(study, out, "  ", "");
+    print_forward(study, out, "  ", "");
+    fprintf(out, "%-22s %-24s %8s %9s %9s %9s %8s %8s %8s %10s\n", "method", "setting", "samples", "seconds", "rmse",
+            "relmse", "max", "99.9 %", "flip", "efficiency");
+    for (int i = 0; i < study->count; i++) {
+        const StudyMethod *method = &study->methods[i];
+        for (int j = 0; j < method->count; j++) {
+            const StudyPoint *p = &method->points[j];
+            fprintf(out, "%-22s %-24s %8.4g %9.4f %9.3g %9.3g %8.3g %8.3g %8.3g %10.3g\n", j == 0 ? method->name : "",
+                    p->setting, p->samples, p->seconds, p->rmse, p->relmse, p->greatest, p->p999, p->flip,
+                    efficiency(p));
+        }
+        if (!isnan(method->slope)) {
+            fprintf(out, "%22s slope %.2f +- %.2f in time%s\n", "", method->slope, method->slope_spread,
+                    method->is_biased ? "; biased" : "");
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        const StudyRatio *r = &ratios[i];
+        fprintf(out, "equal error %.3g: %s %.3f s, rtlang %.4f s%s, ratio %.1f; equal time: rmse %.3g and %.3g\n",
+                r->povray->rmse, r->povray->setting, r->povray->seconds, r->seconds,
+                r->is_extrapolated ? " (extrapolated)" : "", r->povray->seconds / r->seconds, r->povray->rmse, r->rmse);
+    }
+    print_best(ratios, count, out, "", "");
+}
+
+void study_print_csv(const Study *study, FILE *out, bool with_heading)
+{
+    if (with_heading) {
+        fputs("scene,width,height,method,setting,samples,seconds,rmse,relmse,max,p999,flip,efficiency,estimate,slope,"
+              "slope_spread,biased\r\n",
+              out);
+    }
+    for (int i = 0; i < study->count; i++) {
+        const StudyMethod *method = &study->methods[i];
+        for (int j = 0; j < method->count; j++) {
+            const StudyPoint *p = &method->points[j];
+            fputc('"', out);
+            for (const char *c = study->scene; *c != '\0'; c++) {
+                fputs(*c == '"' ? "\"" : "", out);
+                fputc(*c, out);
+            }
+            fprintf(out, "\",%d,%d,%s,%s,%.9g,%.6g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,", study->width, study->height,
+                    method->name, p->setting, p->samples, p->seconds, p->rmse, p->relmse, p->greatest, p->p999, p->flip,
+                    efficiency(p), p->estimate);
+            if (!isnan(method->slope)) {
+                fprintf(out, "%.4f", method->slope);
+            }
+            fputc(',', out);
+            if (!isnan(method->slope_spread)) {
+                fprintf(out, "%.4f", method->slope_spread);
+            }
+            fprintf(out, ",%d\r\n", method->is_biased);
+        }
+    }
+}
+
+static void json_text(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (const char *c = text; *c != '\0'; c++) {
+        if (*c == '"' || *c == '\\') {
+            fprintf(out, "\\%c", *c);
+        } else if ((unsigned char)*c < ' ') {
+            fprintf(out, "\\u%04x", (unsigned)(unsigned char)*c);
+        } else {
+            fputc(*c, out);
+        }
+    }
+    fputc('"', out);
+}
+
+static void json_number(FILE *out, const char *name, double value)
+{
+    if (isfinite(value)) {
+        fprintf(out, ", \"%s\": %.9g", name, value);
+    } else {
+        fprintf(out, ", \"%s\": null", name);
+    }
+}
+
+static void json_point(FILE *out, const StudyPoint *p)
+{
+    fputs("{\"setting\": ", out);
+    json_text(out, p->setting);
+    json_number(out, "samples", p->samples);
+    json_number(out, "seconds", p->seconds);
+    json_number(out, "rmse", p->rmse);
+    json_number(out, "relmse", p->relmse);
+    json_number(out, "max", p->greatest);
+    json_number(out, "p999", p->p999);
+    json_number(out, "flip", p->flip);
+    json_number(out, "efficiency", efficiency(p));
+    json_number(out, "estimate", p->estimate);
+    fputc('}', out);
+}
+
+void study_print_json(const Study *study, FILE *out)
+{
+    StudyRatio ratios[RATIOS_MOST];
+    int count = study_ratios(study, ratios, RATIOS_MOST);
+
+    fputs("{\"scene\": ", out);
+    json_text(out, study->scene);
+    fprintf(out, ", \"width\": %d, \"height\": %d, \"reference_samples\": %d", study->width, study->height,
+            study->reference_samples);
+    json_number(out, "floor", study->floor);
+    json_number(out, "model", study->model);
+    json_number(out, "arithmetic", study->arithmetic);
+    json_number(out, "arithmetic_float", study->arithmetic_float);
+    json_number(out, "depth_bias", study->depth_bias);
+    json_number(out, "cut_bias", study->cut_bias);
+    fputs(", \"methods\": [", out);
+    for (int i = 0; i < study->count; i++) {
+        const StudyMethod *method = &study->methods[i];
+        fprintf(out, "%s{\"name\": ", i > 0 ? ", " : "");
+        json_text(out, method->name);
+        json_number(out, "slope", method->slope);
+        json_number(out, "slope_spread", method->slope_spread);
+        if (method->is_forward) {
+            json_number(out, "photons_an_arrival", method->photons_an_arrival);
+        }
+        fprintf(out, ", \"biased\": %s, \"points\": [", method->is_biased ? "true" : "false");
+        for (int j = 0; j < method->count; j++) {
+            fputs(j > 0 ? ", " : "", out);
+            json_point(out, &method->points[j]);
+        }
+        fputs("]}", out);
+    }
+    int best;
+    fputs("]", out);
+    json_number(out, "best_ratio", study_best_ratio(ratios, count, &best));
+    fputs(", \"equal\": [", out);
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "%s{\"setting\": ", i > 0 ? ", " : "");
+        json_text(out, ratios[i].povray->setting);
+        json_number(out, "rmse", ratios[i].povray->rmse);
+        json_number(out, "povray_seconds", ratios[i].povray->seconds);
+        json_number(out, "rtlang_seconds", ratios[i].seconds);
+        json_number(out, "rtlang_rmse_in_equal_time", ratios[i].rmse);
+        fprintf(out, ", \"best\": %s", ratios[i].is_best ? "true" : "false");
+        fprintf(out, ", \"extrapolated\": %s}", ratios[i].is_extrapolated ? "true" : "false");
+    }
+    fputs("]}", out);
+}
+
+static void section_table(const Study *study, FILE *out)
+{
+    fputs("<table "
+          "class=\"sortable\"><thead><tr><th>method</th><th>setting</th><th>samples</th><th>seconds</th><th>rmse</th>"
+          "<th>relMSE</th><th>max</th><th>99.9 "
+          "%</th><th>FLIP</th><th>efficiency</th><th>slope</th></tr></thead><tbody>\n",
+          out);
+    for (int i = 0; i < study->count; i++) {
+        const StudyMethod *method = &study->methods[i];
+        for (int j = 0; j < method->count; j++) {
+            const StudyPoint *p = &method->points[j];
+            const double numbers[] = {p->samples,  p->seconds, p->rmse, p->relmse,
+                                      p->greatest, p->p999,    p->flip, efficiency(p)};
+            fprintf(out, "<tr><td>%s</td><td>%s</td>", method->name, p->setting);
+            for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+                fprintf(out, "<td class=\"number\" data-sort=\"%.9g\">%.4g</td>", numbers[k], numbers[k]);
+            }
+            if (isnan(method->slope)) {
+                fputs("<td></td></tr>\n", out);
+            } else {
+                fprintf(out, "<td class=\"number%s\" data-sort=\"%.4f\">%.2f ± %.2f</td></tr>\n",
+                        method->is_biased ? " bad" : "", method->slope, method->slope, method->slope_spread);
+            }
+        }
+    }
+    fputs("</tbody></table>\n", out);
+}
+
+static void section_ratios(const Study *study, FILE *out)
+{
+    StudyRatio ratios[RATIOS_MOST];
+    int count = study_ratios(study, ratios, RATIOS_MOST);
+
+    if (count == 0) {
+        return;
+    }
+    fputs("<h3>Equal error and equal time</h3>\n<table class=\"sortable\"><thead><tr><th>POV-Ray</th><th>rmse</th>"
+          "<th>POV-Ray, s</th><th>rtlang to equal error, s</th><th>ratio</th><th>rtlang's rmse in equal "
+          "time</th></tr></thead>"
+          "<tbody>\n",
+          out);
+    for (int i = 0; i < count; i++) {
+        const StudyRatio *r = &ratios[i];
+        fprintf(out,
+                "<tr><td>%s</td><td class=\"number\">%.4g</td><td class=\"number\">%.4g</td><td "
+                "class=\"number\">%.4g%s</td>"
+                "<td class=\"number\">%.1f</td><td class=\"number\">%.4g</td></tr>\n",
+                r->povray->setting, r->povray->rmse, r->povray->seconds, r->seconds, r->is_extrapolated ? " *" : "",
+                r->povray->seconds / r->seconds, r->rmse);
+    }
+    fputs("</tbody></table>\n<p>* beyond rtlang's ladder, on the line through its nearest points</p>\n", out);
+    print_best(ratios, count, out, "<p>", "</p>");
+}
+
+void study_print_section(const Study *study, ReportPage *page, int number)
+{
+    char id[32], title[STUDY_TEXT];
+
+    snprintf(id, sizeof id, "study-%d", number);
+    snprintf(title, sizeof title, "Error against time: %s", study->scene);
+    FILE *out = report_page_section(page, id, title);
+    fputs("<ul>\n", out);
+    print_kinds(study, out, "<li>", "</li>");
+    print_bias(study, out, "<li><strong>", "</strong></li>");
+    print_forward(study, out, "<li>", "</li>");
+    fputs("</ul>\n", out);
+    study_plot(study, out, false);
+    section_table(study, out);
+    section_ratios(study, out);
+}
