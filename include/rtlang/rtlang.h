@@ -147,7 +147,8 @@ RT_API const char *rt_isa(size_t i);
 /* Use one of them; the best is used if nothing is said. The picture does not depend on it. */
 RT_API rt_status rt_set_isa(rt_session *session, const char *name);
 /* The precision that the next rt_render works in. All but RT_PRECISION_DOUBLE use a reference kernel for study, which tests each
- * shape for each ray and refuses what it does not know. RT_FAULT_USAGE when the library was built without it. */
+ * shape for each ray and refuses what it does not know, also adaptive sampling; it tells no error. RT_FAULT_USAGE when the library
+ * was built without it. */
 typedef enum rt_precision {
     RT_PRECISION_DOUBLE,
     RT_PRECISION_FLOAT,
@@ -194,6 +195,7 @@ typedef struct rt_error {
     double samples;         /* a pixel, in the mean; 0: not every pixel has one */
     double slope;           /* of log rmse in log samples, as far as can be told */
     double bias;            /* what rays cut by max_trace_level or adc_bailout would add in the mean, at the least */
+    double bias_by_level;   /* of it: by max_trace_level */
     rt_end end;
     double seconds_left;    /* while rendering: predicted, or negative */
 } rt_error;

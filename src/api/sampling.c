@@ -14,8 +14,16 @@ void rt_get_error(const rt_session *session, rt_error *error)
                                   [SAMPLING_TIME] = RT_END_TIME,
                                   [SAMPLING_INTERRUPTED] = RT_END_INTERRUPTED};
     const SamplingError *known = &session->error;
-    *error = (rt_error){known->is_known, known->rmse, known->low,       known->high,          known->samples,
-                        known->slope,    known->bias, ends[known->end], session->seconds_left};
+    *error = (rt_error){.known = known->is_known,
+                        .rmse = known->rmse,
+                        .low = known->low,
+                        .high = known->high,
+                        .samples = known->samples,
+                        .slope = known->slope,
+                        .bias = known->bias,
+                        .bias_by_level = known->bias_by_level,
+                        .end = ends[known->end],
+                        .seconds_left = session->seconds_left};
 }
 
 void rt_get_photons(const rt_session *session, rt_photons *photons)

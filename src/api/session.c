@@ -370,7 +370,10 @@ static RenderResult trace_film(rt_session *session, const Prepared *prepared, co
         [RT_PRECISION_FLOAT] = STUDY_FLOAT, [RT_PRECISION_QUAD] = STUDY_QUAD, [RT_PRECISION_REFERENCE] = STUDY_DOUBLE};
     if (session->precision != RT_PRECISION_DOUBLE) {
         session->kernel = study_name(precisions[session->precision]);
-        return study_film(prepared, precisions[session->precision], options, &session->film, &session->statistics);
+        RenderResult result =
+            study_film(prepared, precisions[session->precision], options, &session->film, &session->statistics);
+        session->error.samples = result == RENDER_OK && options->sampling ? options->sampling->samples : 0.0;
+        return result;
     }
 #endif
     if (session->method != RT_METHOD_BACKWARD) {
@@ -433,9 +436,11 @@ rt_status rt_render(rt_session *session, int threads)
     if (!session->loaded || session->rendered || threads < 0) {
         return RT_FAULT_USAGE;
     }
-    if (session->precision != RT_PRECISION_DOUBLE && session->is_sampled) {
-        return rt_report(session, "E0703", "the reference kernels trace one ray a pixel",
-                         "leave out `--samples` and goals, or say `--samples=1`");
+    const SamplingOptions *sampling = &session->sampling;
+    if (session->precision != RT_PRECISION_DOUBLE && session->is_sampled &&
+        (sampling->is_adaptive || !sampler_is_sequence(sampling->sampler))) {
+        return rt_report(session, "E0703", "the reference kernels of `--precision` sample all pixels alike",
+                         "leave out goals and `--adaptive`, and use the sampler sobol, halton or random");
     }
     if (!session_memory_suffices(session)) {
         return session_status(session, false);

@@ -27,7 +27,7 @@
 #ifdef WITH_STUDY
 #include "check/stability.h"
 #endif
-#include "check/study_print.h"
+#include "check/studies.h"
 #include "image/image.h"
 #include "rtlang/rtlang.h"
 
@@ -353,98 +353,24 @@ static int scenes_report(Check *check)
     return exit_code;
 }
 
-// ---- studies
-
-typedef struct StudyFiles {
-    ReportPage *page; // all NULL without --report
-    FILE *csv, *json;
-} StudyFiles;
-
-static FILE *study_file(const Check *check, const char *name)
-{
-    char path[PATH_MAX];
-
-    snprintf(path, sizeof path, "%s/%s", check->options->report, name);
-    return fopen(path, "wb");
-}
-
-static bool study_files_open(const Check *check, StudyFiles *files)
-{
-    char page[PATH_MAX];
-
-    *files = (StudyFiles){NULL, NULL, NULL};
-    if (check->options->report == NULL) {
-        return true;
-    }
-    snprintf(page, sizeof page, "%s/index.html", check->options->report);
-    if ((mkdir(check->options->report, 0777) != 0 && errno != EEXIST) || (files->page = report_page_open(page)) == NULL) {
-        return false;
-    }
-    files->csv = study_file(check, "study.csv");
-    files->json = study_file(check, "study.json");
-    return files->csv != NULL && files->json != NULL;
-}
-
-static bool stream_close(FILE *out)
-{
-    return out == NULL || ((ferror(out) == 0) & (fclose(out) == 0));
-}
-
-static bool study_files_close(StudyFiles *files)
-{
-    bool fine = stream_close(files->csv);
-
-    fputs(files->json != NULL ? "]\n" : "", files->json != NULL ? files->json : stdout);
-    fine = stream_close(files->json) && fine;
-    return (files->page == NULL || report_page_close(files->page)) && fine;
-}
-
-static bool study_tell(const Check *check, const Study *study, StudyFiles *files, int number)
-{
-    (check->options->json ? study_print_json : study_print_text)(study, stdout);
-    fputs(check->options->json ? "\n" : "", stdout);
-    fflush(stdout);
-    if (files->page == NULL) {
-        return true;
-    }
-    char name[32];
-    snprintf(name, sizeof name, "study-%d.svg", number + 1);
-    FILE *plot = study_file(check, name);
-    if (plot == NULL) {
-        return false;
-    }
-    study_plot(study, plot, true);
-    study_print_csv(study, files->csv, number == 0);
-    fputs(number == 0 ? "[" : ",\n", files->json);
-    study_print_json(study, files->json);
-    study_print_section(study, files->page, number + 1);
-    return stream_close(plot);
-}
-
 static int scenes_study(const Check *check)
 {
     const Options *options = check->options;
-    StudySettings settings = {.povray = check->povray, .include_paths = check->include_paths,
-                              .include_path_count = options->include_path_count, .width = options->width,
-                              .height = options->height, .clock = options->clock_given ? &options->clock : NULL,
-                              .folder = check->folder, .repeats = 3, .interrupted = &interrupted};
-    StudyFiles files;
-    int exit_code = EXIT_AGREE;
-    bool fine = study_files_open(check, &files);
+    StudySettings settings = {.povray = check->povray,
+                              .include_paths = check->include_paths,
+                              .include_path_count = options->include_path_count,
+                              .width = options->width,
+                              .height = options->height,
+                              .clock = options->clock_given ? &options->clock : NULL,
+                              .folder = check->folder,
+                              .repeats = 3,
+                              .interrupted = &interrupted};
+    StudiesResult result = studies_run(options, &settings);
 
-    for (int i = 0; fine && i < options->scene_count && interrupted == 0; i++) {
-        Study study;
-        if (!study_run(&study, options->scenes[i], &settings)) {
-            fprintf(stderr, "rtcheck: %s: %s\n", options->scenes[i], study.fault);
-            exit_code = EXIT_DIFFER;
-        } else {
-            fine = study_tell(check, &study, &files, i);
-        }
-    }
-    if (!(study_files_close(&files) && fine)) {
+    if (result == STUDIES_UNWRITTEN) {
         return report_complain(options->report);
     }
-    return interrupted != 0 ? 128 + SIGINT : exit_code;
+    return interrupted != 0 ? 128 + SIGINT : result == STUDIES_FINE ? EXIT_AGREE : EXIT_DIFFER;
 }
 
 static bool folder_make(Check *check)

@@ -129,8 +129,8 @@ static void point_add(StudyPoint *point, const StudyMetric *metric, int runs)
 }
 
 // A rung: the same with several seeds. False when one failed.
-static bool rtlang_point(Study *study, const StudySettings *settings, const Image *reference,
-                         const rt_sampling *sampling, StudyPoint *point)
+static bool rtlang_point(const Study *study, const StudySettings *settings, const Image *reference,
+                         const rt_sampling *sampling, rt_precision precision, StudyPoint *point)
 {
     double seconds[RUNS_MOST];
     int runs = settings->repeats < RUNS_MOST ? settings->repeats : RUNS_MOST;
@@ -142,7 +142,7 @@ static bool rtlang_point(Study *study, const StudySettings *settings, const Imag
         Run run = {.method = RT_METHOD_BACKWARD};
 
         one.seed = 100 + (uint64_t)i;
-        rtlang_render(study->scene, settings, &one, RT_PRECISION_DOUBLE, 1, &run);
+        rtlang_render(study->scene, settings, &one, precision, 1, &run);
         bool fine = run.status == RT_OK && study_compare(&run.image, reference, &metric);
         image_fini(&run.image);
         if (!fine) {
@@ -150,7 +150,7 @@ static bool rtlang_point(Study *study, const StudySettings *settings, const Imag
         }
         seconds[i] = run.seconds;
         point_add(point, &metric, runs);
-        point->samples += run.error.known != 0 ? run.error.samples / runs : 1.0 / runs;
+        point->samples += fmax(run.error.samples, 1.0) / runs;
         point->estimate += run.error.known != 0 ? run.error.rmse / runs : 0.0;
     }
     point->rmse = sqrt(point->rmse);
@@ -160,11 +160,11 @@ static bool rtlang_point(Study *study, const StudySettings *settings, const Imag
     return true;
 }
 
-static StudyMethod *method_begin(Study *study, const char *name, bool is_povray)
+static StudyMethod *method_begin(Study *study, const char *name, StudyKind kind)
 {
     StudyMethod *method = &study->methods[study->count++];
 
-    *method = (StudyMethod){.is_povray = is_povray};
+    *method = (StudyMethod){.kind = kind};
     snprintf(method->name, sizeof method->name, "%s", name);
     return method;
 }
@@ -180,15 +180,49 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
                    {"rtlang grid", {.sampler = "grid"}, 4},     {"rtlang random", {.sampler = "random"}, 4}};
 
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
-        StudyMethod *method = method_begin(study, methods[i].name, false);
+        StudyMethod *method = method_begin(study, methods[i].name, STUDY_SAMPLER);
         for (int samples = methods[i].least; samples <= MOST_SAMPLES && method->count < STUDY_POINTS;
              samples *= methods[i].sampling.adaptive != 0 ? 2 : 4) {
             rt_sampling sampling = methods[i].sampling;
             sampling.samples = samples;
             if (*settings->interrupted != 0 ||
-                !rtlang_point(study, settings, reference, &sampling, &method->points[method->count])) {
+                !rtlang_point(study, settings, reference, &sampling, RT_PRECISION_DOUBLE,
+                              &method->points[method->count])) {
                 return false;
             }
+            method->count++;
+        }
+        study_fit(method, study->floor);
+    }
+    return true;
+}
+
+// ---- the reference kernels
+
+// The program's own sampler in each precision, where the scene is known to be drawn in it. A rung that would take long is
+// left out: what quadruple precision has to show, the lower ones show.
+static bool reference_methods(Study *study, const StudySettings *settings, const Image *reference)
+{
+    static const struct {
+        const char *name;
+        rt_precision precision;
+    } methods[] = {{"reference float", RT_PRECISION_FLOAT},
+                   {"reference double", RT_PRECISION_REFERENCE},
+                   {"reference quad", RT_PRECISION_QUAD}};
+    StudySettings once = *settings;
+
+    once.repeats = 1;
+    for (size_t i = 0; i < COUNT_OF(methods) && !isnan(study->arithmetic); i++) {
+        StudyMethod *method = method_begin(study, methods[i].name, STUDY_REFERENCE);
+        double seconds = 0.0;
+        for (int samples = 4; samples <= MOST_SAMPLES && 4.0 * seconds < LONG_SECONDS; samples *= 4) {
+            rt_sampling sampling = {.samples = samples};
+            StudyPoint *point = &method->points[method->count];
+            if (*settings->interrupted != 0 ||
+                !rtlang_point(study, &once, reference, &sampling, methods[i].precision, point)) {
+                return false;
+            }
+            seconds = point->seconds;
             method->count++;
         }
         study_fit(method, study->floor);
@@ -237,9 +271,8 @@ static bool forward_point(Study *study, const StudySettings *settings, const Ima
 static bool forward_ladder(Study *study, const StudySettings *settings, const Image *reference, rt_method method,
                            const char *name)
 {
-    StudyMethod *ladder = method_begin(study, name, false);
+    StudyMethod *ladder = method_begin(study, name, STUDY_FORWARD);
 
-    ladder->is_forward = true;
     for (uint64_t photons = 100000; photons <= FORWARD_PHOTONS; photons *= 10) {
         Run run = {.method = method, .photons = photons};
         bool misfits = false;
@@ -324,7 +357,7 @@ static bool povray_methods(Study *study, const StudySettings *settings, const Im
         for (size_t i = 0; i < COUNT_OF(thresholds); i++) {
             char name[48];
             snprintf(name, sizeof name, "POV-Ray +AM%d +A%s", method, thresholds[i]);
-            StudyMethod *ladder = method_begin(study, name, true);
+            StudyMethod *ladder = method_begin(study, name, STUDY_POVRAY);
             for (size_t j = 0; j < COUNT_OF(depths[0]) && !(j > 0 && ladder->points[j - 1].seconds > LONG_SECONDS);
                  j++) {
                 char am[8], a[16], r[8];
@@ -416,6 +449,7 @@ bool study_run(Study *study, const char *scene, const StudySettings *settings)
     model_find(study, settings);
     depth_find(study, settings, &sampling, &reference);
     bool fine = rtlang_methods(study, settings, &reference.image) &&
+                reference_methods(study, settings, &reference.image) &&
                 forward_methods(study, settings, &reference.image) &&
                 (settings->povray == NULL || povray_methods(study, settings, &reference.image));
     if (!fine) {
@@ -459,7 +493,7 @@ int study_ratios(const Study *study, StudyRatio *ratios, int room)
     }
     for (int i = 0; i < study->count; i++) {
         const StudyMethod *method = &study->methods[i];
-        for (int j = 0; method->is_povray && j < method->count && count < room; j++) {
+        for (int j = 0; method->kind == STUDY_POVRAY && j < method->count && count < room; j++) {
             StudyRatio *ratio = &ratios[count++];
             bool beyond[2], unused;
             double time[2], same[2];
@@ -483,6 +517,18 @@ int study_ratios(const Study *study, StudyRatio *ratios, int room)
         }
     }
     return count;
+}
+
+void study_total_add(StudyTotal *total, const Study *study)
+{
+    StudyRatio ratios[STUDY_METHODS * STUDY_POINTS];
+    int best, count = study_ratios(study, ratios, STUDY_METHODS * STUDY_POINTS);
+    double ratio = study_best_ratio(ratios, count, &best);
+
+    if (best > 0) {
+        total->scenes++;
+        total->logarithms += log(ratio);
+    }
 }
 
 double study_best_ratio(const StudyRatio *ratios, int count, int *best)

@@ -28,11 +28,17 @@ typedef struct StudyPoint {
     double estimate; // what the run itself said of its error; 0: nothing
 } StudyPoint;
 
+typedef enum StudyKind {
+    STUDY_SAMPLER,   // rtlang's kernels
+    STUDY_REFERENCE, // its reference kernels, in one precision each
+    STUDY_FORWARD,   // its forward tracer
+    STUDY_POVRAY,
+} StudyKind;
+
 typedef struct StudyMethod {
     char name[48];
-    bool is_povray;
-    bool is_forward;
-    double photons_an_arrival; // is_forward: how many leave a light for one that counts
+    StudyKind kind;
+    double photons_an_arrival; // STUDY_FORWARD: how many leave a light for one that counts
     StudyPoint points[STUDY_POINTS];
     int count;
     double slope, slope_spread; // of log rmse in log seconds; half of the 95 % interval; NAN: too few points
@@ -85,6 +91,14 @@ int study_ratios(const Study *study, StudyRatio *ratios, int room);
 // The geometric mean of POV-Ray's time over rtlang's to equal error, over POV-Ray's best settings whose error rtlang's
 // ladder reaches; how many those are. NAN: none.
 double study_best_ratio(const StudyRatio *ratios, int count, int *best);
+
+// Over the scenes of a run, those that have a ratio.
+typedef struct StudyTotal {
+    int scenes;
+    double logarithms; // of their ratios, summed
+} StudyTotal;
+
+void study_total_add(StudyTotal *total, const Study *study);
 
 // ---- study_metric.c
 

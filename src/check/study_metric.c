@@ -65,7 +65,7 @@ void study_fit(StudyMethod *method, double floor)
 
     for (int i = 0; i < method->count; i++) {
         // One ray a pixel asks all of an area light: it is on no line with the others.
-        bool is_single = !method->is_povray && method->points[i].samples < 2.0;
+        bool is_single = method->kind != STUDY_POVRAY && method->points[i].samples < 2.0;
         if (method->points[i].rmse > 1.5 * floor && method->points[i].seconds > 0.0 && !is_single) {
             x[count] = log(method->points[i].seconds);
             y[count++] = log(method->points[i].rmse);

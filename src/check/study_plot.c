@@ -105,7 +105,7 @@ static void print_guide(FILE *out, const Study *study, const Scale *scale, doubl
 static void print_method(FILE *out, const Study *study, const Scale *scale, int number)
 {
     const StudyMethod *method = &study->methods[number];
-    const char *dash = method->is_povray ? " stroke-dasharray=\"6 3\"" : "";
+    const char *dash = method->kind == STUDY_POVRAY ? " stroke-dasharray=\"6 3\"" : "";
 
     fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\"%s points=\"", colour_of(number), dash);
     for (int i = 0; i < method->count; i++) {

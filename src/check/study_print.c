@@ -12,6 +12,20 @@ static double efficiency(const StudyPoint *point)
     return 1.0 / (point->rmse * point->rmse * point->seconds);
 }
 
+// Why a method stays where it is. POV-Ray's pictures stay at the model's error, too.
+static const char *bias_cause(const Study *study, const StudyMethod *method)
+{
+    static const char *const causes[] = {
+        [STUDY_SAMPLER] = "light that few samples meet",
+        [STUDY_REFERENCE] = "its arithmetic",
+        [STUDY_FORWARD] = "light that does not come from light sources",
+        [STUDY_POVRAY] = "its threshold",
+    };
+    bool is_model = method->kind == STUDY_POVRAY && study->model > 0.5 * method->points[method->count - 1].rmse;
+
+    return is_model ? "another model" : causes[method->kind];
+}
+
 // The sentences that tell of bias.
 static void print_bias(const Study *study, FILE *out, const char *before, const char *after)
 {
@@ -30,11 +44,7 @@ static void print_bias(const Study *study, FILE *out, const char *before, const 
         const StudyMethod *method = &study->methods[i];
         if (method->is_biased) {
             fprintf(out, "%s%s is biased: it stays at rmse %.3g, more time does not help; likely cause: %s%s\n", before,
-                    method->name, method->points[method->count - 1].rmse,
-                    method->is_povray    ? "its threshold"
-                    : method->is_forward ? "light that does not come from light sources"
-                                         : "rays that are cut",
-                    after);
+                    method->name, method->points[method->count - 1].rmse, bias_cause(study, method), after);
         }
     }
 }
@@ -66,7 +76,7 @@ static void print_forward(const Study *study, FILE *out, const char *before, con
     }
     for (int i = 0; i < study->count; i++) {
         const StudyMethod *method = &study->methods[i];
-        if (!method->is_forward || method->count == 0) {
+        if (method->kind != STUDY_FORWARD || method->count == 0) {
             continue;
         }
         const StudyPoint *last = &method->points[method->count - 1];
@@ -219,7 +229,7 @@ void study_print_json(const Study *study, FILE *out)
         json_text(out, method->name);
         json_number(out, "slope", method->slope);
         json_number(out, "slope_spread", method->slope_spread);
-        if (method->is_forward) {
+        if (method->kind == STUDY_FORWARD) {
             json_number(out, "photons_an_arrival", method->photons_an_arrival);
         }
         fprintf(out, ", \"biased\": %s, \"points\": [", method->is_biased ? "true" : "false");
@@ -315,4 +325,28 @@ void study_print_section(const Study *study, ReportPage *page, int number)
     study_plot(study, out, false);
     section_table(study, out);
     section_ratios(study, out);
+}
+
+static void print_total(const StudyTotal *total, FILE *out)
+{
+    fprintf(out, "over %d scenes POV-Ray takes %.1f times as long as rtlang to equal error, geometric mean", total->scenes,
+            exp(total->logarithms / total->scenes));
+}
+
+void study_print_total(const StudyTotal *total, FILE *out)
+{
+    if (total->scenes > 1) {
+        print_total(total, out);
+        fputc('\n', out);
+    }
+}
+
+void study_print_total_section(const StudyTotal *total, ReportPage *page)
+{
+    if (total->scenes > 1) {
+        FILE *out = report_page_section(page, "study-all", "Error against time: all scenes");
+        fputs("<p>", out);
+        print_total(total, out);
+        fputs("; each scene's own is that over its best settings of POV-Ray.</p>\n", out);
+    }
 }

@@ -16,6 +16,10 @@ void study_print_json(const Study *study, FILE *out); // one object, no line end
 // The table, the plot and the ratios as a section of the page; `number` tells studies of one page apart.
 void study_print_section(const Study *study, ReportPage *page, int number);
 
+// The ratio over all scenes, where there are several: a line, and a section.
+void study_print_total(const StudyTotal *total, FILE *out);
+void study_print_total_section(const StudyTotal *total, ReportPage *page);
+
 // Error against time, both in logarithms, with guides of slope -1/2 and -3/4 and the floor: an <svg> element. In a file
 // of its own it needs its own colours.
 void study_plot(const Study *study, FILE *out, bool is_alone);

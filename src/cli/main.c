@@ -48,7 +48,11 @@ static void on_message(void *client, rt_stream stream, const char *text, size_t 
     fwrite(text, 1, length, stderr);
 }
 
-static const char plateau[] = "more samples will not help: rays are cut by max_trace_level or adc_bailout";
+// What keeps the picture from getting nearer, however many samples are taken.
+static const char *bias_cause(const rt_error *error)
+{
+    return error->bias_by_level > 0.5 * error->bias ? "max_trace_level" : "adc_bailout";
+}
 
 // What a run is at that is sampled; the session is the one that is running.
 static void on_progress(void *client, double done)
@@ -56,9 +60,11 @@ static void on_progress(void *client, double done)
     char note[160] = "";
     rt_error error;
     rt_get_error(interrupted_session, &error);
-    if (error.known) {
-        snprintf(note, sizeof note, "error %.2g at %.3g rays a pixel%s%s", error.rmse, error.samples,
-                 error.bias > error.high ? "; " : "", error.bias > error.high ? plateau : "");
+    if (error.known && error.bias > error.high) {
+        snprintf(note, sizeof note, "error %.2g at %.3g rays a pixel; more will not help: %s cuts rays", error.rmse,
+                 error.samples, bias_cause(&error));
+    } else if (error.known) {
+        snprintf(note, sizeof note, "error %.2g at %.3g rays a pixel", error.rmse, error.samples);
     }
     progress_update(client, done, error.seconds_left, note);
 }
@@ -260,8 +266,8 @@ static void print_error(const rt_session *session, const Options *options)
                 (unsigned long long)photons.arrived, (double)photons.emitted / (double)photons.arrived);
     }
     if (error.bias > 0.0) {
-        fprintf(stderr, "bias: rays cut by max_trace_level or adc_bailout would add about %.2g in the mean%s\n",
-                error.bias, error.bias > error.high ? "; more samples will not help" : "");
+        fprintf(stderr, "bias: rays cut by %s would add about %.2g in the mean%s\n", bias_cause(&error), error.bias,
+                error.bias > error.high ? "; more samples will not help" : "");
     }
 }
 

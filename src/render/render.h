@@ -81,6 +81,7 @@ typedef struct SamplingError {
     double samples;         // a pixel, in the mean
     double slope;           // of the logarithm of rmse in that of samples, as it is taken to go on; < 0
     double bias;            // what rays that were not followed would add at the least; more samples do not help
+    double bias_by_level;   // of it: beyond max_trace_level; the rest is below adc_bailout
     SamplingEnd end;
 } SamplingError;
 

@@ -56,16 +56,18 @@ static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
 }
 
 // What rays would have brought that were not followed, if they were as bright as the picture is in the mean.
-static double bias_of(const Sampling *s)
+static void find_bias(Sampling *s)
 {
-    double sum = 0.0, share = (double)(s->statistics->cut_by_level + s->statistics->cut_by_weight) * 0x1p-32;
-    if (share == 0.0) {
-        return 0.0;
+    double by_level = (double)s->statistics->cut_by_level, by_weight = (double)s->statistics->cut_by_weight, sum = 0.0;
+    if (by_level + by_weight == 0.0) {
+        return;
     }
     for (size_t i = 0; i < 3 * (size_t)pixel_count(s); i++) {
         sum += s->film->rgb[i];
     }
-    return share / (double)s->statistics->camera_rays * sum / (3.0 * pixel_count(s));
+    double mean = sum / (3.0 * pixel_count(s)), unit = 0x1p-32 / (double)s->statistics->camera_rays;
+    s->error->bias = (by_level + by_weight) * unit * mean;
+    s->error->bias_by_level = by_level * unit * mean;
 }
 
 // One round; false when it was cancelled, which leaves pixels with and without it.
@@ -79,7 +81,7 @@ static bool run_round(Sampling *s)
     }
     if (!s->wanted->has_no_estimate) {
         estimate_update(&s->estimate, s->film, &s->round, s->error);
-        s->error->bias = bias_of(s);
+        find_bias(s);
     } else {
         s->estimate.samples += (uint64_t)s->round_samples;
         s->error->samples = (double)s->estimate.samples / pixel_count(s);

@@ -135,16 +135,39 @@ typedef struct Work {
     StudyKernel colour;
     const RenderOptions *options;
     Film *film;
+    Filter filter;
     atomic_int next, done;
     _Atomic uint64_t camera, shadow, reflected, transmitted;
 } Work;
+
+static Rgb colour_at(const Work *work, double x, double y, RenderStatistics *statistics)
+{
+    return work->colour(work->prepared, x / work->film->width - 0.5, y / work->film->height - 0.5, statistics);
+}
+
+// The mean over the places where the usual kernels sample the pixel, too.
+static Rgb sampled_colour(const Work *work, int x, int y, RenderStatistics *statistics)
+{
+    const SamplingOptions *sampling = work->options->sampling;
+    uint32_t count = (uint32_t)sampling->samples;
+    SampleStream stream = {.kind = sampling->sampler,
+                           .seed = sampler_pixel_seed(sampling->seed, (uint32_t)x, (uint32_t)y),
+                           .count = count};
+    Rgb sum = rgb_grey(0.0);
+    for (; stream.index < count; stream.index++) {
+        stream.pair = 0;
+        FilterSample at = filter_sample(&work->filter, sample_next(&stream));
+        sum = rgb_add_scaled(sum, at.weight, colour_at(work, x + 0.5 + at.x, y + 0.5 + at.y, statistics));
+    }
+    return rgb_scale(1.0 / count, sum);
+}
 
 static void trace_row(const Work *work, int y, RenderStatistics *statistics)
 {
     const Film *film = work->film;
     for (int x = 0; x < film->width; x++) {
-        Rgb colour =
-            work->colour(work->prepared, (x + 0.5) / film->width - 0.5, (y + 0.5) / film->height - 0.5, statistics);
+        Rgb colour = work->options->sampling ? sampled_colour(work, x, y, statistics)
+                                             : colour_at(work, x + 0.5, y + 0.5, statistics);
         float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)x)];
         pixel[0] = (float)colour.red;
         pixel[1] = (float)colour.green;
@@ -177,6 +200,7 @@ RenderResult study_film(const Prepared *prepared, StudyPrecision precision, cons
                         RenderStatistics *statistics)
 {
     Work work = {.prepared = prepared, .colour = kernels[precision].colour, .options = options, .film = film};
+    filter_init(&work.filter, options->sampling ? options->sampling->filter : FILTER_BOX);
     parallel_run(options->threads, trace_rows, &work);
     *statistics = (RenderStatistics){.camera_rays = work.camera,
                                      .shadow_rays = work.shadow,

@@ -23,7 +23,8 @@ bool study_covers(const Prepared *prepared, DiagSink *diags) RT_MUST_CHECK;
 // from the precision that it was worked out in. The scene must be covered.
 Rgb study_colour(const Prepared *prepared, StudyPrecision precision, double u, double v);
 
-// A whole picture of it.
+// A whole picture of it. Of sampling, if that is asked for, only a whole number of samples of a sequence is followed; they
+// are those of the usual kernels, and no error is told.
 RenderResult study_film(const Prepared *prepared, StudyPrecision precision, const RenderOptions *options, Film *film,
                         RenderStatistics *statistics) RT_MUST_CHECK;
 

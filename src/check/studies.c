@@ -1,0 +1,115 @@
+// Runs the studies one after another and hands each to whoever prints it.
+//
+// SPDX-License-Identifier: MIT
+#include "check/studies.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "check/study_print.h"
+
+typedef struct Files {
+    const char *folder; // NULL without --report, as is the rest
+    ReportPage *page;
+    FILE *csv, *json;
+    int studies; // that were written
+} Files;
+
+static FILE *file_open(const Files *files, const char *name)
+{
+    char path[PATH_MAX];
+
+    snprintf(path, sizeof path, "%s/%s", files->folder, name);
+    return fopen(path, "wb");
+}
+
+static bool files_open(Files *files, const char *folder)
+{
+    char page[PATH_MAX];
+
+    *files = (Files){.folder = folder};
+    if (folder == NULL) {
+        return true;
+    }
+    snprintf(page, sizeof page, "%s/index.html", folder);
+    if ((mkdir(folder, 0777) != 0 && errno != EEXIST) || (files->page = report_page_open(page)) == NULL) {
+        return false;
+    }
+    files->csv = file_open(files, "study.csv");
+    files->json = file_open(files, "study.json");
+    return files->csv != NULL && files->json != NULL;
+}
+
+static bool stream_close(FILE *out)
+{
+    return out == NULL || ((ferror(out) == 0) & (fclose(out) == 0));
+}
+
+static bool files_close(Files *files)
+{
+    bool fine = stream_close(files->csv);
+
+    if (files->json != NULL) {
+        fputs(files->studies > 0 ? "]\n" : "[]\n", files->json);
+    }
+    fine = stream_close(files->json) && fine;
+    return (files->page == NULL || report_page_close(files->page)) && fine;
+}
+
+static bool files_add(Files *files, const Study *study)
+{
+    char name[32];
+    int number = ++files->studies;
+
+    if (files->folder == NULL) {
+        return true;
+    }
+    snprintf(name, sizeof name, "study-%d.svg", number);
+    FILE *plot = file_open(files, name);
+    if (plot == NULL) {
+        return false;
+    }
+    study_plot(study, plot, true);
+    study_print_csv(study, files->csv, number == 1);
+    fputs(number == 1 ? "[" : ",\n", files->json);
+    study_print_json(study, files->json);
+    study_print_section(study, files->page, number);
+    return stream_close(plot);
+}
+
+static void study_say(const Study *study, bool as_json)
+{
+    (as_json ? study_print_json : study_print_text)(study, stdout);
+    fputs(as_json ? "\n" : "", stdout);
+    fflush(stdout);
+}
+
+StudiesResult studies_run(const Options *options, const StudySettings *settings)
+{
+    Files files;
+    StudyTotal total = {0};
+    StudiesResult result = STUDIES_FINE;
+    bool fine = files_open(&files, options->report);
+
+    for (int i = 0; fine && i < options->scene_count && *settings->interrupted == 0; i++) {
+        Study study;
+        if (study_run(&study, options->scenes[i], settings)) {
+            study_say(&study, options->json);
+            study_total_add(&total, &study);
+            fine = files_add(&files, &study);
+        } else {
+            fprintf(stderr, "rtcheck: %s: %s\n", options->scenes[i], study.fault);
+            result = STUDIES_FAILED;
+        }
+    }
+    if (!options->json) {
+        study_print_total(&total, stdout);
+    }
+    if (fine && files.page != NULL) {
+        study_print_total_section(&total, files.page);
+    }
+    fine = files_close(&files) && fine;
+    return fine ? result : STUDIES_UNWRITTEN;
+}
