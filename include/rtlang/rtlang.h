@@ -105,6 +105,10 @@ RT_API rt_status rt_set_world(rt_session *session, double scale, const double sh
 /* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height.
  * Default 320 x 240. */
 RT_API rt_status rt_set_size(rt_session *session, int width, int height);
+/* Trace a part of that picture only: the film is then of the part's size, and its pixels are those of the whole picture there, bit
+ * for bit, unless sampling is adaptive, which then chooses among the part's pixels. RT_FAULT_USAGE when the part does not lie in the picture;
+ * rt_set_size takes the whole again. */
+RT_API rt_status rt_set_crop(rt_session *session, int left, int top, int width, int height);
 
 /* Read and evaluate a scene: the first step. A session loads one scene. The path "-" is standard input. */
 RT_API rt_status rt_load_file(rt_session *session, const char *path);

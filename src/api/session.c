@@ -271,12 +271,13 @@ static rt_budget budget_of(const rt_session *session)
 {
     uint64_t scene = scene_bytes(&session->scene);
     uint64_t objects = session->scene.shape_count;
+    int width = session_film_width(session), height = session_film_height(session);
     return (rt_budget){
         .objects = objects,
         .scene = scene,
         .prepared = scene * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
-        .picture = film_bytes(session->width, session->height, session->is_sampled) +
-                   (session->method != RT_METHOD_BACKWARD ? forward_bytes(session->width, session->height) : 0),
+        .picture = film_bytes(width, height, session->is_sampled) +
+                   (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
         .limit = session->limits.memory_bytes,
     };
 }
@@ -302,7 +303,7 @@ bool session_memory_suffices(rt_session *session)
     limits_bytes_text(is_film ? budget.picture : budget.scene + budget.prepared, needed);
     bool kept = is_film ? diag_report(&session->diags, DIAG_E0608, SPAN_NONE,
                                       "a picture of %d x %d pixels needs %s of memory, and the limit is %s",
-                                      session->width, session->height, needed, limit)
+                                      session_film_width(session), session_film_height(session), needed, limit)
                         : diag_report(&session->diags, DIAG_E0607, SPAN_NONE,
                                       "preparing %llu shapes needs %s of memory, and the limit is %s",
                                       (unsigned long long)budget.objects, needed, limit);
@@ -394,10 +395,14 @@ static rt_status render_scene(rt_session *session, int threads)
         session->scene.settings.max_trace_level = session->max_trace_level;
     }
     Prepared *prepared = prepared_new(&session->scene, &geometry);
-    if (!prepared || !film_init(&session->film, session->width, session->height)) {
+    Film *film = &session->film;
+    if (!prepared || !film_init(film, session_film_width(session), session_film_height(session))) {
         prepared_free(prepared);
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
         return session_status(session, false);
+    }
+    if (session->crop.width) {
+        film_put(film, session->crop.left, session->crop.top, session->width, session->height);
     }
     if (!precision_covers(session, prepared) || !forward_fits(session, prepared)) {
         prepared_free(prepared);
@@ -553,8 +558,8 @@ const float *rt_pixels(const rt_session *session, int *width, int *height)
 void rt_get_summary(const rt_session *session, rt_summary *summary)
 {
     *summary = (rt_summary){
-        .width = session->width,
-        .height = session->height,
+        .width = session_film_width(session),
+        .height = session_film_height(session),
         .objects = session->scene.shape_count,
         .lights = session->scene.lights.count,
         .camera_rays = session->statistics.camera_rays,

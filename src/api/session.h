@@ -37,6 +37,9 @@ struct rt_session {
     EvalWorld world;
     bool no_literals;
     int width, height;
+    struct {
+        int left, top, width, height;
+    } crop; // the part of the picture that is traced; of no width: all
     rt_precision precision;
     const char *isa; // of geometry_isa; NULL for the best
     Scene scene;
@@ -82,6 +85,17 @@ rt_status session_status(rt_session *session, bool fine);
 
 // Reports what became of writing `path`, and turns it into a status.
 rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error);
+
+// The size of what is traced.
+static inline int session_film_width(const rt_session *session)
+{
+    return session->crop.width ? session->crop.width : session->width;
+}
+
+static inline int session_film_height(const rt_session *session)
+{
+    return session->crop.width ? session->crop.height : session->height;
+}
 
 // Reads the pictures that the scene uses; reports the first that cannot be.
 bool session_load_pictures(rt_session *session);

@@ -132,6 +132,20 @@ rt_status rt_set_size(rt_session *session, int width, int height)
     }
     session->width = width;
     session->height = height;
+    session->crop.width = 0;
+    return RT_OK;
+}
+
+rt_status rt_set_crop(rt_session *session, int left, int top, int width, int height)
+{
+    if (left < 0 || top < 0 || width < 1 || height < 1 || left >= session->width || top >= session->height ||
+        width > session->width - left || height > session->height - top) {
+        return RT_FAULT_USAGE;
+    }
+    session->crop.left = left;
+    session->crop.top = top;
+    session->crop.width = width;
+    session->crop.height = height;
     return RT_OK;
 }
 

@@ -103,7 +103,11 @@ static bool find_data_folder(char *folder, size_t size)
 
 static rt_status configure(rt_session *session, const Options *options)
 {
+    const int *crop = options->crop;
     rt_status status = rt_set_size(session, options->width, options->height);
+    if (!status && crop[2] > 0 && rt_set_crop(session, crop[0], crop[1], crop[2], crop[3])) {
+        return fail_usage(session, "`--crop` wants a part that lies in the picture");
+    }
     for (int i = 0; !status && i < options->include_path_count; i++) {
         status = rt_add_include_path(session, options->include_paths[i]);
     }

@@ -395,12 +395,35 @@ static bool apply_trace_pixel(Options *options, const char *argument, const char
            parse_integer(argument + length + 1, 0, 65534, &options->pixel_y);
 }
 
+// LEFT,TOP,WIDTH,HEIGHT; whether that lies in the picture is known when all options are read.
+static bool apply_crop(Options *options, const char *argument, const char **expected)
+{
+    int *numbers[] = {&options->crop[0], &options->crop[1], &options->crop[2], &options->crop[3]};
+    *expected = "left, top, width and height in pixels, as 0,0,160,120";
+    for (int i = 0; i < 4; i++) {
+        char number[8];
+        size_t length = strcspn(argument, ",");
+        if (length >= sizeof number || (argument[length] == ',') != (i < 3)) {
+            return false;
+        }
+        memcpy(number, argument, length);
+        number[length] = '\0';
+        if (!parse_integer(number, i < 2 ? 0 : 1, 65535, numbers[i])) {
+            return false;
+        }
+        argument += length + 1;
+    }
+    return true;
+}
+
 static const OptionRow rows[] = {
     {'o', "output", "FILE", apply_output,
      "write the picture to FILE, its format by the ending; - is PNG to standard output\n"
      "(default: the scene's name with .png, in the current folder)"},
     {'W', "width", "PIXELS", apply_width, "width of the picture (default 320)"},
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
+    {0, "crop", "L,T,W,H", apply_crop,
+     "trace W x H pixels from column L and row T only; they are those of the whole picture"},
     {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
     {0, "isa", "NAME", apply_isa,
      "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},

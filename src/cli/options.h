@@ -38,6 +38,7 @@ typedef struct Options {
     int threads;     // 0: as many as the machine has
     const char *isa; // NULL: the best that the machine has
     rt_output encoding;
+    int crop[4]; // left, top, width and height; all 0: the whole picture
     rt_sampling sampling;
     rt_method method;
     uint64_t photons;

@@ -166,7 +166,7 @@ RenderResult forward_film(const Prepared *prepared, const ForwardOptions *option
     *error = (SamplingError){0};
     *counts = (ForwardCounts){0};
     film->records = calloc((size_t)film->width * (size_t)film->height, sizeof *film->records);
-    if (!film->records || !photon_film_init(&forward.film, prepared, film->width, film->height)) {
+    if (!film->records || !photon_film_init(&forward.film, prepared, film)) {
         return RENDER_NO_MEMORY;
     }
     trace_all(&forward);

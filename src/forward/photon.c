@@ -25,25 +25,25 @@ static const double UNIT = 0x1p20, MOST = 0x1p60;
 
 enum { FEATURES = (unsigned)TRACE_ALL_FEATURES | ((unsigned)RENDER_ALL_FEATURES & ~(unsigned)RENDER_SHADOWS) };
 
-bool photon_film_init(PhotonFilm *film, const Prepared *prepared, int width, int height)
+bool photon_film_init(PhotonFilm *arrived, const Prepared *prepared, const Film *film)
 {
     const PreparedCamera *camera = &prepared->camera;
-    size_t values = (size_t)width * (size_t)height * 3;
+    size_t values = (size_t)film->width * (size_t)film->height * 3;
     double reach = vec3_length(camera->direction);
     double distance = camera->lens_radius > 0.0 ? camera->focal_distance : reach;
     double side = distance / reach;
-    *film = (PhotonFilm){
-        .width = width,
-        .height = height,
+    double pixels = (double)film->whole_width * film->whole_height;
+    *arrived = (PhotonFilm){
+        .film = film,
         .axis = vec3_scale(1.0 / reach, camera->direction),
         .distance = distance,
-        .pixel_area = side * side * vec3_length(camera->right) * vec3_length(camera->up) / width / height,
+        .pixel_area = side * side * vec3_length(camera->right) * vec3_length(camera->up) / pixels,
         .lens_area = pi * camera->lens_radius * camera->lens_radius,
     };
-    film->sums[0] = calloc(values, sizeof *film->sums[0]);
-    film->sums[1] = calloc(values, sizeof *film->sums[1]);
-    if (!film->sums[0] || !film->sums[1]) {
-        photon_film_fini(film);
+    arrived->sums[0] = calloc(values, sizeof *arrived->sums[0]);
+    arrived->sums[1] = calloc(values, sizeof *arrived->sums[1]);
+    if (!arrived->sums[0] || !arrived->sums[1]) {
+        photon_film_fini(arrived);
         return false;
     }
     return true;
@@ -75,10 +75,11 @@ static void film_add(PhotonFilm *film, const Prepared *prepared, Photon *photon,
     double scale = vec3_length(camera->direction) / film->distance;
     double u = scale * vec3_dot(at, camera->right) / vec3_length_squared(camera->right) + 0.5;
     double v = 0.5 - scale * vec3_dot(at, camera->up) / vec3_length_squared(camera->up);
-    if (!(u >= 0.0 && u < 1.0 && v >= 0.0 && v < 1.0)) {
+    double x = u * film->film->whole_width - film->film->left, y = v * film->film->whole_height - film->film->top;
+    if (!(x >= 0.0 && x < film->film->width && y >= 0.0 && y < film->film->height)) {
         return;
     }
-    size_t pixel = (size_t)(v * film->height) * (size_t)film->width + (size_t)(u * film->width);
+    size_t pixel = (size_t)y * (size_t)film->film->width + (size_t)x;
     light = rgb_scale(film->distance * film->distance / film->pixel_area, light);
     add_value(&film->sums[photon->half][3 * pixel], light.red);
     add_value(&film->sums[photon->half][3 * pixel + 1], light.green);

@@ -9,10 +9,18 @@
 bool film_init(Film *film, int width, int height)
 {
     size_t pixels = (size_t)width * (size_t)height;
-    *film = (Film){.width = width, .height = height};
+    *film = (Film){.width = width, .height = height, .whole_width = width, .whole_height = height};
     film->rgb = calloc(pixels, 3 * sizeof(float));
     pages_prefer_huge(film->rgb, 3 * sizeof(float) * pixels);
     return film->rgb != NULL;
+}
+
+void film_put(Film *film, int left, int top, int whole_width, int whole_height)
+{
+    film->left = left;
+    film->top = top;
+    film->whole_width = whole_width;
+    film->whole_height = whole_height;
 }
 
 void film_fini(Film *film)

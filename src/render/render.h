@@ -40,15 +40,30 @@ typedef struct PixelRecord {
     float fresh;    // the halves of the half that was taken last
 } PixelRecord;
 
-// A picture in the scene's working space: rows from the top, pixels from the left, red green blue each.
+// A picture in the scene's working space, or a part of one: rows from the top, pixels from the left, red green blue each.
 typedef struct Film {
     int width, height;
-    float *rgb;           // width * height * 3; owned
-    PixelRecord *records; // width * height, after sampling; else NULL; owned
+    int left, top, whole_width, whole_height; // where it lies in the whole picture, and how large that is
+    float *rgb;                               // width * height * 3; owned
+    PixelRecord *records;                     // width * height, after sampling; else NULL; owned
 } Film;
 
 bool film_init(Film *film, int width, int height) RT_MUST_CHECK; // false when out of memory; cleared to 0
 void film_fini(Film *film);
+
+// Makes the film a part of a greater picture; it is the same pixels then as there. The part lies within.
+void film_put(Film *film, int left, int top, int whole_width, int whole_height);
+
+// Where in the whole picture a place beside the middle of a column or row of the film is: u and v of render/camera.h.
+static inline double film_u(const Film *film, int x, double aside)
+{
+    return (film->left + x + 0.5 + aside) / film->whole_width - 0.5;
+}
+
+static inline double film_v(const Film *film, int y, double aside)
+{
+    return (film->top + y + 0.5 + aside) / film->whole_height - 0.5;
+}
 
 // The bytes of a film and of what is needed beside it.
 uint64_t film_bytes(int width, int height, bool is_sampled);

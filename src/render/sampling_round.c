@@ -60,8 +60,8 @@ static void batch_add(const Round *round, Batch *batch, int x, int y, SampleStre
     const Film *film = round->film;
     int i = batch->count++;
     FilterSample at = filter_sample(&round->filter, sample_next(&stream));
-    batch->places.u[i] = (x + 0.5 + at.x) / film->width - 0.5;
-    batch->places.v[i] = (y + 0.5 + at.y) / film->height - 0.5;
+    batch->places.u[i] = film_u(film, x, at.x);
+    batch->places.v[i] = film_v(film, y, at.y);
     if (batch->places.lens) {
         batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&stream));
     }
@@ -73,9 +73,10 @@ static void batch_add(const Round *round, Batch *batch, int x, int y, SampleStre
 static void pixel_add(const Round *round, Batch *batch, int x, int y, uint32_t count, Halves *halves,
                       RenderStatistics *counted)
 {
-    uint32_t before = round->film->records[(size_t)y * (size_t)round->film->width + (size_t)x].count;
+    const Film *film = round->film;
+    uint32_t before = film->records[(size_t)y * (size_t)film->width + (size_t)x].count;
     SampleStream stream = {.kind = round->sampling->sampler,
-                           .seed = sampler_pixel_seed(round->sampling->seed, (uint32_t)x, (uint32_t)y),
+                           .seed = sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
                            .first = before,
                            .count = count};
     for (uint32_t i = 0; i < count; i++) {

@@ -22,8 +22,8 @@ static void trace_beam(const Single *single, Tile tile, RenderStatistics *counte
     for (int i = 0; i < KERNEL_ROW; i++) {
         int x = tile.left + i < tile.right ? tile.left + i : tile.right - 1;
         int y = tile.top + i < tile.bottom ? tile.top + i : tile.bottom - 1;
-        across[i] = (x + 0.5) / film->width - 0.5;
-        down[i] = (y + 0.5) / film->height - 0.5;
+        across[i] = film_u(film, x, 0.0);
+        down[i] = film_v(film, y, 0.0);
     }
     for (int i = 0; i < KERNEL_RAYS; i++) {
         int x = tile.left + i % KERNEL_ROW, y = tile.top + i / KERNEL_ROW;

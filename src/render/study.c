@@ -140,24 +140,25 @@ typedef struct Work {
     _Atomic uint64_t camera, shadow, reflected, transmitted;
 } Work;
 
-static Rgb colour_at(const Work *work, double x, double y, RenderStatistics *statistics)
+static Rgb colour_at(const Work *work, int x, int y, FilterSample at, RenderStatistics *statistics)
 {
-    return work->colour(work->prepared, x / work->film->width - 0.5, y / work->film->height - 0.5, statistics);
+    return work->colour(work->prepared, film_u(work->film, x, at.x), film_v(work->film, y, at.y), statistics);
 }
 
 // The mean over the places where the usual kernels sample the pixel, too.
 static Rgb sampled_colour(const Work *work, int x, int y, RenderStatistics *statistics)
 {
     const SamplingOptions *sampling = work->options->sampling;
+    const Film *film = work->film;
     uint32_t count = (uint32_t)sampling->samples;
     SampleStream stream = {.kind = sampling->sampler,
-                           .seed = sampler_pixel_seed(sampling->seed, (uint32_t)x, (uint32_t)y),
+                           .seed = sampler_pixel_seed(sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
                            .count = count};
     Rgb sum = rgb_grey(0.0);
     for (; stream.index < count; stream.index++) {
         stream.pair = 0;
         FilterSample at = filter_sample(&work->filter, sample_next(&stream));
-        sum = rgb_add_scaled(sum, at.weight, colour_at(work, x + 0.5 + at.x, y + 0.5 + at.y, statistics));
+        sum = rgb_add_scaled(sum, at.weight, colour_at(work, x, y, at, statistics));
     }
     return rgb_scale(1.0 / count, sum);
 }
@@ -167,7 +168,7 @@ static void trace_row(const Work *work, int y, RenderStatistics *statistics)
     const Film *film = work->film;
     for (int x = 0; x < film->width; x++) {
         Rgb colour = work->options->sampling ? sampled_colour(work, x, y, statistics)
-                                             : colour_at(work, x + 0.5, y + 0.5, statistics);
+                                             : colour_at(work, x, y, (FilterSample){.weight = 1.0}, statistics);
         float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)x)];
         pixel[0] = (float)colour.red;
         pixel[1] = (float)colour.green;
