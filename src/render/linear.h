@@ -26,8 +26,11 @@ static inline double linear_value(const Settings *settings, double value)
 static inline Rgb linear_slope(const Settings *settings, const float value[3])
 {
     const double step = 0x1p-10; // of a value: the curve is smooth
-    double slope[3] = {1.0, 1.0, 1.0};
-    for (int i = 0; i < 3 && linear_is_needed(settings); i++) {
+    double slope[3];
+    if (!linear_is_needed(settings)) {
+        return rgb_grey(1.0);
+    }
+    for (int i = 0; i < 3; i++) {
         double low = fmax(value[i] - step, 0.0);
         slope[i] = (linear_value(settings, low + 2.0 * step) - linear_value(settings, low)) / (2.0 * step);
     }

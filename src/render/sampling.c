@@ -80,7 +80,7 @@ static bool run_round(Sampling *s)
         s->sample_seconds = (clock_seconds() - start) / s->round_samples;
     }
     if (!s->wanted->has_no_estimate) {
-        estimate_update(&s->estimate, s->film, &s->round, s->error);
+        estimate_update(&s->estimate, s->film, &s->round, is_whole, s->error);
         find_bias(s);
     } else {
         s->estimate.samples += (uint64_t)s->round_samples;

@@ -77,6 +77,25 @@ static void add_now(Estimate *estimate, const Film *film)
     }
 }
 
+// Both at once, where all pixels have just come to one number of samples.
+static void add_alike(Estimate *estimate, const Film *film, uint32_t count)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    LevelSums sums = {0.0, 0.0, 0.0, 0.0};
+    for (size_t i = 0; i < pixels; i++) {
+        double outer = film->records[i].outer;
+        sums.outer += outer;
+        sums.inner += film->records[i].inner;
+        sums.outer_squares += outer * outer;
+    }
+    sums.outer_now = sums.outer;
+    for (int level = 0; level < LEVELS; level++) {
+        estimate->levels[level].outer_now = estimate->levels[level].outer_squares = 0.0;
+    }
+    estimate->levels[estimate_level(count)] = sums;
+    estimate->samples = (uint64_t)count * pixels;
+}
+
 // The square of the relative error of a level's share of the mean square. Squares of normal errors have a variance of
 // two thirds of their own mean square. What the picture is off by varies as much as its outer sum does.
 static double relative_variance(const LevelSums *sums, double ratio, int steps)
@@ -104,12 +123,16 @@ static double law_error(const Round *round, int level)
     return (round->count & (round->count - 1)) != 0 ? fmax(error, not_net) : error;
 }
 
-void estimate_update(Estimate *estimate, const Film *film, const Round *round, SamplingError *error)
+void estimate_update(Estimate *estimate, const Film *film, const Round *round, bool is_whole, SamplingError *error)
 {
     const double normal = 1.96; // 95 % of a normal distribution is within
     double pixels = (double)film->width * film->height, sum = 0.0, variance = 0.0, slope = 0.0, law = 0.0;
-    add_fresh(estimate, film, round);
-    add_now(estimate, film);
+    if (is_whole && !round->buckets) {
+        add_alike(estimate, film, round->count);
+    } else {
+        add_fresh(estimate, film, round);
+        add_now(estimate, film);
+    }
     for (int level = 0; level < LEVELS; level++) {
         const LevelSums *sums = &estimate->levels[level];
         int steps;

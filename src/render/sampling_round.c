@@ -88,14 +88,12 @@ static void pixel_add(const Round *round, Batch *batch, int x, int y, uint32_t c
     }
 }
 
-// Of two sets of samples, `a` and `b` in number: see PixelRecord.
-static double square_apart(const Round *round, const float *value, Rgb difference, double a, double b)
+// Of two sets of samples, `a` and `b` in number: see PixelRecord. The slope is that of linear light at the pixel.
+static inline float square_apart(Rgb difference, Rgb slope, double a, double b)
 {
-    Rgb slope = linear_slope(&round->prepared->scene->settings, value);
-    difference = rgb_mul(difference, slope);
-    double square =
-        difference.red * difference.red + difference.green * difference.green + difference.blue * difference.blue;
-    return a * b / ((a + b) * (a + b)) * square / 3.0;
+    double red = difference.red * slope.red, green = difference.green * slope.green;
+    double blue = difference.blue * slope.blue;
+    return (float)(a * b / (3.0 * (a + b) * (a + b)) * (red * red + green * green + blue * blue));
 }
 
 static void pixel_finish(const Round *round, size_t pixel, uint32_t count, const Halves *halves)
@@ -113,15 +111,15 @@ static void pixel_finish(const Round *round, size_t pixel, uint32_t count, const
     if (round->sampling->has_no_estimate) {
         return;
     }
-    Rgb apart = rgb_scale(1.0 / first, halves->sum[0]);
+    Rgb slope = linear_slope(&round->prepared->scene->settings, value);
     record->fresh = 0.0f;
     if (second > 0.0) {
-        apart = rgb_add_scaled(apart, -1.0 / second, halves->sum[1]);
-        record->fresh = (float)square_apart(round, value, apart, first, second);
+        Rgb apart = rgb_add_scaled(rgb_scale(1.0 / first, halves->sum[0]), -1.0 / second, halves->sum[1]);
+        record->fresh = square_apart(apart, slope, first, second);
     }
     if (before > 0.0) {
         record->inner = 0.5f * (record->outer + record->fresh);
-        record->outer = (float)square_apart(round, value, rgb_add_scaled(old, -1.0, mean), before, count);
+        record->outer = square_apart(rgb_add_scaled(old, -1.0, mean), slope, before, count);
     } else {
         record->inner = 0.0f;
         record->outer = record->fresh;
