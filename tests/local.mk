@@ -166,6 +166,7 @@ test_scripts = \
   %D%/system/check_image_files.py \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
+  %D%/system/check_sampling.py \
   %D%/system/check_stability.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \

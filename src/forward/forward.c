@@ -23,11 +23,11 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
 {
     const PreparedCamera *camera = &prepared->camera;
     const unsigned unknown = (unsigned)RENDER_TEXTURES | RENDER_INTERIORS | RENDER_TRANSPARENCY | RENDER_EXPONENT;
-    if (prepared->features & unknown) {
-        return "patterns, layers, interiors, transparency, or reflection with an exponent";
-    }
     if (prepared->scene->fogs.count > 0) {
         return "fog";
+    }
+    if (prepared->features & unknown) {
+        return "patterns, layers, interiors, transparency, or reflection with an exponent";
     }
     if (camera->type != CAMERA_PERSPECTIVE || vec3_dot(camera->direction, camera->right) != 0.0 ||
         vec3_dot(camera->direction, camera->up) != 0.0 || vec3_dot(camera->right, camera->up) != 0.0) {

@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+# Sampled pictures from the command line: the error told at the end and kept in the file, the map of it, goals, an interrupt
+# and a time limit that leave their picture, a plateau and its cause, parts of a picture, lenses, photons. Prints TAP.
+#
+# Wants RTLANG (the program) and top_srcdir.
+#
+# SPDX-License-Identifier: MIT
+import math
+import os
+import pty
+import re
+import select
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.environ.get("top_srcdir", "."), "tests", "povray"))
+from pictures import read_png, unfilter
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from tap import Tap
+
+RTLANG = os.path.abspath(os.environ["RTLANG"])
+HEAD = "#version 3.7; global_settings { assumed_gamma 1 }\n"
+BALLS = HEAD + """camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 }
+light_source { <-8,12,-10> rgb 1 } background { rgb <0.1,0.2,0.4> }
+#declare S = seed(7);
+#for (I, 1, 200) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*8-4>, 0.1+0.25*rand(S)
+pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.1 diffuse 0.8 } } #end
+"""
+SOFT = HEAD + """camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 }
+light_source { <-3,6,-3> rgb 1 area_light <4,0,0>, <0,0,4>, 9, 9 jitter }
+plane { y, -1 pigment { rgb 0.8 } finish { ambient 0 diffuse 0.9 } }
+sphere { <0,0.5,0>, 1 pigment { rgb <1,0.5,0.3> } finish { ambient 0.1 diffuse 0.7 } }
+"""
+# Two mirrors that face each other: what lies beyond the second is cut.
+MIRRORS = HEAD + """global_settings { max_trace_level 2 } camera { location <0,0,-0.5> direction z }
+light_source { <0,2,0> rgb 1 }
+plane { z, 1 pigment { rgb 1 } finish { ambient 0.2 diffuse 0.2 reflection 0.8 } }
+plane { -z, 1 pigment { rgb 1 } finish { ambient 0.2 diffuse 0.2 reflection 0.8 } }
+"""
+LENS = HEAD + """camera { location <0,2,-7> look_at 0 right x*image_width/image_height angle 50 aperture 1 blur_samples 37
+  focal_point 0 }
+light_source { <-4,7,-6> rgb 1 } sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } } plane { y, -1 pigment { rgb 1 } }
+"""
+ERROR = re.compile(r"error: rmse (\S+), with 95 % confidence (\S+) to (\S+), at (\S+) (samples|photons) a pixel(.*)")
+tap = Tap()
+
+
+def write(name, text):
+    with open(name, "w", encoding="ascii") as out:
+        out.write(text)
+
+
+def read(name):
+    with open(name, "rb") as file:
+        return file.read()
+
+
+def rtlang(scene, *options, output="out.png", size=(64, 48)):
+    """(exit code, what was said) of a run over the scene's text."""
+    write("scene.scn", scene)
+    command = [RTLANG, f"-W{size[0]}", f"-H{size[1]}", "-o", output, *options, "scene.scn"]
+    run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300, check=False)
+    return run.returncode, run.stderr
+
+
+def notes(name):
+    """Keyword -> text of a PNG file."""
+    data, at, found = read(name), 8, {}
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"tEXt":
+            keyword, _, text = data[at + 8:at + 8 + length].partition(b"\0")
+            found[keyword.decode()] = text.decode()
+        at += 12 + length
+    return found
+
+
+def grey_16(name):
+    """The values of a grey PNG file of 16 bits, from 0 to 1."""
+    data, at, packed = read(name), 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", data[at + 8:at + 18])
+        elif kind == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    if (depth, colour) != (16, 0):
+        raise ValueError(f"{name}: depth {depth}, colour type {colour}")
+    rows, above, values = zlib.decompress(packed), bytearray(2 * width), []
+    for y in range(height):
+        start = y * (2 * width + 1)
+        row = bytearray(rows[start + 1:start + 2 * width + 1])
+        if rows[start]:
+            unfilter(rows[start], row, above, 2)
+        values += [code / 65535 for code in struct.unpack(f">{width}H", row)]
+        above = row
+    return values
+
+
+def linear(name):
+    return [code / 65535 for code in read_png(name)[2]]
+
+
+def rmse(one, other):
+    return math.sqrt(sum((a - b) ** 2 for a, b in zip(one, other)) / len(one))
+
+
+LINEAR = ("--depth=16", "--file-gamma=1")
+
+
+def test_error_told():
+    status, said = rtlang(BALLS, "--samples=16", "--seed=5", "--error-map=map.png", *LINEAR)
+    found = ERROR.search(said)
+    if not tap.ok(status == 0 and found, "a sampled run tells its error", said):
+        return
+    told, low, high, samples = map(float, found.groups()[:4])
+    tap.ok(low < told < high and samples == 16 and found[5] == "samples", "with an interval, at its samples", said)
+    kept = notes("out.png")
+    fine = all(math.isclose(float(kept["rtlang:" + name]), value, rel_tol=6e-3)
+               for name, value in (("rmse", told), ("rmse-low", low), ("rmse-high", high), ("samples", 16), ("seed", 5)))
+    tap.ok(fine and kept["rtlang:sampler"] == "sobol" and kept["rtlang:filter"] == "box", "the file keeps it", kept)
+    by_pixel = grey_16("map.png")
+    mean = math.sqrt(sum(value * value for value in by_pixel) / len(by_pixel))
+    tap.ok(len(by_pixel) == 64 * 48 and math.isclose(mean, told, rel_tol=0.01), "the map's mean square is the picture's",
+           f"{mean} {told}")
+    picture = linear("out.png")
+    rtlang(BALLS, "--samples=512", "--sampler=halton", "--seed=1", *LINEAR, output="reference.png")
+    true = rmse(picture, linear("reference.png"))
+    tap.ok(low / 1.2 < true < high * 1.2, "and it is what the picture is off by", f"{low} {true} {high}")
+    tap.ok("error:" not in rtlang(BALLS, "--samples=16", "--no-estimate")[1], "not without the estimate")
+
+
+def test_goals():
+    status, said = rtlang(BALLS, "--target-error=0.01")
+    found = ERROR.search(said)
+    tap.ok(status == 0 and found and float(found[3]) <= 0.01 and "; the target is reached" in found[6],
+           "a target is reached, by the interval's upper end", said)
+    status, said = rtlang(BALLS, "--target-error=0.0001", "--samples=32")
+    found = ERROR.search(said)
+    tap.ok(status == 0 and found and float(found[4]) >= 32 and "; the target is not reached" in found[6],
+           "or it is said that it is not", said)
+    start = time.monotonic()
+    status, said = rtlang(BALLS, "--time-limit=1", "--target-error=1e-9", output="limited.png")
+    taken = time.monotonic() - start
+    found = ERROR.search(said)
+    tap.ok(status == 0 and found and "; the time is over" in found[6] and os.path.exists("limited.png"),
+           "a time limit ends a run with its picture and its error", f"{taken} s\n{said}")
+    rtlang(BALLS, "--adaptive", f"--samples={found[4]}", "-t1", output="again.png")
+    tap.ok(read("limited.png") == read("again.png"), "which is made again, byte for byte, by its number of samples",
+           (notes("limited.png"), notes("again.png")))
+
+
+def test_interrupt():
+    write("scene.scn", SOFT)
+    # One ray for each pixel is quick, all of them would take hours.
+    command = [RTLANG, "-W64", "-H48", "-o", "cut.png", "--samples=1048576", *LINEAR, "scene.scn"]
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    time.sleep(2)
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=60)[1]
+    found = ERROR.search(said)
+    tap.ok(process.returncode == 130 and found and "; interrupted" in found[6] and said.endswith("rtlang: interrupted\n"),
+           "an interrupted run tells its error", said)
+    tap.ok(os.path.exists("cut.png") and math.isclose(float(notes("cut.png")["rtlang:rmse"]), float(found[1]), rel_tol=6e-3),
+           "and writes its picture with it", said)
+    status, _ = rtlang(SOFT, "--samples=512", "--sampler=halton", "--seed=9", *LINEAR, output="reference.png")
+    true = rmse(linear("cut.png"), linear("reference.png"))
+    floor = 65535 ** -1 + 0.001
+    tap.ok(status == 0 and true < 1.5 * float(found[3]) + floor, "which is no worse than that", f"{true} {found[0]}")
+
+
+def terminal_output(command, seconds, wanted):
+    """What a terminal sees until `wanted` comes, or for so many seconds; then the process is interrupted."""
+    master, slave = pty.openpty()
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=slave)
+    text, end = b"", time.monotonic() + seconds
+    while time.monotonic() < end and not re.search(wanted, text):
+        if select.select([master], [], [], 0.1)[0]:
+            text += os.read(master, 4096)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=60)
+    os.close(slave)
+    os.close(master)
+    return text
+
+
+def test_plateau():
+    said = rtlang(MIRRORS, "--samples=64")[1]
+    tap.ok(re.search(r"bias: rays cut by max_trace_level would add about \S+ in the mean; more samples will not help", said),
+           "a picture that is cut by max_trace_level says so", said)
+    said = rtlang(MIRRORS.replace("max_trace_level 2", "max_trace_level 200 adc_bailout 0.5"), "--samples=64")[1]
+    tap.ok(re.search(r"bias: rays cut by adc_bailout would add about \S+ in the mean; more samples will not help", said),
+           "and one that is cut by adc_bailout", said)
+    said = rtlang(BALLS, "--samples=64")[1]
+    tap.ok("bias:" not in said, "others do not", said)
+    write("scene.scn", MIRRORS)
+    command = [RTLANG, "-W400", "-H300", "-o", "out.png", "--samples=1048576", "scene.scn"]
+    wanted = rb"\d+ s left  error \S+ at \S+ rays a pixel; more will not help: max_trace_level cuts rays"
+    text = terminal_output(command, 60, wanted)
+    tap.ok(re.search(wanted, text), "the bar tells the error, what is left, and the plateau with its cause", text[-400:])
+    write("scene.scn", BALLS)
+    command = [RTLANG, "-W400", "-H300", "-o", "out.png", "--target-error=1e-5", "scene.scn"]
+    wanted = rb"\d+ s left  error \S+ at \S+ rays a pixel"
+    text = terminal_output(command, 60, wanted)
+    tap.ok(re.search(wanted, text) and b"will not help" not in text, "and of others the first two", text[-400:])
+
+
+def test_crop():
+    """A picture of parts is the whole picture, whatever the number of threads."""
+    parts = [(0, 0, 37, 20), (37, 0, 27, 20), (0, 20, 11, 28), (11, 20, 53, 28)]
+    for name, scene, options in (("one ray a pixel", BALLS, ()), ("samples", BALLS, ("--samples=8",)),
+                                 ("a filter and area lights", SOFT, ("--samples=7", "--filter=mitchell")),
+                                 ("a set that is no sequence", SOFT, ("--samples=9", "--sampler=jittered")),
+                                 ("a lens", LENS, ()), ("quad", LENS.replace("aperture 1", "aperture 0"), ("--precision=quad",))):
+        rtlang(scene, *options, *LINEAR, "-t2", output="whole.png")
+        width, _, whole = read_png("whole.png")
+        differs = []
+        for number, (left, top, across, down) in enumerate(parts):
+            rtlang(scene, *options, *LINEAR, f"-t{number + 1}", f"--crop={left},{top},{across},{down}", output="part.png")
+            found_width, found_height, part = read_png("part.png")
+            want = [code for y in range(top, top + down) for code in whole[3 * (y * width + left):3 * (y * width + left + across)]]
+            if (found_width, found_height, list(part)) != (across, down, want):
+                differs.append(number)
+        tap.equal(differs, [], "parts of a picture are those of the whole: " + name)
+    one = rtlang(BALLS, "--samples=16", "-t1", "--crop=8,8,40,30")[1]
+    other = rtlang(BALLS, "--samples=16", "-t5", "--crop=8,8,40,30")[1]
+    tap.equal(ERROR.search(one)[0], ERROR.search(other)[0], "a part's error does not depend on threads")
+    for crop in "60,0,5,5", "0,44,1,5", "64,0,1,1":
+        status, said = rtlang(BALLS, "--crop=" + crop)
+        tap.ok(status == 2 and "E0703" in said and "--crop" in said, f"a part of {crop} is not in 64 x 48", said)
+    status, said = rtlang(BALLS, "--crop=1,2,3")
+    tap.ok(status == 2 and "left, top, width and height" in said, "four numbers are wanted", said)
+
+
+def test_lens():
+    status, said = rtlang(LENS)
+    found = ERROR.search(said)
+    tap.ok(status == 0 and found and float(found[4]) == 37, "a lens takes the rays that the scene asks for", said)
+    found = ERROR.search(rtlang(LENS, "--samples=20")[1])
+    tap.ok(found and float(found[4]) == 20, "or those that --samples does", said)
+
+
+def test_forward():
+    lens = LENS.replace("aperture 1", "aperture 4")
+    status, said = rtlang(lens, "--method=forward", "--photons=2e5")
+    found = ERROR.search(said)
+    tap.ok(status == 0 and found and found[5] == "photons" and "photons: 200000, of which" in said, "photons are told of", said)
+    tap.ok(notes("out.png").get("rtlang:method") == "forward" and notes("out.png").get("rtlang:photons") == "200000",
+           "and noted in the file", notes("out.png"))
+    status, said = rtlang(lens + "fog { distance 5 rgb 1 }", "--method=forward-connect")
+    tap.ok(status == 1 and "error[E0449]" in said and "fog" in said, "a scene that photons do not know is refused", said)
+    status, said = rtlang(lens.replace("aperture 4", "aperture 0"), "--method=forward")
+    tap.ok(status == 1 and "error[E0449]" in said and "aperture" in said, "and one whose lens no photon can hit", said)
+
+
+def test_refusals():
+    for name, options in (("adaptive sampling in quad", ("--precision=quad", "--adaptive", "--samples=8")),
+                          ("a goal with a set", ("--sampler=grid", "--target-error=0.1")),
+                          ("adaptive without a number", ("--adaptive",)),
+                          ("half a sample", ("--samples=2.5",)),
+                          ("a map of nothing", ("--error-map=map.png",))):
+        status, said = rtlang(BALLS, *options)
+        tap.ok(status == 2 and "error[E0703]" in said, "refused: " + name, said)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for test in (test_error_told, test_goals, test_interrupt, test_plateau, test_crop, test_lens, test_forward, test_refusals):
+            test()
+        os.chdir("/")
+    tap.done()
+
+
+if __name__ == "__main__":
+    main()
