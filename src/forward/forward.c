@@ -22,12 +22,13 @@ uint64_t forward_bytes(int width, int height)
 const char *forward_misfit(const Prepared *prepared, const ForwardOptions *options)
 {
     const PreparedCamera *camera = &prepared->camera;
-    const unsigned unknown = (unsigned)RENDER_TEXTURES | RENDER_INTERIORS | RENDER_TRANSPARENCY | RENDER_EXPONENT;
+    const unsigned unknown =
+        (unsigned)RENDER_TEXTURES | RENDER_NORMALS | RENDER_INTERIORS | RENDER_TRANSPARENCY | RENDER_EXPONENT;
     if (prepared->scene->fogs.count > 0) {
         return "fog";
     }
     if (prepared->features & unknown) {
-        return "patterns, layers, interiors, transparency, or reflection with an exponent";
+        return "patterns, bumps, layers, interiors, transparency, or reflection with an exponent";
     }
     if (camera->type != CAMERA_PERSPECTIVE || vec3_dot(camera->direction, camera->right) != 0.0 ||
         vec3_dot(camera->direction, camera->up) != 0.0 || vec3_dot(camera->right, camera->up) != 0.0) {
