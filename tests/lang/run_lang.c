@@ -3,7 +3,8 @@
 //     == name of the case
 //     the program
 //     -- file lib/x.inc        a file beside it, before the expectations; lib/ is on the include path
-//     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth or text_bytes
+//     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth, objects or
+//                              text_bytes
 //     -- declare N 5           a number declared before the scene begins, as with -D
 //     -- warning all           which warnings are told, as after -W; may repeat
 //     -- validate              the scene as a whole is looked at, too, as before it is traced

@@ -170,7 +170,7 @@ static void try_kinds(const InternTable *names, Tally *sums)
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);
         if (kind == KIND_REFLECTION || kind == KIND_CLIPPED_BY || kind == KIND_BOUNDED_BY) {
-            continue; // a property of finish
+            continue; // properties of other blocks
         }
         Place place = {schema->is_declarable ? "#declare A = " : "", "", " { }"};
         try_word(names, &tally, &place, schema->word);

@@ -21,31 +21,12 @@
 #include "base/attributes.h"
 #include "image/encode.h"
 #include "image/image.h"
+#include "unit/image_forms.h"
 #include "unit/tap.h"
 
 enum { WIDTH = 37, HEIGHT = 70 }; // more rows than the module fetches at once
 
-static const ImageEncoding srgb_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
-static const ImageEncoding srgb_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
-static const ImageEncoding linear_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0};
-static const ImageEncoding linear_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0};
-static const ImageEncoding power_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0};
-static const ImageEncoding power_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0};
-static const ImageEncoding as_is_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, true, 1, NULL, 0};
 static const ImageEncoding float_linear = {IMAGE_DEPTH_FLOAT, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0};
-
-static uint32_t next_random(uint32_t *state) // xorshift32: G. Marsaglia, "Xorshift RNGs", 2003
-{
-    *state ^= *state << 13;
-    *state ^= *state >> 17;
-    *state ^= *state << 5;
-    return *state;
-}
-
-static float random_unit(uint32_t *state)
-{
-    return (float)(next_random(state) >> 8) * 0x1p-24f;
-}
 
 enum { SMOOTH = 0 }; // in place of a seed
 

@@ -1,5 +1,5 @@
 // LDR-FLIP against what follows from the paper's formulas without a program: plain pictures, single points, symmetries.
-// tests/system/check_flip.py compares it with a second, direct evaluation.
+// tests/system/check_report.py compares it with a second, direct evaluation.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -5,13 +5,13 @@
 // [all]; a few exponents a scene if nothing is said, every one of the lists in `make check-long`.
 //
 // SPDX-License-Identifier: MIT
-#include <glob.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "rtlang/rtlang.h"
+#include "unit/scenes.h"
 #include "unit/tap.h"
 
 enum { WIDTH = 16, HEIGHT = 12, VALUES = 3 * WIDTH * HEIGHT, SAMPLE = 17 };
@@ -144,41 +144,31 @@ static void check_shift(const char *folder, const char *path, int power, int axi
            off, VALUES, sqrt(sum / VALUES), spacing);
 }
 
-static void check_scenes(const char *top, const char *pattern, bool is_whole)
+// *whole: all exponents and shifts.
+static void check_scene(void *whole, const char *folder, const char *path, size_t number)
 {
-    char path[4096], folder[4096];
-    glob_t found;
-    snprintf(path, sizeof path, "%s/%s", top, pattern);
-    snprintf(folder, sizeof folder, "%s/share/rtlang", top);
-    if (!tap_ok(glob(path, 0, NULL, &found) == 0, "there are scenes %s", pattern)) {
-        return;
+    bool is_whole = *(const bool *)whole;
+    const Exception *exception = exception_of(path);
+    if (exception) {
+        tap_skip(path, exception->why);
     }
-    for (size_t i = 0; i < found.gl_pathc; i++) {
-        const Exception *exception = exception_of(found.gl_pathv[i]);
-        if (exception) {
-            tap_skip(found.gl_pathv[i], exception->why);
-        }
-        if (!exception || !exception->also_twos) {
-            check_twos(folder, found.gl_pathv[i], i, is_whole ? COUNT_OF(twos) : 2);
-        }
-        if (!exception) {
-            check_tens(folder, found.gl_pathv[i], i, is_whole ? COUNT_OF(tens) : 2);
-        }
-        for (int at = 0; at < 9; at++) {
-            if (is_whole || at == (int)(i % 9)) {
-                check_shift(folder, found.gl_pathv[i], 6 + 3 * (at / 3), at % 3);
-            }
+    if (!exception || !exception->also_twos) {
+        check_twos(folder, path, number, is_whole ? COUNT_OF(twos) : 2);
+    }
+    if (!exception) {
+        check_tens(folder, path, number, is_whole ? COUNT_OF(tens) : 2);
+    }
+    for (int at = 0; at < 9; at++) {
+        if (is_whole || at == (int)(number % 9)) {
+            check_shift(folder, path, 6 + 3 * (at / 3), at % 3);
         }
     }
-    globfree(&found);
 }
 
 int main(int argc, char **argv)
 {
-    const char *top = getenv("top_srcdir");
     bool is_whole = argc > 1 && strcmp(argv[1], "all") == 0;
-    top = top ? top : ".";
-    check_scenes(top, "examples/*.scn", is_whole);
-    check_scenes(top, "tests/povray/*.scn", is_whole);
+    scenes_try("examples/*.scn", check_scene, &is_whole);
+    scenes_try("tests/povray/*.scn", check_scene, &is_whole);
     return tap_done();
 }

@@ -5,7 +5,6 @@
 // other.
 //
 // SPDX-License-Identifier: MIT
-#include <glob.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +12,7 @@
 
 #include "math/quad.h"
 #include "rtlang/rtlang.h"
+#include "unit/scenes.h"
 #include "unit/tap.h"
 
 enum { WIDTH = 16, HEIGHT = 12, VALUES = 3 * WIDTH * HEIGHT };
@@ -59,8 +59,9 @@ static int differences(const float *a, const float *b, double share)
     return count;
 }
 
-static void check_scene(const char *folder, const char *path, int *covered)
+static void check_scene(void *covered, const char *folder, const char *path, size_t number)
 {
+    (void)number;
     static float usual[VALUES], reference[VALUES], quad[VALUES], single[VALUES];
     Told told = {0, 0};
     rt_status status = draw(folder, path, RT_PRECISION_REFERENCE, &told, reference);
@@ -71,7 +72,7 @@ static void check_scene(const char *folder, const char *path, int *covered)
     bool is_drawn = status == RT_OK && draw(folder, path, RT_PRECISION_DOUBLE, &told, usual) == RT_OK &&
                     draw(folder, path, RT_PRECISION_QUAD, &told, quad) == RT_OK &&
                     draw(folder, path, RT_PRECISION_FLOAT, &told, single) == RT_OK;
-    ++*covered;
+    ++*(int *)covered;
     int beside_usual = is_drawn ? differences(usual, reference, 1e-6) : VALUES;
     int beside_quad = is_drawn ? differences(usual, quad, 1e-6) : VALUES;
     int beside_single = is_drawn ? differences(usual, single, 2e-2) : VALUES;
@@ -80,21 +81,11 @@ static void check_scene(const char *folder, const char *path, int *covered)
            beside_single);
 }
 
-static void check_scenes(const char *top, const char *pattern, int least)
+static void check_scenes(const char *pattern, int least)
 {
-    char path[4096], folder[4096];
     int covered = 0;
-    glob_t found;
-    snprintf(path, sizeof path, "%s/%s", top, pattern);
-    snprintf(folder, sizeof folder, "%s/share/rtlang", top);
-    if (!tap_ok(glob(path, 0, NULL, &found) == 0, "there are scenes %s", pattern)) {
-        return;
-    }
-    for (size_t i = 0; i < found.gl_pathc; i++) {
-        check_scene(folder, found.gl_pathv[i], &covered);
-    }
-    tap_ok(covered >= least, "%d of %zu scenes %s are covered", covered, found.gl_pathc, pattern);
-    globfree(&found);
+    size_t count = scenes_try(pattern, check_scene, &covered);
+    tap_ok(covered >= least, "%d of %zu scenes %s are covered", covered, count, pattern);
 }
 
 // Identities that no double could hold to 1e-30, and double's own results to its last bits.
@@ -124,11 +115,9 @@ static void check_quad_functions(void)
 
 int main(void)
 {
-    const char *top = getenv("top_srcdir");
-    top = top ? top : ".";
     check_quad_functions();
-    check_scenes(top, "examples/*.scn", 5);
-    check_scenes(top, "tests/povray/*.scn", 40);
+    check_scenes("examples/*.scn", 5);
+    check_scenes("tests/povray/*.scn", 40);
     return tap_done();
 }
 

@@ -4,12 +4,12 @@
 // is printed of a sphere is checked against the scene that it was made for.
 //
 // SPDX-License-Identifier: MIT
-#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "rtlang/rtlang.h"
+#include "unit/scenes.h"
 #include "unit/tap.h"
 
 enum { WIDTH = 16, HEIGHT = 12 };
@@ -22,15 +22,17 @@ static bool is_pixel(const char *text, const float *pixel)
            (float)rgb[0] == pixel[0] && (float)rgb[1] == pixel[1] && (float)rgb[2] == pixel[2];
 }
 
-static void check_scene(const char *folder, const char *path, int step)
+// *step: one pixel of so many is looked at.
+static void check_scene(void *step, const char *folder, const char *path, size_t number)
 {
+    (void)number;
     int width, height, wrong = 0, first = 0, tried = 0;
     rt_session *session = rt_session_new(NULL);
     rt_set_format(session, RT_FORMAT_JSON);
     bool is_ready = rt_add_include_path(session, folder) == RT_OK && rt_set_size(session, WIDTH, HEIGHT) == RT_OK &&
                     rt_load_file(session, path) == RT_OK && rt_render(session, 1) == RT_OK;
     const float *pixels = is_ready ? rt_pixels(session, &width, &height) : NULL;
-    for (int i = 0; pixels && i < WIDTH * HEIGHT; i += step, tried++) {
+    for (int i = 0; pixels && i < WIDTH * HEIGHT; i += *(const int *)step, tried++) {
         const char *text;
         if (rt_trace_pixel(session, i % WIDTH, i / WIDTH, &text) != RT_OK || !is_pixel(text, pixels + 3 * i)) {
             first = wrong++ ? first : i;
@@ -39,21 +41,6 @@ static void check_scene(const char *folder, const char *path, int step)
     tap_ok(pixels && wrong == 0, "%s: %d of %d pixels differ, the first at %d,%d", path, wrong, tried, first % WIDTH,
            first / WIDTH);
     rt_session_free(session);
-}
-
-static void check_scenes(const char *top, const char *pattern, int step)
-{
-    char path[4096], folder[4096];
-    glob_t found;
-    snprintf(path, sizeof path, "%s/%s", top, pattern);
-    snprintf(folder, sizeof folder, "%s/share/rtlang", top);
-    if (!tap_ok(glob(path, 0, NULL, &found) == 0, "there are scenes %s", pattern)) {
-        return;
-    }
-    for (size_t i = 0; i < found.gl_pathc; i++) {
-        check_scene(folder, found.gl_pathv[i], step);
-    }
-    globfree(&found);
 }
 
 static bool has(const char *text, const char *part)
@@ -112,11 +99,10 @@ static void check_touch(void)
 
 int main(void)
 {
-    const char *top = getenv("top_srcdir");
-    top = top ? top : ".";
+    int every = 1, one_in_five = 5;
     check_quadratic();
     check_touch();
-    check_scenes(top, "examples/*.scn", 1);
-    check_scenes(top, "tests/povray/*.scn", 5);
+    scenes_try("examples/*.scn", check_scene, &every);
+    scenes_try("tests/povray/*.scn", check_scene, &one_in_five);
     return tap_done();
 }
