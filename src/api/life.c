@@ -93,7 +93,7 @@ static void tell_colour(const Printer *p, const char *what, Rgb a)
 static void tell_place(const Printer *p, uint64_t source)
 {
     SourceLocation at;
-    if (source && source_locate(p->diags->sources, (Span){source, source + 1}, &at)) {
+    if (source && source_locate(p->diags->sources, scene_source_span(source), &at)) {
         text_printf(p->out, " (%s:%" PRIu64 ":%" PRIu64 ")", at.name, (uint64_t)at.line, (uint64_t)at.column);
     }
 }
@@ -274,7 +274,7 @@ static void json_truth(const Printer *p, const char *name, bool truth)
 static void json_place(const Printer *p, uint64_t source)
 {
     SourceLocation at;
-    if (source && source_locate(p->diags->sources, (Span){source, source + 1}, &at)) {
+    if (source && source_locate(p->diags->sources, scene_source_span(source), &at)) {
         member(p, "file");
         diag_json_string(p->out, at.name, strlen(at.name));
         json_number(p, "line", (double)at.line);

@@ -7,6 +7,7 @@
 
 #include "render/camera.h"
 #include "render/shade.h"
+#include "scene/part.h"
 
 enum {
     RAYS_MOST = 1000,   // that are told of
@@ -171,18 +172,9 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
         error = plane_error(&g->planes[index].shape, ray, t);
         break;
     case SHAPE_PART: {
-        static const char *const words[] = {
-            [PART_BALL] = "sphere",
-            [PART_PLANE] = "plane",
-            [PART_BOX] = "box",
-            [PART_CONE] = "cylinder or cone",
-            [PART_DISC] = "disc",
-            [PART_TRIANGLE] = "triangle",
-            [PART_SMOOTH_TRIANGLE] = "smooth triangle",
-        };
         const Solid *solid = &g->shapes.solids[part_index(at->shape)];
         Ray object = solid_ray(solid, ray);
-        out->shape = words[solid->kind];
+        out->shape = part_word(solid->kind);
         out->source = scene->parts.items[part_index(at->shape)].source;
         error = solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
         break;

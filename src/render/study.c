@@ -41,11 +41,6 @@ static bool refuse(DiagSink *diags, Span span, const char *what)
     return false;
 }
 
-static Span source_span(uint64_t source)
-{
-    return source ? (Span){source, source + 1} : SPAN_NONE;
-}
-
 static bool lights_are_covered(const Scene *scene, const Prepared *p, DiagSink *diags)
 {
     for (size_t i = 0; i < p->light_count; i++) {
@@ -96,7 +91,7 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     const Scene *scene = p->scene;
     bool covers = lights_are_covered(scene, p, diags);
     if (scene->parts.count > 0) {
-        covers = refuse(diags, source_span(scene->parts.items[0].source), "a shape other than spheres and planes");
+        covers = refuse(diags, scene_source_span(scene->parts.items[0].source), "a shape other than spheres and planes");
     }
     if (scene->camera.type > CAMERA_ORTHOGRAPHIC) {
         covers = refuse(diags, scene->camera.span, "a camera that is neither perspective nor orthographic");
@@ -112,7 +107,8 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     }
     for (size_t i = 0; i < scene->compounds.count; i++) {
         if (!compound_is_plain(scene, &scene->compounds.items[i])) {
-            covers = refuse(diags, source_span(compound_source(scene, i)), "a texture of patterns, layers or bumps");
+            covers = refuse(diags, scene_source_span(compound_source(scene, i)),
+                            "a texture of patterns, layers or bumps");
             break;
         }
     }

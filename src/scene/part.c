@@ -1,9 +1,23 @@
-// How far parts reach in a direction, each as the affine image of its fixed shape.
+// The words for parts, and how far each reaches in a direction as the affine image of its fixed shape.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/part.h"
 
 #include <float.h>
+
+const char *part_word(PartKind kind)
+{
+    static const char *const words[] = {
+        [PART_BALL] = "sphere",
+        [PART_PLANE] = "plane",
+        [PART_BOX] = "box",
+        [PART_CONE] = "cylinder or cone",
+        [PART_DISC] = "disc",
+        [PART_TRIANGLE] = "triangle",
+        [PART_SMOOTH_TRIANGLE] = "smooth triangle",
+    };
+    return words[kind];
+}
 
 // The direction as the fixed shape sees it: p·n with p = q M + o is q·(M n) + o·n.
 typedef struct ObjectDirection {

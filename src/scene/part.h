@@ -1,12 +1,15 @@
-// How far a part reaches: the support function of its convex hull, and what follows from it.
+// Parts: what messages call them, and how far they reach (the support function of the convex hull).
 //
-// Serves bounding boxes and the question whether one shape contains another. Knows nothing of rays.
+// Serves messages, bounding boxes and the question whether one shape contains another. Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_PART_H
 #define SCENE_PART_H
 
 #include "scene/scene.h"
+
+// The word for a part of the kind, "cylinder or cone".
+const char *part_word(PartKind kind);
 
 // The greatest p·direction over the part's points, inverse or not; INFINITY for a plane, save against its own normal.
 double part_support(const Part *part, Vec3 direction);

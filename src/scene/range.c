@@ -6,7 +6,8 @@
 #include <float.h>
 #include <limits.h>
 #include <math.h>
-#include <string.h>
+
+#include "scene/part.h"
 
 // ---- the exact scale
 
@@ -80,10 +81,14 @@ int scene_exponent(const Scene *scene)
 
 // ---- what lies beyond
 
-// What is asked of each shape: its greatest half size, and where it stands.
+static const char not_seen_perhaps[] = "it may not be drawn";
+
+// What is asked of each shape: its greatest half size, where it stands, and what to call it.
 typedef struct Extent {
     double size;
     Vec3 place;
+    uint64_t source;
+    const char *what;
 } Extent;
 
 typedef struct Watch {
@@ -92,25 +97,21 @@ typedef struct Watch {
     double least, end; // sizes, unscaled
 } Watch;
 
-static Span source_span(uint64_t source)
-{
-    return source ? (Span){source, source + 1} : SPAN_NONE;
-}
-
 // The least size that can be seen beside coordinates as great as `place`: the distance from there to the next number.
 static double spacing(double place)
 {
     return nextafter(place, (double)INFINITY) - place;
 }
 
-static void tell_lost(const Watch *watch, const Extent *extent, double place, uint64_t source, const char *what)
+static void tell_lost(const Watch *watch, const Extent *extent, double place)
 {
     bool is_lost = place + extent->size == place;
     DiagSink *diags = watch->diags;
-    bool is_kept = is_lost ? diag_report(diags, DIAG_W0440, source_span(source),
-                                         "the size of this %s is lost beside its coordinates", what)
-                           : diag_report(diags, DIAG_W0441, source_span(source),
-                                         "this %s is smaller than the spacing of numbers at its place", what);
+    Span at = scene_source_span(extent->source);
+    bool is_kept = is_lost ? diag_report(diags, DIAG_W0440, at, "the size of this %s is lost beside its coordinates",
+                                         extent->what)
+                           : diag_report(diags, DIAG_W0441, at,
+                                         "this %s is smaller than the spacing of numbers at its place", extent->what);
     if (is_kept) {
         diag_note(diags, SPAN_NONE, "its size is %g, and coordinates of %g are %g apart", extent->size, place,
                   spacing(place));
@@ -124,8 +125,8 @@ static void tell_lost(const Watch *watch, const Extent *extent, double place, ui
 
 static void tell_beyond(const Watch *watch, double length, uint64_t source, const char *what, const char *seen)
 {
-    if (diag_report(watch->diags, DIAG_W0442, source_span(source), "this %s is beyond the range of the scene's numbers",
-                    what)) {
+    if (diag_report(watch->diags, DIAG_W0442, scene_source_span(source),
+                    "this %s is beyond the range of the scene's numbers", what)) {
         diag_note(watch->diags, SPAN_NONE,
                   "it has a length of %g, and in this scene lengths from %.2g to %.2g have squares", length,
                   watch->least, watch->end);
@@ -134,10 +135,10 @@ static void tell_beyond(const Watch *watch, double length, uint64_t source, cons
     }
 }
 
-static void tell_far(const Watch *watch, const Extent *extent, double distance, uint64_t source, const char *what)
+static void tell_far(const Watch *watch, const Extent *extent, double distance)
 {
-    if (diag_report(watch->diags, DIAG_W0443, source_span(source), "this %s is too far from the camera for its size",
-                    what)) {
+    if (diag_report(watch->diags, DIAG_W0443, scene_source_span(extent->source),
+                    "this %s is too far from the camera for its size", extent->what)) {
         diag_note(watch->diags, SPAN_NONE, "it is %.2g of its sizes away, and rays are exact to %.2g",
                   distance / extent->size, RANGE_RADII);
         diag_note(watch->diags, SPAN_NONE,
@@ -146,39 +147,40 @@ static void tell_far(const Watch *watch, const Extent *extent, double distance, 
 }
 
 // Most shapes pass with five comparisons.
-static void check_extent(const Watch *watch, const Extent *extent, uint64_t source, const char *what)
+static void check_extent(const Watch *watch, const Extent *extent, const char *seen_beyond)
 {
     double place = vec3_max_abs(extent->place);
     bool is_point = extent->size == 0.0; // a box of which rounding leaves nothing
     if (!((extent->size >= watch->least || is_point) && extent->size < watch->end && place < watch->end)) {
-        // Of spheres, ball_make (trace/sphere.h) leaves out those whose squares are beyond.
-        bool is_left_out = strcmp(what, "sphere") == 0 && place < watch->end;
-        tell_beyond(watch, place >= watch->end ? place : extent->size, source, what,
-                    is_left_out ? "it is not drawn" : "it may not be drawn");
+        bool is_far = place >= watch->end;
+        tell_beyond(watch, is_far ? place : extent->size, extent->source, extent->what,
+                    is_far ? not_seen_perhaps : seen_beyond);
         return;
     }
     if (is_point || (extent->size < place * DBL_EPSILON && extent->size < spacing(place))) {
-        tell_lost(watch, extent, place, source, what);
+        tell_lost(watch, extent, place);
     }
     if (is_point) {
         return;
     }
     double distance = vec3_max_abs(vec3_sub(extent->place, watch->eye));
     if (distance > RANGE_RADII * extent->size) {
-        tell_far(watch, extent, distance, source, what);
+        tell_far(watch, extent, distance);
     }
 }
 
-static Extent transform_extent(const Transform *to_world)
+static Extent transform_extent(const Transform *to_world, uint64_t source, const char *what)
 {
     const double *origin = to_world->m[3];
     return (Extent){fmax(row_size(to_world, 0), fmax(row_size(to_world, 1), row_size(to_world, 2))),
-                    {origin[0], origin[1], origin[2]}};
+                    {origin[0], origin[1], origin[2]},
+                    source,
+                    what};
 }
 
 static Extent part_extent(const Part *part)
 {
-    Extent extent = transform_extent(&part->to_world);
+    Extent extent = transform_extent(&part->to_world, part->source, part_word(part->kind));
     if (part->kind == PART_BOX) {
         const double *low = &part->data[0].x, *high = &part->data[1].x;
         extent.size = 0.0;
@@ -191,24 +193,10 @@ static Extent part_extent(const Part *part)
     return extent;
 }
 
-static const char *part_word(PartKind kind)
-{
-    static const char *const words[] = {
-        [PART_BALL] = "sphere",
-        [PART_PLANE] = "plane",
-        [PART_BOX] = "box",
-        [PART_CONE] = "cylinder or cone",
-        [PART_DISC] = "disc",
-        [PART_TRIANGLE] = "triangle",
-        [PART_SMOOTH_TRIANGLE] = "triangle",
-    };
-    return words[kind];
-}
-
 static void check_plane(const Watch *watch, double distance, uint64_t source)
 {
     if (!(fabs(distance) < watch->end)) {
-        tell_beyond(watch, fabs(distance), source, "plane", "it may not be drawn");
+        tell_beyond(watch, fabs(distance), source, "plane", not_seen_perhaps);
     }
 }
 
@@ -270,11 +258,13 @@ void scene_warn_of_range(const Scene *scene, DiagSink *diags)
     Watch watch = {diags, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
     for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
-        check_extent(&watch, &(Extent){sphere->radius, sphere->centre}, sphere->source, "sphere");
+        // ball_make (trace/sphere.h) leaves out spheres whose squares are beyond.
+        check_extent(&watch, &(Extent){sphere->radius, sphere->centre, sphere->source, "sphere"}, "it is not drawn");
     }
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        Extent extent = transform_extent(&scene->ellipsoids.items[i].to_world);
-        check_extent(&watch, &extent, scene->ellipsoids.items[i].source, "stretched sphere");
+        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
+        Extent extent = transform_extent(&ellipsoid->to_world, ellipsoid->source, "stretched sphere");
+        check_extent(&watch, &extent, not_seen_perhaps);
     }
     for (size_t i = 0; i < scene->planes.count; i++) {
         check_plane(&watch, scene->planes.items[i].distance, scene->planes.items[i].source);
@@ -285,7 +275,7 @@ void scene_warn_of_range(const Scene *scene, DiagSink *diags)
             check_plane(&watch, part->data[1].x, part->source);
         } else {
             Extent extent = part_extent(part);
-            check_extent(&watch, &extent, part->source, part_word(part->kind));
+            check_extent(&watch, &extent, not_seen_perhaps);
         }
     }
     check_points(&watch, scene);

@@ -373,6 +373,12 @@ static inline Rgbft material_pigment(const Material *material)
     return (Rgbft){material->red, material->green, material->blue, material->filter, material->transmit};
 }
 
+// The place in the text of a record that keeps its offset alone; SPAN_NONE for one that was not written.
+static inline Span scene_source_span(uint64_t source)
+{
+    return source ? (Span){source, source + 1} : SPAN_NONE;
+}
+
 // Whether a shape of this material is hollow.
 static inline bool scene_is_hollow(const Scene *scene, MaterialIndex material)
 {

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/part.h"
 #include "scene/range.h"
 
 enum { AHEAD = 32, KEY_NUMBERS = 18, KIND_SPHERE_KEY = PART_SMOOTH_TRIANGLE + 1 };
@@ -157,16 +158,13 @@ static bool keys_are_equal(const Key *a, const Key *b)
 static void tell(const Key *one, const Key *other, DiagSink *diags)
 {
     const Key *first = one->order < other->order ? one : other, *second = first == one ? other : one;
-    static const char *const words[] = {
-        [PART_BALL] = "stretched sphere", [PART_PLANE] = "plane", [PART_BOX] = "box",
-        [PART_CONE] = "cylinder or cone", [PART_DISC] = "disc",   [PART_TRIANGLE] = "triangle",
-        [KIND_SPHERE_KEY] = "sphere",
-    };
-    Span at = second->source ? (Span){second->source, second->source + 1} : SPAN_NONE;
-    if (diag_report(diags, DIAG_W0444, at, "this %s coincides with one that was declared before it",
-                    words[one->kind]) &&
+    const char *word = one->kind == KIND_SPHERE_KEY ? "sphere"
+                       : one->kind == PART_BALL     ? "stretched sphere"
+                                                    : part_word((PartKind)one->kind);
+    if (diag_report(diags, DIAG_W0444, scene_source_span(second->source),
+                    "this %s coincides with one that was declared before it", word) &&
         first->source) {
-        diag_note(diags, (Span){first->source, first->source + 1}, "this one is seen, the other is not");
+        diag_note(diags, scene_source_span(first->source), "this one is seen, the other is not");
     }
 }
 

@@ -8,11 +8,6 @@
 
 #include "scene/range.h"
 
-static Span source_span(uint64_t source)
-{
-    return source ? (Span){source, source + 1} : SPAN_NONE;
-}
-
 static bool rgb_is_finite(Rgb a)
 {
     return isfinite(a.red) && isfinite(a.green) && isfinite(a.blue);
@@ -20,7 +15,7 @@ static bool rgb_is_finite(Rgb a)
 
 static bool fault(DiagSink *diags, DiagCode code, uint64_t source, const char *what)
 {
-    diag_report(diags, code, source_span(source), "%s", what);
+    diag_report(diags, code, scene_source_span(source), "%s", what);
     return false;
 }
 
