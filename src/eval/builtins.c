@@ -191,6 +191,41 @@ static bool next_random(Eval *ev, const AstNode *node, Value *value)
     return give_number(value, *state / 4294967295.0);
 }
 
+// ---- noise
+
+const Noise *eval_noise(Eval *ev, Span span)
+{
+    if (ev->noise == NULL) {
+        Noise *noise = arena_alloc(&ev->program, sizeof *noise);
+        if (noise == NULL) {
+            eval_no_memory(ev, span);
+            return NULL;
+        }
+        noise_init(noise);
+        ev->noise = noise;
+    }
+    return ev->noise;
+}
+
+NoiseGenerator eval_noise_generator(const Eval *ev)
+{
+    int said = ev->scene->settings.noise_generator;
+    return said != 0 ? noise_generator(said) : ev->version < 3.5 ? NOISE_ORIGINAL : NOISE_CORRECTED;
+}
+
+// vturbulence(lambda, omega, octaves, point)
+static bool vector_turbulence(Eval *ev, const AstNode *node, Value *value)
+{
+    double a[3];
+    Vec3 point;
+    if (!numbers(ev, node, a, 3) || !eval_vector3(ev, node->a->next->next->next, &point)) {
+        return false;
+    }
+    const Noise *noise = eval_noise(ev, node->span);
+    Octaves octaves = {(float)a[0], (float)a[1], (unsigned)fmin(fmax(a[2], 1.0), 10.0)};
+    return noise && give_vector(value, noise_vector_sum(noise, &octaves, point));
+}
+
 // ---- functions of vectors
 
 static bool vector_number(Eval *ev, const AstNode *node, Value *value)
@@ -356,7 +391,7 @@ static const Builtin builtins[WORD_COUNT] = {
     // Words of the language that rtlang does not have.
     [W_trace] = {not_supported, NULL, 0, ANY_COUNT},
     [W_inside] = {not_supported, NULL, 0, ANY_COUNT},
-    [W_vturbulence] = {not_supported, NULL, 0, ANY_COUNT},
+    [W_vturbulence] = {vector_turbulence, NULL, 4, 4},
     [W_datetime] = {not_supported, NULL, 0, ANY_COUNT},
     [W_sum] = {not_supported, NULL, 0, ANY_COUNT},
     [W_prod] = {not_supported, NULL, 0, ANY_COUNT},

@@ -2,6 +2,7 @@
 //
 //   function.c       `function (a, b) { … }` and its parameters      function_body.c  the body to a tree of nodes
 //   function_run.c   what each node computes                         callable.c       calls inside expressions
+//   function_given.c what `internal(n)` stands for
 //   spline.c         `spline { … }`, and its value at a number
 //
 // A function's body is a language of its own: numbers only, names of numbers taken at the declaration, exact
@@ -99,6 +100,10 @@ double function_run_slot(const FunctionNode *node, FunctionRun *run);
 double function_run_call(const FunctionNode *node, FunctionRun *run);
 double function_run_sum(const FunctionNode *node, FunctionRun *run);
 double function_run_product(const FunctionNode *node, FunctionRun *run);
+
+// Makes a function of what `internal(n)` stands for, or one that is a fault where it is called. False when a fault was
+// reported.
+bool function_given(Eval *ev, const AstNode *internal, Function *function) RT_MUST_CHECK;
 
 // Works a function that is supported out for as many arguments as it has parameters: one number, or the components of
 // a vector, whose count is returned. 0 when evaluation must stop.

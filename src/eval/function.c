@@ -53,6 +53,9 @@ static bool name_parameters(FunctionBody *body, const AstNode *parameters)
 static bool make_numeric(Eval *ev, const AstNode *node, Function *function)
 {
     FunctionBody body = {.ev = ev};
+    if (node->b->kind == AST_BUILTIN && node->b->symbol == W_internal) {
+        return function_given(ev, node->b, function); // whatever parameters are listed
+    }
     if (!name_parameters(&body, node->a)) {
         return false;
     }

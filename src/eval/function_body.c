@@ -329,8 +329,8 @@ static FunctionNode *compile_builtin(Compiler *compiler, const AstNode *node)
         return compile_sequence(compiler, node);
     }
     if (node->symbol == W_internal) {
-        compiler->unsupported = "internal";
-        return number_node(compiler, node, 0.0);
+        return fault_body(compiler, node, "`internal` beside other things",
+                          "declare a function of it alone, and call that");
     }
     if (!function_builtin((Word)node->symbol, &made, &least, &greatest)) {
         return fault_word(compiler, node, "only functions of numbers without memory can");

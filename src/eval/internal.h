@@ -32,6 +32,7 @@
 #include "base/text.h"
 #include "eval/eval.h"
 #include "grammar/grammar.h"
+#include "math/noise.h"
 #include "math/colour.h"
 #include "math/vec3.h"
 #include "scene/schema.h"
@@ -139,6 +140,7 @@ typedef struct Eval {
     double version;
     bool version_given;           // a #version was run
     ARRAY(uint32_t) streams;      // the states of rand, by handle
+    const Noise *noise;           // NULL before the first call that needs it
     ARRAY(uint64_t) reported;     // a hash table of what was reported, see report.c
     size_t reported_count;
     bool include_is_missing; // a name that is not declared may be one that it declares
@@ -169,6 +171,11 @@ bool eval_report(Eval *ev, DiagCode code, Span span, const char *format, ...) RT
 bool eval_is_first(Eval *ev, DiagCode code, Symbol symbol);
 // Reports exhausted memory once and sets `stop`; returns false.
 bool eval_no_memory(Eval *ev, Span span);
+
+// The tables of noise, made by the first call; NULL when a fault was reported.
+const Noise *eval_noise(Eval *ev, Span span);
+// That of the scene's settings so far.
+NoiseGenerator eval_noise_generator(const Eval *ev);
 const char *eval_text(const Eval *ev, Symbol symbol);
 // Of a node that begins with its symbol, the symbol alone: `sphere` of a whole block.
 Span eval_word_span(const Eval *ev, const AstNode *node);
