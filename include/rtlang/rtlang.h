@@ -128,6 +128,9 @@ RT_API rt_status rt_dump_scene(rt_session *session, const char **text);
 /* What a message's code means, at length: "E0201". *text is valid until the next call on the session. RT_FAULT_USAGE when
  * there is no such code. */
 RT_API rt_status rt_explain(rt_session *session, const char *code, const char **text);
+/* What the loaded scene takes and what it does not: what is left out at each stage and why, and what the rest costs in rays and
+ * time, which is found by tracing without it. `threads` is as for rt_render. *text is valid until the next call. */
+RT_API rt_status rt_explain_scene(rt_session *session, int threads, const char **text);
 
 /* Hands the client a fault of its own in the form of all others, with a code of this library, a message and a suggestion
  * (or NULL). Returns the status that the code means. */

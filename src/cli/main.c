@@ -211,6 +211,17 @@ static rt_status explain(rt_session *session, const Options *options)
     return print(session, text, status);
 }
 
+static rt_status explain_scene(rt_session *session, const Options *options)
+{
+    const char *text = "";
+    rt_status status = rt_load_file(session, options->scene);
+    if (!status && options->isa) {
+        status = rt_set_isa(session, options->isa);
+    }
+    status = status ? status : rt_explain_scene(session, options->threads, &text);
+    return status ? status : print(session, text, status);
+}
+
 static rt_status format(rt_session *session, const Options *options)
 {
     const char *text;

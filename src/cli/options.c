@@ -460,7 +460,9 @@ static const OptionRow rows[] = {
      "all: warn of more; error: take warnings for errors; a code, or no- and a code:\n"
      "turn one on or off; may repeat. -Wall, -Werror and -Wno-CODE are short for it"},
     {0, "diagnostics", "text|json", apply_diagnostics, "form of the messages (default text; json: an object a line)"},
-    {0, "explain", "[CODE]", apply_explain, "print what the code of a message means, and stop"},
+    {0, "explain", "[CODE]", apply_explain,
+     "print what the code of a message means; with a SCENE instead of a code what the scene\n"
+     "takes and what it costs, and what is left out and why"},
     {0, "format", NULL, apply_format,
      "print the scene's text in the canonical layout, or write it to -o FILE;\n"
      "with --check tell whether it is in that layout"},
@@ -607,14 +609,21 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
     return OPTIONS_GO;
 }
 
-// The code may stand behind a `=` or as the only word that is left.
+// The code may stand behind a `=` or as the only word that is left; any other word is a scene.
 static OptionsResult settle_explain(int argc, char **argv, Options *options)
 {
-    const char *code = options->code ? options->code : optind < argc ? argv[optind++] : "";
-    const char *wrong = optind < argc ? argv[optind] : is_code(code) ? NULL : code;
-    options->code = code;
-    return wrong ? complain(options, "option `--explain` wants one code of a message, such as E0201, found `%.80s`", wrong)
-                 : OPTIONS_GO;
+    const char *word = options->code ? options->code : optind < argc ? argv[optind++] : "";
+    if (optind < argc || !*word) {
+        return complain(options, "option `--explain` wants one code of a message, such as E0201, or one scene%s%.80s%s",
+                        optind < argc ? ", found `" : "", optind < argc ? argv[optind] : "", optind < argc ? "`" : "");
+    }
+    if (is_code(word)) {
+        options->code = word;
+    } else {
+        options->action = ACTION_EXPLAIN_SCENE;
+        options->scene = word;
+    }
+    return OPTIONS_GO;
 }
 
 // So that a complaint has its form even when it stands before the option.

@@ -20,6 +20,7 @@ typedef enum Action {
     ACTION_FORMAT_CHECK,
     ACTION_TRACE_PIXEL,
     ACTION_BUDGET,
+    ACTION_EXPLAIN_SCENE,
 } Action;
 
 enum { COMPLAINT_SIZE = 512 };

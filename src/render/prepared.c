@@ -229,6 +229,16 @@ void prepared_free(Prepared *prepared)
     free(prepared);
 }
 
+unsigned prepared_features(const Prepared *prepared)
+{
+    return prepared->features;
+}
+
+size_t prepared_geometry_bytes(const Prepared *prepared)
+{
+    return geometry_bytes(prepared->geometry);
+}
+
 const char *prepared_kernel_name(const Prepared *prepared)
 {
     return prepared->kernel->name;

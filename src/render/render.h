@@ -29,6 +29,9 @@ void prepared_free(Prepared *prepared);
 
 // Name of the kernel that was chosen, for example "spheres+shadows".
 const char *prepared_kernel_name(const Prepared *prepared);
+// The TraceFeature and RenderFeature bits (trace/trace.h, render/kernel.h) that the scene needs.
+unsigned prepared_features(const Prepared *prepared);
+size_t prepared_geometry_bytes(const Prepared *prepared);
 
 // What a pixel's samples say of its error, in linear light, as mean squares over its three values. Each is the square of
 // how far two sets of samples are apart, times the product of their shares: if sets were independent, the variance of

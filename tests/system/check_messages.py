@@ -164,10 +164,37 @@ def check_explain(tap):
     tap.ok("wrong: sphere { 0, 1 raduis 2 }" in told and all(len(line) <= 80 for line in told.splitlines()),
            "an example and a paragraph")
     tap.ok(explain("--explain=e0250") == (status, told, ""), "--explain=CODE, in small letters")
-    for words in (("--explain",), ("--explain", "scene.scn"), ("--explain=E02",), ("--explain", "E0250", "E0251"),
-                  ("--explain", "E0999")):
+    for words in (("--explain",), ("--explain=E02",), ("--explain", "E0250", "E0251"), ("--explain", "E0999"),
+                  ("--explain", "scene.scn", "E0250")):
         status, told, said = explain(*words)
         tap.ok(status == 2 and not told and "E0703" in said, " ".join(words) + " is refused")
+
+
+def check_explain_scene(tap):
+    def explain(text, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "scene.scn"), "w", encoding="utf-8") as file:
+                file.write(text)
+            done = subprocess.run([PROGRAM, "-W40", "-H30", "-t1", *words, "--explain", "scene.scn"], cwd=folder, check=False,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return done.returncode, done.stdout.decode()
+
+    def part(told, heading):
+        rest = told.split(heading, 1)[1].split("\n\n", 1)[0]
+        return {line[:24].strip(): line[24:].strip() for line in rest.splitlines() if line.startswith("  ")}
+    scene = "camera { location -5*z look_at 0 } %s sphere { 0, 1 pigment { rgb 1 } finish { %s } } %s\n"
+    status, told = explain(scene % ("light_source { <5, 5, -5>, 1 shadowless }", "", ""))
+    left = part(told, "left out, and why")
+    tap.ok(status == 0 and left["shadow rays"] == "no light casts shadows" and "planes" in left and "tree of spheres" in left,
+           "--explain SCENE tells what is left out", told)
+    tap.ok("1200 rays" in part(told, "there, and what it costs")["camera rays"], "and what is there", told)
+    status, told = explain(scene % ("light_source { <5, 5, -5>, 1 }", "reflection 0.5 phong 1", "plane { y, -1 }"))
+    there, left = part(told, "there, and what it costs"), part(told, "left out, and why")
+    tap.ok(status == 0 and {"shadow rays", "mirrored rays", "highlights", "planes"} <= set(there), "another scene", told)
+    shadow = re.fullmatch(r"(\d+) rays  without it [-+][0-9.]+ s, -(\d+) rays", there["shadow rays"])
+    tap.ok(shadow and shadow[1] == shadow[2], "without shadows all of their rays are gone", told)
+    tap.ok(not set(there) & set(left), "nothing is both", told)
+    tap.ok(explain("sphere { 0, -1 }")[0] == 1, "a faulty scene is not explained")
 
 
 def main():
@@ -177,6 +204,7 @@ def main():
     check_clean_scenes(tap)
     check_counts(tap)
     check_explain(tap)
+    check_explain_scene(tap)
     return tap.done()
 
 

@@ -1,0 +1,212 @@
+// What a scene takes and what it does not: each part of the work, why it is left out, or what it costs in rays and time.
+//
+// Traces the loaded scene, then once more without each part that can be taken away; the differences are the costs.
+// Changes the session's scene and puts it back. The text is the session's dump.
+//
+// SPDX-License-Identifier: MIT
+#include "api/session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/kernel.h"
+
+typedef struct Run {
+    unsigned features;
+    const char *kernel;
+    size_t bytes;
+    double prepare_seconds, trace_seconds;
+    RenderStatistics statistics;
+} Run;
+
+// What is taken away for the second run, and which rays it is.
+typedef enum Without { WITHOUT_NOTHING, WITHOUT_SHADOWS, WITHOUT_REFLECTION, WITHOUT_HIGHLIGHTS, WITHOUT_SKY, WITHOUT_FOG } Without;
+
+typedef struct Part {
+    const char *name;
+    unsigned feature;
+    const char *absent; // why it is left out
+    Without without;    // WITHOUT_NOTHING: what it costs alone cannot be told
+} Part;
+
+static const Part parts[] = {
+    {"tree of spheres", TRACE_SPHERE_BVH, "so few spheres are tested one after the other", WITHOUT_NOTHING},
+    {"stretched spheres", TRACE_ELLIPSOIDS, "no sphere is stretched", WITHOUT_NOTHING},
+    {"planes", TRACE_PLANES, "no plane", WITHOUT_NOTHING},
+    {"other shapes", TRACE_PARTS, "nothing but spheres and planes", WITHOUT_NOTHING},
+    {"shadow rays", RENDER_SHADOWS, "no light casts shadows", WITHOUT_SHADOWS},
+    {"lights of a form", RENDER_LIGHTS, "no spotlight, area light or light that fades", WITHOUT_NOTHING},
+    {"highlights", RENDER_HIGHLIGHTS, "no finish has phong or specular", WITHOUT_HIGHLIGHTS},
+    {"brilliance", RENDER_BRILLIANCE, "no finish has it, and none is lit from behind", WITHOUT_NOTHING},
+    {"mirrored rays", RENDER_REFLECTION, "no finish reflects", WITHOUT_REFLECTION},
+    {"reflection exponent", RENDER_EXPONENT, "no finish has it", WITHOUT_NOTHING},
+    {"rays through surfaces", RENDER_TRANSPARENCY, "no pigment lets light through", WITHOUT_NOTHING},
+    {"patterns and layers", RENDER_TEXTURES, "each texture is of one colour", WITHOUT_NOTHING},
+    {"interiors", RENDER_INTERIORS, "nothing bends, fades or needs to know what it is inside of", WITHOUT_NOTHING},
+    {"sky", RENDER_SKY, "no sky_sphere", WITHOUT_SKY},
+    {"fog", RENDER_FOG, "no fog", WITHOUT_FOG},
+};
+
+// ---- runs
+
+static bool run_once(rt_session *session, int threads, Run *run)
+{
+    Film film = {0};
+    GeometryOptions geometry = {.threads = threads, .isa = session->isa};
+    RenderOptions options = {.threads = threads, .cancel = &session->cancel};
+    SamplingError error;
+    double start = session_clock();
+    *run = (Run){0};
+    Prepared *prepared = prepared_new(&session->scene, &geometry);
+    bool is_fine = prepared && film_init(&film, session->width, session->height);
+    run->prepare_seconds = session_clock() - start;
+    start = session_clock();
+    is_fine = is_fine && render_film(prepared, &options, &film, &run->statistics, &error) == RENDER_OK;
+    run->trace_seconds = session_clock() - start;
+    if (is_fine) {
+        run->features = prepared_features(prepared);
+        run->kernel = prepared_kernel_name(prepared);
+        run->bytes = prepared_geometry_bytes(prepared);
+    }
+    film_fini(&film);
+    prepared_free(prepared);
+    return is_fine;
+}
+
+// Takes a part away from the scene's lights and finishes.
+static void take_away(Scene *scene, Without what)
+{
+    for (size_t i = 0; i < scene->lights.count && what == WITHOUT_SHADOWS; i++) {
+        scene->lights.items[i].shadowless = true;
+    }
+    for (size_t i = 0; i < scene->finishes.count; i++) {
+        Finish *finish = &scene->finishes.items[i];
+        if (what == WITHOUT_REFLECTION) {
+            finish->reflection_min = finish->reflection_max = rgb_grey(0.0);
+        } else if (what == WITHOUT_HIGHLIGHTS) {
+            finish->phong = finish->specular = 0.0;
+        }
+    }
+    scene->sky.count = what == WITHOUT_SKY ? 0 : scene->sky.count;
+    scene->fogs.count = what == WITHOUT_FOG ? 0 : scene->fogs.count;
+}
+
+static void *copy_of(const void *items, size_t bytes)
+{
+    void *copy = malloc(bytes > 0 ? bytes : 1);
+    if (copy && bytes > 0) {
+        memcpy(copy, items, bytes);
+    }
+    return copy;
+}
+
+static bool run_without(rt_session *session, int threads, Without what, Run *run)
+{
+    Scene *scene = &session->scene;
+    size_t light_bytes = scene->lights.count * sizeof *scene->lights.items;
+    size_t finish_bytes = scene->finishes.count * sizeof *scene->finishes.items;
+    size_t skies = scene->sky.count, fogs = scene->fogs.count;
+    void *lights = copy_of(scene->lights.items, light_bytes), *finishes = copy_of(scene->finishes.items, finish_bytes);
+    bool is_fine = lights && finishes;
+    if (is_fine) {
+        take_away(scene, what);
+        is_fine = run_once(session, threads, run);
+        if (light_bytes > 0) {
+            memcpy(scene->lights.items, lights, light_bytes);
+        }
+        if (finish_bytes > 0) {
+            memcpy(scene->finishes.items, finishes, finish_bytes);
+        }
+        scene->sky.count = skies;
+        scene->fogs.count = fogs;
+    }
+    free(lights);
+    free(finishes);
+    return is_fine;
+}
+
+// ---- the text
+
+static uint64_t secondary_rays(const RenderStatistics *s)
+{
+    return s->shadow_rays + s->reflected_rays + s->transmitted_rays;
+}
+
+static uint64_t rays_of(const Part *part, const RenderStatistics *s)
+{
+    return part->feature == RENDER_SHADOWS        ? s->shadow_rays
+           : part->feature == RENDER_REFLECTION   ? s->reflected_rays
+           : part->feature == RENDER_TRANSPARENCY ? s->transmitted_rays
+                                                  : 0;
+}
+
+static bool write_part(rt_session *session, int threads, const Part *part, const Run *whole)
+{
+    TextBuffer *out = &session->dump;
+    Run without;
+    text_printf(out, "  %-22s", part->name);
+    if (rays_of(part, &whole->statistics) > 0) {
+        text_printf(out, "%12llu rays", (unsigned long long)rays_of(part, &whole->statistics));
+    }
+    if (part->without != WITHOUT_NOTHING) {
+        if (!run_without(session, threads, part->without, &without)) {
+            return false;
+        }
+        text_printf(out, "  without it %+.3f s, %+lld rays", without.trace_seconds - whole->trace_seconds,
+                    (long long)secondary_rays(&without.statistics) - (long long)secondary_rays(&whole->statistics));
+    }
+    text_append_char(out, '\n');
+    return true;
+}
+
+static bool write_all(rt_session *session, int threads, const Run *whole)
+{
+    TextBuffer *out = &session->dump;
+    const Scene *scene = &session->scene;
+    text_printf(out, "read     %9.3f s  %llu shapes, %llu lights, %llu finishes\n", session->parse_seconds,
+                (unsigned long long)scene->shape_count + scene->parts.count, (unsigned long long)scene->lights.count,
+                (unsigned long long)scene->finishes.count);
+    text_printf(out, "prepare  %9.3f s  %llu bytes of geometry\n", whole->prepare_seconds,
+                (unsigned long long)whole->bytes);
+    text_printf(out, "trace    %9.3f s  %d x %d, kernel `%s`, %d thread%s\n", whole->trace_seconds, session->width,
+                session->height, whole->kernel, threads, threads == 1 ? "" : "s");
+    text_printf(out, "\nthere, and what it costs\n  %-22s%12llu rays\n", "camera rays",
+                (unsigned long long)whole->statistics.camera_rays);
+    for (size_t i = 0; i < RT_COUNT_OF(parts); i++) {
+        if ((whole->features & parts[i].feature) && !write_part(session, threads, &parts[i], whole)) {
+            return false;
+        }
+    }
+    text_printf(out, "\nleft out, and why\n");
+    for (size_t i = 0; i < RT_COUNT_OF(parts); i++) {
+        if (!(whole->features & parts[i].feature)) {
+            text_printf(out, "  %-22s%s\n", parts[i].name, parts[i].absent);
+        }
+    }
+    text_printf(out, "  %-22s%s\n", "OpenImageIO", "loaded for pictures other than PNG only");
+    return true;
+}
+
+rt_status rt_explain_scene(rt_session *session, int threads, const char **text)
+{
+    Run whole;
+    text_clear(&session->dump);
+    *text = text_get(&session->dump);
+    if (!session->loaded || threads < 0) {
+        return RT_FAULT_USAGE;
+    }
+    if (!session_memory_suffices(session)) {
+        return session_status(session, false);
+    }
+    threads = threads ? threads : render_default_threads();
+    bool is_fine = run_once(session, threads, &whole) && write_all(session, threads, &whole);
+    if (atomic_load(&session->cancel)) {
+        return RT_CANCELLED;
+    }
+    if (!is_fine || session->dump.failed) {
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory explaining the scene");
+        return session_status(session, false);
+    }
+    *text = text_get(&session->dump);
+    return RT_OK;
+}
