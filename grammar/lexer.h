@@ -2,7 +2,7 @@
 //
 // One GrammarState is one parse. The scanner (lexer.l) turns text into tokens; the token stream (tokens.c) stands
 // between it and the parser: it knows the brackets and directives that are open and skips what cannot be understood;
-// splice.c is another such stream, which resolves directives and macro calls while it reads; messages.c says what is
+// splice.h tells of another such stream, which resolves directives and macro calls while it reads; messages.c says what is
 // wrong; the facade (grammar.c) sets all up.
 //
 // SPDX-License-Identifier: MIT
@@ -151,7 +151,7 @@ void grammar_track(GrammarState *state, const Token *token); // keeps the stack 
 // Gives the present statement up so that it is read again with its directives resolved. False when that cannot be.
 bool grammar_tear(GrammarState *state);
 
-// Splices (splice.c): the token after the current one, of a fragment.
+// Splices (splice.h): the token after the current one, of a fragment.
 void grammar_splice_token(GrammarState *state, Token *token);
 // Reads the statement that was found torn at the current token, and hands its items over. False when the parse is to
 // stop.

@@ -12,7 +12,12 @@ libgrammar_la_SOURCES = \
   %D%/messages.c \
   %D%/parser.y \
   %D%/splice.c \
+  %D%/splice.h \
+  %D%/splice_directives.c \
+  %D%/splice_stream.c \
+  %D%/splice_tokens.c \
   %D%/tokens.c
 # The generated header is included by files of this folder only, so the rule stands here by hand.
-%D%/grammar.lo %D%/lexer.lo %D%/literal.lo %D%/messages.lo %D%/splice.lo %D%/tokens.lo: %D%/parser.h
+%D%/grammar.lo %D%/lexer.lo %D%/literal.lo %D%/messages.lo %D%/tokens.lo: %D%/parser.h
+%D%/splice.lo %D%/splice_directives.lo %D%/splice_stream.lo %D%/splice_tokens.lo: %D%/parser.h
 MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

@@ -1,0 +1,238 @@
+// What the parser is given of a splice: tokens without directives and calls, and names with what they stand for.
+//
+// Runs the directives and calls that stand before the next token, and decides where one ends what is being parsed.
+// Builds the nodes of names and operators, which are worked out as soon as they are whole. Owns nothing.
+//
+// SPDX-License-Identifier: MIT
+#include "grammar/splice.h"
+
+// ---- delivery to the parser
+
+// Whether the last token delivered can be the end of an expression or a block.
+static bool ends_operand(const GrammarState *state)
+{
+    switch (state->previous.kind) {
+    case TOKEN_NUMBER:
+    case TOKEN_STRING:
+    case TOKEN_NAME:
+    case TOKEN_CONSTANT:
+    case ')':
+    case ']':
+    case '}':
+    case '>':
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Keeps `<` as an opener where it begins a vector, and the place of a function's body.
+static void track_more(GrammarState *state)
+{
+    const Token *last = &state->previous;
+    const Opener *open = grammar_innermost(state);
+    if (last->kind == '<' && !state->ends_before) {
+        Opener vector = {.kind = '<', .span = last->span};
+        if (!ARRAY_PUSH(&state->openers, vector)) {
+            state->ended = true;
+        }
+    } else if (last->kind == '>' && open != NULL && open->kind == '<') {
+        state->openers.count--;
+    }
+    if (last->kind == TOKEN_ARRAY || last->kind == ',') {
+        state->array_begins = last->kind == TOKEN_ARRAY;
+    } else if (last->kind == '{' && state->array_begins) {
+        state->array_begins = false;
+        state->array_level = state->openers.count;
+    } else if (state->openers.count < state->array_level) {
+        state->array_level = 0;
+    }
+    if (last->kind == TOKEN_FUNCTION) {
+        state->function_begins = true;
+    } else if (last->kind == '{' && state->function_begins) {
+        state->function_begins = false;
+        state->function_level = state->openers.count;
+    } else if (state->openers.count < state->function_level) {
+        state->function_level = 0;
+    }
+}
+
+static bool is_in_function(const GrammarState *state)
+{
+    return state->function_begins || state->function_level > 0;
+}
+
+// Where an element of an array or an item in it begins or has ended, no directive and no call may stand.
+static bool is_between_elements(const GrammarState *state)
+{
+    const Opener *open = state->array_level > 0 ? &state->openers.items[state->openers.count - 1] : NULL;
+    int last = state->previous.kind;
+    return open != NULL && open->kind == '{' && (state->ends_before || last == '{' || last == ',');
+}
+
+bool stream_is_at_call(GrammarStream *stream, const GrammarState *state, const Token *token)
+{
+    return token->kind == TOKEN_NAME && state->previous.kind != '.' &&
+           stream->hooks->is_macro(stream->hooks->client, token->symbol) && stream_peek_kind(stream) == '(';
+}
+
+// True when a directive, which is complete, stands at the end of the text in which it began: what it declares belongs
+// to the scope of that text, which is not left before.
+static bool is_at_own_end(GrammarStream *stream, const GrammarState *state)
+{
+    size_t at;
+    while ((at = stream_innermost_text(stream)) > state->own_frame && at == stream->frames.count) {
+        const Frame *frame = &stream->frames.items[at - 1];
+        if ((frame->kind != FRAME_MACRO && frame->kind != FRAME_FILE) || frame->at < frame->count) {
+            return false;
+        }
+        stream_drop(stream, at - 1);
+    }
+    const Frame *own = at == state->own_frame && at > 0 ? &stream->frames.items[at - 1] : NULL;
+    return own != NULL && own->kind != FRAME_LIVE && own->at == own->count;
+}
+
+// A directive or a call that ends what is parsed.
+static void cut(GrammarStream *stream, GrammarState *state, Token *token)
+{
+    state->ended_by = *token;
+    stream_unread(stream, token);
+    *token = (Token){.kind = TOKEN_END_OF_FILE, .span = {token->span.begin, token->span.begin}};
+}
+
+static void capture(GrammarStream *stream, const GrammarState *state, Token *token)
+{
+    // The base of an element is looked up with its index.
+    if (token->kind == TOKEN_NAME && !is_in_function(state) && stream_peek_kind(stream) != '[') {
+        token->known = stream->hooks->capture(stream->hooks->client, token->symbol, token->span);
+    }
+}
+
+static bool takes_string(int directive)
+{
+    switch (directive) {
+    case TOKEN_HASH_INCLUDE:
+    case TOKEN_HASH_DEBUG:
+    case TOKEN_HASH_WARNING:
+    case TOKEN_HASH_ERROR:
+    case TOKEN_HASH_RENDER:
+    case TOKEN_HASH_STATISTICS: return true;
+    default: return false;
+    }
+}
+
+void grammar_splice_token(GrammarState *state, Token *token)
+{
+    GrammarStream *stream = state->stream;
+    track_more(state);
+    stream->silent.kind = 0;
+    state->ends_before = ends_operand(state);
+    bool begins = state->begins_raw;
+    state->begins_raw = false;
+    for (;;) {
+        bool may_end = state->ends_before || state->previous.kind == ';';
+        bool is_over = may_end && state->own_frame > 0 && state->openers.count == 0 && is_at_own_end(stream, state);
+        if (is_over || stream->failed || state->ended || state->builder.failed) {
+            stream_deliver_end(stream, token);
+            return;
+        }
+        stream_read(stream, token);
+        bool is_directive = grammar_is_directive(token->kind);
+        if (begins) {
+            state->takes_string = takes_string(token->kind);
+            state->takes_elements = token->kind == TOKEN_HASH_UNDEF || token->kind == TOKEN_HASH_READ;
+            state->own_frame = stream_innermost_text(stream);
+            break;
+        }
+        // No operator continues a string.
+        if (state->takes_string && state->ends_before && state->openers.count == 0 && token->kind != '[') {
+            stream_unread(stream, token);
+            stream_deliver_end(stream, token);
+            return;
+        }
+        if (state->is_raw || (!is_directive && !stream_is_at_call(stream, state, token))) {
+            break;
+        }
+        if (may_end && state->base_depth != NO_BASE && state->openers.count <= (size_t)state->base_depth) {
+            cut(stream, state, token);
+            return;
+        }
+        if (is_between_elements(state)) {
+            stream_fault(stream, DIAG_E0223, token->span,
+                         "no directive and no macro call can stand here, in the elements of an array");
+        } else if (is_directive) {
+            stream_run_directive(stream, token);
+        } else {
+            stream_call_macro(stream, token);
+        }
+    }
+    size_t from = stream_innermost_text(stream);
+    if (from > 0 && stream->frames.items[from - 1].kind == FRAME_MACRO) {
+        stream->silent.kind = 0;
+    }
+    if (!state->is_raw) {
+        capture(stream, state, token);
+    }
+}
+
+AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span)
+{
+    AstNode *node = ast_node(&state->builder, AST_NAME, AST_OP_NONE, symbol, span, NULL, NULL, NULL);
+    if (RT_UNLIKELY(state->stream != NULL) && !is_in_function(state)) {
+        // With a token after it read, the name is the one before.
+        const Token *token = state->current.span.begin == span.begin ? &state->current : &state->previous;
+        ast_flag(node, AST_KNOWN)->known = token->known;
+    }
+    return node;
+}
+
+static bool is_bare_call(const AstNode *node)
+{
+    if (node == NULL || (node->flags & AST_IN_PARENTHESES)) {
+        return false;
+    }
+    bool is_operation = node->kind == AST_UNARY || node->kind == AST_BINARY || node->kind == AST_MEMBER;
+    return node->kind == AST_CALL || (is_operation && (node->flags & AST_PASTES));
+}
+
+// Marks what a macro's text may tear apart.
+static AstNode *mark_pastes(AstNode *node)
+{
+    bool pastes = false;
+    switch ((AstKind)node->kind) {
+    case AST_UNARY:
+    case AST_BINARY:
+    case AST_MEMBER: pastes = is_bare_call(node->a) || is_bare_call(node->b); break;
+    case AST_VECTOR:
+    case AST_CALL:
+    case AST_BUILTIN:
+        for (const AstNode *part = node->a; part != NULL; part = part->next) {
+            pastes |= is_bare_call(part);
+        }
+        break;
+    default: break;
+    }
+    return pastes ? ast_flag(node, AST_PASTES) : node;
+}
+
+// Before a token after it is read, which may be a call that changes the array.
+AstNode *grammar_element(GrammarState *state, AstNode *node)
+{
+    if (RT_LIKELY(state->stream == NULL) || state->takes_elements) {
+        return node;
+    }
+    int next = stream_peek_kind(state->stream);
+    return next == '[' || next == '=' ? node : grammar_fold(state, node);
+}
+
+AstNode *grammar_fold(GrammarState *state, AstNode *node)
+{
+    if (RT_LIKELY(state->stream == NULL)) {
+        return mark_pastes(node);
+    }
+    if (!is_in_function(state) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->stream->failed) {
+        state->stream->hooks->fold(state->stream->hooks->client, node);
+        state->stream->failed = state->stream->hooks->is_stopped(state->stream->hooks->client);
+    }
+    return node;
+}
