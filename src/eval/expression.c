@@ -1,44 +1,13 @@
-// Expressions: AST nodes become values, with the language's operators, promotions and tolerance of comparisons.
+// Expressions: AST nodes become values.
 //
-// One function for each kind of node, in a table. Owns nothing. Knows nothing of blocks and of what directives do.
+// One function for each kind of node, in a table; operators.c has those of operators. Owns nothing. Knows nothing of
+// blocks and of what directives do.
 //
 // SPDX-License-Identifier: MIT
-#include <math.h>
 #include <string.h>
 
 #include "eval/internal.h"
 #include "scene/blueprint.h"
-
-// Measured: numbers that differ by 1e-10 are equal, and 1e-10 itself is false. Absolute, whatever the size.
-static const double comparison_tolerance = 1e-10;
-
-bool numbers_equal(double one, double other)
-{
-    return one == other || fabs(one - other) <= comparison_tolerance;
-}
-
-bool number_is_true(double number)
-{
-    return !(fabs(number) <= comparison_tolerance);
-}
-
-void number_fault(Eval *ev, double number, Span span)
-{
-    if (isnan(number)) {
-        eval_warn(ev, DIAG_W0304, span, "the result is not a number");
-    } else {
-        eval_warn(ev, DIAG_W0305, span, "the result is infinite");
-    }
-}
-
-static void set_number(Value *value, double number)
-{
-    value->kind = VALUE_NUMBER;
-    value->components = 0;
-    value->block = 0;
-    value->name = SYMBOL_NONE;
-    value->number = number;
-}
 
 bool eval_number(Eval *ev, const AstNode *node, double *number)
 {
@@ -178,203 +147,7 @@ static bool eval_inline(Eval *ev, const AstNode *node, Value *value)
     return inline_value(ev, node, false, value);
 }
 
-// ---- operators
-
-static const char *spelling(const AstNode *node)
-{
-    return ast_op_spelling((AstOp)node->op);
-}
-
-static bool eval_unary(Eval *ev, const AstNode *node, Value *value)
-{
-    if (!eval_expression(ev, node->a, value)) {
-        return false;
-    }
-    value->name = SYMBOL_NONE;
-    if (value->kind == VALUE_NUMBER) {
-        switch (node->op) {
-        case AST_OP_NEG: value->number = -value->number; break;
-        case AST_OP_NOT: value->number = number_is_true(value->number) ? 0.0 : 1.0; break;
-        default: break;
-        }
-        return true;
-    }
-    if (!value_is_tuple(value) || node->op == AST_OP_NOT) {
-        return eval_fault(ev, DIAG_E0202, node->a->span, "`%s` needs a number%s, found %s", spelling(node),
-                          node->op == AST_OP_NOT ? "" : " or a vector", value_describe(value));
-    }
-    for (unsigned i = 0; node->op == AST_OP_NEG && i < value->components; i++) {
-        value->v[i] = -value->v[i];
-    }
-    return true;
-}
-
-// As measured: whatever the numerator, the quotient by zero is +infinity.
-static double divide(Eval *ev, const AstNode *node, double one, double other)
-{
-    if (RT_UNLIKELY(other == 0.0)) {
-        eval_warn(ev, DIAG_W0301, node->b->span, "division by zero gives infinity");
-        return HUGE_VAL;
-    }
-    double result = one / other;
-    if (RT_UNLIKELY(!isfinite(result)) && isfinite(one) && isfinite(other)) {
-        number_fault(ev, result, node->span);
-    }
-    return result;
-}
-
-static double arithmetic(Eval *ev, const AstNode *node, double one, double other)
-{
-    double result;
-    switch (node->op) {
-    case AST_OP_ADD: result = one + other; break;
-    case AST_OP_SUB: result = one - other; break;
-    case AST_OP_MUL: result = one * other; break;
-    default: return divide(ev, node, one, other);
-    }
-    if (RT_UNLIKELY(!isfinite(result)) && isfinite(one) && isfinite(other)) {
-        number_fault(ev, result, node->span);
-    }
-    return result;
-}
-
-static bool relation(AstOp op, double one, double other)
-{
-    switch (op) {
-    case AST_OP_EQ: return numbers_equal(one, other);
-    case AST_OP_NE: return !numbers_equal(one, other);
-    case AST_OP_LT: return one < other;
-    case AST_OP_LE: return one < other || numbers_equal(one, other);
-    case AST_OP_GT: return one > other;
-    case AST_OP_GE: return one > other || numbers_equal(one, other);
-    case AST_OP_AND: return number_is_true(one) && number_is_true(other);
-    default: return number_is_true(one) || number_is_true(other);
-    }
-}
-
-static bool is_arithmetic(const AstNode *node)
-{
-    return node->op >= AST_OP_ADD && node->op <= AST_OP_DIV;
-}
-
-// A number fills all components, a narrower vector is continued with zeros.
-static void widen(Value *value, unsigned components)
-{
-    if (value->kind == VALUE_NUMBER) {
-        double number = value->number;
-        for (unsigned i = 0; i < components; i++) {
-            value->v[i] = number;
-        }
-    } else {
-        for (unsigned i = value->components; i < components; i++) {
-            value->v[i] = 0.0;
-        }
-    }
-}
-
-static unsigned width(const Value *value)
-{
-    return value->kind == VALUE_NUMBER ? 0 : value->components;
-}
-
-static bool tuple_arithmetic(Eval *ev, const AstNode *node, Value *left, Value *right)
-{
-    unsigned components = width(left) > width(right) ? width(left) : width(right);
-    bool is_colour = left->kind == VALUE_COLOUR || right->kind == VALUE_COLOUR;
-    widen(left, components);
-    widen(right, components);
-    for (unsigned i = 0; i < components; i++) {
-        left->v[i] = arithmetic(ev, node, left->v[i], right->v[i]);
-    }
-    left->kind = is_colour ? VALUE_COLOUR : VALUE_VECTOR;
-    left->components = (uint8_t)components;
-    return true;
-}
-
-static int compare_strings(const Value *one, const Value *other)
-{
-    size_t shorter = one->length < other->length ? one->length : other->length;
-    int order = memcmp(one->text, other->text, shorter);
-    return order != 0 ? order : (one->length > other->length) - (one->length < other->length);
-}
-
-static bool is_arithmetic_value(const Value *value)
-{
-    return value->kind == VALUE_NUMBER || value_is_tuple(value);
-}
-
-static bool fault_operand(Eval *ev, const AstNode *node, const Value *left, const Value *right)
-{
-    bool takes_vectors = is_arithmetic(node);
-    bool left_fits = takes_vectors ? is_arithmetic_value(left) : left->kind == VALUE_NUMBER;
-    return eval_fault(ev, DIAG_E0202, left_fits ? node->b->span : node->a->span, "`%s` needs %s, found %s",
-                      spelling(node), takes_vectors ? "a number or a vector" : "a number",
-                      value_describe(left_fits ? right : left));
-}
-
-// Almost but not quite equal: the tolerance decides, and whoever wrote it may not think of that.
-static void check_nearness(Eval *ev, const AstNode *node, double one, double other)
-{
-    static const double nearness = 1e-9;
-    double difference = fabs(one - other);
-    if (RT_UNLIKELY(difference > 0.0 && difference < nearness)) {
-        eval_warn(ev, DIAG_W0306, node->span, "the numbers differ by %g, which `%s` takes as %s", difference,
-                  spelling(node), numbers_equal(one, other) ? "equal" : "different");
-    }
-}
-
-static bool eval_binary(Eval *ev, const AstNode *node, Value *value)
-{
-    Value right;
-    bool left_fine = eval_expression(ev, node->a, value);
-    if (!eval_expression(ev, node->b, &right) || !left_fine) {
-        return false;
-    }
-    value->name = SYMBOL_NONE;
-    if (value->kind == VALUE_NUMBER && right.kind == VALUE_NUMBER) {
-        if (node->op == AST_OP_EQ || node->op == AST_OP_NE) {
-            check_nearness(ev, node, value->number, right.number);
-        }
-        value->number = is_arithmetic(node) ? arithmetic(ev, node, value->number, right.number)
-                                            : relation((AstOp)node->op, value->number, right.number);
-        return true;
-    }
-    if (is_arithmetic(node) && is_arithmetic_value(value) && is_arithmetic_value(&right)) {
-        return tuple_arithmetic(ev, node, value, &right);
-    }
-    bool compares = node->op >= AST_OP_EQ && node->op <= AST_OP_GE;
-    if (compares && value->kind == VALUE_STRING && right.kind == VALUE_STRING) {
-        set_number(value, relation((AstOp)node->op, compare_strings(value, &right), 0.0));
-        return true;
-    }
-    return fault_operand(ev, node, value, &right);
-}
-
-// Both branches are always worked out, as in POV-Ray.
-static bool eval_conditional(Eval *ev, const AstNode *node, Value *value)
-{
-    double condition = 0;
-    Value otherwise;
-    bool fine = eval_number(ev, node->a, &condition);
-    fine = eval_expression(ev, node->b, value) && fine;
-    fine = eval_expression(ev, node->c, &otherwise) && fine;
-    if (!fine) {
-        return false;
-    }
-    const AstNode *branches[] = {node->b, node->c};
-    const Value *values[] = {value, &otherwise};
-    for (unsigned i = 0; i < 2; i++) {
-        if (!is_arithmetic_value(values[i])) {
-            return eval_fault(ev, DIAG_E0202, branches[i]->span, "`?` chooses between numbers or vectors, found %s",
-                              value_describe(values[i]));
-        }
-    }
-    if (!number_is_true(condition)) {
-        *value = otherwise;
-    }
-    value->name = SYMBOL_NONE;
-    return true;
-}
+// ---- vectors
 
 // A component, or those that a directive between them gives.
 static bool take_components(Eval *ev, const AstNode *part, Value *value, unsigned *count)
@@ -473,7 +246,7 @@ static bool eval_member(Eval *ev, const AstNode *node, Value *value)
     double number = is_number                     ? value->number
                     : component == COMPONENT_GRAY ? number_gray(value->v)
                                                   : value->v[component];
-    set_number(value, number);
+    value_set_number(value, number);
     return true;
 }
 
@@ -483,10 +256,18 @@ typedef bool (*EvalFn)(Eval *ev, const AstNode *node, Value *value);
 
 // All kinds of expressions but numbers, which need no call.
 static const EvalFn evaluators[AST_KIND_COUNT] = {
-    [AST_STRING] = eval_text_literal, [AST_NAME] = eval_name,     [AST_CONSTANT] = builtin_constant,
-    [AST_UNARY] = eval_unary,         [AST_BINARY] = eval_binary, [AST_CONDITIONAL] = eval_conditional,
-    [AST_VECTOR] = eval_vector,       [AST_CALL] = eval_call,     [AST_BUILTIN] = builtin_call,
-    [AST_INDEX] = eval_element,       [AST_MEMBER] = eval_member, [AST_INLINE] = eval_inline,
+    [AST_STRING] = eval_text_literal,
+    [AST_NAME] = eval_name,
+    [AST_CONSTANT] = builtin_constant,
+    [AST_UNARY] = operator_unary,
+    [AST_BINARY] = operator_binary,
+    [AST_CONDITIONAL] = operator_conditional,
+    [AST_VECTOR] = eval_vector,
+    [AST_CALL] = eval_call,
+    [AST_BUILTIN] = builtin_call,
+    [AST_INDEX] = eval_element,
+    [AST_MEMBER] = eval_member,
+    [AST_INLINE] = eval_inline,
 };
 
 static bool fault_no_expression(Eval *ev, const AstNode *node)
@@ -515,7 +296,7 @@ static bool eval_special(Eval *ev, const AstNode *node, EvalFn evaluate, Value *
 bool eval_expression(Eval *ev, const AstNode *node, Value *value)
 {
     if (node->kind == AST_NUMBER) {
-        set_number(value, node->number);
+        value_set_number(value, node->number);
         return true;
     }
     EvalFn evaluate = evaluators[node->kind];

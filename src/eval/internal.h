@@ -1,7 +1,8 @@
 // The evaluator's inner interface, shared by the files of src/eval only.
 //
 //   value.c      values and conversions            scope.c     names and what they stand for
-//   expression.c AST expressions to values          builtins.c  the table of built-in functions and constants
+//   expression.c AST expressions to values          operators.c what operators make of them
+//   builtins.c   the table of built-in functions and constants
 //   array.c      arrays and their elements          strings.c   the built-in functions of strings
 //   cursor.c     items of a block, with directives run and macro calls expanded on the way
 //   colour.c     colour phrases                     macro.c     definitions, calls and their values
@@ -227,6 +228,15 @@ static inline Value value_of_number(double number)
     return (Value){.kind = VALUE_NUMBER, .number = number};
 }
 
+static inline void value_set_number(Value *value, double number)
+{
+    value->kind = VALUE_NUMBER;
+    value->components = 0;
+    value->block = 0;
+    value->name = SYMBOL_NONE;
+    value->number = number;
+}
+
 static inline bool value_is_tuple(const Value *value)
 {
     return value->kind == VALUE_VECTOR || value->kind == VALUE_COLOUR;
@@ -291,6 +301,11 @@ bool eval_vector3(Eval *ev, const AstNode *node, Vec3 *vector) RT_MUST_CHECK;
 bool eval_string(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // A condition of a directive.
 bool eval_condition(Eval *ev, const AstNode *node, bool *holds) RT_MUST_CHECK;
+
+// The nodes of operators.
+bool operator_unary(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool operator_binary(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool operator_conditional(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 
 // As the language compares: numbers that differ by 1e-10 or less are equal, and such a number is false.
 bool numbers_equal(double one, double other);
