@@ -1,6 +1,7 @@
 // The schema's tables.
 //
 // Turns nothing into anything by itself: constant data that the evaluator walks. Knows nothing of tokens or values.
+// Long, since it is one table: a row a word, and what rows share (transforms, patterns, modifiers) is static here.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/schema.h"
