@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "render/kernel.h"
+#include "scene/near.h"
 
 typedef struct Run {
     unsigned features;
@@ -22,30 +23,42 @@ typedef struct Run {
 // What is taken away for the second run, and which rays it is.
 typedef enum Without { WITHOUT_NOTHING, WITHOUT_SHADOWS, WITHOUT_REFLECTION, WITHOUT_HIGHLIGHTS, WITHOUT_SKY, WITHOUT_FOG } Without;
 
+// Each feature that a scene may have or lack: why it is left out, and what its costs can be told by.
+#define PARTS(PART)                                                                                                     \
+    PART("spheres one by one", TRACE_SPHERES, "no sphere, or so many that they stand in a tree", WITHOUT_NOTHING)       \
+    PART("tree of spheres", TRACE_SPHERE_BVH, "so few spheres are tested one after the other", WITHOUT_NOTHING)         \
+    PART("stretched spheres", TRACE_ELLIPSOIDS, "no sphere is stretched", WITHOUT_NOTHING)                              \
+    PART("planes", TRACE_PLANES, "no plane", WITHOUT_NOTHING)                                                           \
+    PART("other shapes", TRACE_PARTS, "nothing but spheres and planes", WITHOUT_NOTHING)                                \
+    PART("shadow rays", RENDER_SHADOWS, "no light casts shadows", WITHOUT_SHADOWS)                                      \
+    PART("lights of a form", RENDER_LIGHTS, "no spotlight, area light or light that fades", WITHOUT_NOTHING)            \
+    PART("highlights", RENDER_HIGHLIGHTS, "no finish has phong or specular", WITHOUT_HIGHLIGHTS)                        \
+    PART("brilliance", RENDER_BRILLIANCE, "no finish has it, and none is lit from behind", WITHOUT_NOTHING)             \
+    PART("mirrored rays", RENDER_REFLECTION, "no finish reflects", WITHOUT_REFLECTION)                                  \
+    PART("reflection exponent", RENDER_EXPONENT, "no finish has it", WITHOUT_NOTHING)                                   \
+    PART("rays through surfaces", RENDER_TRANSPARENCY, "no pigment lets light through", WITHOUT_NOTHING)                \
+    PART("patterns and layers", RENDER_TEXTURES, "each texture is of one colour", WITHOUT_NOTHING)                      \
+    PART("interiors", RENDER_INTERIORS, "nothing bends light or asks what it is inside of", WITHOUT_NOTHING)            \
+    PART("sky", RENDER_SKY, "no sky_sphere", WITHOUT_SKY)                                                               \
+    PART("fog", RENDER_FOG, "no fog", WITHOUT_FOG)
+
 typedef struct Part {
     const char *name;
     unsigned feature;
-    const char *absent; // why it is left out
-    Without without;    // WITHOUT_NOTHING: what it costs alone cannot be told
+    const char *absent;
+    Without without; // WITHOUT_NOTHING: what it costs alone cannot be told
 } Part;
 
 static const Part parts[] = {
-    {"tree of spheres", TRACE_SPHERE_BVH, "so few spheres are tested one after the other", WITHOUT_NOTHING},
-    {"stretched spheres", TRACE_ELLIPSOIDS, "no sphere is stretched", WITHOUT_NOTHING},
-    {"planes", TRACE_PLANES, "no plane", WITHOUT_NOTHING},
-    {"other shapes", TRACE_PARTS, "nothing but spheres and planes", WITHOUT_NOTHING},
-    {"shadow rays", RENDER_SHADOWS, "no light casts shadows", WITHOUT_SHADOWS},
-    {"lights of a form", RENDER_LIGHTS, "no spotlight, area light or light that fades", WITHOUT_NOTHING},
-    {"highlights", RENDER_HIGHLIGHTS, "no finish has phong or specular", WITHOUT_HIGHLIGHTS},
-    {"brilliance", RENDER_BRILLIANCE, "no finish has it, and none is lit from behind", WITHOUT_NOTHING},
-    {"mirrored rays", RENDER_REFLECTION, "no finish reflects", WITHOUT_REFLECTION},
-    {"reflection exponent", RENDER_EXPONENT, "no finish has it", WITHOUT_NOTHING},
-    {"rays through surfaces", RENDER_TRANSPARENCY, "no pigment lets light through", WITHOUT_NOTHING},
-    {"patterns and layers", RENDER_TEXTURES, "each texture is of one colour", WITHOUT_NOTHING},
-    {"interiors", RENDER_INTERIORS, "nothing bends, fades or needs to know what it is inside of", WITHOUT_NOTHING},
-    {"sky", RENDER_SKY, "no sky_sphere", WITHOUT_SKY},
-    {"fog", RENDER_FOG, "no fog", WITHOUT_FOG},
+#define PART(name, feature, absent, without) {name, feature, absent, without},
+    PARTS(PART)
+#undef PART
 };
+
+#define PART(name, feature, absent, without) | (unsigned)feature
+_Static_assert((0u PARTS(PART)) == ((unsigned)TRACE_ALL_FEATURES | (unsigned)RENDER_ALL_FEATURES),
+               "each feature has a line in PARTS");
+#undef PART
 
 // ---- runs
 
@@ -159,6 +172,16 @@ static bool write_part(rt_session *session, int threads, const Part *part, const
     return true;
 }
 
+static bool needs_module(const Scene *scene)
+{
+    for (size_t i = 0; i < scene->picture_sources.count; i++) {
+        if (scene->picture_sources.items[i].format != PICTURE_PNG) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool write_all(rt_session *session, int threads, const Run *whole)
 {
     TextBuffer *out = &session->dump;
@@ -177,13 +200,19 @@ static bool write_all(rt_session *session, int threads, const Run *whole)
             return false;
         }
     }
+    if (scene->picture_sources.count > 0) {
+        text_printf(out, "  %-22s%12llu files%s\n", "pictures", (unsigned long long)scene->picture_sources.count,
+                    needs_module(scene) ? ", read by OpenImageIO unless PNG" : "");
+    }
     text_printf(out, "\nleft out, and why\n");
     for (size_t i = 0; i < RT_COUNT_OF(parts); i++) {
         if (!(whole->features & parts[i].feature)) {
             text_printf(out, "  %-22s%s\n", parts[i].name, parts[i].absent);
         }
     }
-    text_printf(out, "  %-22s%s\n", "OpenImageIO", "loaded for pictures other than PNG only");
+    if (!needs_module(scene)) {
+        text_printf(out, "  %-22s%s\n", "OpenImageIO", "no picture that is read has another format than PNG");
+    }
     return true;
 }
 
@@ -199,7 +228,9 @@ rt_status rt_explain_scene(rt_session *session, int threads, const char **text)
         return session_status(session, false);
     }
     threads = threads ? threads : render_default_threads();
+    Vec3 origin = scene_move_near(&session->scene);
     bool is_fine = run_once(session, threads, &whole) && write_all(session, threads, &whole);
+    scene_move_back(&session->scene, origin);
     if (atomic_load(&session->cancel)) {
         return RT_CANCELLED;
     }

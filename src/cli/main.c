@@ -351,34 +351,36 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
     return status ? status : finish(session, options, output);
 }
 
+static rt_status check(rt_session *session, const Options *options)
+{
+    return rt_load_file(session, options->scene);
+}
+
+static rt_status check_format(rt_session *session, const Options *options)
+{
+    return rt_check_format(session, options->scene);
+}
+
 static rt_status run(rt_session *session, const Options *options, Progress *progress)
 {
+    static rt_status (*const actions[])(rt_session *session, const Options *options) = {
+        [ACTION_CHECK] = check,
+        [ACTION_DUMP_TOKENS] = dump,
+        [ACTION_DUMP_AST] = dump,
+        [ACTION_DUMP_SCENE] = dump,
+        [ACTION_EXPLAIN] = explain,
+        [ACTION_EXPLAIN_SCENE] = explain_scene,
+        [ACTION_FORMAT] = format,
+        [ACTION_FORMAT_CHECK] = check_format,
+        [ACTION_TRACE_PIXEL] = trace_pixel,
+        [ACTION_BUDGET] = budget,
+    };
     rt_status status = configure(session, options);
     if (status) {
         return status;
     }
-    if (options->action == ACTION_EXPLAIN) {
-        return explain(session, options);
-    }
-    if (options->action == ACTION_RENDER) {
-        return render(session, options, progress);
-    }
-    if (options->action == ACTION_CHECK) {
-        return rt_load_file(session, options->scene);
-    }
-    if (options->action == ACTION_TRACE_PIXEL) {
-        return trace_pixel(session, options);
-    }
-    if (options->action == ACTION_FORMAT) {
-        return format(session, options);
-    }
-    if (options->action == ACTION_BUDGET) {
-        return budget(session, options);
-    }
-    if (options->action == ACTION_FORMAT_CHECK) {
-        return rt_check_format(session, options->scene);
-    }
-    return dump(session, options);
+    return options->action == ACTION_RENDER ? render(session, options, progress)
+                                            : actions[options->action](session, options);
 }
 
 int main(int argc, char **argv)
