@@ -7,6 +7,7 @@
 #include <math.h>
 #include <time.h>
 
+#include "base/number.h"
 #include "eval/internal.h"
 #include "math/transform.h"
 
@@ -222,7 +223,8 @@ static bool vector_turbulence(Eval *ev, const AstNode *node, Value *value)
         return false;
     }
     const Noise *noise = eval_noise(ev, node->span);
-    Octaves octaves = {(float)a[0], (float)a[1], (unsigned)fmin(fmax(a[2], 1.0), 10.0)};
+    // As measured: in single precision, as where textures have them.
+    Octaves octaves = {number_single(a[0]), number_single(a[1]), (unsigned)fmin(fmax(a[2], 1.0), 10.0)};
     return noise && give_vector(value, noise_vector_sum(noise, &octaves, point));
 }
 

@@ -52,10 +52,11 @@ static double run_noise(const FunctionNode *node, FunctionRun *run)
     return noise_at(run, eval_noise_generator(run->ev));
 }
 
+// As measured: of the number without its fraction the two lowest bits count, and 0 is the first generator.
 static double run_noise_generator(const FunctionNode *node, FunctionRun *run)
 {
     (void)node;
-    return noise_at(run, noise_generator(run->slots[3]));
+    return noise_at(run, noise_generator((int)number_to_int(run->slots[3]) & 3));
 }
 
 typedef struct Given {

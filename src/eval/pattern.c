@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
+#include "base/number.h"
 #include "eval/blocks.h"
 
 enum { MAP_ENTRIES_MAX = 256 }; // as POV-Ray has it
@@ -364,8 +365,8 @@ static bool average_has_weights(Block *block)
 static bool settle_values(Block *block)
 {
     PatternPart *part = &block->record->patterned;
-    part->pattern.lambda = (float)part->pattern.lambda;
-    part->pattern.omega = (float)part->pattern.omega;
+    part->pattern.lambda = number_single(part->pattern.lambda);
+    part->pattern.omega = number_single(part->pattern.omega);
     const Vec3 *size = &part->pattern.vector;
     bool is_flat = size->x == 0.0 || size->y == 0.0 || size->z == 0.0;
     return part->pattern.type != PATTERN_BRICK || !is_flat ||
