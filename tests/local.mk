@@ -171,6 +171,7 @@ test_scripts = \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
   %D%/povray/check_blur.sh \
+  %D%/povray/check_antialias.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \
   %D%/povray/check_debug.py \

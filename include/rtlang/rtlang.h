@@ -183,6 +183,16 @@ RT_API rt_status rt_set_sampling(rt_session *session, const rt_sampling *samplin
 typedef enum rt_method { RT_METHOD_BACKWARD, RT_METHOD_FORWARD, RT_METHOD_FORWARD_CONNECT } rt_method;
 RT_API rt_status rt_set_method(rt_session *session, rt_method method, uint64_t photons);
 
+/* POV-Ray's anti-aliasing, to compare with its pictures: more rays where colours differ. Without rt_set_sampling. */
+typedef struct rt_antialias {
+    int method;       /* 0: none, 1: pixels that differ from a neighbour, 2: squares whose corners differ */
+    int depth;        /* 1 to 9; 0: 3 */
+    double threshold; /* 0 or more: by how much red, green and blue differ together */
+    double gamma;     /* above 0; 0: 2.5. Colours are compared after their 1/gamma-th power */
+} rt_antialias;
+/* RT_FAULT_USAGE for a number out of range. */
+RT_API rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias);
+
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets, the

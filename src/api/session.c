@@ -269,13 +269,13 @@ enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
 static rt_budget budget_of(const rt_session *session)
 {
-    uint64_t scene = scene_bytes(&session->scene);
+    uint64_t scene = scene_bytes(&session->scene), pictures = scene_picture_bytes(&session->scene);
     uint64_t objects = session->scene.shape_count;
     int width = session_film_width(session), height = session_film_height(session);
     return (rt_budget){
         .objects = objects,
         .scene = scene,
-        .prepared = scene * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
+        .prepared = (scene - pictures) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
         .picture = film_bytes(width, height, session->is_sampled) +
                    (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
         .limit = session->limits.memory_bytes,
@@ -418,6 +418,7 @@ static rt_status render_scene(rt_session *session, int threads)
         .client = session,
         .cancel = &session->cancel,
         .sampling = session->is_sampled ? &session->sampling : NULL,
+        .antialias = session->antialias.method != 0 ? &session->antialias : NULL,
     };
     RenderResult result = trace_film(session, prepared, &options);
     prepared_free(prepared);
@@ -436,22 +437,37 @@ static rt_status render_scene(rt_session *session, int threads)
     return session_status(session, result == RENDER_OK);
 }
 
-rt_status rt_render(rt_session *session, int threads)
+// What cannot be combined in one run.
+static rt_status session_ways_fit(rt_session *session)
 {
-    if (!session->loaded || session->rendered || threads < 0) {
-        return RT_FAULT_USAGE;
-    }
     const SamplingOptions *sampling = &session->sampling;
     if (session->precision != RT_PRECISION_DOUBLE && session->is_sampled &&
         (sampling->is_adaptive || !sampler_is_sequence(sampling->sampler))) {
         return rt_report(session, "E0703", "the reference kernels of `--precision` sample all pixels alike",
                          "leave out goals and `--adaptive`, and use the sampler sobol, halton or random");
     }
+    bool is_plain = session->precision == RT_PRECISION_DOUBLE && session->method == RT_METHOD_BACKWARD;
+    if (session->antialias.method != 0 && (session->is_sampled || !is_plain || session->crop.width)) {
+        return rt_report(session, "E0703", "`--antialias` is for whole pictures of the ordinary kernels without sampling",
+                         "leave out `--samples` and goals, `--precision`, `--method` and `--crop`");
+    }
+    return RT_OK;
+}
+
+rt_status rt_render(rt_session *session, int threads)
+{
+    if (!session->loaded || session->rendered || threads < 0) {
+        return RT_FAULT_USAGE;
+    }
+    rt_status status = session_ways_fit(session);
+    if (status) {
+        return status;
+    }
     if (!session_memory_suffices(session)) {
         return session_status(session, false);
     }
     Vec3 origin = scene_move_near(&session->scene);
-    rt_status status = render_scene(session, threads);
+    status = render_scene(session, threads);
     scene_move_back(&session->scene, origin);
     return status;
 }

@@ -53,6 +53,7 @@ struct rt_session {
     rt_method method;
     uint64_t photons; // of the forward methods
     ForwardCounts photon_counts;
+    AntialiasOptions antialias; // method 0: none
     SamplingError error;
     double seconds_left; // while rendering
     RenderStatistics statistics;

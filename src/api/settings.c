@@ -193,6 +193,20 @@ rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling)
     return RT_OK;
 }
 
+rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias)
+{
+    enum { DEPTH_DEFAULT = 3, DEPTH_MOST = 9 };
+    AntialiasOptions options = {.method = antialias->method, .depth = antialias->depth ? antialias->depth : DEPTH_DEFAULT,
+                                .threshold = antialias->threshold,
+                                .gamma = antialias->gamma != 0.0 ? antialias->gamma : 2.5};
+    if (options.method < 0 || options.method > 2 || options.depth < 1 || options.depth > DEPTH_MOST ||
+        !(options.threshold >= 0.0) || !(options.gamma > 0.0) || !isfinite(options.gamma)) {
+        return RT_FAULT_USAGE;
+    }
+    session->antialias = options;
+    return RT_OK;
+}
+
 rt_status rt_set_world(rt_session *session, double scale, const double shift[3])
 {
     Vec3 by = vec3(shift[0], shift[1], shift[2]);

@@ -288,8 +288,9 @@ static void print_error(const rt_session *session, const Options *options)
 
 static rt_status set_sampling(rt_session *session, const Options *options)
 {
-    if (rt_set_sampling(session, &options->sampling) == RT_OK) {
-        return RT_OK;
+    rt_status status = rt_set_antialias(session, &options->antialias);
+    if (status || rt_set_sampling(session, &options->sampling) == RT_OK) {
+        return status;
     }
     return fail_usage(session, options->sampling.adaptive && options->sampling.samples == 0.0
                                    ? "`--adaptive` wants `--samples`, `--target-error` or `--time-limit`"

@@ -288,6 +288,34 @@ static bool apply_photons(Options *options, const char *argument, const char **e
     return fine;
 }
 
+static bool apply_antialias(Options *options, const char *argument, const char **expected)
+{
+    *expected = "1 or 2";
+    options->antialias.method = strcmp(argument, "2") == 0 ? 2 : 1;
+    return strcmp(argument, "1") == 0 || strcmp(argument, "2") == 0;
+}
+
+static bool apply_antialias_depth(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 9";
+    options->antialias.depth = argument[0] - '0';
+    return argument[0] >= '1' && argument[0] <= '9' && !argument[1];
+}
+
+static bool apply_antialias_threshold(Options *options, const char *argument, const char **expected)
+{
+    char *end;
+    *expected = "a number, 0 or more";
+    options->antialias.threshold = strtod(argument, &end);
+    return end != argument && !*end && options->antialias.threshold >= 0.0;
+}
+
+static bool apply_antialias_gamma(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number above 0";
+    return parse_positive(argument, &options->antialias.gamma);
+}
+
 static bool apply_error_map(Options *options, const char *argument, const char **expected)
 {
     *expected = "a file name";
@@ -450,6 +478,12 @@ static const OptionRow rows[] = {
      "sample until the picture's error is below E: root mean square in linear light, with 95 % confidence"},
     {0, "time-limit", "SECONDS", apply_time_limit, "sample as long as that; rounds are not begun that would take longer"},
     {0, "no-estimate", NULL, apply_no_estimate, "do not work out the error of --samples; the picture is the same"},
+    {0, "antialias", "1|2", apply_antialias,
+     "more rays where colours differ, as POV-Ray's `+A -J` with `+AM1` or `+AM2`; not with --samples"},
+    {0, "antialias-depth", "N", apply_antialias_depth, "1 to 9: N² more rays, or N - 1 partings in method 2 (default 3)"},
+    {0, "antialias-threshold", "X", apply_antialias_threshold,
+     "by how much red, green and blue must differ together (default 0.3)"},
+    {0, "antialias-gamma", "G", apply_antialias_gamma, "compare colours after their 1/G-th power (default 2.5)"},
     {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
     {0, "method", "NAME", apply_method,
      "backward (default), or for study photons from the lights: forward, forward-connect"},
@@ -638,7 +672,11 @@ static void find_format(int argc, char **argv, Options *options)
 
 OptionsResult options_parse(int argc, char **argv, Options *options)
 {
-    *options = (Options){.width = 320, .height = 240, .encoding = {RT_DEPTH_AUTO, 0.0}, .photons = 1000000};
+    *options = (Options){.width = 320,
+                         .height = 240,
+                         .encoding = {RT_DEPTH_AUTO, 0.0},
+                         .antialias = {.threshold = 0.3},
+                         .photons = 1000000};
     // No more paths and declarations than arguments.
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);

@@ -89,6 +89,14 @@ typedef struct SamplingOptions {
     bool has_no_estimate; // the same picture without its error
 } SamplingOptions;
 
+// POV-Ray's ways to take more rays where colours differ; see render/antialias.h.
+typedef struct AntialiasOptions {
+    int method;       // 1: more rays in pixels that differ from a neighbour, 2: squares whose corners differ, parted
+    int depth;        // 1 to 9. Method 1: its square is how many more rays; 2: squares are parted one time less
+    double threshold; // >= 0, of the sum of the differences of red, green and blue
+    double gamma;     // > 0; colours are compared after their 1/gamma-th power
+} AntialiasOptions;
+
 // Why a sampled run ended.
 typedef enum SamplingEnd { SAMPLING_DONE, SAMPLING_TARGET, SAMPLING_TIME, SAMPLING_INTERRUPTED } SamplingEnd;
 
@@ -116,6 +124,7 @@ typedef struct RenderOptions {
     void *client;
     const atomic_bool *cancel;       // when it turns true, work stops soon; may be NULL
     const SamplingOptions *sampling; // NULL: one ray through the middle of each pixel, area lights as grids
+    const AntialiasOptions *antialias; // without `sampling`: more rays where needed; NULL: none
 } RenderOptions;
 
 typedef enum RenderResult { RENDER_OK, RENDER_CANCELLED, RENDER_NO_MEMORY } RenderResult;

@@ -1,6 +1,7 @@
-// One ray through the middle of each pixel, and the choice between that and sampling.
+// One ray through the middle of each pixel, and the choice between that, anti-aliasing and sampling.
 //
 // SPDX-License-Identifier: MIT
+#include "render/antialias.h"
 #include "render/prepared.h"
 #include "render/sampling.h"
 #include "render/tiles.h"
@@ -9,6 +10,7 @@ typedef struct Single {
     const Prepared *prepared;
     const RenderOptions *options;
     Film *film;
+    atomic_bool has_no_memory;
 } Single;
 
 // The pixels of one beam; where it is cut off, its last ones are traced again.
@@ -43,9 +45,16 @@ static void trace_beam(const Single *single, Tile tile, RenderStatistics *counte
 
 static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
 {
+    Single *single = client;
+    if (single->options->antialias) {
+        if (!antialias_tile(single->prepared, single->options->antialias, tile, single->film, counted)) {
+            atomic_store(&single->has_no_memory, true);
+        }
+        return;
+    }
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
-            trace_beam(client, (Tile){left, top, tile.right, tile.bottom}, counted);
+            trace_beam(single, (Tile){left, top, tile.right, tile.bottom}, counted);
         }
     }
 }
@@ -64,7 +73,8 @@ RenderResult render_film(const Prepared *prepared, const RenderOptions *options,
     if (options->sampling) {
         return sampling_run(prepared, options, film, statistics, error);
     }
-    Single single = {prepared, options, film};
+    Single single = {.prepared = prepared, .options = options, .film = film};
     TileWork work = {&single, film->width, film->height, trace_tile, options->progress ? forward_progress : NULL};
-    return tiles_run(&work, options, statistics) ? RENDER_OK : RENDER_CANCELLED;
+    bool is_whole = tiles_run(&work, options, statistics);
+    return atomic_load(&single.has_no_memory) ? RENDER_NO_MEMORY : is_whole ? RENDER_OK : RENDER_CANCELLED;
 }

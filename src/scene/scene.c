@@ -195,7 +195,7 @@ static size_t list_bytes(size_t count, size_t capacity, size_t item_bytes)
     return (count == capacity ? 3 * capacity : capacity) * item_bytes;
 }
 
-static size_t pictures_bytes(const Scene *scene)
+size_t scene_picture_bytes(const Scene *scene)
 {
     size_t bytes = 0;
     for (size_t i = 0; i < scene->pictures.count; i++) {
@@ -215,7 +215,7 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
-           LIST_BYTES(scene->pictures) + pictures_bytes(scene);
+           LIST_BYTES(scene->pictures) + scene_picture_bytes(scene);
 #undef LIST_BYTES
 }
 

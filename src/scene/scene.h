@@ -361,6 +361,8 @@ void scene_fini(Scene *scene);
 
 // Bytes that its records and pictures take, records counted as if each list that is full had grown already for one more.
 size_t scene_bytes(const Scene *scene);
+// Of that, what was read of pictures.
+size_t scene_picture_bytes(const Scene *scene);
 
 // The index of an equal material, added if there is none; the pigment is rounded to single precision. False when out of
 // memory.
