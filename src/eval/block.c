@@ -368,7 +368,7 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
     if (argument->is_optional && block_is_misspelt(block, item)) {
         return true;
     }
-    if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA)) {
+    if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA) && !block->after_number) {
         block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
     }
     if ((block->kind == KIND_PIGMENT || argument->is_anywhere) && !block_begins_like_colour(block, item)) {
@@ -532,7 +532,9 @@ static void read_properties(Block *block)
     while ((item = cursor_peek(&block->cursor))) {
         const SchemaProperty *property = find_property(block, item);
         bool is_word = item->kind == AST_WORD || item->kind == AST_BLOCK;
-        if (is_word && !block->has_fault && (item->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA))) {
+        bool is_first = block->after_number && block->items == 0;
+        unsigned commas = is_first ? AST_BEFORE_COMMA : AST_AFTER_COMMA | AST_BEFORE_COMMA;
+        if (is_word && !block->has_fault && (item->flags & commas)) {
             block_fault(block, DIAG_E0259, item->span, "no comma is expected here in %s", block_word(block));
         }
         const SchemaProperty *loose = property ? NULL : find_loose_argument(block, item);
@@ -548,8 +550,7 @@ static void read_properties(Block *block)
     }
 }
 
-// All that stands in a block whose cursor is open.
-static bool read_items(Block *block, SchemaKind *is)
+bool block_read_items(Block *block, SchemaKind *is)
 {
     SchemaKind kind = block->kind;
     read_name(block);
@@ -570,24 +571,11 @@ bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Bl
 {
     Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind};
     cursor_open(&block.cursor, ev, node->a, node->span);
-    if (!read_items(&block, is)) {
+    if (!block_read_items(&block, is)) {
         return false;
     }
     if (schema_kind(block.is)->is_object) {
         record->part.span = node->span;
     }
     return true;
-}
-
-bool block_read_entry(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *arena, double *at, Blueprint *record)
-{
-    Block block = {.ev = ev, .node = entry, .arena = arena, .record = record, .kind = kind, .is = kind};
-    SchemaKind is;
-    Span span = entry->span;
-    cursor_open(&block.cursor, ev, entry->a, entry->span);
-    if (!cursor_number(&block.cursor, at, &span)) {
-        cursor_close(&block.cursor);
-        return false;
-    }
-    return block_finite(&block, *at, span, schema_kind(kind)->word) && read_items(&block, &is);
 }

@@ -16,6 +16,7 @@ struct ObjectState {
     const TextureBlueprint *defaults;           // of #default
     const SkySphereBlueprint *sky;              // the last one so far, in the program's memory; NULL: none
     Span sky_span;
+    bool may_lack_weights; // the map that is read belongs to `average`
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring, has_deferred;
     UnsupportedBlueprint deferred;
@@ -33,6 +34,7 @@ typedef struct Block {
     size_t arguments;  // that were given
     size_t items;      // properties so far
     bool has_name;     // it began with an identifier
+    bool after_number; // it is an entry of a map: a comma may stand before its first item
     bool has_unsupported;
     bool has_fault;
 } Block;
@@ -92,9 +94,8 @@ bool transform_close(Block *block) RT_MUST_CHECK;
 double vector_length(Vec3 vector);
 Vec3 vector_unit(Vec3 vector);
 
-// Reads an entry of a map: a number, then what may stand in a block of the kind.
-bool block_read_entry(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *arena, double *at,
-                      Blueprint *record) RT_MUST_CHECK;
+// Reads all that stands in a block whose cursor is open, and closes it; as block_read.
+bool block_read_items(Block *block, SchemaKind *is) RT_MUST_CHECK;
 
 // pattern.c
 bool pattern_solid_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

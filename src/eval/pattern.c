@@ -123,6 +123,39 @@ static bool read_values(Block *block, EntryList *list, const AstNode *node)
     return is_fine;
 }
 
+// Textures and normals, whose entries begin with a word, a block or the name of one.
+static bool begins_without_number(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    bool has_kind = block->kind == KIND_TEXTURE || block->kind == KIND_NORMAL;
+    if (!block->ev->objects->may_lack_weights || !has_kind || !item) {
+        return false;
+    }
+    if (item->kind != AST_NAME) {
+        return item->kind == AST_WORD || item->kind == AST_BLOCK;
+    }
+    const Value *value = item->flags & AST_KNOWN ? item->known : scope_find(block->ev, item->symbol);
+    return value && value->kind == VALUE_BLOCK;
+}
+
+static bool read_weighed(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *arena, double *at, Blueprint *record)
+{
+    Block block = {.ev = ev, .node = entry, .arena = arena, .record = record, .kind = kind, .is = kind};
+    SchemaKind is;
+    Span span = entry->span;
+    cursor_open(&block.cursor, ev, entry->a, entry->span);
+    *at = 1.0;
+    if (begins_without_number(&block)) {
+        return block_read_items(&block, &is);
+    }
+    if (!cursor_number(&block.cursor, at, &span)) {
+        cursor_close(&block.cursor);
+        return false;
+    }
+    block.after_number = true;
+    return block_finite(&block, *at, span, schema_kind(kind)->word) && block_read_items(&block, &is);
+}
+
 static bool read_entry(Block *block, EntryList *list, const AstNode *node)
 {
     if (block->kind == KIND_COLOUR_MAP || block->kind == KIND_SLOPE_MAP) {
@@ -134,7 +167,7 @@ static bool read_entry(Block *block, EntryList *list, const AstNode *node)
     Blueprint record;
     PatternEntry entry = {0};
     block_defaults(block->ev, kind, &record);
-    return block_read_entry(block->ev, node, kind, block->arena, &entry.at, &record) &&
+    return read_weighed(block->ev, node, kind, block->arena, &entry.at, &record) &&
            keep_entry(block, kind, &record, node->span, &entry) && add_entry(block, list, &entry, node->span);
 }
 
@@ -167,7 +200,12 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
                            pattern_info(type)->word);
     }
     block_defaults(block->ev, kind, &record);
-    if (!block_read(block->ev, item, kind, block->arena, &record, &is)) {
+    ObjectState *objects = block->ev->objects;
+    bool may_lack = objects->may_lack_weights;
+    objects->may_lack_weights = type == PATTERN_AVERAGE;
+    bool is_read = block_read(block->ev, item, kind, block->arena, &record, &is);
+    objects->may_lack_weights = may_lack;
+    if (!is_read) {
         return false;
     }
     PatternMap *map = arena_copy(block->arena, &record.map, sizeof record.map);
