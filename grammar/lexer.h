@@ -117,6 +117,7 @@ typedef struct GrammarState {
     bool takes_elements;   // elements of arrays may stand for themselves in it
     bool takes_string;     // it is a directive that takes a string
     bool ends_before;      // the last token delivered may end an expression
+    bool ends_vector;      // it is the `>` of a vector
     Token ended_by;        // the directive or call that ended it
     bool has_lookahead;    // the current token was read too much
     AstNode *result;

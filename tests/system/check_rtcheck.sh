@@ -27,7 +27,11 @@ stand_in() {
     chmod +x "$work/$1"
 }
 stand_in same 'cp "$ours" "$output"'
-stand_in busy '[ -e "$TMPDIR/../tried" ] || { : > "$TMPDIR/../tried"; echo "Timed out waiting for worker thread startup"; exit 1; }
+stand_in busy 'if [ ! -e "$TMPDIR/../tried" ]; then
+    : > "$TMPDIR/../tried"
+    echo "Timed out waiting for worker thread startup"
+    exit 1
+fi
 cp "$ours" "$output"'
 stand_in other 'cp "${ours%/*}/01-a scene.scn.rtlang.png" "$output"'
 stand_in fails 'echo the reason is here >&2; exit 7'
