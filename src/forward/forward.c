@@ -5,14 +5,14 @@
 #include "forward/forward.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 
+#include "base/parallel.h"
 #include "forward/photon.h"
 #include "render/linear.h"
 #include "render/prepared.h"
 
-enum { CHUNK = 1 << 14, THREADS_MAX = 256 };
+enum { CHUNK = 1 << 14 };
 
 uint64_t forward_bytes(int width, int height)
 {
@@ -74,8 +74,9 @@ static bool is_cancelled(const ForwardOptions *options)
 }
 
 // Chunks go to the halves by turns.
-static void trace_chunks(Forward *forward, bool reports)
+static void trace_chunks(void *client, int thread)
 {
+    Forward *forward = client;
     const ForwardOptions *options = forward->options;
     uint64_t chunk, met = 0, arrived = 0;
     while ((chunk = atomic_fetch_add(&forward->next, 1)) < forward->chunks && !is_cancelled(options)) {
@@ -88,33 +89,12 @@ static void trace_chunks(Forward *forward, bool reports)
             arrived += photon.arrived;
         }
         uint64_t done = atomic_fetch_add(&forward->done, 1) + 1;
-        if (reports && options->progress) {
+        if (thread == 0 && options->progress) {
             options->progress(options->client, (double)done / (double)forward->chunks);
         }
     }
     atomic_fetch_add(&forward->met, met);
     atomic_fetch_add(&forward->arrived, arrived);
-}
-
-static void *run_thread(void *forward)
-{
-    trace_chunks(forward, false);
-    return NULL;
-}
-
-static void trace_all(Forward *forward)
-{
-    pthread_t threads[THREADS_MAX];
-    int started = 0;
-    while (started < forward->options->threads - 1 && started < THREADS_MAX &&
-           (uint64_t)started + 1 < forward->chunks &&
-           pthread_create(&threads[started], NULL, run_thread, forward) == 0) {
-        started++;
-    }
-    trace_chunks(forward, true);
-    for (int i = 0; i < started; i++) {
-        pthread_join(threads[i], NULL);
-    }
 }
 
 // How many photons each half has.
@@ -170,7 +150,8 @@ RenderResult forward_film(const Prepared *prepared, const ForwardOptions *option
     if (!film->records || !photon_film_init(&forward.film, prepared, film)) {
         return RENDER_NO_MEMORY;
     }
-    trace_all(&forward);
+    uint64_t threads = (uint64_t)options->threads < forward.chunks ? (uint64_t)options->threads : forward.chunks;
+    parallel_run((int)threads, trace_chunks, &forward);
     bool is_whole = atomic_load(&forward.done) == forward.chunks;
     if (is_whole) {
         film_finish(&forward, film, error);

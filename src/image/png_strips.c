@@ -16,7 +16,7 @@
 
 enum {
     STRIP_ROWS = 64,
-    BATCH = 2 * PARALLEL_THREADS_MAX, // strips in memory at a time
+    BATCH = 32, // strips in memory at a time
     DEFLATE_LEVEL = 1,
     DEFLATE_RAW_WINDOW = -15, // of 32 KiB, without a header of its own
     FILTER_SUB = 1,

@@ -198,7 +198,7 @@ RenderResult study_film(const Prepared *prepared, StudyPrecision precision, cons
 {
     Work work = {.prepared = prepared, .colour = kernels[precision].colour, .options = options, .film = film};
     filter_init(&work.filter, options->sampling ? options->sampling->filter : FILTER_BOX);
-    parallel_run(options->threads, trace_rows, &work);
+    parallel_run(options->threads < film->height ? options->threads : film->height, trace_rows, &work);
     *statistics = (RenderStatistics){.camera_rays = work.camera,
                                      .shadow_rays = work.shadow,
                                      .reflected_rays = work.reflected,

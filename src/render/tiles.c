@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { THREADS_MAX = 1024 };
+#include "base/parallel.h"
 
 typedef struct Run {
     const TileWork *work;
@@ -44,13 +44,14 @@ static bool is_cancelled(const RenderOptions *options)
     return options->cancel && atomic_load_explicit(options->cancel, memory_order_relaxed);
 }
 
-static void trace_tiles(Run *run, bool reports)
+static void trace_tiles(void *client, int thread)
 {
+    Run *run = client;
     RenderStatistics sum = {0};
     for (int index; (index = atomic_fetch_add(&run->next, 1)) < run->tiles && !is_cancelled(run->options);) {
         run->work->trace(run->work->client, tile_at(run, index), &sum);
         int done = atomic_fetch_add(&run->done, 1) + 1;
-        if (reports && run->work->progress) {
+        if (thread == 0 && run->work->progress) {
             run->work->progress(run->work->client, (double)done / run->tiles);
         }
     }
@@ -59,29 +60,12 @@ static void trace_tiles(Run *run, bool reports)
     pthread_mutex_unlock(&run->lock);
 }
 
-static void *run_thread(void *run)
-{
-    trace_tiles(run, false);
-    return NULL;
-}
-
 bool tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics)
 {
     Run run = {.work = work, .options = options, .lock = PTHREAD_MUTEX_INITIALIZER};
     run.columns = (work->width + TILE_SIZE - 1) / TILE_SIZE;
     run.tiles = run.columns * ((work->height + TILE_SIZE - 1) / TILE_SIZE);
-    int wanted = options->threads < run.tiles ? options->threads : run.tiles;
-    pthread_t threads[THREADS_MAX];
-    int started = 0;
-    // The calling thread works too. One that cannot be started is done without.
-    while (started < wanted - 1 && started < THREADS_MAX &&
-           pthread_create(&threads[started], NULL, run_thread, &run) == 0) {
-        started++;
-    }
-    trace_tiles(&run, true);
-    for (int i = 0; i < started; i++) {
-        pthread_join(threads[i], NULL);
-    }
+    parallel_run(options->threads < run.tiles ? options->threads : run.tiles, trace_tiles, &run);
     pthread_mutex_destroy(&run.lock);
     statistics_add(statistics, &run.statistics);
     return atomic_load(&run.done) == run.tiles;

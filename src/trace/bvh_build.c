@@ -22,6 +22,7 @@ enum {
     POOL_CHUNK_NODES = 256,
     // A range this small is built by one thread; a whole tree this small on one alone.
     TASK_REFS_LEAST = 4096,
+    BUILDERS_MOST = 16,
     TASKS_MOST = 4096, // ranges that wait; what does not fit is built at once
 };
 
@@ -98,7 +99,7 @@ typedef struct Pool {
 
 typedef struct Builder {
     BvhRef *refs;
-    Pool pools[PARALLEL_THREADS_MAX];
+    Pool pools[BUILDERS_MOST];
     pthread_mutex_t lock; // of all below
     pthread_cond_t changed;
     Task tasks[TASKS_MOST];
@@ -436,7 +437,7 @@ static void builder_copy(const Builder *builder, Bvh *bvh, BvhChild from)
 
 static void builder_fini(Builder *builder)
 {
-    for (int i = 0; i < PARALLEL_THREADS_MAX; i++) {
+    for (int i = 0; i < BUILDERS_MOST; i++) {
         Pool *pool = &builder->pools[i];
         for (uint32_t chunk = 0; chunk * POOL_CHUNK_NODES < pool->count; chunk++) {
             free(pool->chunks[chunk]);
@@ -459,9 +460,10 @@ bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads)
     pthread_cond_init(&builder->changed, NULL);
     BvhChild root = 0;
     builder->tasks[builder->waiting++] = (Task){range_measure(refs, 0, count, 0), &root};
-    parallel_run(count > 4 * TASK_REFS_LEAST ? threads : 1, builder_work, builder);
+    int builders = threads < BUILDERS_MOST ? threads : BUILDERS_MOST;
+    parallel_run(count > 4 * TASK_REFS_LEAST ? builders : 1, builder_work, builder);
     size_t node_count = 0;
-    for (int i = 0; i < PARALLEL_THREADS_MAX; i++) {
+    for (int i = 0; i < BUILDERS_MOST; i++) {
         node_count += builder->pools[i].count;
     }
     BvhNode *nodes = builder->failed ? NULL : aligned_alloc(_Alignof(BvhNode), node_count * sizeof(BvhNode));

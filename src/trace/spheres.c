@@ -154,7 +154,7 @@ static void measure_work(void *client, int thread)
 static void maker_share(Maker *maker, int threads, void (*work)(void *client, int thread))
 {
     atomic_store(&maker->next, 0);
-    parallel_run(chunk_count(maker) > 1 ? threads : 1, work, maker);
+    parallel_run(chunk_count(maker) < (size_t)threads ? (int)chunk_count(maker) : threads, work, maker);
 }
 
 // Counts usable and large spheres; what is large is loose if there are few of them.
