@@ -461,16 +461,21 @@ bool study_run(Study *study, const char *scene, const StudySettings *settings)
 
 // ---- equal error, equal time
 
-// The value of y at x on the lines through a ladder's points, in logarithms; beyond them, on the nearest one's.
+// The value of y at x on the lines through a ladder's points, in logarithms; beyond them, on the nearest one's; NAN for
+// less than two points.
 static double interpolate(const double *x, const double *y, int count, double at, bool *is_beyond)
 {
     int i = 1;
 
+    if (count < 2) {
+        *is_beyond = true;
+        return (double)NAN;
+    }
     while (i < count - 1 && (x[i] - at) * (x[count - 1] - x[0]) < 0.0) {
         i++;
     }
     double share = (log(at) - log(x[i - 1])) / (log(x[i]) - log(x[i - 1]));
-    *is_beyond = share < 0.0 || share > 1.0;
+    *is_beyond = !(share >= 0.0 && share <= 1.0); // also where there is no error
     return exp(log(y[i - 1]) + share * (log(y[i]) - log(y[i - 1])));
 }
 

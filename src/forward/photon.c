@@ -62,7 +62,7 @@ double photon_film_value(const PhotonFilm *film, unsigned half, size_t i)
 
 static void add_value(atomic_int_least64_t *sum, double value)
 {
-    atomic_fetch_add_explicit(sum, (int_least64_t)llrint(fmin(value * UNIT, MOST)), memory_order_relaxed);
+    atomic_fetch_add_explicit(sum, (int_least64_t)llrint(fmax(fmin(value * UNIT, MOST), -MOST)), memory_order_relaxed);
 }
 
 // Light that comes to the point q of the lens against `direction`, which is of unit length: the pixel gets it.
