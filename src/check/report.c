@@ -4,8 +4,9 @@
 #include "check/report.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <string.h>
+
+#include "check/json.h"
 
 double report_steps(double difference)
 {
@@ -35,37 +36,12 @@ void report_text(FILE *out, const Outcome *outcome)
             outcome->agrees ? "ok" : "FAIL");
 }
 
-static void json_string(FILE *out, const char *text)
-{
-    fputc('"', out);
-    for (const char *c = text; *c != '\0'; c++) {
-        if (*c == '"' || *c == '\\') {
-            fprintf(out, "\\%c", *c);
-        } else if ((unsigned char)*c < ' ') {
-            fprintf(out, "\\u%04x", (unsigned)(unsigned char)*c);
-        } else {
-            fputc(*c, out);
-        }
-    }
-    fputc('"', out);
-}
-
-// JSON has no infinity: null stands for it.
-static void json_number(FILE *out, const char *name, double value)
-{
-    if (isfinite(value)) {
-        fprintf(out, ", \"%s\": %.9g", name, value);
-    } else {
-        fprintf(out, ", \"%s\": null", name);
-    }
-}
-
 void report_json(FILE *out, const Outcome *outcome)
 {
     const ImageDifference *d = &outcome->difference;
 
     fprintf(out, "{\"scene\": ");
-    json_string(out, outcome->scene);
+    json_text(out, outcome->scene);
     fprintf(out, ", \"agrees\": %s", outcome->agrees ? "true" : "false");
     if (outcome->compared) {
         json_number(out, "max", report_steps(d->max));
@@ -81,11 +57,11 @@ void report_json(FILE *out, const Outcome *outcome)
         json_number(out, "ratio", outcome->povray_seconds / outcome->rtlang_seconds);
     } else {
         fprintf(out, ", \"fault\": ");
-        json_string(out, outcome->detail);
+        json_text(out, outcome->detail);
     }
     if (outcome->range[0] != '\0') {
         fprintf(out, ", \"range\": ");
-        json_string(out, outcome->range);
+        json_text(out, outcome->range);
     }
     fputc('}', out);
 }

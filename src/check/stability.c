@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check/json.h"
 #include "study/oracle.h"
 
 enum { SEED = 20262, DISTANCE_CASES = 500 };
@@ -302,15 +303,6 @@ static void json_rays(const Stability *stability, FILE *out)
             total->cases, total->wrong, total->greatest_wrong, total->cosine_error);
 }
 
-static void json_text(const char *text, FILE *out)
-{
-    fputc('"', out);
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        *c < 0x20 || *c == '"' || *c == '\\' ? fprintf(out, "\\u%04x", *c) : fputc(*c, out);
-    }
-    fputc('"', out);
-}
-
 void stability_json(const Stability *stability, FILE *out)
 {
     fprintf(out, "{\"type\": \"stability\", \"holds\": %s,\n", stability_holds(stability) ? "true" : "false");
@@ -320,7 +312,7 @@ void stability_json(const Stability *stability, FILE *out)
     for (size_t i = 0; i < stability->picture_count; i++) {
         const PictureRow *row = &stability->pictures[i];
         fprintf(out, "%s\n{\"scene\": ", i > 0 ? "," : "");
-        json_text(row->scene, out);
+        json_text(out, row->scene);
         fprintf(out,
                 ", \"what\": \"%s\", \"beside\": \"%s\", \"made\": %s, \"same_bits\": %s, \"values\": %" PRIu64
                 ", \"off\": %" PRIu64 ", \"rmse\": %.6g}",

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "check/json.h"
+
 enum { RATIOS_MOST = STUDY_METHODS * STUDY_POINTS };
 
 static double efficiency(const StudyPoint *point)
@@ -164,30 +166,6 @@ void study_print_csv(const Study *study, FILE *out, bool with_heading)
             }
             fprintf(out, ",%d\r\n", method->is_biased);
         }
-    }
-}
-
-static void json_text(FILE *out, const char *text)
-{
-    fputc('"', out);
-    for (const char *c = text; *c != '\0'; c++) {
-        if (*c == '"' || *c == '\\') {
-            fprintf(out, "\\%c", *c);
-        } else if ((unsigned char)*c < ' ') {
-            fprintf(out, "\\u%04x", (unsigned)(unsigned char)*c);
-        } else {
-            fputc(*c, out);
-        }
-    }
-    fputc('"', out);
-}
-
-static void json_number(FILE *out, const char *name, double value)
-{
-    if (isfinite(value)) {
-        fprintf(out, ", \"%s\": %.9g", name, value);
-    } else {
-        fprintf(out, ", \"%s\": null", name);
     }
 }
 

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/image_error.h"
+#include "image/png_fault.h"
 
 enum { SIGNATURE_BYTES = 8, PASSES_MAX = 7 };
 
@@ -24,18 +24,6 @@ typedef struct PngReader {
     png_infop info;
     ImageStatus status;
 } PngReader;
-
-static void on_error(png_structp png, png_const_charp message)
-{
-    image_error_set(png_get_error_ptr(png), "%s", message);
-    png_longjmp(png, 1);
-}
-
-static void on_warning(png_structp png, png_const_charp message)
-{
-    (void)png;
-    (void)message;
-}
 
 static void on_read(png_structp png, png_bytep data, size_t length)
 {
@@ -157,7 +145,7 @@ ImageStatus png_read(FILE *stream, const PictureLimit *limit, PictureFile *file,
     PngReader reader = {.stream = stream, .limit = limit, .file = file, .error = error};
 
     reader.status = IMAGE_NO_MEMORY;
-    reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, error, on_error, on_warning);
+    reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning);
     reader.info = reader.png != NULL ? png_create_info_struct(reader.png) : NULL;
     if (reader.info != NULL) {
         png_set_read_fn(reader.png, &reader, on_read);

@@ -10,7 +10,7 @@
 #include <setjmp.h>
 #include <stdlib.h>
 
-#include "image/image_error.h"
+#include "image/png_fault.h"
 #include "image/png_strips.h"
 
 enum { SRGB_GAMMA = 45455, IDAT_MOST = 1 << 30 };
@@ -25,22 +25,6 @@ typedef struct PngWriter {
     PngStrips *strips;
     bool no_memory;
 } PngWriter;
-
-static void on_error(png_structp png, png_const_charp message)
-{
-    ImageError *error = png_get_error_ptr(png);
-
-    if (error->detail[0] == '\0') { // else the system's own message stands there
-        image_error_set(error, "%s", message);
-    }
-    png_longjmp(png, 1);
-}
-
-static void on_warning(png_structp png, png_const_charp message)
-{
-    (void)png;
-    (void)message;
-}
 
 static void on_write(png_structp png, png_bytep data, size_t length)
 {
@@ -127,7 +111,7 @@ ImageStatus png_write(const Image *image, const Encoder *encoder, const AtomicFi
     ImageStatus status = IMAGE_NO_MEMORY;
 
     writer.strips = png_strips_new(image, encoder);
-    writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, error, on_error, on_warning);
+    writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning);
     writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
     if (writer.strips != NULL && writer.info != NULL) {
         png_set_write_fn(writer.png, &writer, on_write, on_flush);
