@@ -242,27 +242,6 @@ void session_film_to_linear(const Settings *settings, Film *film)
     }
 }
 
-void rt_set_literals(rt_session *session, int on)
-{
-    session->no_literals = !on;
-}
-
-const char *rt_isa(size_t i)
-{
-    return geometry_isa(i);
-}
-
-rt_status rt_set_isa(rt_session *session, const char *name)
-{
-    for (size_t i = 0; geometry_isa(i); i++) {
-        if (strcmp(name, geometry_isa(i)) == 0) {
-            session->isa = geometry_isa(i);
-            return RT_OK;
-        }
-    }
-    return RT_FAULT_USAGE;
-}
-
 // What the tree takes for a shape, and the prepared forms of the records as a multiple of these: bounds that hold for
 // a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910).
 enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
@@ -311,17 +290,6 @@ bool session_memory_suffices(rt_session *session)
         diag_suggest(&session->diags, "`--max-memory` allows more");
     }
     return false;
-}
-
-rt_status rt_set_precision(rt_session *session, rt_precision precision)
-{
-#ifdef WITH_STUDY
-    bool is_there = precision <= RT_PRECISION_REFERENCE;
-#else
-    bool is_there = precision == RT_PRECISION_DOUBLE;
-#endif
-    session->precision = is_there ? precision : session->precision;
-    return is_there ? RT_OK : RT_FAULT_USAGE;
 }
 
 // Whether the chosen precision can trace the scene; reports when not.
@@ -425,6 +393,8 @@ static rt_status render_scene(rt_session *session, int threads)
     bool has_picture = result == RENDER_OK || (result == RENDER_CANCELLED && session->error.samples > 0.0);
     if (has_picture) {
         session_film_to_linear(&session->scene.settings, &session->film);
+    } else {
+        film_fini(&session->film);
     }
     session->trace_seconds = session_clock() - start;
     session->rendered = has_picture;
@@ -603,4 +573,13 @@ void rt_get_range(const rt_session *session, rt_range *range)
         .nearest_far = found.nearest_far,
         .least_angle = found.least_angle,
     };
+}
+
+rt_status rt_move_camera(rt_session *session, double factor)
+{
+    if (!session->loaded || !(factor > 0.0) || !isfinite(factor)) {
+        return RT_FAULT_USAGE;
+    }
+    scene_move_camera(&session->scene, factor);
+    return RT_OK;
 }

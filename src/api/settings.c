@@ -10,7 +10,6 @@
 #include "api/session.h"
 #include "ast/words.h"
 #include "base/number.h"
-#include "scene/reach.h"
 
 enum { SIZE_MAX_PIXELS = 65535 };
 
@@ -217,13 +216,36 @@ rt_status rt_set_world(rt_session *session, double scale, const double shift[3])
     return RT_OK;
 }
 
-rt_status rt_move_camera(rt_session *session, double factor)
+void rt_set_literals(rt_session *session, int on)
 {
-    if (!session->loaded || !(factor > 0.0) || !isfinite(factor)) {
-        return RT_FAULT_USAGE;
+    session->no_literals = !on;
+}
+
+const char *rt_isa(size_t i)
+{
+    return geometry_isa(i);
+}
+
+rt_status rt_set_isa(rt_session *session, const char *name)
+{
+    for (size_t i = 0; geometry_isa(i); i++) {
+        if (strcmp(name, geometry_isa(i)) == 0) {
+            session->isa = geometry_isa(i);
+            return RT_OK;
+        }
     }
-    scene_move_camera(&session->scene, factor);
-    return RT_OK;
+    return RT_FAULT_USAGE;
+}
+
+rt_status rt_set_precision(rt_session *session, rt_precision precision)
+{
+#ifdef WITH_STUDY
+    bool is_there = precision <= RT_PRECISION_REFERENCE;
+#else
+    bool is_there = precision == RT_PRECISION_DOUBLE;
+#endif
+    session->precision = is_there ? precision : session->precision;
+    return is_there ? RT_OK : RT_FAULT_USAGE;
 }
 
 rt_status rt_set_method(rt_session *session, rt_method method, uint64_t photons)
