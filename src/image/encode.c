@@ -1,5 +1,5 @@
-// Transfer functions and quantisation; the rounding is the one measured on POV-Ray 3.7.0.10 (docs/numerics.md): half
-// up, in single precision.
+// Transfer functions and quantisation; the rounding is the one measured on POV-Ray 3.7.0.10: half up, in single
+// precision.
 //
 // SPDX-License-Identifier: MIT
 #include "image/encode.h"

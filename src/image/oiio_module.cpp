@@ -1,4 +1,4 @@
-// Pictures of every format but PNG written, and all formats read, by OpenImageIO behind a C boundary.
+// Pictures of every format but PNG, written and read by OpenImageIO behind a C boundary.
 //
 // The only C++ file: a module of its own, because linking OpenImageIO costs each start over a tenth of a second.
 // Nothing is thrown out of it. It opens no file to write: files are made in memory and handed over whole, because
