@@ -46,8 +46,8 @@ typedef enum LiteralResult {
 } LiteralResult;
 
 // Where a directive holds no whole items, text is read again in a *splice*: conditions, loops and macro calls are
-// resolved token by token, as POV-Ray does it, and what is left is parsed. These functions are the evaluator's part: all
-// before a token has been worked out when it is delivered. None of them is called otherwise.
+// resolved token by token, as POV-Ray does it, and what is left is parsed. These functions are the evaluator's part:
+// all before a token has been worked out when it is delivered. None of them is called otherwise.
 typedef struct GrammarHooks {
     void *client;
     unsigned *nesting; // of fragments, all together; kept by the grammar
@@ -76,9 +76,9 @@ typedef struct GrammarHooks {
     Source *(*include)(void *client, const AstNode *directive);
     void (*leave)(void *client);
     bool (*is_stopped)(void *client);
-    // Literal spheres (grammar/literal.c). The next item is one: to be watched. Then: what it gave, which the next one of its
-    // kind would give, too; false: not so. Then others of that kind, without a tree. `literal_state` changes whenever a
-    // kind may give something else than before. NULL in `literal`: all are parsed.
+    // Literal spheres (grammar/literal.c). The next item is one: to be watched. Then: what it gave, which the next one
+    // of its kind would give, too; false: not so. Then others of that kind, without a tree. `literal_state` changes
+    // whenever a kind may give something else than before. NULL in `literal`: all are parsed.
     const uint64_t *literal_state;
     void (*literal_watch)(void *client, const GrammarLiteral *literal);
     bool (*literal_learn)(void *client, GrammarLiteralKind *kind);

@@ -92,70 +92,73 @@ typedef enum rt_limit {
 RT_API rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value);
 /* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
 RT_API rt_status rt_declare(rt_session *session, const char *name_value);
-/* Which warnings are told, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with "no-"
- * before it. */
+/* Which warnings are told, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with
+ * "no-" before it. */
 RT_API rt_status rt_set_warning(rt_session *session, const char *what);
-/* The form of the messages' text. With RT_FORMAT_JSON also what the scene itself says is handed over as one JSON object a
- * line. docs/diagnostics.md lists the members. */
+/* The form of the messages' text. With RT_FORMAT_JSON also what the scene itself says is handed over as one JSON object
+ * a line. docs/diagnostics.md lists the members. */
 typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON } rt_format;
 RT_API void rt_set_format(rt_session *session, rt_format format);
-/* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the lengths of
- * fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */
+/* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the
+ * lengths of fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */
 RT_API rt_status rt_set_world(rt_session *session, double scale, const double shift[3]);
 /* Size of the picture in pixels, 1 to 65535 each; the scene may ask for it as image_width and image_height.
  * Default 320 x 240. */
 RT_API rt_status rt_set_size(rt_session *session, int width, int height);
-/* Trace a part of that picture only: the film is then of the part's size, and its pixels are those of the whole picture there, bit
- * for bit, unless sampling is adaptive, which then chooses among the part's pixels. RT_FAULT_USAGE when the part does not lie in the picture;
- * rt_set_size takes the whole again. */
+/* Trace a part of that picture only: the film is then of the part's size, and its pixels are those of the whole picture
+ * there, bit for bit, unless sampling is adaptive, which then chooses among the part's pixels. RT_FAULT_USAGE when the
+ * part does not lie in the picture; rt_set_size takes the whole again. */
 RT_API rt_status rt_set_crop(rt_session *session, int left, int top, int width, int height);
 
 /* Read and evaluate a scene: the first step. A session loads one scene. The path "-" is standard input. */
 RT_API rt_status rt_load_file(rt_session *session, const char *path);
 RT_API rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length);
 
-/* For study: the camera of the loaded scene goes away from the middle of its shapes, to `factor` times their distance, and zooms
- * along, so that what stands there has the same size in the picture. factor > 0. */
+/* For study: the camera of the loaded scene goes away from the middle of its shapes, to `factor` times their distance,
+ * and zooms along, so that what stands there has the same size in the picture. factor > 0. */
 RT_API rt_status rt_move_camera(rt_session *session, double factor);
 
 /* Printable forms of each stage. Tokens and AST are made from a file that need not be a whole scene; the dump of the
- * scene needs rt_load_*. AST and scene are valid scene text again. *text is valid until the next call on the session, and
- * is set also when there were faults: it then holds what could be read. */
+ * scene needs rt_load_*. AST and scene are valid scene text again. *text is valid until the next call on the session,
+ * and is set also when there were faults: it then holds what could be read. */
 typedef enum rt_syntax { RT_SYNTAX_TOKENS, RT_SYNTAX_AST } rt_syntax;
 RT_API rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path, const char **text);
 RT_API rt_status rt_dump_scene(rt_session *session, const char **text);
 
-/* What a message's code means, at length: "E0201". *text is valid until the next call on the session. RT_FAULT_USAGE when
- * there is no such code. */
+/* What a message's code means, at length: "E0201". *text is valid until the next call on the session. RT_FAULT_USAGE
+ * when there is no such code. */
 RT_API rt_status rt_explain(rt_session *session, const char *code, const char **text);
-/* What the loaded scene takes and what it does not: what is left out at each stage and why, and what the rest costs in rays and
- * time, which is found by tracing without it. `threads` is as for rt_render. *text is valid until the next call. */
+/* What the loaded scene takes and what it does not: what is left out at each stage and why, and what the rest costs in
+ * rays and time, which is found by tracing without it. `threads` is as for rt_render. *text is valid until the next
+ * call. */
 RT_API rt_status rt_explain_scene(rt_session *session, int threads, const char **text);
 
-/* Hands the client a fault of its own in the form of all others, with a code of this library, a message and a suggestion
- * (or NULL). Returns the status that the code means. */
+/* Hands the client a fault of its own in the form of all others, with a code of this library, a message and a
+ * suggestion (or NULL). Returns the status that the code means. */
 RT_API rt_status rt_report(rt_session *session, const char *code, const char *message, const char *suggestion);
 
-/* The text of a file in the canonical layout (docs/language.md, "Layout"), with its comments. The file need not be a whole
- * scene: any text whose tokens can be read has a layout. *text is "" when there were faults, else valid until the next
- * call on the session. */
+/* The text of a file in the canonical layout (docs/language.md, "Layout"), with its comments. The file need not be a
+ * whole scene: any text whose tokens can be read has a layout. *text is "" when there were faults, else valid until the
+ * next call on the session. */
 RT_API rt_status rt_format_file(rt_session *session, const char *path, const char **text);
 /* Whether the file is in the canonical layout: RT_FAULT_SCENE, and a diagnostic at the first place where it is not. */
 RT_API rt_status rt_check_format(rt_session *session, const char *path);
-/* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard output. */
+/* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard
+ * output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
-/* Whether spheres of nothing but numbers are read by their text alone, as is the default (1). With 0 they are parsed like all
- * else; the scene and its messages are the same. */
+/* Whether spheres of nothing but numbers are read by their text alone, as is the default (1). With 0 they are parsed
+ * like all else; the scene and its messages are the same. */
 RT_API void rt_set_literals(rt_session *session, int on);
 
-/* Names of the instruction sets that the tracer can use on this machine, from plain C to the best, and NULL past the end. */
+/* Names of the instruction sets that the tracer can use on this machine, from plain C to the best, and NULL past the
+ * end. */
 RT_API const char *rt_isa(size_t i);
 /* Use one of them; the best is used if nothing is said. The picture does not depend on it. */
 RT_API rt_status rt_set_isa(rt_session *session, const char *name);
-/* The precision that the next rt_render works in. All but RT_PRECISION_DOUBLE use a reference kernel for study, which tests each
- * shape for each ray and refuses what it does not know, also adaptive sampling; it tells no error. RT_FAULT_USAGE when the library
- * was built without it. */
+/* The precision that the next rt_render works in. All but RT_PRECISION_DOUBLE use a reference kernel for study, which
+ * tests each shape for each ray and refuses what it does not know, also adaptive sampling; it tells no error.
+ * RT_FAULT_USAGE when the library was built without it. */
 typedef enum rt_precision {
     RT_PRECISION_DOUBLE,
     RT_PRECISION_FLOAT,
@@ -178,8 +181,9 @@ typedef struct rt_sampling {
 /* RT_FAULT_USAGE for an unknown name, a number out of range, or goals with "jittered" or "grid". */
 RT_API rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling);
 
-/* How light is followed: from the eye; or, for study, photons from the lights, counted where they pass the lens, or with each hit
- * connected to it. The latter two know few scenes (docs/sampling.md) and take `photons` instead of samples. */
+/* How light is followed: from the eye; or, for study, photons from the lights, counted where they pass the lens, or
+ * with each hit connected to it. The latter two know few scenes (docs/sampling.md) and take `photons` instead of
+ * samples. */
 typedef enum rt_method { RT_METHOD_BACKWARD, RT_METHOD_FORWARD, RT_METHOD_FORWARD_CONNECT } rt_method;
 RT_API rt_status rt_set_method(rt_session *session, rt_method method, uint64_t photons);
 
@@ -195,17 +199,17 @@ RT_API rt_status rt_set_antialias(rt_session *session, const rt_antialias *antia
 
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
-/* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets, the
- * quadratic of each sphere and the root that is used, the hit and its light, and the same for the rays that go on. Its
- * colour is the picture's. Text, or with RT_FORMAT_JSON one object on one line. *text is valid until the next call on the
- * session. RT_FAULT_USAGE when the pixel is not in the picture. */
+/* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets,
+ * the quadratic of each sphere and the root that is used, the hit and its light, and the same for the rays that go on.
+ * Its colour is the picture's. Text, or with RT_FORMAT_JSON one object on one line. *text is valid until the next call
+ * on the session. RT_FAULT_USAGE when the pixel is not in the picture. */
 RT_API rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text);
 
 /* Why a sampled run ended. */
 typedef enum rt_end { RT_END_DONE, RT_END_TARGET, RT_END_TIME, RT_END_INTERRUPTED } rt_end;
 
-/* What sampling leaves of error in the picture, worked out from the samples themselves. May be asked for while rendering,
- * from the progress callback. */
+/* What sampling leaves of error in the picture, worked out from the samples themselves. May be asked for while
+ * rendering, from the progress callback. */
 typedef struct rt_error {
     int known;              /* 0: one ray a pixel, or no estimate; only `samples` then means something */
     double rmse, low, high; /* root mean square over all values, in linear light; ends of the 95 % interval */
@@ -224,7 +228,8 @@ typedef struct rt_photons {
 RT_API void rt_get_photons(const rt_session *session, rt_photons *photons);
 /* Write the error of each pixel as a grey picture in linear light. RT_FAULT_USAGE when there is none. */
 RT_API rt_status rt_write_error(rt_session *session, const char *path);
-/* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread or a signal handler. */
+/* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread
+ * or a signal handler. */
 RT_API void rt_cancel(rt_session *session);
 
 /* How the picture is written. */
@@ -245,9 +250,9 @@ RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt
 /* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
 
-/* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red, green, blue) from the top row, in linear light, not clamped; of a
- * scene that says nothing of gamma (docs/language.md, "Gamma"), the values as they are stored in the file. Valid until
- * the session is freed; NULL before rt_render. */
+/* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red,
+ * green, blue) from the top row, in linear light, not clamped; of a scene that says nothing of gamma (docs/language.md,
+ * "Gamma"), the values as they are stored in the file. Valid until the session is freed; NULL before rt_render. */
 RT_API const float *rt_pixels(const rt_session *session, int *width, int *height);
 
 /* The memory of a scene that is loaded, in bytes. */
@@ -272,8 +277,8 @@ typedef struct rt_summary {
 } rt_summary;
 RT_API void rt_get_summary(const rt_session *session, rt_summary *summary);
 
-/* How large and how far the shapes of a loaded scene are, all but its planes: for programs with fixed tolerances, of which
- * rtlang has none. Where there is no such shape, what is least is infinite and the rest 0. */
+/* How large and how far the shapes of a loaded scene are, all but its planes: for programs with fixed tolerances, of
+ * which rtlang has none. Where there is no such shape, what is least is infinite and the rest 0. */
 typedef struct rt_range {
     double eye_offset;  /* greatest coordinate of the camera's place */
     double least_size;  /* radius of the smallest shape, or of the ball around its box */

@@ -6,9 +6,9 @@
 
 enum { PARALLEL_THREADS_MAX = 1024 };
 
-// Calls work(client, number) on up to `threads` threads, numbered from 0, which is the caller's, and returns when all have returned. A thread
-// that cannot be started is done without, so `work` must share what there is to do by what is left, not by number.
-// Returns how many there were.
+// Calls work(client, number) on up to `threads` threads, numbered from 0, which is the caller's, and returns when all
+// have returned. A thread that cannot be started is done without, so `work` must share what there is to do by what is
+// left, not by number. Returns how many there were.
 int parallel_run(int threads, void (*work)(void *client, int number), void *client);
 
 #endif

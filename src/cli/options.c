@@ -1,5 +1,7 @@
 // Reads rtlang's command line with getopt_long; names, arguments, help and effect of an option stand in one table line.
 //
+// Long because the options are many: most of it is that table and a small function for each line that needs one.
+//
 // SPDX-License-Identifier: MIT
 #include "cli/options.h"
 

@@ -39,10 +39,8 @@ typedef struct Block {
     bool has_fault;
 } Block;
 
-// Whether the sphere that is watched is one with nothing but a centre, a radius and a texture.
+// literal.c: notes of the object that is watched whether it is a sphere with nothing but a centre, a radius and a texture.
 void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record);
-// Adds a sphere of a plain material; false after a fault.
-bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span) RT_MUST_CHECK;
 
 // block.c
 
@@ -199,5 +197,7 @@ bool shape_flattened(Eval *ev, const ObjectPart *part);
 
 // place.c: an object and all that is in it become scene records.
 bool object_place(Eval *ev, SchemaKind kind, const void *object) RT_MUST_CHECK;
+// A sphere of a plain material; false after a fault.
+bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span) RT_MUST_CHECK;
 
 #endif

@@ -111,9 +111,9 @@ static Transform frame(Vec3 axis, double across, double along, Vec3 origin)
     return (Transform){{{u.x, u.y, u.z}, {v.x, v.y, v.z}, {w.x, w.y, w.z}, {origin.x, origin.y, origin.z}}};
 }
 
-static Extent turned_from(const Extent *own, Transform to_object, const Transform *transform)
+static Extent turned_from(const Extent *own, Transform frame, const Transform *transform)
 {
-    Transform whole = transform_compose(to_object, *transform);
+    Transform whole = transform_compose(frame, *transform);
     return turned(own, &whole);
 }
 

@@ -331,7 +331,7 @@ double number_gray(const double v[3]);
 enum { COMPONENT_GRAY = 5 };
 bool value_component(Symbol name, unsigned width, unsigned *component);
 
-// ---- functions and splines
+// ---- the initialisers of arrays (array.c)
 
 // In the initialiser of an array, where no directive and no macro call may stand but inside an expression: reports one.
 bool initialiser_fault(Eval *ev, Span span);
@@ -341,6 +341,8 @@ static inline bool is_in_initialiser(const Eval *ev)
 }
 // Whether the text of a directive or macro begins the expression.
 bool begins_with_call(const Eval *ev, const AstNode *node);
+
+// ---- functions and splines
 
 // True when a CALL is one of a function, a spline or an element of an array, and not of a macro.
 bool call_is_value(const Eval *ev, const AstNode *call);
@@ -483,8 +485,10 @@ typedef struct Splice {
 typedef struct SpliceStream SpliceStream;
 
 void splice_init(Splice *splice, Eval *ev);
-void literal_hooks(Eval *ev, GrammarHooks *hooks);
 void splice_fini(Splice *splice);
+
+// What the grammar asks and tells of literal spheres (literal.c), put to the other hooks.
+void literal_hooks(Eval *ev, GrammarHooks *hooks);
 
 // Items of a text, on demand. `owned` (NULL or the text) is freed with it. NULL when out of memory.
 SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool within,

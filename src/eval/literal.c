@@ -1,8 +1,8 @@
 // Literal spheres: the evaluator's part in statements that are read without a tree (grammar/literal.c).
 //
-// One statement of each kind is evaluated as any other while it is watched; when it gave one plain sphere and no message, the
-// next ones of its kind differ in centre, radius and colour only and become scene records at once. Whatever may change
-// what such a statement gives changes `state`. Knows nothing of text.
+// One statement of each kind is evaluated as any other while it is watched; when it gave one plain sphere and no
+// message, the next ones of its kind differ in centre, radius and colour only and become scene records at once.
+// Whatever may change what such a statement gives changes `state`. Knows nothing of text.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -14,11 +14,11 @@
 // Where photons arrive: the two halves' sums in whole units, and what a place on the lens and a direction mean.
 typedef struct PhotonFilm {
     atomic_int_least64_t *sums[2]; // width * height * 3 each; owned
-    const Film *film;  // whose pixels they are
-    Vec3 axis;         // unit, from the lens to what is seen
-    double distance;   // of the plane in focus from the lens
-    double pixel_area; // on that plane
-    double lens_area;  // 0: a pinhole
+    const Film *film;              // whose pixels they are
+    Vec3 axis;                     // unit, from the lens to what is seen
+    double distance;               // of the plane in focus from the lens
+    double pixel_area;             // on that plane
+    double lens_area;              // 0: a pinhole
 } PhotonFilm;
 
 bool photon_film_init(PhotonFilm *arrived, const Prepared *prepared, const Film *film) RT_MUST_CHECK;

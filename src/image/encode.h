@@ -19,8 +19,8 @@ enum {
 typedef struct Encoder {
     ImageEncoding encoding;
     int channels;
-    // 8 bit only: code k begins at threshold[k], one that never begins stands last. A float of bucket b has the code bucket[b]
-    // or one of the next `steps`.
+    // 8 bit only: code k begins at threshold[k], one that never begins stands last. A float of bucket b has the code
+    // bucket[b] or one of the next `steps`.
     float threshold[ENCODE_CODES_8 + 1];
     unsigned steps;
     uint8_t bucket[ENCODE_BUCKETS];

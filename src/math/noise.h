@@ -47,7 +47,8 @@ double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p);
 // Three independent numbers around 0, the first generator's first.
 Vec3 noise_vector(const Noise *noise, Vec3 p);
 
-// Of the unit cube from `corner`, whose coordinates are whole, to <1, 1, 1> beyond: a number from 0 to 1, and a point in it.
+// Of the unit cube from `corner`, whose coordinates are whole, to <1, 1, 1> beyond: a number from 0 to 1, and a point
+// in it.
 double noise_cell(const Noise *noise, Vec3 corner);
 Vec3 noise_site(const Noise *noise, Vec3 corner);
 

@@ -1,5 +1,5 @@
-// What an instance of the inner loop is made of: included by each kernel_*.c, which lists the instances it holds. They stand in
-// several files only because each takes seconds to compile.
+// What an instance of the inner loop is made of: included by each kernel_*.c, which lists the instances it holds. They
+// stand in several files only because each takes seconds to compile.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_KERNEL_INSTANCE_H

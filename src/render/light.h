@@ -62,8 +62,7 @@ RT_ALWAYS_INLINE double light_strength(const PreparedLight *light, Vec3 offset, 
 
 // ---- area lights
 
-// A number in [-1/2, 1/2) from two others: splitmix64, G. Steele et al., "Fast splittable pseudorandom number
-// generators", OOPSLA 2014.
+// splitmix64: G. Steele et al., "Fast splittable pseudorandom number generators", OOPSLA 2014.
 RT_ALWAYS_INLINE uint64_t light_mix(uint64_t state)
 {
     state += UINT64_C(0x9e3779b97f4a7c15);
@@ -72,6 +71,7 @@ RT_ALWAYS_INLINE uint64_t light_mix(uint64_t state)
     return state ^ (state >> 31);
 }
 
+// A number in [-1/2, 1/2).
 RT_ALWAYS_INLINE double light_random(uint64_t state)
 {
     return (double)(light_mix(state) >> 11) * 0x1p-53 - 0.5;

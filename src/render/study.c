@@ -91,7 +91,8 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     const Scene *scene = p->scene;
     bool covers = lights_are_covered(scene, p, diags);
     if (scene->parts.count > 0) {
-        covers = refuse(diags, scene_source_span(scene->parts.items[0].source), "a shape other than spheres and planes");
+        covers =
+            refuse(diags, scene_source_span(scene->parts.items[0].source), "a shape other than spheres and planes");
     }
     if (scene->camera.type > CAMERA_ORTHOGRAPHIC) {
         covers = refuse(diags, scene->camera.span, "a camera that is neither perspective nor orthographic");
@@ -107,8 +108,8 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     }
     for (size_t i = 0; i < scene->compounds.count; i++) {
         if (!compound_is_plain(scene, &scene->compounds.items[i])) {
-            covers = refuse(diags, scene_source_span(compound_source(scene, i)),
-                            "a texture of patterns, layers or bumps");
+            covers =
+                refuse(diags, scene_source_span(compound_source(scene, i)), "a texture of patterns, layers or bumps");
             break;
         }
     }
@@ -147,9 +148,10 @@ static Rgb sampled_colour(const Work *work, int x, int y, RenderStatistics *stat
     const SamplingOptions *sampling = work->options->sampling;
     const Film *film = work->film;
     uint32_t count = (uint32_t)sampling->samples;
-    SampleStream stream = {.kind = sampling->sampler,
-                           .seed = sampler_pixel_seed(sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
-                           .count = count};
+    SampleStream stream = {
+        .kind = sampling->sampler,
+        .seed = sampler_pixel_seed(sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
+        .count = count};
     Rgb sum = rgb_grey(0.0);
     for (; stream.index < count; stream.index++) {
         stream.pair = 0;
@@ -184,7 +186,8 @@ static void trace_rows(void *client, int thread)
         trace_row(work, y, &statistics);
         int done = atomic_fetch_add(&work->done, 1) + 1;
         if (thread == 0 && options->progress) {
-            options->progress(options->client, &(RenderProgress){.done = (double)done / work->film->height, .seconds_left = -1.0});
+            options->progress(options->client,
+                              &(RenderProgress){.done = (double)done / work->film->height, .seconds_left = -1.0});
         }
     }
     atomic_fetch_add(&work->camera, statistics.camera_rays);

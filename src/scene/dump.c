@@ -1,7 +1,8 @@
 // The printable form of scene records: `.scn` text that evaluates to the same records again.
 //
-// Shapes that are not plain ones are in dump_part.c. Turns numbers into their shortest decimal forms, which read back as the same bits, and colours into phrases that keep
-// all components. Knows only what it writes of the language.
+// Turns numbers into their shortest decimal forms, which read back as the same bits, and colours into phrases that keep
+// all components. Shapes that are not plain ones are in dump_part.c, textures in dump_texture.c. Knows only what it
+// writes of the language.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -15,7 +15,8 @@ void dump_rgbft(TextBuffer *out, const char *before, Rgbft colour);
 // `<…>`
 void dump_numbers(TextBuffer *out, const double *numbers, size_t count);
 
-// Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its finishes.
+// Declarations of all interiors (I1, …), patterned pigments (P1, …) and textures (T1, …) of a scene, after those of its
+// finishes.
 void dump_textures(const Scene *scene, TextBuffer *out);
 void dump_sky(const Scene *scene, TextBuffer *out);
 // The texture of a shape, which is its last property, and its end.

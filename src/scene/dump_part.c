@@ -1,5 +1,5 @@
-// The printable form of parts and composites: each part as its fixed shape under a matrix, each node as the block that makes
-// it.
+// The printable form of parts and composites: each part as its fixed shape under a matrix, each node as the block that
+// makes it.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/dump.h"

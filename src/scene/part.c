@@ -41,15 +41,20 @@ static double fixed_support(const Part *part, Vec3 n)
     const Vec3 *low = &part->data[0];
     const Vec3 *high = &part->data[1];
     switch (part->kind) {
-    case PART_BALL: return hypot(round, n.z);
+    case PART_BALL:
+        return hypot(round, n.z);
     case PART_BOX:
         return fmax(low->x * n.x, high->x * n.x) + fmax(low->y * n.y, high->y * n.y) +
                fmax(low->z * n.z, high->z * n.z);
-    case PART_CONE: return fmax(round, part->data[0].x * round + n.z);
-    case PART_DISC: return round;
+    case PART_CONE:
+        return fmax(round, part->data[0].x * round + n.z);
+    case PART_DISC:
+        return round;
     case PART_TRIANGLE:
-    case PART_SMOOTH_TRIANGLE: return fmax(0.0, fmax(n.x, n.y));
-    case PART_PLANE: break;
+    case PART_SMOOTH_TRIANGLE:
+        return fmax(0.0, fmax(n.x, n.y));
+    case PART_PLANE:
+        break;
     }
     return (double)INFINITY;
 }
@@ -109,8 +114,7 @@ bool part_contains(const Part *outer, const Part *inner)
         double low = axis == 0 ? outer->data[0].x : axis == 1 ? outer->data[0].y : outer->data[0].z;
         double high = axis == 0 ? outer->data[1].x : axis == 1 ? outer->data[1].y : outer->data[1].z;
         double error = 4.0 * (DBL_EPSILON / 2) * (fabs(m[3][axis]) + fmax(fabs(low), fabs(high)));
-        if (!is_below(inner, n, high - m[3][axis], error) ||
-            !is_below(inner, vec3_neg(n), m[3][axis] - low, error)) {
+        if (!is_below(inner, n, high - m[3][axis], error) || !is_below(inner, vec3_neg(n), m[3][axis] - low, error)) {
             return false;
         }
     }

@@ -1,7 +1,8 @@
 // Pictures that a scene lays over its surfaces: which file, how its values are meant, and how it is laid.
 //
 // A source says what is to be read and how; the picture beside it holds what was read, which is nothing until the
-// scene's pictures are loaded. Sources, maps and shades are plain data without padding, so that equal ones are kept once.
+// scene's pictures are loaded. Sources, maps and shades are plain data without padding, so that equal ones are kept
+// once.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_PICTURE_H
@@ -40,8 +41,8 @@ typedef struct PictureSource {
     uint32_t encoding; // PictureGamma
     double gamma;      // PICTURE_GAMMA_POWER, else 0
     uint32_t alpha;    // PictureAlpha
-    // The working space where the file was named, which its values are brought to: those of pictures do not change when the
-    // space is only given later.
+    // The working space where the file was named, which its values are brought to: those of pictures do not change when
+    // the space is only given later.
     uint32_t space;     // GammaModel
     double space_gamma; // GAMMA_POWER
     uint64_t is_modern; // language version 3.7 or later there
@@ -60,14 +61,19 @@ typedef struct Picture {
     Span span; // where the file is named first
     int width, height, channels;
     PictureDepth depth;
-    void *samples;      // NULL: not loaded; owned
-    float *decoded;     // the colour, in the working space, of each code of 8 or 16 bits; owned, NULL for float
-    uint32_t places;    // in the palette; 0: there is none
+    void *samples;          // NULL: not loaded; owned
+    float *decoded;         // the colour, in the working space, of each code of 8 or 16 bits; owned, NULL for float
+    uint32_t places;        // in the palette; 0: there is none
     PictureColour *palette; // PICTURE_PALETTE of them, black beyond `places`; owned
-    bool is_associated; // colours are multiplied with alpha
+    bool is_associated;     // colours are multiplied with alpha
 } Picture;
 
-typedef enum Projection { PROJECTION_PLANAR = 0, PROJECTION_SPHERICAL = 1, PROJECTION_CYLINDRICAL = 2, PROJECTION_TORUS = 5 } Projection;
+typedef enum Projection {
+    PROJECTION_PLANAR = 0,
+    PROJECTION_SPHERICAL = 1,
+    PROJECTION_CYLINDRICAL = 2,
+    PROJECTION_TORUS = 5
+} Projection;
 
 typedef enum Interpolation {
     INTERPOLATION_NONE = 0,

@@ -108,10 +108,10 @@ static void tell_lost(const Watch *watch, const Extent *extent, double place)
     bool is_lost = place + extent->size == place;
     DiagSink *diags = watch->diags;
     Span at = scene_source_span(extent->source);
-    bool is_kept = is_lost ? diag_report(diags, DIAG_W0440, at, "the size of this %s is lost beside its coordinates",
-                                         extent->what)
-                           : diag_report(diags, DIAG_W0441, at,
-                                         "this %s is smaller than the spacing of numbers at its place", extent->what);
+    bool is_kept =
+        is_lost ? diag_report(diags, DIAG_W0440, at, "the size of this %s is lost beside its coordinates", extent->what)
+                : diag_report(diags, DIAG_W0441, at, "this %s is smaller than the spacing of numbers at its place",
+                              extent->what);
     if (is_kept) {
         diag_note(diags, SPAN_NONE, "its size is %g, and coordinates of %g are %g apart", extent->size, place,
                   spacing(place));

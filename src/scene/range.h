@@ -10,21 +10,21 @@
 #include "base/attributes.h"
 #include "scene/scene.h"
 
-// Scaled lengths: the squares of radii from 2^RANGE_LEAST to below 2^RANGE_END, and of coordinates below 2^RANGE_END, are
-// held with all their bits.
+// Scaled lengths: the squares of radii from 2^RANGE_LEAST to below 2^RANGE_END, and of coordinates below 2^RANGE_END,
+// are held with all their bits.
 enum { RANGE_LEAST = -480, RANGE_END = 511 };
 
-// Seen from the camera, the greatest distance in radii at which a sphere's outline is a hundredth of its radius: 0.01 / u,
-// rounded down to a power of two.
+// Seen from the camera, the greatest distance in radii at which a sphere's outline is a hundredth of its radius: 0.01 /
+// u, rounded down to a power of two.
 #define RANGE_RADII 0x1p46
 
-// The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of the
-// greatest and the least are as far from overflow as from underflow. A scene times 2^k has an exponent greater by k, so
-// both become the same numbers. (The direction and screen of a perspective camera have no length that matters.)
+// The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of
+// the greatest and the least are as far from overflow as from underflow. A scene times 2^k has an exponent greater by
+// k, so both become the same numbers. (The direction and screen of a perspective camera have no length that matters.)
 int scene_exponent(const Scene *scene);
 
-// Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and of
-// lights and cameras beyond the range. One pass.
+// Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and
+// of lights and cameras beyond the range. One pass.
 void scene_warn_of_range(const Scene *scene, DiagSink *diags);
 
 // Warns of equal shapes that some ray could see both of. Linear in the number of shapes. False when out of memory.

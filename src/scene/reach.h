@@ -18,8 +18,8 @@ typedef struct SceneReach {
     double least_angle; // the least radius / distance of its middle from the camera
 } SceneReach;
 
-// Takes the camera to `factor` times its distance, along its direction, from the mean of the shapes' places. A perspective one
-// zooms along.
+// Takes the camera to `factor` times its distance, along its direction, from the mean of the shapes' places. A
+// perspective one zooms along.
 void scene_move_camera(Scene *scene, double factor);
 
 void scene_reach(const Scene *scene, SceneReach *reach);

@@ -79,7 +79,8 @@ typedef enum SphereVerdict {
     SPHERE_DOUBTFUL // ask sphere_exact
 } SphereVerdict;
 
-// Decides class and root in doubles alone (src/trace/spheres_kernel.c does the same to eight spheres at once), or says that it cannot. `t` > 0 and `inside` are set when the sphere is met.
+// Decides class and root in doubles alone (src/trace/spheres_kernel.c does the same to eight spheres at once), or says
+// that it cannot. `t` > 0 and `inside` are set when the sphere is met.
 RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *ball, double *t, bool *inside)
 {
     Vec3 f = vec3_sub(ray->origin, ball->centre);
@@ -109,9 +110,9 @@ RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *bal
 // from which side; 0 for a miss.
 double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside) __attribute__((cold));
 
-// One Newton step from a root of sphere_test, with the residual |f + t d|² - r² in double-word arithmetic. What the step
-// leaves is e² / (distance of the two roots), and the residual is known to 12 u² (|f|² + r²): the two checks make both
-// less than a quarter of an ulp. When they do not hold, the whole is done in double words.
+// One Newton step from a root of sphere_test, with the residual |f + t d|² - r² in double-word arithmetic. What the
+// step leaves is e² / (distance of the two roots), and the residual is known to 12 u² (|f|² + r²): the two checks make
+// both less than a quarter of an ulp. When they do not hold, the whole is done in double words.
 RT_ALWAYS_INLINE double sphere_refine(const SphereRay *ray, const Ball *ball, double t)
 {
     const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};

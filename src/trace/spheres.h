@@ -1,7 +1,8 @@
 // The spheres of a Geometry: in blocks of eight, as the vector kernels want them, and the nearest of them to a ray.
 //
-// A slot is a place in a block; slot / 8 is the block. Loose spheres, in the first block, are tested one by one here, inline;
-// those of the tree by SphereKernels, of which there is one set for each instruction set. All give the same bits.
+// A slot is a place in a block; slot / 8 is the block. Loose spheres, in the first block, are tested one by one here,
+// inline; those of the tree by SphereKernels, of which there is one set for each instruction set. All give the same
+// bits.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_H
@@ -65,11 +66,11 @@ typedef struct SphereKernels {
     bool (*is_supported)(void);
     void (*closest)(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest);
     bool (*occluded)(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max);
-    // The same as `closest` for each ray of a tile, with the loose spheres. False when the rays are too far apart, or their
-    // origin too far away, to be traced together; nothing is done then.
+    // The same as `closest` for each ray of a tile, with the loose spheres. False when the rays are too far apart, or
+    // their origin too far away, to be traced together; nothing is done then.
     bool (*closest_tile)(const SphereTable *table, const SphereTile *tile, Nearest nearest[TILE_RAYS]);
-    // The rays of a view at 64 places, with the bits that vec3_normalize and sphere_ray_make give. False when one of them is
-    // not usable.
+    // The rays of a view at 64 places, with the bits that vec3_normalize and sphere_ray_make give. False when one of
+    // them is not usable.
     bool (*view_tile)(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile);
 } SphereKernels;
 
@@ -134,8 +135,8 @@ RT_ALWAYS_INLINE double nearest_limit(double t_max)
     return t_max + SPHERE_ROOT_SLACK * t_max;
 }
 
-// A sphere that is met, by sphere_test (t is rough) or by sphere_exact. Roots are refined only where rough ones could be
-// taken in the wrong order, so in the end the same sphere is nearest as if all had been.
+// A sphere that is met, by sphere_test (t is rough) or by sphere_exact. Roots are refined only where rough ones could
+// be taken in the wrong order, so in the end the same sphere is nearest as if all had been.
 RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, uint32_t slot,
                                            const Ball *ball, double t, bool inside, bool is_rough, Nearest *nearest)
 {

@@ -1,8 +1,9 @@
 // A tile of camera rays against the spheres: part of spheres_kernel.c.
 //
-// The tile walks the tree once, as a beam. What its leaves hold is narrowed by cones: blocks to the spheres that the tile's
-// cone touches, those to the rows whose cones they touch, and only there rays are tested, a row at a time. Cones carry a margin
-// far above their rounding; the test of a ray is sphere_test's, operation by operation, so hits are those of single rays.
+// The tile walks the tree once, as a beam. What its leaves hold is narrowed by cones: blocks to the spheres that the
+// tile's cone touches, those to the rows whose cones they touch, and only there rays are tested, a row at a time. Cones
+// carry a margin far above their rounding; the test of a ray is sphere_test's, operation by operation, so hits are
+// those of single rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_TILE_H

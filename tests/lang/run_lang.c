@@ -240,9 +240,18 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     Source *source = source_open_text(sources, "test.scn", test->sections[0].text, trimmed(&test->sections[0]));
     must(source != NULL, "no memory");
     EvalOptions options = {
-        .sources = sources, .names = names, .diags = &diags, .limits = limits, .include_paths = folders,
-        .include_path_count = 1, .declarations = declarations,
-        .declaration_count = read_declarations(test, declared_names, declarations), .image_width = 320, .image_height = 240, .message = take_message, .client = outcome,
+        .sources = sources,
+        .names = names,
+        .diags = &diags,
+        .limits = limits,
+        .include_paths = folders,
+        .include_path_count = 1,
+        .declarations = declarations,
+        .declaration_count = read_declarations(test, declared_names, declarations),
+        .image_width = 320,
+        .image_height = 240,
+        .message = take_message,
+        .client = outcome,
     };
     if (!eval_source(&options, source, &scene) && diags.error_count == 0) {
         text_append(&outcome->diagnostics, "evaluation failed without a message\n");
