@@ -160,6 +160,7 @@ test_scripts = \
   %D%/check-docs.py \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
+  %D%/system/check_growth.py \
   %D%/system/check_literals.py \
   %D%/system/check_messages.py \
   %D%/system/run_system.py \
@@ -180,7 +181,6 @@ test_scripts = \
   %D%/povray/check_exporters.py \
   %D%/povray/check_survey.py
 
-test_scripts += %D%/system/check_growth.py
 .PHONY: check-growth
 check-long: check-growth
 check-growth: rtlang$(EXEEXT)
@@ -223,8 +223,8 @@ lang_cases = \
   %D%/lang/suggestions.test \
   %D%/lang/texture.test \
   %D%/lang/transforms.test \
-  %D%/lang/union.test
-lang_cases += %D%/lang/warnings.test
+  %D%/lang/union.test \
+  %D%/lang/warnings.test
 EXTRA_DIST += \
   $(test_scripts) \
   $(lang_cases) \
