@@ -33,17 +33,21 @@ def pack_row(values, bits):
     return b"\0" + int(text, 2).to_bytes(len(text) // 8, "big")
 
 
-def png(path, size, colour, bits, chunks=(), channels=None, below=None):
+def write_rows(path, size, colour, bits, rows, chunks=()):
     """`colour` is PNG's type: 0 grey, 2 rgb, 3 palette, 4 grey and alpha, 6 rgb and alpha."""
+    with open(path, "wb") as out:
+        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", *size, bits, colour, 0, 0, 0)))
+        for kind, data in chunks:
+            out.write(chunk(kind, data))
+        out.write(chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def png(path, size, colour, bits, chunks=(), channels=None, below=None):
     width, height = size
     channels = channels or {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[colour]
     rows = b"".join(pack_row([code(x, y, c, below or 1 << bits) for x in range(width) for c in range(channels)], bits)
                     for y in range(height))
-    with open(path, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0)))
-        for kind, data in chunks:
-            out.write(chunk(kind, data))
-        out.write(chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    write_rows(path, size, colour, bits, rows, chunks)
 
 
 def premultiplied(path, size):
@@ -56,9 +60,7 @@ def premultiplied(path, size):
             alpha = 0 if code(x, y, 9, 7) == 0 else 40 + code(x, y, 3, 216)
             row += [code(x, y, c, alpha + 1) for c in range(3)] + [alpha]
         rows += pack_row(row, 8)
-    with open(path, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)))
-        out.write(chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    write_rows(path, size, 6, 8, rows)
 
 
 def earth(path):
@@ -72,9 +74,7 @@ def earth(path):
             shade = code(x, y, 1, 40)
             row += [200, 200, 210] if grid else [60 + shade, 110 + shade, 40] if land else [10, 40 + shade // 2, 120 + shade]
         rows += pack_row(row, 8)
-    with open(path, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 72, 36, 8, 2, 0, 0, 0)))
-        out.write(chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    write_rows(path, (72, 36), 2, 8, rows)
 
 
 def samples(size, channels, below=256):

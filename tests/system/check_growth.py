@@ -23,7 +23,6 @@ LINE_BYTES = 100_000_000
 DEEPEST = 31
 
 
-
 def deep_includes(count):
     return ['#include "d0.inc"\n'] * (count // DEEPEST)
 
