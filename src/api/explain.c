@@ -215,7 +215,7 @@ static void write_stages(rt_session *session, int threads, const Run *whole)
     TextBuffer *out = &session->dump;
     const Scene *scene = &session->scene;
     text_printf(out, "read     %9.3f s  %llu shapes, %llu lights, %llu finishes\n", session->parse_seconds,
-                (unsigned long long)scene->shape_count + scene->parts.count, (unsigned long long)scene->lights.count,
+                (unsigned long long)scene_shapes_in_all(scene), (unsigned long long)scene->lights.count,
                 (unsigned long long)scene->finishes.count);
     text_printf(out, "prepare  %9.3f s  %llu bytes of geometry\n", whole->prepare_seconds,
                 (unsigned long long)whole->bytes);

@@ -42,18 +42,12 @@ typedef struct Branch {
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer);
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *branch);
 
-// Each shape once, be it alone or in a composite.
-static uint64_t shapes_placed(const Scene *scene)
-{
-    return (uint64_t)scene->spheres.count + scene->ellipsoids.count + scene->planes.count + scene->parts.count;
-}
-
 static bool may_add(Eval *ev, Span span)
 {
     if (eval_cancelled(ev)) {
         return false;
     }
-    if (shapes_placed(ev->scene) >= ev->options.limits->objects) {
+    if (scene_shapes_in_all(ev->scene) >= ev->options.limits->objects) {
         if (eval_report(ev, DIAG_E0490, span, "more than %llu shapes in the scene",
                         (unsigned long long)ev->options.limits->objects)) {
             diag_suggest(ev->options.diags, "`--max-objects` allows more");

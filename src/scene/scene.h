@@ -412,6 +412,12 @@ static inline Rgbft pigment_colour(const Pigment *pigment)
     return (Rgbft){pigment->red, pigment->green, pigment->blue, pigment->filter, pigment->transmit};
 }
 
+// Each shape once, be it alone or in a composite.
+static inline uint64_t scene_shapes_in_all(const Scene *scene)
+{
+    return (uint64_t)scene->spheres.count + scene->ellipsoids.count + scene->planes.count + scene->parts.count;
+}
+
 // Add a record; `order` and shape_count are set here. False when out of memory.
 bool scene_add_light(Scene *scene, const Light *light) RT_MUST_CHECK;
 bool scene_add_fog(Scene *scene, const Fog *fog) RT_MUST_CHECK;

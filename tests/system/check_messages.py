@@ -189,6 +189,8 @@ def check_explain_scene(tap):
            left["tree of spheres"] == "1 sphere, tested one after the other",
            "--explain SCENE tells what is left out", told)
     tap.ok("1200 rays" in part(told, "there, and what it costs")["camera rays"], "and what is there", told)
+    status, told = explain(scene % ("", "", "box { 2, 3 } difference { box { 4, 5 } sphere { 4, 1 } }"))
+    tap.ok(status == 0 and "s  4 shapes, 0 lights" in told, "each shape is counted once", told)
     status, told = explain(scene % ("light_source { <5, 5, -5>, 1 }", "reflection 0.5 phong 1", "plane { y, -1 }"))
     there, left = part(told, "there, and what it costs"), part(told, "left out, and why")
     tap.ok(status == 0 and {"shadow rays", "mirrored rays", "highlights", "planes"} <= set(there), "another scene", told)
