@@ -416,6 +416,10 @@ static rt_status session_ways_fit(rt_session *session)
         return rt_report(session, "E0703", "the reference kernels of `--precision` sample all pixels alike",
                          "leave out goals and `--adaptive`, and use the sampler sobol, halton or random");
     }
+    if (session->method != RT_METHOD_BACKWARD && (session->precision != RT_PRECISION_DOUBLE || session->is_sampled)) {
+        return rt_report(session, "E0703", "the forward methods have photons for samples, and double precision only",
+                         "leave out `--precision`, `--samples` and goals, and say how many `--photons`");
+    }
     bool is_plain = session->precision == RT_PRECISION_DOUBLE && session->method == RT_METHOD_BACKWARD;
     if (session->antialias.method != 0 && (session->is_sampled || !is_plain || session->crop.width)) {
         return rt_report(session, "E0703", "`--antialias` is for whole pictures of the ordinary kernels without sampling",

@@ -106,6 +106,8 @@ COMMANDS = {
     "antialias_and_samples": ["--antialias=2", "--samples=4", "good.scn"],
     "antialias_and_crop": ["--antialias=2", "--crop=0,0,8,8", "good.scn"],
     "antialias_and_precision": ["--antialias=2", "--precision=float", "good.scn"],
+    "method_and_precision": ["--method=forward-connect", "--precision=quad", "good.scn"],
+    "method_and_samples": ["--method=forward-connect", "--samples=4", "good.scn"],
     "dump_unknown": ["--dump=trees", "good.scn"],
     "declare_without_value": ["-D", "Size", "good.scn"],
     "declare_reserved_word": ["-D", "sphere=1", "good.scn"],
