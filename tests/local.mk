@@ -169,6 +169,7 @@ test_scripts = \
   %D%/system/check_rtcheck.sh \
   %D%/system/check_sampling.py \
   %D%/system/check_stability.py \
+  %D%/system/check_study.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
   %D%/povray/check_blur.sh \
@@ -247,6 +248,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	tests/unit/test_trace_certified$(EXEEXT) 1000000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_literals.py 5000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) EXPORTERS_LONG=1 $(PYTHON3) $(top_srcdir)/tests/povray/check_exporters.py

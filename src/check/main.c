@@ -364,6 +364,7 @@ static int scenes_study(const Check *check)
                               .clock = options->clock_given ? &options->clock : NULL,
                               .folder = check->folder,
                               .repeats = 3,
+                              .most_samples = options->most_samples,
                               .interrupted = &interrupted};
     StudiesResult result = studies_run(options, &settings);
 

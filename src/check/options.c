@@ -148,6 +148,11 @@ static bool apply_study(Options *options, const char *argument)
     return true;
 }
 
+static bool apply_most(Options *options, const char *argument)
+{
+    return parse_integer(argument, 64, 65536, &options->most_samples);
+}
+
 static const OptionRow rows[] = {
     {'W', "width", "PIXELS", apply_width, "a whole number from 1 to 65535", "width of the pictures (default 320)"},
     {'H', "height", "PIXELS", apply_height, "a whole number from 1 to 65535", "height of the pictures (default 240)"},
@@ -168,6 +173,8 @@ static const OptionRow rows[] = {
     {0, "seed", "N", apply_seed, "a whole number from 0 to 1000000000", "with --stability: other random cases (default 0)"},
     {0, "json", NULL, apply_json, "", "print one JSON object a scene; with --report also results.json"},
     {0, "study", NULL, apply_study, "", "error against time instead: ladders of samples, and POV-Ray's own anti-aliasing"},
+    {0, "most", "N", apply_most, "a whole number from 64 to 65536",
+     "with --study: samples a pixel at the top of a ladder (default 256); the reference has 16 times as many"},
     {'V', "version", NULL, NULL, "", "print the version and stop"},
     {'h', "help", NULL, NULL, "", "print this and stop"},
 };
@@ -179,6 +186,7 @@ static void print_help(void)
 {
     printf("Usage: rtcheck [OPTION]... SCENE...\n"
            "       rtcheck --stability [OPTION]... [SCENE]...\n"
+           "       rtcheck --study [OPTION]... SCENE...\n"
            "Renders each scene with rtlang and with POV-Ray, without anti-aliasing, and compares the pictures in\n"
            "linear 16 bit. Differences are printed in steps of 1/65535.\n\n");
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -257,7 +265,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     char short_options[SHORT_ROOM];
     int val;
 
-    *options = (Options){.width = 320, .height = 240, .threshold = 2.0 / 65535.0, .ties = 1e-4, .povray = "povray", .cases = 20000};
+    *options = (Options){.width = 320, .height = 240, .threshold = 2.0 / 65535.0, .ties = 1e-4, .povray = "povray", .cases = 20000, .most_samples = 256};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
     if (options->include_paths == NULL) {
         return complain("out of memory", "");

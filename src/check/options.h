@@ -22,6 +22,7 @@ typedef struct Options {
     bool is_stability; // numbers instead of pictures beside POV-Ray's
     int cases, seed;   // is_stability: of each family; added to the seed
     bool json;
+    int most_samples; // of a study
     bool study; // of error against time, instead of a comparison
     char **scenes;
     int scene_count;

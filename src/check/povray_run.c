@@ -242,26 +242,30 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     return fine;
 }
 
-// "  Trace Time:       0 hours  0 minutes  1 seconds (1.234 seconds)" and below "using 1 thread(s) with 1.200 CPU-seconds
-// total".
-double povray_trace_seconds(const char *log)
+// "Pixels:     1300   Samples:    3852   Smpls/Pxl: 2.96", then "  Trace Time:       0 hours  0 minutes  1 seconds (1.234
+// seconds)" and below "using 1 thread(s) with 1.200 CPU-seconds total".
+PovrayCost povray_cost(const char *log)
 {
     FILE *file = fopen(log, "rb");
     char line[256];
-    double seconds = 0.0;
+    PovrayCost cost = {0.0, 0.0};
     bool is_trace = false;
 
     while (file != NULL && fgets(line, sizeof line, file) != NULL) {
         const char *with = strstr(line, " with ");
+        double pixels, samples;
 
+        if (sscanf(line, "Pixels: %lf Samples: %lf", &pixels, &samples) == 2) {
+            cost.rays = pixels + samples;
+        }
         is_trace = is_trace || strstr(line, "Trace Time:") != NULL;
         if (is_trace && with != NULL && strstr(line, "CPU-seconds") != NULL) {
-            seconds = strtod(with + 6, NULL);
+            cost.seconds = strtod(with + 6, NULL);
             break;
         }
     }
     if (file != NULL) {
         fclose(file);
     }
-    return seconds;
+    return cost;
 }

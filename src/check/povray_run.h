@@ -27,7 +27,12 @@ char *povray_find(const char *name);
 // Runs and waits. False when POV-Ray failed or left no picture; `detail` then says why, in a few lines.
 bool povray_run(const PovrayJob *job, char *detail, size_t detail_size);
 
-// Processor seconds that a finished run says it traced for; 0 when it does not say.
-double povray_trace_seconds(const char *log);
+// What a run took, by its log; 0 where that does not tell.
+typedef struct PovrayCost {
+    double seconds; // of the processor, tracing
+    double rays;    // from the camera
+} PovrayCost;
+
+PovrayCost povray_cost(const char *log);
 
 #endif

@@ -19,11 +19,12 @@
 
 enum {
     RUNS_MOST = 9,
-    MOST_SAMPLES = 256,
-    REFERENCE_SAMPLES = 16 * MOST_SAMPLES,
+    REFERENCE_TIMES = 16, // the greatest number of samples of a ladder
     DEEPER = 64,
     LONG_SECONDS = 15,
-    FORWARD_PHOTONS = 10000000
+    REFERENCE_SECONDS = 3, // of a rung of the reference kernels
+    PHOTONS_LEAST = 400, // for each sample of the greatest number
+    PHOTONS_TIMES = 100,
 };
 
 typedef struct Run {
@@ -155,6 +156,7 @@ static bool rtlang_point(const Study *study, const StudySettings *settings, cons
     }
     point->rmse = sqrt(point->rmse);
     point->seconds = median(seconds, runs);
+    point->effort = sampling->samples;
     snprintf(point->setting, sizeof point->setting,
              sampling->adaptive != 0 ? "--adaptive --samples=%g" : "--samples=%g", sampling->samples);
     return true;
@@ -181,7 +183,7 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
 
     for (size_t i = 0; i < COUNT_OF(methods); i++) {
         StudyMethod *method = method_begin(study, methods[i].name, STUDY_SAMPLER);
-        for (int samples = methods[i].least; samples <= MOST_SAMPLES && method->count < STUDY_POINTS;
+        for (int samples = methods[i].least; samples <= settings->most_samples && method->count < STUDY_POINTS;
              samples *= methods[i].sampling.adaptive != 0 ? 2 : 4) {
             rt_sampling sampling = methods[i].sampling;
             sampling.samples = samples;
@@ -215,7 +217,7 @@ static bool reference_methods(Study *study, const StudySettings *settings, const
     for (size_t i = 0; i < COUNT_OF(methods) && !isnan(study->arithmetic); i++) {
         StudyMethod *method = method_begin(study, methods[i].name, STUDY_REFERENCE);
         double seconds = 0.0;
-        for (int samples = 4; samples <= MOST_SAMPLES && 4.0 * seconds < LONG_SECONDS; samples *= 4) {
+        for (int samples = 4; samples <= settings->most_samples && 4.0 * seconds < REFERENCE_SECONDS; samples *= 4) {
             rt_sampling sampling = {.samples = samples};
             StudyPoint *point = &method->points[method->count];
             if (*settings->interrupted != 0 ||
@@ -258,6 +260,7 @@ static bool forward_point(Study *study, const StudySettings *settings, const Ima
     }
     *point = (StudyPoint){.seconds = run->seconds,
                           .estimate = run->error.rmse,
+                          .effort = (double)run->photons,
                           .samples = (double)run->photons / ((double)study->width * study->height)};
     point_add(point, &metric, 1);
     point->rmse = sqrt(point->rmse);
@@ -273,7 +276,8 @@ static bool forward_ladder(Study *study, const StudySettings *settings, const Im
 {
     StudyMethod *ladder = method_begin(study, name, STUDY_FORWARD);
 
-    for (uint64_t photons = 100000; photons <= FORWARD_PHOTONS; photons *= 10) {
+    uint64_t least = PHOTONS_LEAST * (uint64_t)settings->most_samples;
+    for (uint64_t photons = least; photons <= PHOTONS_TIMES * least; photons *= 10) {
         Run run = {.method = method, .photons = photons};
         bool misfits = false;
         if (*settings->interrupted != 0 || !forward_point(study, settings, reference, ladder, &run, &misfits)) {
@@ -297,7 +301,7 @@ static bool forward_methods(Study *study, const StudySettings *settings, const I
 // ---- POV-Ray
 
 static bool povray_image(const Study *study, const StudySettings *settings, const char *const *switches, Image *image,
-                         double *seconds)
+                         PovrayCost *cost)
 {
     char output[4096], log[4096], detail[512];
     uint64_t pixels = (uint64_t)settings->width * (uint64_t)settings->height;
@@ -319,7 +323,7 @@ static bool povray_image(const Study *study, const StudySettings *settings, cons
     if (!povray_run(&job, detail, sizeof detail) || image_read(output, pixels, image, &error) != IMAGE_OK) {
         return false;
     }
-    *seconds = povray_trace_seconds(log);
+    *cost = povray_cost(log);
     return true;
 }
 
@@ -329,20 +333,23 @@ static bool povray_point(const Study *study, const StudySettings *settings, cons
     double seconds[RUNS_MOST], enough = 1.0;
     int count = 0;
     StudyMetric metric = {0};
+    PovrayCost cost;
 
     *point = (StudyPoint){0};
     do { // the picture is the same each time, and what takes long need not be measured often
         Image image = {0};
-        bool fine = povray_image(study, settings, switches, &image, &seconds[count]) &&
+        bool fine = povray_image(study, settings, switches, &image, &cost) &&
                     (count > 0 || study_compare(&image, reference, &metric));
         image_fini(&image);
         if (!fine) {
             return false;
         }
+        seconds[count] = cost.seconds;
     } while (seconds[count++] < enough && count < settings->repeats && count < RUNS_MOST);
     point_add(point, &metric, 1);
     point->rmse = sqrt(point->rmse);
     point->seconds = median(seconds, count);
+    point->samples = cost.rays / ((double)study->width * study->height);
     return true;
 }
 
@@ -370,6 +377,7 @@ static bool povray_methods(Study *study, const StudySettings *settings, const Im
                     return false;
                 }
                 snprintf(point->setting, sizeof point->setting, "%s %s %s", am, a, r);
+                point->effort = method == 1 ? pow(depths[0][j], 2.0) : pow(4.0, depths[1][j]);
                 ladder->count++;
             }
             study_fit(ladder, study->floor);
@@ -394,11 +402,11 @@ static void model_find(Study *study, const StudySettings *settings)
 {
     static const rt_sampling one = {0};
     Run ours = {.method = RT_METHOD_BACKWARD}, exact = ours, single = ours, theirs = {.status = RT_OK};
-    double seconds;
+    PovrayCost cost;
 
     study->model = (double)NAN;
     rtlang_render(study->scene, settings, &one, RT_PRECISION_DOUBLE, 1, &ours);
-    if (settings->povray != NULL && povray_image(study, settings, NULL, &theirs.image, &seconds)) {
+    if (settings->povray != NULL && povray_image(study, settings, NULL, &theirs.image, &cost)) {
         study->model = distance_of(&theirs, &ours);
     }
     rtlang_render(study->scene, settings, &one, RT_PRECISION_QUAD, 0, &exact);
@@ -435,11 +443,11 @@ static void depth_find(Study *study, const StudySettings *settings, const rt_sam
 bool study_run(Study *study, const char *scene, const StudySettings *settings)
 {
     // Not the sampler that is studied, and 16 times its greatest number.
-    rt_sampling sampling = {.sampler = "halton", .samples = REFERENCE_SAMPLES, .seed = 1};
+    rt_sampling sampling = {.sampler = "halton", .samples = REFERENCE_TIMES * settings->most_samples, .seed = 1};
     Run reference = {.method = RT_METHOD_BACKWARD};
 
     *study = (Study){
-        .scene = scene, .width = settings->width, .height = settings->height, .reference_samples = REFERENCE_SAMPLES};
+        .scene = scene, .width = settings->width, .height = settings->height, .reference_samples = REFERENCE_TIMES * settings->most_samples};
     rtlang_render(scene, settings, &sampling, RT_PRECISION_DOUBLE, 0, &reference);
     if (reference.status != RT_OK) {
         snprintf(study->fault, sizeof study->fault, "%s", reference.fault);

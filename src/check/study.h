@@ -21,6 +21,7 @@ enum { STUDY_POINTS = 8, STUDY_METHODS = 20, STUDY_TEXT = 256 };
 typedef struct StudyPoint {
     char setting[48];
     double samples; // rays a pixel; 0: not known
+    double effort;  // what was asked for: samples, photons, POV-Ray's depth as the most samples that it allows
     double seconds; // of processor time, one thread, tracing alone; median of the runs
     double rmse;    // root of the mean square over the runs
     double relmse;  // mean of (x - r)² / (r² + 0.01)
@@ -79,6 +80,7 @@ typedef struct StudySettings {
     const double *clock;
     const char *folder; // for pictures and logs
     int repeats;        // runs with different seeds, of which means are taken
+    int most_samples;   // of a ladder, >= 64; the reference has 16 times as many, and photons grow along
     const volatile sig_atomic_t *interrupted;
 } StudySettings;
 

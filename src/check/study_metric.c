@@ -57,6 +57,17 @@ static double student(int freedom)
     return values[freedom];
 }
 
+// Whether the last step gained less than a quarter of what was asked for in addition, in logarithms, where independent samples
+// would gain half of it. What is near the floor tells nothing.
+static bool is_stuck(const StudyMethod *method, double floor)
+{
+    if (method->count < 3) {
+        return false;
+    }
+    const StudyPoint *last = &method->points[method->count - 1], *before = last - 1;
+    return last->rmse > 3.0 * floor && log(before->rmse / last->rmse) < 0.25 * log(last->effort / before->effort);
+}
+
 // The logarithms of points above the floor's reach lie on a line, or they do not.
 void study_fit(StudyMethod *method, double floor)
 {
@@ -72,14 +83,10 @@ void study_fit(StudyMethod *method, double floor)
         }
     }
     method->slope = method->slope_spread = (double)NAN;
-    method->is_biased = false;
+    method->is_biased = is_stuck(method, floor);
     if (count < 2) {
         return;
     }
-    // What the last step gained, for the time that it took: less than a quarter of the time's logarithm is none, where
-    // samples would give half.
-    method->is_biased = count >= 3 && y[count - 1] > log(3.0 * floor) && x[count - 1] - x[count - 2] > log(1.3) &&
-                        (y[count - 2] - y[count - 1]) < 0.25 * (x[count - 1] - x[count - 2]);
     for (int i = 0; i < count; i++) {
         mean_x += x[i] / count;
         mean_y += y[i] / count;

@@ -84,9 +84,9 @@ static void print_forward(const Study *study, FILE *out, const char *before, con
         const StudyPoint *last = &method->points[method->count - 1];
         double times = (last->rmse / goal->rmse) * (last->rmse / goal->rmse); // slope -1/2
         fprintf(out,
-                "%s%s: one of %.3g photons counts; the error of %s, %s (%.3g) would take about %.3g photons and %.3g "
+                "%s%s: a photon counts with probability %.3g, one of %.3g; the error of %s, %s (%.3g) would take about %.3g photons and %.3g "
                 "seconds, %.3g times as long%s\n",
-                before, method->name, method->photons_an_arrival, study->methods[0].name, goal->setting, goal->rmse,
+                before, method->name, 1.0 / method->photons_an_arrival, method->photons_an_arrival, study->methods[0].name, goal->setting, goal->rmse,
                 times * last->samples * study->width * study->height, times * last->seconds,
                 times * last->seconds / goal->seconds, after);
     }
