@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "rtlang/rtlang.h"
 
@@ -62,16 +63,24 @@ typedef struct Picture {
     int width, height;
     float *rgb;
     rt_error error;
-    double seconds;
-    double predicted; // of all samples, at the first report after a tenth of those that were taken in the end; or 0
+    double seconds; // by the clock
     size_t reports;
-    double report_samples[4096], report_all[4096];
+    double report_samples[4096], report_all[4096]; // taken, and predicted of the whole run
+    double report_at[4096], report_left[4096];     // seconds since the run began, and predicted to be left
 } Picture;
 
 typedef struct Running {
     rt_session *session;
     Picture *picture;
+    double start;
 } Running;
+
+static inline double clock_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
 
 __attribute__((unused)) static void on_progress(void *client, double done)
 {
@@ -80,6 +89,8 @@ __attribute__((unused)) static void on_progress(void *client, double done)
     rt_get_error(running->session, &error);
     Picture *picture = running->picture;
     if (done > 0.0 && picture->reports < 4096 && error.known) {
+        picture->report_at[picture->reports] = clock_seconds() - running->start;
+        picture->report_left[picture->reports] = error.seconds_left;
         picture->report_samples[picture->reports] = error.samples;
         picture->report_all[picture->reports++] = error.samples / done; // about: a round may be on its way
     }
@@ -100,17 +111,19 @@ __attribute__((unused)) static Picture *picture_make(const SamplingScene *scene,
     rt_callbacks callbacks = {&running, on_diagnostic, NULL, on_progress};
     rt_session *session = running.session = rt_session_new(&callbacks);
     if (!picture || !session || rt_set_size(session, width, height) || rt_set_sampling(session, sampling) ||
-        rt_load_text(session, scene->name, scene->text, strlen(scene->text)) || rt_render(session, threads)) {
+        rt_load_text(session, scene->name, scene->text, strlen(scene->text))) {
         abort();
     }
+    running.start = clock_seconds();
+    if (rt_render(session, threads)) {
+        abort();
+    }
+    picture->seconds = clock_seconds() - running.start;
     const float *rgb = rt_pixels(session, &picture->width, &picture->height);
     size_t bytes = (size_t)width * (size_t)height * 3 * sizeof *rgb;
     picture->rgb = malloc(bytes);
     memcpy(picture->rgb, rgb, bytes);
     rt_get_error(session, &picture->error);
-    rt_summary summary;
-    rt_get_summary(session, &summary);
-    picture->seconds = summary.trace_seconds;
     rt_session_free(session);
     return picture;
 }
