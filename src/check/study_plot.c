@@ -57,14 +57,15 @@ static Scale scale_of(const Study *study)
     return scale;
 }
 
+// The style stands in the element, where the page's own style for plots does not reach it.
 static void print_line(FILE *out, double x1, double y1, double x2, double y2, const char *style)
 {
-    fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n", x1, y1, x2, y2, style);
+    fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" style=\"%s\"/>\n", x1, y1, x2, y2, style);
 }
 
 static void print_axes(FILE *out, const Scale *scale)
 {
-    static const char grid[] = "stroke=\"currentColor\" stroke-opacity=\"0.15\"";
+    static const char grid[] = "stroke: currentColor; stroke-opacity: 0.15";
 
     for (double x = scale->low_x; x <= scale->high_x; x += 1.0) {
         double at = place_x(scale, pow(10.0, x));
@@ -97,7 +98,7 @@ static void print_guide(FILE *out, const Study *study, const Scale *scale, doubl
     }
     print_line(out, place_x(scale, first->seconds), place_y(scale, first->rmse), place_x(scale, end),
                place_y(scale, pow(10.0, reach)),
-               "stroke=\"currentColor\" stroke-opacity=\"0.5\" stroke-dasharray=\"3 4\"");
+               "stroke: currentColor; stroke-opacity: 0.5; stroke-dasharray: 3 4");
     fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" fill-opacity=\"0.7\">%g</text>\n", place_x(scale, end) + 3,
             place_y(scale, pow(10.0, reach)) - 3, slope);
 }
@@ -105,9 +106,11 @@ static void print_guide(FILE *out, const Study *study, const Scale *scale, doubl
 static void print_method(FILE *out, const Study *study, const Scale *scale, int number)
 {
     const StudyMethod *method = &study->methods[number];
-    const char *dash = method->kind == STUDY_POVRAY ? " stroke-dasharray=\"6 3\"" : "";
+    static const char *const dashes[] = {
+        [STUDY_SAMPLER] = "none", [STUDY_REFERENCE] = "2 2", [STUDY_FORWARD] = "10 3 2 3", [STUDY_POVRAY] = "6 3"};
+    const char *dash = dashes[method->kind];
 
-    fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\"%s points=\"", colour_of(number), dash);
+    fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\" points=\"", colour_of(number), dash);
     for (int i = 0; i < method->count; i++) {
         if (is_shown(&method->points[i])) {
             fprintf(out, "%.1f,%.1f ", place_x(scale, method->points[i].seconds),
@@ -126,8 +129,9 @@ static void print_method(FILE *out, const Study *study, const Scale *scale, int 
         }
     }
     int y = TOP + 14 + 20 * number;
-    fprintf(out, "<line x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\" stroke=\"%s\" stroke-width=\"2\"%s/>\n",
-            WIDTH - RIGHT + 16, y - 4, WIDTH - RIGHT + 40, y - 4, colour_of(number), dash);
+    char style[96];
+    snprintf(style, sizeof style, "stroke: %s; stroke-width: 2; stroke-dasharray: %s", colour_of(number), dash);
+    print_line(out, WIDTH - RIGHT + 16, y - 4, WIDTH - RIGHT + 40, y - 4, style);
     fprintf(out, "<text x=\"%d\" y=\"%d\">%s%s</text>\n", WIDTH - RIGHT + 46, y, method->name,
             method->is_biased ? " (biased)" : "");
 }
@@ -144,7 +148,7 @@ void study_plot(const Study *study, FILE *out, bool is_alone)
     print_axes(out, &scale);
     if (study->floor > 0.0) {
         double y = place_y(&scale, study->floor);
-        print_line(out, LEFT, y, WIDTH - RIGHT, y, "stroke=\"#d62728\" stroke-dasharray=\"1 3\"");
+        print_line(out, LEFT, y, WIDTH - RIGHT, y, "stroke: #d62728; stroke-dasharray: 1 3");
         fprintf(out, "<text x=\"%d\" y=\"%.1f\" fill-opacity=\"0.7\">the reference's own error</text>\n", LEFT + 6,
                 y - 4);
     }
