@@ -105,6 +105,12 @@ bool pattern_map_body(Block *block) RT_MUST_CHECK;
 const PatternMap *pattern_default_map(PatternType type);
 bool pattern_close(Block *block) RT_MUST_CHECK; // of a pigment or texture
 bool normal_close(Block *block) RT_MUST_CHECK;
+
+// Whether something was said of bumps, but no pattern.
+static inline bool normal_lacks_pattern(const NormalBlueprint *normal)
+{
+    return normal->part.pattern.type == PATTERN_NONE && normal->span.end > normal->span.begin;
+}
 // A pigment's colour begins with a colour word or with an identifier of a colour: POV-Ray takes nothing else.
 bool block_begins_like_colour(Block *block, const AstNode *item);
 

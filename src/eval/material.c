@@ -14,7 +14,7 @@ typedef struct Builder {
 } Builder;
 
 static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                        uint32_t *index);
+                        uint32_t *index, unsigned *ways);
 static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out);
 
 // A pattern must be found back from the world.
@@ -161,46 +161,59 @@ static bool has_bumps(const TextureBlueprint *texture)
     return normal->part.pattern.type != PATTERN_NONE && (normal->amount != 0.0 || normal->part.map);
 }
 
-// In how many directions the bumps of a texture may send rays at one point, but for those of its flat layers.
-static unsigned ways_of(const TextureBlueprint *texture)
+// Every layer needs a pattern for its bumps, seen or not.
+static bool layers_have_patterns(Eval *ev, const TextureBlueprint *layer)
 {
-    unsigned ways = 0, most = 0, sum = 0;
-    if (texture->part.pattern.type == PATTERN_NONE) {
-        for (const TextureBlueprint *layer = texture; layer; layer = layer->below) {
-            const Finish *finish = &layer->finish;
-            bool has_mirror = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max);
-            ways += has_bumps(layer) && (layer == texture || has_mirror);
+    for (; layer; layer = layer->below) {
+        if (normal_lacks_pattern(&layer->normal)) {
+            return eval_fault(ev, DIAG_E0253, layer->normal.span, "a normal needs a pattern");
         }
-        return ways;
     }
-    const PatternMap *map = texture->part.map;
-    for (size_t i = 0; i < map->count; i++) {
-        ways = ways_of(map->entries[i].texture);
-        most = ways > most ? ways : most;
-        sum += sum > SCENE_NORMALS_MOST ? 0 : ways;
+    return true;
+}
+
+// In how many directions bumps may send rays at one point, but for those of flat layers.
+static unsigned layers_ways(const TextureBlueprint *top)
+{
+    unsigned ways = 0;
+    for (const TextureBlueprint *layer = top; layer; layer = layer->below) {
+        const Finish *finish = &layer->finish;
+        bool has_mirror = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max);
+        ways += has_bumps(layer) && (layer == top || has_mirror);
     }
-    if (pattern_info((PatternType)texture->part.pattern.type)->blocks) {
+    return ways;
+}
+
+// The same of a pattern of textures, `most` of which have up to so many, and all together `sum`.
+static unsigned pattern_ways(const Pattern *pattern, unsigned most, unsigned sum)
+{
+    if (pattern_info((PatternType)pattern->type)->blocks && pattern->frequency == 0.0) {
         return most;
     }
-    return texture->part.pattern.type == PATTERN_AVERAGE || sum < 2 * most ? sum : 2 * most;
+    return pattern->type == PATTERN_AVERAGE || sum < 2 * most ? sum : 2 * most;
 }
 
 // ---- textures
 
-static bool add_texture_entries(const Builder *builder, const PatternMap *map, uint32_t *first)
+static bool add_texture_entries(const Builder *builder, const PatternPart *part, uint32_t *first, unsigned *ways)
 {
     Transform identity = transform_identity();
+    const PatternMap *map = part->map;
+    unsigned most = 0, sum = 0, own;
     *first = RECORD_NONE;
     for (size_t i = map->count; i-- > 0;) {
         TextureEntry entry = {.at = map->entries[i].at, .next = *first};
         if (!eval_step(builder->ev, builder->span) ||
-            !add_texture(builder, map->entries[i].texture, &identity, &entry.texture)) {
+            !add_texture(builder, map->entries[i].texture, &identity, &entry.texture, &own)) {
             return false;
         }
         if (!scene_add_texture_entry(builder->ev->scene, &entry, first)) {
             return no_memory(builder);
         }
+        most = own > most ? own : most;
+        sum += sum > SCENE_NORMALS_MOST ? 0 : own;
     }
+    *ways = pattern_ways(&part->pattern, most, sum);
     return true;
 }
 
@@ -212,7 +225,7 @@ static bool hides_all(const TextureBlueprint *texture)
 }
 
 static bool add_one_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                            uint32_t *index)
+                            uint32_t *index, unsigned *ways)
 {
     Texture record = {
         .pigment = pigment_of((Rgbft){0.0, 0.0, 0.0, 0.0, 0.0}),
@@ -228,26 +241,30 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
     }
     if (texture->part.pattern.type != PATTERN_NONE) {
         if (!place_pattern(builder, &texture->part.transform, outer, &record.to_world) ||
-            !add_texture_entries(builder, texture->part.map, &record.entries)) {
+            !add_texture_entries(builder, &texture->part, &record.entries, ways)) {
             return false;
         }
-    } else if (!add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
-               (has_bumps(texture) &&
-                !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
-               (texture->below && !hides_all(texture) &&
-                !add_texture(builder, texture->below, &moved, &record.below))) {
+        return scene_add_texture(builder->ev->scene, &record, index) || no_memory(builder);
+    }
+    unsigned unused;
+    *ways = layers_ways(texture);
+    if (!layers_have_patterns(builder->ev, texture) || !add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
+        (has_bumps(texture) &&
+         !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
+        (texture->below && !hides_all(texture) &&
+         !add_texture(builder, texture->below, &moved, &record.below, &unused))) {
         return false;
     }
     return scene_add_texture(builder->ev->scene, &record, index) || no_memory(builder);
 }
 
 static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                        uint32_t *index)
+                        uint32_t *index, unsigned *ways)
 {
     if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
         return false;
     }
-    bool is_added = add_one_texture(builder, texture, outer, index);
+    bool is_added = add_one_texture(builder, texture, outer, index, ways);
     eval_shallow(builder->ev, TREE_DEPTH_WEIGHT);
     return is_added;
 }
@@ -280,6 +297,7 @@ bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *
 {
     Builder builder = {ev, span};
     Compound compound = {.is_hollow = is_hollow};
+    unsigned ways;
     if (!add_interior(&builder, texture, interior, &compound.interior)) {
         return false;
     }
@@ -288,14 +306,15 @@ bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *
         compound.interior == RECORD_NONE) {
         Finish finish = texture->finish;
         finish.flags |= is_hollow ? FINISH_HOLLOW : 0;
-        return scene_add_material(ev->scene, texture->pigment.colour, &finish, index) || eval_no_memory(ev, span);
+        return layers_have_patterns(ev, texture) &&
+               (scene_add_material(ev->scene, texture->pigment.colour, &finish, index) || eval_no_memory(ev, span));
     }
-    if (ways_of(texture) > SCENE_NORMALS_MOST) {
+    if (!add_texture(&builder, texture, outer, &compound.texture, &ways)) {
+        return false;
+    }
+    if (ways > SCENE_NORMALS_MOST) {
         return eval_fault(ev, DIAG_E0295, span, "the bumps of this texture send rays in more than %d directions",
                           (int)SCENE_NORMALS_MOST);
-    }
-    if (!add_texture(&builder, texture, outer, &compound.texture)) {
-        return false;
     }
     return scene_add_compound(ev->scene, &compound, index) || eval_no_memory(ev, span);
 }

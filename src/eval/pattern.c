@@ -51,6 +51,13 @@ static bool keep_entry(Block *block, SchemaKind kind, const Blueprint *record, S
     return true;
 }
 
+// A normal among others must have its pattern at once; one that is declared or the default may get it later.
+static bool has_pattern(Block *block, SchemaKind kind, const Blueprint *record)
+{
+    return kind != KIND_NORMAL || !normal_lacks_pattern(&record->normal) || block->has_unsupported ||
+           block_fault(block, DIAG_E0253, record->normal.span, "a normal needs a pattern");
+}
+
 // ---- maps
 
 static bool read_colour(Block *block, Cursor *cursor, Rgbft *colour)
@@ -167,7 +174,7 @@ static bool read_entry(Block *block, EntryList *list, const AstNode *node)
     Blueprint record;
     PatternEntry entry = {0};
     block_defaults(block->ev, kind, &record);
-    return read_weighed(block->ev, node, kind, block->arena, &entry.at, &record) &&
+    return read_weighed(block->ev, node, kind, block->arena, &entry.at, &record) && has_pattern(block, kind, &record) &&
            keep_entry(block, kind, &record, node->span, &entry) && add_entry(block, list, &entry, node->span);
 }
 
@@ -195,7 +202,8 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     SchemaKind is;
     SchemaKind kind = block_kind(block->ev, item);
     PatternType type = (PatternType)block->record->patterned.pattern.type;
-    if (pattern_info(type)->blocks || type == PATTERN_QUILTED || (type == PATTERN_AVERAGE && kind == KIND_SLOPE_MAP)) {
+    bool has_values = kind == KIND_SLOPE_MAP || kind == KIND_COLOUR_MAP;
+    if (pattern_info(type)->blocks || type == PATTERN_QUILTED || (type == PATTERN_AVERAGE && has_values)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
                            pattern_info(type)->word);
     }
@@ -242,12 +250,10 @@ static bool read_block_entry(Block *block, EntryList *list, bool *is_there)
         Blueprint record;
         SchemaKind is;
         block_defaults(block->ev, kind, &record);
-        if (!block_read(block->ev, item, kind, block->arena, &record, &is) ||
-            !keep_entry(block, kind, &record, item->span, &entry)) {
-            return false;
-        }
+        bool is_kept = block_read(block->ev, item, kind, block->arena, &record, &is) &&
+                       has_pattern(block, kind, &record) && keep_entry(block, kind, &record, item->span, &entry);
         cursor_skip(&block->cursor);
-        return add_entry(block, list, &entry, item->span);
+        return is_kept && add_entry(block, list, &entry, item->span);
     }
     if (item && kind == KIND_PIGMENT && cursor_at_value(&block->cursor)) {
         return read_colour(block, &block->cursor, &entry.colour) && add_entry(block, list, &entry, item->span);
@@ -414,11 +420,13 @@ static bool settle_values(Block *block)
 bool normal_close(Block *block)
 {
     const PatternPart *part = &block->record->patterned;
+    bool lacks_pattern = part->pattern.type == PATTERN_NONE;
     if (block->has_unsupported) {
         return true; // which may have been the pattern
     }
-    if (part->pattern.type == PATTERN_NONE) {
-        return block_fault(block, DIAG_E0253, block->node->span, "a normal needs a pattern");
+    block->record->normal.span = lacks_pattern ? block->node->span : (Span){0, 0};
+    if (lacks_pattern) {
+        return true; // not yet
     }
     if (part->pattern.type == PATTERN_AVERAGE && !average_has_weights(block)) {
         return false;

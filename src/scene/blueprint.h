@@ -60,6 +60,7 @@ typedef struct NormalBlueprint {
     PatternPart part;         // its map is one of normals
     const PatternMap *slopes; // instead of such a map, or NULL
     double amount, accuracy;
+    Span span;                // where one without a pattern was said, which must not be used; else empty
     bool keeps_length; // no_bump_scale
 } NormalBlueprint;
 
