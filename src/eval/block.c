@@ -33,13 +33,14 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
     [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
     [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
+    [ACTION_LOOKS_LIKE] = light_look_action,
 };
 
 // Between the arguments and the properties.
 static const BlockHook bodies[KIND_COUNT] = {
     [KIND_UNION] = object_members,        [KIND_MERGE] = object_members,   [KIND_INTERSECTION] = object_members,
     [KIND_DIFFERENCE] = object_members,   [KIND_OBJECT] = object_body,     [KIND_CLIPPED_BY] = clip_body,
-    [KIND_BOUNDED_BY] = clip_body,
+    [KIND_BOUNDED_BY] = clip_body,        [KIND_LOOKS_LIKE] = object_body,
     [KIND_COLOUR_MAP] = pattern_map_body,
     [KIND_PIGMENT_MAP] = pattern_map_body,
     [KIND_TEXTURE_MAP] = pattern_map_body,
@@ -260,7 +261,7 @@ bool block_value(Block *block, const SchemaProperty *property, Span word)
 
 static bool name_fits(const Block *block, const Value *value)
 {
-    if (schema_kind(block->kind)->is_object) {
+    if (schema_kind(block->kind)->is_object || block->kind == KIND_LOOKS_LIKE) {
         return schema_kind((SchemaKind)value->block)->is_object;
     }
     return value->block == block->kind || (block->kind == KIND_TEXTURE && value->block == KIND_PIGMENT);
@@ -558,6 +559,9 @@ bool block_read_items(Block *block, SchemaKind *is)
     if (bodies[kind] && !block->has_name && !bodies[kind](block)) {
         block->has_fault = true;
     }
+    if (block->moved && !block->has_fault && !block->has_unsupported && !block_transform(block, block->moved)) {
+        block->has_fault = true;
+    }
     read_properties(block);
     cursor_close(&block->cursor);
     if (block->ev->stop || block->has_fault || (closings[kind] && !closings[kind](block))) {
@@ -569,7 +573,13 @@ bool block_read_items(Block *block, SchemaKind *is)
 
 bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Blueprint *record, SchemaKind *is)
 {
-    Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind};
+    return block_read_moved(ev, node, kind, arena, NULL, record, is);
+}
+
+bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
+                      Blueprint *record, SchemaKind *is)
+{
+    Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind, .moved = moved};
     cursor_open(&block.cursor, ev, node->a, node->span);
     if (!block_read_items(&block, is)) {
         return false;

@@ -31,6 +31,7 @@ typedef struct Block {
     Blueprint *record;
     SchemaKind kind;   // of its word
     SchemaKind is;     // of the record: another object kind after an identifier
+    const Transform *moved; // see block_read_moved
     size_t arguments;  // that were given
     size_t items;      // properties so far
     bool has_name;     // it began with an identifier
@@ -50,7 +51,11 @@ void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record);
 // Reads a block into *record, which holds the defaults, and its kind into *is. False when a fault was reported.
 bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Blueprint *record,
                 SchemaKind *is) RT_MUST_CHECK;
-
+// The same, with an object moved before what is said of it after its shape or name. NULL: it is not.
+bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
+                      Blueprint *record, SchemaKind *is) RT_MUST_CHECK;
+// Transforms what has been read of a block so far.
+bool block_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 // The kind that a word begins, KIND_NONE when it begins none.
 SchemaKind block_kind(const Eval *ev, const AstNode *node);
 
@@ -147,6 +152,7 @@ bool light_cone_action(Block *block, const SchemaProperty *property, const AstNo
 bool light_area_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool light_close(Block *block) RT_MUST_CHECK;
 bool light_point_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool light_look_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 void light_transform(LightBlueprint *light, const Transform *transform);
 bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer) RT_MUST_CHECK;
 
@@ -181,6 +187,8 @@ bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
 bool union_close(Block *block) RT_MUST_CHECK;
 bool object_is_group(SchemaKind kind); // a union, merge, intersection or difference
+// How deep groups, and lights that look like groups, stand in one another in an object.
+uint32_t object_depth(SchemaKind kind, const void *object);
 bool object_is_statement(SchemaKind kind); // may stand outside of all braces
 
 // clip.c

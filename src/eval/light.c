@@ -85,6 +85,37 @@ bool light_area_action(Block *block, const SchemaProperty *property, const AstNo
     return true;
 }
 
+// The object is put where the light is at this word, before what else its braces say; later transforms move both.
+bool light_look_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    LightBlueprint *light = &block->record->light;
+    Blueprint record;
+    SchemaKind is = KIND_NONE;
+    (void)property;
+    if (light->look) {
+        return block_fault(block, DIAG_E0256, item->span, "a light looks like one object only");
+    }
+    Transform place = transform_translate(light->position);
+    block_defaults(block->ev, KIND_LOOKS_LIKE, &record);
+    if (!block_read_moved(block->ev, item, KIND_LOOKS_LIKE, block->arena, &place, &record, &is)) {
+        return false;
+    }
+    if (!schema_kind(is)->is_object) {
+        block->has_unsupported = true; // and was told
+        return true;
+    }
+    UnionMember look = {NULL, arena_copy(block->arena, &record, schema_kind(is)->size), is};
+    light->look = look.object ? arena_copy(block->arena, &look, sizeof look) : NULL;
+    light->look_transform = transform_identity();
+    light->look_depth = object_depth(is, &record) + 1;
+    if (!light->look) {
+        return eval_no_memory(block->ev, item->span);
+    }
+    return light->look_depth <= block->ev->options.limits->ast_depth ||
+           block_fault(block, DIAG_E0601, item->span, "objects are nested more than %u deep",
+                       block->ev->options.limits->ast_depth);
+}
+
 // POV-Ray refuses a circular light of one row.
 bool light_close(Block *block)
 {
@@ -101,6 +132,7 @@ void light_transform(LightBlueprint *light, const Transform *transform)
     light->point_at = transform_point(transform, light->point_at);
     light->area.axis1 = transform_direction(transform, light->area.axis1);
     light->area.axis2 = transform_direction(transform, light->area.axis2);
+    light->look_transform = transform_compose(light->look_transform, *transform);
 }
 
 static LightType light_type(const LightBlueprint *light)
@@ -118,6 +150,7 @@ bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer)
     Light record = {
         .type = light_type(light),
         .shadowless = light->shadowless,
+        .is_attenuated = light->is_attenuated,
         .position = moved.position,
         .point_at = moved.point_at,
         .colour = rgbft_rgb(light->colour),

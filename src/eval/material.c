@@ -276,13 +276,13 @@ static bool add_interior(const Builder *builder, const TextureBlueprint *texture
     static const Interior empty = {.ior = 1.0};
     Interior interior = blueprint ? blueprint->interior : empty;
     interior.ior = texture->ior > 0.0 ? texture->ior : interior.ior > 0.0 ? interior.ior : 1.0;
-    if (interior.fade_power == 0.0 || interior.fade_distance == 0.0) {
-        interior.fade_power = interior.fade_distance = 0.0;
+    if (interior.fade_distance == 0.0) {
+        interior.fade_power = 0.0;
         interior.fade_colour = rgb_grey(0.0);
     }
     interior.fade_distance *= world_scale(builder->ev);
     *index = RECORD_NONE;
-    return (interior.ior == 1.0 && interior.fade_power == 0.0) ||
+    return (interior.ior == 1.0 && interior.fade_distance == 0.0) ||
            scene_add_interior(builder->ev->scene, &interior, index) || no_memory(builder);
 }
 

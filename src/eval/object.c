@@ -20,6 +20,13 @@ typedef struct MemberList {
     uint32_t count, depth;
 } MemberList;
 
+uint32_t object_depth(SchemaKind kind, const void *object)
+{
+    return object_is_group(kind)       ? ((const UnionBlueprint *)object)->depth
+           : kind == KIND_LIGHT_SOURCE ? ((const LightBlueprint *)object)->look_depth
+                                       : 0;
+}
+
 static bool add_member(Block *block, MemberList *list, SchemaKind kind, const void *object)
 {
     UnionMember *member = arena_alloc(block->arena, sizeof *member);
@@ -30,10 +37,8 @@ static bool add_member(Block *block, MemberList *list, SchemaKind kind, const vo
     *list->end = member;
     list->end = &member->next;
     list->count++;
-    if (object_is_group(kind)) {
-        uint32_t depth = ((const UnionBlueprint *)object)->depth;
-        list->depth = depth > list->depth ? depth : list->depth;
-    }
+    uint32_t depth = object_depth(kind, object);
+    list->depth = depth > list->depth ? depth : list->depth;
     return true;
 }
 
@@ -280,7 +285,7 @@ static void index_words(Eval *ev)
     ObjectState *objects = ev->objects;
     for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaProperty *property;
-        if (kind != KIND_CLIPPED_BY && kind != KIND_BOUNDED_BY && kind != KIND_REFLECTION) {
+        if (kind != KIND_CLIPPED_BY && kind != KIND_BOUNDED_BY && kind != KIND_LOOKS_LIKE && kind != KIND_REFLECTION) {
             objects->kinds[word_symbol(ev, schema_kind((SchemaKind)kind)->word)] = (uint8_t)kind;
         }
         for (size_t i = 0; (property = schema_property((SchemaKind)kind, i)); i++) {

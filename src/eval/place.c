@@ -280,11 +280,17 @@ static bool grow_object(Eval *ev, SchemaKind kind, const void *object, const Bra
     }
 }
 
+static bool has_no_look(Eval *ev, const LightBlueprint *light)
+{
+    return !light->look || eval_fault(ev, DIAG_E0251, light->part.span,
+                                      "`looks_like` among shapes that are cut is not supported by rtlang");
+}
+
 // Recursive, as `place` is.
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *outer)
 {
     if (kind == KIND_LIGHT_SOURCE) {
-        return light_place(ev, object, &outer->placement.outer);
+        return light_place(ev, object, &outer->placement.outer) && has_no_look(ev, object);
     }
     const ObjectPart *part = object;
     Branch branch = *outer;
@@ -374,11 +380,27 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     return is_round ? is_placed : place_single(ev, common, is_plain, inner, &shape);
 }
 
-// Recursive: object_members keeps trees from growing deeper than the limit.
+// What a light looks like: an object by itself, but for the texture and interior of what is around.
+static bool place_look(Eval *ev, const LightBlueprint *light, const Placement *outer)
+{
+    if (!light->look || outer->clips) {
+        return has_no_look(ev, light);
+    }
+    Placement own = {
+        .outer = transform_compose(light->look_transform, outer->outer),
+        .texture = outer->texture,
+        .texture_outer = outer->texture_outer,
+        .interior = outer->interior,
+        .hidden = outer->hidden | HIDDEN_SHADOW,
+    };
+    return place(ev, light->look->kind, light->look->object, &own);
+}
+
+// Recursive: object_members and light_look_action keep trees from growing deeper than the limit.
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer)
 {
     if (kind == KIND_LIGHT_SOURCE) {
-        return light_place(ev, object, &outer->outer);
+        return light_place(ev, object, &outer->outer) && place_look(ev, object, outer);
     }
     const ObjectPart *part = object;
     ClipChain own = {outer->clips, part->clips, &outer->outer};

@@ -32,7 +32,7 @@ Vec3 vector_unit(Vec3 vector)
 }
 
 // An object's texture moves with it, and so do its clips.
-static bool apply(Block *block, const Transform *transform)
+bool block_transform(Block *block, const Transform *transform)
 {
     if (block->is == KIND_LIGHT_SOURCE) {
         light_transform(&block->record->light, transform);
@@ -171,7 +171,7 @@ bool transform_action(Block *block, const SchemaProperty *property, const AstNod
     if (!extent_note(block, &transform, takes_vector && is_even, span)) {
         return false;
     }
-    if (!apply(block, &transform)) {
+    if (!block_transform(block, &transform)) {
         return false;
     }
     return transform_is_finite(&block->record->transform) || block->is == KIND_LIGHT_SOURCE ||

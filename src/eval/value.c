@@ -36,6 +36,7 @@ static const char *const block_descriptions[KIND_COUNT] = {
     [KIND_FINISH] = "a finish",
     [KIND_CLIPPED_BY] = "a clipped_by",
     [KIND_BOUNDED_BY] = "a bounded_by",
+    [KIND_LOOKS_LIKE] = "a looks_like",
     [KIND_REFLECTION] = "a reflection",
     [KIND_TRANSFORM] = "a transform",
     [KIND_UNSUPPORTED] = "something that is not supported",

@@ -112,8 +112,17 @@ RT_ALWAYS_INLINE uint32_t shade_interior(const Prepared *p, MaterialIndex materi
 // What an interior leaves of light that comes out of it.
 RT_ALWAYS_INLINE Rgb shade_faded(const Prepared *p, uint32_t interior, double way)
 {
-    return interior != RECORD_NONE && p->interiors[interior].fade_power != 0.0
+    return interior != RECORD_NONE && p->interiors[interior].fade_distance != 0.0
                ? inside_fade(&p->interiors[interior], way)
+               : rgb_grey(1.0);
+}
+
+// The same on the way from a light, where a power of 0 leaves all. Measured.
+RT_ALWAYS_INLINE Rgb shade_shadow_faded(const Prepared *p, const Surface *surface, double t)
+{
+    uint32_t interior = shade_interior(p, surface->material);
+    return interior != RECORD_NONE && p->interiors[interior].fade_power != 0.0
+               ? shade_faded(p, interior, t * p->textures.scale)
                : rgb_grey(1.0);
 }
 
@@ -141,7 +150,7 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, R
         }
         share = rgb_mul(share, through);
         if ((features & RENDER_INTERIORS) && hit.inside) {
-            share = rgb_mul(share, shade_faded(p, shade_interior(p, surface.material), hit.t * p->textures.scale));
+            share = rgb_mul(share, shade_shadow_faded(p, &surface, hit.t));
         }
         ray.origin = surface.point;
         t_max -= hit.t;
@@ -387,7 +396,7 @@ RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoi
 }
 
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to the
-// next level.
+// next level. There is none when it is too deep or worth too little.
 RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ShadeOnward *onward, Rgb fade,
                                  const ShadePoint *at, const PendingRay *from, const Inside *before,
                                  const Inside *behind, Pending *pending)
@@ -398,27 +407,25 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sha
     }
     bool is_bent = inside_bend(at->direction, normal, at->ior_ratio, &direction);
     int place = pending->count;
-    if (is_bent) {
-        shade_transmit(p, onward, at, from, pending);
-    } else if (from->level < p->max_trace_level) {
-        pending->rays[pending->count] = *from;
-        pending->rays[pending->count].opens = false;
+    shade_transmit(p, onward, at, from, pending);
+    if (pending->count == place) {
+        return false;
+    }
+    PendingRay *ray = &pending->rays[place];
+    if (!is_bent) {
+        // Its weight is that of one that gets through, its light is not. Measured.
         double part = features & RENDER_NORMALS ? onward->part : 1.0;
-        pending->rays[pending->count++].share = rgb_mul(from->share, rgb_scale(part, fade));
+        ray->share = rgb_mul(from->share, rgb_scale(part, fade));
         direction = shade_mirrored(features, at);
     }
-    if (pending->count > place) {
-        PendingRay *ray = &pending->rays[place];
-        // Bumps may bend a ray back to the side that it came from.
-        bool goes_in = (features & RENDER_NORMALS) && is_bent ? vec3_dot(at->outward, direction) < 0.0
-                                                              : is_bent != at->inside;
-        ray->ray = (Ray){at->point, direction};
-        ray->start = (RayStart){at->shape, goes_in, from->start.use};
-        ray->level = from->level + 1;
-        ray->passed = 0;
-        ray->known = NULL;
-        inside_copy(&pending->inside[place], is_bent ? behind : before);
-    }
+    // Bumps may bend a ray back to the side that it came from.
+    bool goes_in = (features & RENDER_NORMALS) && is_bent ? vec3_dot(at->outward, direction) < 0.0
+                                                          : is_bent != at->inside;
+    ray->ray = (Ray){at->point, direction};
+    ray->start = (RayStart){at->shape, goes_in, is_bent ? from->start.use : HIDDEN_MIRROR};
+    ray->level = from->level + 1;
+    ray->passed = 0;
+    inside_copy(&pending->inside[place], is_bent ? behind : before);
     return !is_bent;
 }
 

@@ -335,12 +335,12 @@ static RealRgb real_pigment_through(Rgbft pigment)
     return real_rgb_add(through, (Real)pigment.transmit, real_grey(1));
 }
 
-// As shade_faded; `way` in prepared lengths.
-static RealRgb real_faded(const RealScene *s, MaterialIndex material, Real way)
+// As shade_faded and shade_shadow_faded; `way` in prepared lengths.
+static RealRgb real_faded(const RealScene *s, MaterialIndex material, Real way, bool is_shadow)
 {
     uint32_t index = study_interior(s->p, material);
     const Interior *interior = index == RECORD_NONE ? NULL : &s->p->interiors[index];
-    if (!interior || interior->fade_power == 0.0) {
+    if (!interior || interior->fade_distance == 0.0 || (is_shadow && interior->fade_power == 0.0)) {
         return real_grey(1);
     }
     Real relative = way / s->inverse_scale / (Real)interior->fade_distance;
@@ -371,7 +371,7 @@ static RealRgb real_visibility(const RealScene *s, const RealHit *at, RealVec to
             return real_grey(0);
         }
         share = real_rgb_mul(share, through);
-        share = hit.inside ? real_rgb_mul(share, real_faded(s, hit.material, hit.t)) : share;
+        share = hit.inside ? real_rgb_mul(share, real_faded(s, hit.material, hit.t, true)) : share;
         ray.e = hit.point;
         distance -= hit.t;
         start = (RealStart){hit.kind, hit.index, true, !hit.inside};
@@ -526,7 +526,7 @@ static RealRgb real_reflected(const RealScene *s, const RealJunction *j, const R
 static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way, Inside *inside, bool *is_total)
 {
     RealRgb through = real_rgb_scale((Real)j->finish->refraction, real_pigment_through(j->pigment));
-    RealRgb fade = j->at.inside ? real_faded(s, j->at.material, j->at.t) : real_grey(1);
+    RealRgb fade = j->at.inside ? real_faded(s, j->at.material, j->at.t, false) : real_grey(1);
     RealVec direction = way->ray.d;
     *is_total = false;
     if (real_rgb_is_black(through)) {
@@ -537,23 +537,23 @@ static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way,
     if (way->level >= s->p->max_trace_level) {
         return false;
     }
+    Real weight = way->weight * real_rgb_max(through);
+    if (j->finish->conserves_energy) {
+        RealRgb left = real_rgb_add(real_grey(1), -1, j->reflectance);
+        through = real_rgb_mul(through, left);
+        weight *= real_rgb_max(left);
+    }
+    Real grey = (Real)0.297 * through.red + (Real)0.589 * through.green + (Real)0.114 * through.blue;
+    if (weight < (Real)s->p->adc_bailout || grey < (Real)s->p->adc_bailout || way->passed >= s->p->crossings_max) {
+        *is_total = false;
+        return false;
+    }
+    way->weight = weight;
     if (*is_total) {
         way->share = real_rgb_mul(way->share, fade);
         direction = real_mirrored(way->ray.d, j->normal);
     } else {
-        through = real_rgb_mul(through, fade);
-        Real weight = way->weight * real_rgb_max(through);
-        if (j->finish->conserves_energy) {
-            RealRgb left = real_rgb_add(real_grey(1), -1, j->reflectance);
-            through = real_rgb_mul(through, left);
-            weight *= real_rgb_max(left);
-        }
-        Real grey = (Real)0.297 * through.red + (Real)0.589 * through.green + (Real)0.114 * through.blue;
-        if (weight < (Real)s->p->adc_bailout || grey < (Real)s->p->adc_bailout || way->passed >= s->p->crossings_max) {
-            return false;
-        }
-        way->share = real_rgb_mul(way->share, through);
-        way->weight = weight;
+        way->share = real_rgb_mul(way->share, real_rgb_mul(through, fade));
         inside_copy(inside, &j->behind);
     }
     way->ray = (RealRay){j->at.point, direction};

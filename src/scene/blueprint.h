@@ -122,14 +122,20 @@ typedef struct ObjectPart {
     Span span;
 } ObjectPart;
 
+typedef struct UnionMember UnionMember;
+
 typedef struct LightBlueprint {
     ObjectPart part; // of a declared light that is used; a light has no material
     Vec3 position, point_at;
     Rgbft colour;
     double radius, falloff, tightness, fade_distance, fade_power;
     LightArea area;
+    const UnionMember *look;  // the object that is seen in its place, or NULL
+    Transform look_transform; // of the object
+    uint32_t look_depth;      // of groups and lights in one another
     bool parallel, spotlight, cylinder, shadowless;
-    bool is_ignored; // words that change no picture here
+    bool is_attenuated; // media_attenuation
+    bool is_ignored;    // a word that changes no picture here
 } LightBlueprint;
 
 typedef struct SphereBlueprint {
@@ -182,7 +188,6 @@ typedef struct SmoothTriangleBlueprint {
     Vec3 corners[3], normals[3];
 } SmoothTriangleBlueprint;
 
-typedef struct UnionMember UnionMember;
 struct UnionMember {
     UnionMember *next;
     const void *object; // the blueprint of its kind

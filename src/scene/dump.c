@@ -130,6 +130,7 @@ static void dump_light(const Light *light, TextBuffer *out)
         dump_number(out, " fade_power ", light->fade_power);
     }
     dump_area(&light->area, out);
+    text_append(out, light->is_attenuated ? " media_attenuation on" : "");
     text_append(out, light->shadowless ? " shadowless }\n" : " }\n");
 }
 

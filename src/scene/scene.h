@@ -59,6 +59,7 @@ typedef struct LightArea {
 typedef struct Light {
     LightType type;
     bool shadowless;
+    bool is_attenuated; // by fog, which is not supported: a fault where there is some
     Vec3 position;
     Vec3 point_at; // but LIGHT_POINT: the light shines along point_at - position
     Rgb colour;

@@ -174,13 +174,15 @@ static const SchemaProperty light_properties[] = {
     {"adaptive", TYPE_INTEGER, AT(LightBlueprint, area.adaptive), GIVEN(LightBlueprint, area.is_adaptive),
      .range = {RANGE_FAULT, false, 0.0, 20.0},
      .doc = "not all of them are asked for, where after so many halvings the corners agree"},
+    {"looks_like", TYPE_BLOCK, ACTION_LOOKS_LIKE,
+     .doc = "an object that is seen where the light is and throws no shadow; what is said before moves it too"},
     {"media_interaction", TYPE_SWITCH, AT(LightBlueprint, is_ignored), .doc = "accepted; changes no picture"},
-    {"media_attenuation", TYPE_SWITCH, AT(LightBlueprint, is_ignored), .doc = "accepted; changes no picture"},
+    {"media_attenuation", TYPE_SWITCH, AT(LightBlueprint, is_attenuated), .doc = "not in fog; changes no picture elsewhere"},
     {"shadowless", TYPE_ACTION, ACTION_SHADOWLESS,
      .doc = "casts no shadows and makes no highlights; takes back `spotlight` and `cylinder`, and they it"},
 };
 
-static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {0, 0, 1}};
+static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {0, 0, 1}, .look_transform = IDENTITY};
 
 static const SchemaProperty sphere_arguments[] = {
     {"centre", TYPE_VECTOR, AT(SphereBlueprint, centre), .doc = "its middle"},
@@ -453,9 +455,9 @@ static const TextureBlueprint texture_defaults = {
 static const SchemaProperty interior_properties[] = {
     {"ior", TYPE_NUMBER, AT(InteriorBlueprint, interior.ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "index of refraction; 0 is 1"},
-    {"fade_distance", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_distance), .doc = "the way that halves the light"},
+    {"fade_distance", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_distance), .doc = "the way that halves the light; 0: none is lost"},
     {"fade_power", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_power),
-     .doc = "1 / (1 + (way / distance) ^ power); from 1000 on exp(-way / distance); 0: no fading"},
+     .doc = "1 / (1 + (way / distance) ^ power); from 1000 on exp(-way / distance)"},
     {"fade_color", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "what the light fades to"},
     {"fade_colour", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "the same"},
 };
@@ -699,6 +701,11 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                          .size = sizeof(UnionBlueprint),
                          .defaults = &union_defaults,
                          .doc = "In an object: likewise, or the word `clipped_by`."},
+    [KIND_LOOKS_LIKE] = {.word = "looks_like",
+                         .size = sizeof(UnionBlueprint),
+                         .defaults = &union_defaults,
+                         .groups = {OBJECT_GROUPS},
+                         .doc = "In a light: one object, or the name of one, put where the light is, and then how this copy differs."},
     [KIND_REFLECTION] = {.word = "reflection",
                          .size = sizeof(FinishBlueprint),
                          .defaults = &finish_defaults,

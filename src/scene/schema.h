@@ -49,6 +49,7 @@ typedef enum SchemaKind {
     KIND_MATERIAL,
     KIND_CLIPPED_BY, // braces of an object's properties; read as objects
     KIND_BOUNDED_BY,
+    KIND_LOOKS_LIKE,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
@@ -98,6 +99,7 @@ typedef enum SchemaAction {
     ACTION_LIGHT_TYPE,
     ACTION_CONE,
     ACTION_SHADOWLESS,
+    ACTION_LOOKS_LIKE,
     ACTION_AREA_LIGHT,
     ACTION_ASSUMED_GAMMA,
     ACTION_SKY_LAYER,

@@ -39,6 +39,10 @@ static bool lights_are_valid(const Scene *scene, DiagSink *diags)
             diag_report(diags, DIAG_E0411, light->span, "the light has a number that is not finite");
             valid = false;
         }
+        if (light->is_attenuated && scene->fogs.count > 0) {
+            diag_report(diags, DIAG_E0251, light->span, "`media_attenuation` in fog is not supported by rtlang");
+            valid = false;
+        }
     }
     return valid;
 }
