@@ -244,8 +244,10 @@ update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_d
 
 # What takes too long for every day.
 .PHONY: check-long
-check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
-	tests/unit/test_trace_certified$(EXEEXT) 1000000 "$$(date +%s)"
+check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
+  tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
+	tests/unit/test_trace_certified$(EXEEXT) 1000000
+	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py
