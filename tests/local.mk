@@ -40,6 +40,7 @@ unit_programs = \
   tests/unit/test_trace_geometry \
   tests/unit/test_trace_tree \
   tests/unit/test_trace_secondary \
+  tests/unit/test_coincident \
   tests/unit/test_invariance \
   tests/unit/test_study \
   tests/unit/test_trace_pixel \
@@ -124,6 +125,8 @@ tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_coincident_SOURCES = %D%/unit/test_coincident.c $(unit_headers)
+tests_unit_test_coincident_LDADD = libapi.la
 tests_unit_test_invariance_SOURCES = %D%/unit/test_invariance.c %D%/unit/scenes.h
 tests_unit_test_invariance_LDADD = libapi.la
 tests_unit_test_study_SOURCES = %D%/unit/test_study.c %D%/unit/scenes.h

@@ -206,6 +206,8 @@ typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
 // A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. SHAPE_NOTHING,
 // with a warning, for one of no extent.
 ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part);
+// The radius of a sphere under a transform; false when it is no sphere any more.
+bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.
 bool shape_flattened(Eval *ev, const ObjectPart *part);
 

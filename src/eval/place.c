@@ -97,17 +97,10 @@ static bool is_hollow(SchemaKind kind, const void *object)
 static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placement *inner, bool *is_round)
 {
     const Transform *transform = &inner->outer;
-    double radius = sphere->radius;
-    double factor, image;
+    double image;
     Span span = sphere->part.span;
     MaterialIndex material;
-    *is_round = true;
-    if (transform_is_similarity(transform, &factor)) {
-        image = radius * factor;
-    } else {
-        Transform whole = transform_compose(transform_scale(vec3(radius, radius, radius)), *transform);
-        *is_round = transform_is_similarity(&whole, &image);
-    }
+    *is_round = sphere_image_radius(sphere->radius, transform, &image);
     if (!*is_round || !may_add(ev, span) || !place_material(ev, inner, span, &material)) {
         return !*is_round;
     }

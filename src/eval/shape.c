@@ -54,6 +54,17 @@ static void set_round(Transform *frame, Vec3 n, double radius)
     set_row(frame, 1, vec3_scale(radius, vec3(b, sign + n.y * n.y * a, -n.y)));
 }
 
+bool sphere_image_radius(double radius, const Transform *transform, double *image)
+{
+    double factor;
+    if (transform_is_similarity(transform, &factor)) {
+        *image = radius * factor;
+        return true;
+    }
+    Transform whole = transform_compose(transform_scale(vec3(radius, radius, radius)), *transform);
+    return transform_is_similarity(&whole, image);
+}
+
 static ShapeResult nothing(Eval *ev, Span span, const char *why)
 {
     eval_warn(ev, DIAG_W0348, span, "%s", why);
@@ -227,6 +238,18 @@ static void normalise_corners(Part *part)
     }
 }
 
+// A sphere that is still one has no turn, so that it is the same surface, bit for bit, as a plain sphere of this text.
+static Transform sphere_to_world(const SphereBlueprint *sphere, const Transform *ball, const Transform *transform)
+{
+    double radius;
+    if (!sphere_image_radius(sphere->radius, transform, &radius)) {
+        return transform_compose(*ball, *transform);
+    }
+    Transform round = transform_scale(vec3(radius, radius, radius));
+    set_row(&round, 3, transform_point(transform, sphere->centre));
+    return round;
+}
+
 ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part)
 {
     const ObjectPart *common = object;
@@ -243,7 +266,9 @@ ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Tran
     if (result != SHAPE_MADE) {
         return result;
     }
-    part->to_world = kind == KIND_BOX ? *transform : transform_compose(part->to_world, *transform);
+    part->to_world = kind == KIND_BOX      ? *transform
+                     : kind == KIND_SPHERE ? sphere_to_world(object, &part->to_world, transform)
+                                           : transform_compose(part->to_world, *transform);
     make_zeros_positive(&part->to_world);
     if (!transform_is_finite(&part->to_world) || !transform_invert(&part->to_world, &part->to_object)) {
         shape_flattened(ev, common);

@@ -72,14 +72,14 @@ static LifeChoice textbook_choice(const LifeSphere *sphere)
 }
 
 // By the rules of query_spheres_closest.
-static void certify(LifeSphere *out, Ray ray, const Ball *ball, RayStart start, const Ball *start_ball, double scale)
+static void certify(LifeSphere *out, Ray ray, const Ball *ball, const StartSphere *on, double scale)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
     double rough;
     bool inside = false;
-    if (ball_equal(ball, start_ball)) {
-        out->choice = start.inward ? LIFE_GOES_THROUGH : LIFE_LEFT;
-        double t = start.inward ? sphere_root_inward(&sphere_ray, ball) : 0.0;
+    if (ball_equal(ball, &on->ball)) {
+        out->choice = on->inward ? LIFE_GOES_THROUGH : LIFE_LEFT;
+        double t = on->inward ? sphere_root_inward(&sphere_ray, ball) : 0.0;
         Vec3 f = vec3_sub(ray.origin, ball->centre);
         double cosine = fabs(vec3_dot(f, ray.direction)) / (vec3_length(f) * vec3_length(ray.direction));
         out->t = t * scale;
@@ -101,7 +101,7 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *n
 {
     const Geometry *g = follower->p->geometry;
     const SphereTable *table = &g->spheres;
-    Ball start_ball = query_start_ball(g, now->start);
+    StartSphere on = query_start_sphere(g, TRACE_ALL_FEATURES, now->start);
     ray->first_sphere = follower->life->spheres.count;
     for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
         Ball ball = sphere_table_ball(table, slot);
@@ -111,7 +111,7 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *n
         LifeSphere sphere = {.centre = in_scene(follower, ball.centre),
                              .radius = sqrt(ball.radius_squared) * follower->scale};
         textbook(&sphere, now->ray, &ball, follower->scale);
-        certify(&sphere, now->ray, &ball, now->start, &start_ball, follower->scale);
+        certify(&sphere, now->ray, &ball, &on, follower->scale);
         bool is_told = table->count <= SPHERES_FEW || sphere.h >= 0.0 || sphere.t > 0.0;
         if (!is_told || follower->life->spheres.count - ray->first_sphere >= SPHERES_MOST) {
             ray->missed++;
@@ -131,15 +131,6 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *n
             (out) = (list).items[i].source;                                                                            \
         }                                                                                                              \
     }
-
-// A solid's bound holds for ellipsoids too, which are unit balls under a map.
-static double ellipsoid_error(const EllipsoidShape *shape, const Ray *ray, double t)
-{
-    Solid solid = {
-        .kind = PART_BALL, .centre = shape->centre, .to_world = shape->to_world, .to_object = shape->to_object};
-    Ray object = solid_ray(&solid, ray);
-    return solid_crossing_error(&solid, ray, &object, t, 0);
-}
 
 // 4 u for n·e and the difference, 3 u for n·d, 1 u for the quotient.
 static double plane_error(const PlaneShape *plane, const Ray *ray, double t)
@@ -164,7 +155,7 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
     case SHAPE_ELLIPSOID:
         out->shape = "stretched sphere";
         SOURCE_BY_ORDER(scene->ellipsoids, at->order, out->source);
-        error = ellipsoid_error(&g->ellipsoids[index].shape, ray, t);
+        error = ellipsoid_crossing_error(&g->ellipsoids[index].shape, ray, t);
         break;
     case SHAPE_PLANE:
         out->shape = "plane";

@@ -24,6 +24,7 @@ typedef struct Passage {
     const ShapeTable *table;
     const Assembly *assembly;
     const Ray *ray;
+    double start_error;    // how far along the ray its start may be off its surface
     uint32_t *inside;      // for each node
     bool *is_inside;       // for each solid, PART_INVERSE minded
     Crossing *crossings;   // a heap by t, then by number
@@ -108,37 +109,34 @@ static void passage_flat(Passage *p, uint32_t index, RayStart start)
     Ray object = solid_ray(solid, p->ray);
     double t;
     bool is_start = starts_on_part(start) && solid_equal(solid, &p->table->solids[part_index(start.shape)]);
-    if (!is_start && solid_flat_root(solid, &object, &t) && t > 0.0) {
-        passage_add(p, index, t, 0.0, 0, false, true);
+    if (is_start || !solid_flat_root(solid, &object, &t)) {
+        return;
+    }
+    double error = solid_crossing_error(solid, p->ray, &object, t, 0);
+    if (t > (starts_beside(p->table, start, solid) ? error + p->start_error : 0.0)) {
+        passage_add(p, index, t, error, 0, false, true);
     }
 }
 
-// Where the ray grazes a round side the bound has no bounds, but a crossing is not off by more than the chord is long.
-static double crossing_error(const Passage *p, const Solid *solid, const Ray *object, const Chord *chord, bool leaves)
-{
-    double t = leaves ? chord->leave : chord->enter;
-    uint8_t side = leaves ? chord->leave_side : chord->enter_side;
-    return isinf(t) ? 0.0 : fmin(solid_crossing_error(solid, p->ray, object, t, side), chord->leave - chord->enter);
-}
-
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later. A ray that starts on
-// the same assembly has passed what lies within rounding of its start.
+// a surface has passed what lies within rounding of its start.
 static void passage_solid_begin(Passage *p, uint32_t index, RayStart start, bool is_own)
 {
     const Solid *solid = passage_solid(p, index);
     bool is_start = is_own && part_index(start.shape) == p->assembly->first_solid + index;
+    bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
     Chord chord;
     Ray object = solid_ray(solid, p->ray);
     if ((is_start && !inward) || !solid_chord(solid, &object, is_start ? part_side(start.shape) : SIDE_NONE, &chord)) {
         return;
     }
-    double leave_error = crossing_error(p, solid, &object, &chord, true);
-    if (!(chord.leave > (is_own && !is_start ? leave_error : 0.0))) {
+    double leave_error = solid_chord_error(solid, p->ray, &object, &chord, true);
+    if (!(chord.leave > (is_beside ? leave_error + p->start_error : 0.0))) {
         return;
     }
-    double enter_error = crossing_error(p, solid, &object, &chord, false);
-    if (is_start || !(chord.enter > (is_own ? enter_error : 0.0))) {
+    double enter_error = solid_chord_error(solid, p->ray, &object, &chord, false);
+    if (is_start || !(chord.enter > (is_beside ? enter_error + p->start_error : 0.0))) {
         passage_toggle(p, index);
     } else {
         passage_add(p, index, chord.enter, enter_error, chord.enter_side, false, false);
@@ -202,14 +200,14 @@ static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Nearest *nea
         }
     }
     if (seen) {
-        solid_offer(p->table, p->assembly->first_solid + seen->solid, p->ray, seen->t, seen->side, seen->leaves,
-                    nearest);
+        solid_offer(p->table, p->assembly->first_solid + seen->solid, p->ray, seen->t, seen->error, seen->side,
+                    seen->leaves, nearest);
     }
     return seen;
 }
 
 void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
-                      Nearest *nearest)
+                      double start_error, Nearest *nearest)
 {
     if (assembly->hidden & start.use) {
         return;
@@ -217,7 +215,7 @@ void assembly_closest(const ShapeTable *table, const Assembly *assembly, const R
     uint32_t inside[assembly->node_count];
     bool is_inside[assembly->solid_count];
     Crossing crossings[2 * (size_t)assembly->solid_count];
-    Passage p = {table, assembly, ray, inside, is_inside, crossings, 0};
+    Passage p = {table, assembly, ray, start_error, inside, is_inside, crossings, 0};
     bool is_own =
         starts_on_part(start) && part_index(start.shape) - assembly->first_solid < assembly->solid_count;
     for (uint32_t i = 0; i < assembly->node_count; i++) {
@@ -236,7 +234,7 @@ void assembly_closest(const ShapeTable *table, const Assembly *assembly, const R
     for (uint32_t i = p.count / 2; i-- > 0;) {
         heap_sift(&p, i);
     }
-    while (p.count > 0 && p.crossings[0].t <= nearest->hit.t) {
+    while (p.count > 0 && p.crossings[0].t - p.crossings[0].error <= nearest->hit.t + nearest->error) {
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         double until = crossings[begin].t + crossings[begin].error;

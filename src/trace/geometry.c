@@ -73,6 +73,75 @@ static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
     return true;
 }
 
+// ---- balls that equal spheres
+
+static bool solid_is_round(const Solid *solid)
+{
+    const double(*m)[3] = solid->to_world.m;
+    return solid->kind == PART_BALL && m[0][1] == 0.0 && m[0][2] == 0.0 && m[1][0] == 0.0 && m[1][2] == 0.0 &&
+           m[2][0] == 0.0 && m[2][1] == 0.0 && m[0][0] == m[1][1] && m[1][1] == m[2][2];
+}
+
+static Ball solid_ball(const Solid *solid)
+{
+    return ball_make(solid->centre, solid->to_world.m[0][0]);
+}
+
+static int place_compare(Vec3 a, Vec3 b)
+{
+    return a.x != b.x ? (a.x > b.x) - (a.x < b.x) : a.y != b.y ? (a.y > b.y) - (a.y < b.y) : (a.z > b.z) - (a.z < b.z);
+}
+
+static int solid_compare(const void *a, const void *b)
+{
+    return place_compare((*(Solid *const *)a)->centre, (*(Solid *const *)b)->centre);
+}
+
+// The first of `balls`, in order of their centres, that is not before a place.
+static size_t first_from(Solid *const *balls, size_t count, Vec3 place)
+{
+    size_t low = 0;
+    while (count > 0) {
+        size_t half = count / 2;
+        bool is_less = place_compare(balls[low + half]->centre, place) < 0;
+        low += is_less ? half + 1 : 0;
+        count = is_less ? count - half - 1 : half;
+    }
+    return low;
+}
+
+// Tells balls among the parts which sphere they equal, so that the two are one surface. Every sphere is looked up among
+// the balls, which are few.
+static bool twins_init(Geometry *geometry)
+{
+    ShapeTable *shapes = &geometry->shapes;
+    const SphereTable *spheres = &geometry->spheres;
+    Solid **balls = malloc((shapes->solid_count + 1) * sizeof *balls);
+    size_t count = 0;
+    for (uint32_t i = 0; balls && i < shapes->solid_count; i++) {
+        if (solid_is_round(&shapes->solids[i])) {
+            balls[count++] = &shapes->solids[i];
+        }
+    }
+    if (count > 0) {
+        qsort(balls, count, sizeof(Solid *), solid_compare);
+    }
+    for (uint32_t slot = 0; count > 0 && slot < spheres->block_count * SPHERE_BLOCK; slot++) {
+        Ball sphere = sphere_table_ball(spheres, slot);
+        for (size_t i = first_from(balls, count, sphere.centre); i < count; i++) {
+            Ball ball = solid_ball(balls[i]);
+            if (!vec3_equal(ball.centre, sphere.centre)) {
+                break;
+            }
+            bool is_first = balls[i]->twin == SLOT_NONE ||
+                            spheres->info[slot].order < spheres->info[balls[i]->twin].order;
+            balls[i]->twin = ball_equal(&ball, &sphere) && is_first ? slot : balls[i]->twin;
+        }
+    }
+    free(balls);
+    return balls != NULL;
+}
+
 const char *geometry_isa(size_t i)
 {
     const SphereKernels *kernels;
@@ -93,7 +162,7 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels || !sphere_table_init(&geometry->spheres, scene, exponent, options->threads) ||
         !ellipsoids_init(geometry, scene, exponent) || !planes_init(geometry, scene, exponent) ||
-        !shapes_init(&geometry->shapes, scene, exponent, options->threads)) {
+        !shapes_init(&geometry->shapes, scene, exponent, options->threads) || !twins_init(geometry)) {
         geometry_free(geometry);
         return NULL;
     }

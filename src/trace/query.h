@@ -12,26 +12,43 @@
 
 enum { TRACE_ANY_SPHERES = TRACE_SPHERES | TRACE_SPHERE_BVH };
 
-// The sphere that the ray starts on, or one that equals none. Equal spheres, declared twice, are one surface.
-RT_ALWAYS_INLINE Ball query_start_ball(const Geometry *g, RayStart start)
+// The sphere of the table that the ray starts on, and whether it goes into it.
+typedef struct StartSphere {
+    uint32_t slot; // SLOT_NONE: none
+    bool inward;
+    Ball ball; // equals none when there is none
+} StartSphere;
+
+// Equal spheres, declared twice, are one surface, also where one of them is clipped or in a composite.
+RT_ALWAYS_INLINE StartSphere query_start_sphere(const Geometry *g, unsigned features, RayStart start)
 {
-    bool on_sphere = start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_SPHERE;
-    return on_sphere ? sphere_table_ball(&g->spheres, shape_index(start.shape)) : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
+    StartSphere on = {SLOT_NONE, start.inward, {{0.0, 0.0, 0.0}, (double)NAN}};
+    if (start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_SPHERE) {
+        on.slot = shape_index(start.shape);
+    } else if ((features & TRACE_PARTS) && starts_on_part(start)) {
+        const Solid *solid = &g->shapes.solids[part_index(start.shape)];
+        on.slot = solid->twin;
+        on.inward = start.inward != solid->flips;
+    }
+    if (on.slot != SLOT_NONE) {
+        on.ball = sphere_table_ball(&g->spheres, on.slot);
+    }
+    return on;
 }
 
 RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
                                             Nearest *nearest)
 {
-    Ball start_ball = query_start_ball(g, start);
-    if (start.inward && !isnan(start_ball.radius_squared)) {
-        nearest_offer(nearest, sphere_root_inward(ray, &start_ball), start.shape, true,
-                      g->spheres.info[shape_index(start.shape)].order);
+    StartSphere on = query_start_sphere(g, features, start);
+    if (on.inward && on.slot != SLOT_NONE) {
+        nearest_offer(nearest, sphere_root_inward(ray, &on.ball), shape_id(SHAPE_SPHERE, on.slot), true,
+                      g->spheres.info[on.slot].order);
     }
     for (uint32_t i = 0; i < g->spheres.loose_count; i++) {
-        sphere_slot_closest(&g->spheres, i, ray, &start_ball, nearest);
+        sphere_slot_closest(&g->spheres, i, ray, &on.ball, nearest);
     }
     if (features & TRACE_SPHERE_BVH) {
-        g->kernels->closest(&g->spheres, ray, &start_ball, nearest);
+        g->kernels->closest(&g->spheres, ray, &on.ball, nearest);
     }
     nearest_settle(&g->spheres, ray, nearest);
 }
@@ -39,24 +56,67 @@ RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features
 RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned features, const SphereRay *ray,
                                              RayStart start, double t_max)
 {
-    Ball start_ball = query_start_ball(g, start);
-    if (start.inward && !isnan(start_ball.radius_squared)) {
-        double t = sphere_root_inward(ray, &start_ball);
+    StartSphere on = query_start_sphere(g, features, start);
+    if (on.inward && on.slot != SLOT_NONE) {
+        double t = sphere_root_inward(ray, &on.ball);
         if (t > 0.0 && t < t_max) {
             return true;
         }
     }
     for (uint32_t i = 0; i < g->spheres.loose_count; i++) {
-        if (sphere_slot_occludes(&g->spheres, i, ray, &start_ball, t_max)) {
+        if (sphere_slot_occludes(&g->spheres, i, ray, &on.ball, t_max)) {
             return true;
         }
     }
-    return (features & TRACE_SPHERE_BVH) && g->kernels->occluded(&g->spheres, ray, &start_ball, t_max);
+    return (features & TRACE_SPHERE_BVH) && g->kernels->occluded(&g->spheres, ray, &on.ball, t_max);
 }
 
-// The parameter at which an ellipsoid is met, by the rules for spheres; not positive when it is not.
+// Whether the ray starts on another surface that an ellipsoid, or a plane, may coincide with but for rounding. It has passed
+// what lies within rounding of its start.
+RT_ALWAYS_INLINE bool query_starts_beside(const Geometry *g, unsigned features, RayStart start, ShapeKind kind)
+{
+    if (start.shape == SHAPE_NONE) {
+        return false;
+    }
+    if ((features & TRACE_PARTS) && starts_on_part(start)) {
+        bool is_round = g->shapes.solids[part_index(start.shape)].kind == PART_BALL;
+        return is_round == (kind == SHAPE_ELLIPSOID);
+    }
+    return shape_kind(start.shape) == kind;
+}
+
+// How far along the ray its start may be off the surface that it starts on, where others may coincide with that.
+RT_ALWAYS_INLINE double query_start_error(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start)
+{
+    Ray own = {ray->origin, ray->direction};
+    if ((features & TRACE_PARTS) && starts_on_part(start)) {
+        return shapes_start_error(&g->shapes, &own, start);
+    }
+    bool is_plane = (features & TRACE_PLANES) && start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_PLANE;
+    bool may_coincide = (features & TRACE_PARTS) || g->plane_count > 1;
+    return is_plane && may_coincide ? plane_crossing_error(&g->planes[shape_index(start.shape)].shape, own, 0.0) : 0.0;
+}
+
+// The root of an ellipsoid that the ray may start on but for rounding, as `object` in its space: a start on it goes in or out.
+RT_ALWAYS_INLINE double query_ellipsoid_beside(const EllipsoidShape *shape, const SphereRay *ray,
+                                               const SphereRay *object, double start_error, double t, bool *inside)
+{
+    const Ball unit = UNIT_BALL;
+    Ray own = {ray->origin, ray->direction};
+    if (!(t > 0.0) || t > ellipsoid_crossing_error(shape, &own, t) + start_error) {
+        return t;
+    }
+    double far_side = *inside ? 0.0 : sphere_root_inward(object, &unit);
+    *inside = true;
+    return far_side > 0.0 && far_side > ellipsoid_crossing_error(shape, &own, far_side) + start_error
+               ? far_side
+               : 0.0;
+}
+
+// The parameter at which an ellipsoid is met, by the rules for spheres; not positive when it is not. `beside`: the start's
+// error, NULL when the ray starts on nothing that may coincide with it.
 RT_ALWAYS_INLINE double query_ellipsoid_root(const Geometry *g, uint32_t index, const SphereRay *ray, RayStart start,
-                                             bool *inside)
+                                             const double *beside, bool *inside)
 {
     const EllipsoidShape *shape = &g->ellipsoids[index].shape;
     const Ball unit = UNIT_BALL;
@@ -70,7 +130,8 @@ RT_ALWAYS_INLINE double query_ellipsoid_root(const Geometry *g, uint32_t index, 
         return sphere_root_inward(&object, &unit);
     }
     SphereRay object = ellipsoid_ray(shape, ray);
-    return sphere_hit(&object, &unit, inside);
+    double t = sphere_hit(&object, &unit, inside);
+    return beside ? query_ellipsoid_beside(shape, ray, &object, *beside, t, inside) : t;
 }
 
 // The parameter at which a plane is met; not positive when it is not.
@@ -84,26 +145,51 @@ RT_ALWAYS_INLINE double query_plane_root(const Geometry *g, uint32_t index, cons
     return plane_root(shape, ray->origin, ray->direction);
 }
 
+// What rounding may do to a plane's or an ellipsoid's root. Only where there is something that they may coincide with: 0
+// else.
+RT_ALWAYS_INLINE double query_plane_error(const Geometry *g, unsigned features, uint32_t index, const SphereRay *ray,
+                                          double t)
+{
+    bool may_coincide = (features & TRACE_PARTS) || g->plane_count > 1;
+    return may_coincide ? plane_crossing_error(&g->planes[index].shape, (Ray){ray->origin, ray->direction}, t) : 0.0;
+}
+
+RT_ALWAYS_INLINE double query_ellipsoid_error(const Geometry *g, unsigned features, uint32_t index,
+                                              const SphereRay *ray, double t)
+{
+    bool may_coincide = (features & TRACE_PARTS) || g->ellipsoid_count > 1;
+    Ray own = {ray->origin, ray->direction};
+    return may_coincide && t > 0.0 ? ellipsoid_crossing_error(&g->ellipsoids[index].shape, &own, t) : 0.0;
+}
+
 // Brings the nearest of the spheres up to date with all other shapes.
 RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
                                            Nearest *nearest)
 {
+    double start_error = query_start_error(g, features, ray, start);
     if (features & TRACE_PLANES) {
+        bool is_beside = query_starts_beside(g, features, start, SHAPE_PLANE);
         for (uint32_t i = 0; i < g->plane_count; i++) {
             bool inside = vec3_dot(g->planes[i].shape.normal, ray->direction) > 0.0;
-            nearest_offer(nearest, query_plane_root(g, i, ray, start), shape_id(SHAPE_PLANE, i), inside,
-                          g->planes[i].info.order);
+            double t = query_plane_root(g, i, ray, start);
+            double error = query_plane_error(g, features, i, ray, t);
+            if (!is_beside || t > error + start_error) {
+                nearest_offer_within(nearest, t, error, shape_id(SHAPE_PLANE, i), inside, g->planes[i].info.order);
+            }
         }
     }
     if (features & TRACE_ELLIPSOIDS) {
+        bool is_beside = query_starts_beside(g, features, start, SHAPE_ELLIPSOID);
         for (uint32_t i = 0; i < g->ellipsoid_count; i++) {
             bool inside = false;
-            double t = query_ellipsoid_root(g, i, ray, start, &inside);
-            nearest_offer(nearest, t, shape_id(SHAPE_ELLIPSOID, i), inside, g->ellipsoids[i].info.order);
+            double t = query_ellipsoid_root(g, i, ray, start, is_beside ? &start_error : NULL, &inside);
+            double error = query_ellipsoid_error(g, features, i, ray, t);
+            nearest_offer_within(nearest, t, error, shape_id(SHAPE_ELLIPSOID, i), inside,
+                                 g->ellipsoids[i].info.order);
         }
     }
     if (features & TRACE_PARTS) {
-        shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, nearest);
+        shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, nearest);
     }
 }
 
@@ -115,7 +201,7 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
-    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false};
+    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false, 0.0};
     if (features & TRACE_ANY_SPHERES) {
         query_spheres_closest(g, features, &sphere_ray, start, &nearest);
     }
@@ -130,7 +216,7 @@ RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, c
 {
     Nearest nearest[TILE_RAYS];
     for (unsigned i = 0; i < TILE_RAYS; i++) {
-        nearest[i] = (Nearest){{(double)INFINITY, SHAPE_NONE, false}, 0, false};
+        nearest[i] = (Nearest){{(double)INFINITY, SHAPE_NONE, false}, 0, false, 0.0};
     }
     bool is_done = is_usable && (features & TRACE_ANY_SPHERES) && g->kernels->closest_tile(&g->spheres, tile, nearest);
     for (unsigned i = 0; i < TILE_RAYS; i++) {
@@ -180,18 +266,21 @@ RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ra
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
+    double start_error = query_start_error(g, features, &sphere_ray, start);
     if (features & TRACE_PLANES) {
+        bool is_beside = query_starts_beside(g, features, start, SHAPE_PLANE);
         for (uint32_t i = 0; i < g->plane_count; i++) {
             double t = query_plane_root(g, i, &sphere_ray, start);
-            if (t > 0.0 && t < t_max) {
+            if (t > (is_beside ? query_plane_error(g, features, i, &sphere_ray, t) + start_error : 0.0) && t < t_max) {
                 return true;
             }
         }
     }
     if (features & TRACE_ELLIPSOIDS) {
+        bool is_beside = query_starts_beside(g, features, start, SHAPE_ELLIPSOID);
         for (uint32_t i = 0; i < g->ellipsoid_count; i++) {
             bool inside;
-            double t = query_ellipsoid_root(g, i, &sphere_ray, start, &inside);
+            double t = query_ellipsoid_root(g, i, &sphere_ray, start, is_beside ? &start_error : NULL, &inside);
             if (t > 0.0 && t < t_max) {
                 return true;
             }
@@ -200,7 +289,7 @@ RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ra
     if ((features & TRACE_ANY_SPHERES) && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
         return true;
     }
-    return (features & TRACE_PARTS) && shapes_occluded(&g->shapes, &ray, start, t_max);
+    return (features & TRACE_PARTS) && shapes_occluded(&g->shapes, &ray, start, start_error, t_max);
 }
 
 // Where the ray hit: the point put back onto the surface, its normal and its material.

@@ -69,21 +69,36 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
 void shapes_fini(ShapeTable *table);
 size_t shapes_bytes(const ShapeTable *table);
 
-// Brings `nearest` up to date.
-void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart start, Nearest *nearest);
+// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: round ones with round ones,
+// others with others. Such a ray has passed what lies within rounding of its start.
+static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)
+{
+    if (start.shape == SHAPE_NONE) {
+        return false;
+    }
+    ShapeKind kind = shape_kind(start.shape);
+    bool is_round = kind == SHAPE_PART ? table->solids[part_index(start.shape)].kind == PART_BALL : kind != SHAPE_PLANE;
+    return is_round == (solid->kind == PART_BALL);
+}
+
+// How far along the ray its start may be off the part that it starts on.
+double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart start);
+
+// Brings `nearest` up to date. `start_error`: how far along the ray its start may be off the surface that it starts on.
+void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, Nearest *nearest);
 
 // True when anything is met at 0 < t < t_max.
-bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double t_max);
+bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max);
 
 // Where the ray hit. The normal points out of what the solid is in.
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);
 
 // composite.c: the nearest crossing of an assembly that is seen.
 void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
-                      Nearest *nearest);
+                      double start_error, Nearest *nearest);
 
-// Offers a crossing of a side of a solid, into it or out of it, as the nearest hit.
-void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, uint8_t side, bool leaves,
-                 Nearest *nearest);
+// Offers a crossing of a side of a solid, into it or out of it, as the nearest hit; t is off by no more than `error`.
+void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, double error, uint8_t side,
+                 bool leaves, Nearest *nearest);
 
 #endif

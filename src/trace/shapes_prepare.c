@@ -17,6 +17,7 @@ static Solid solid_of(const Part *part, int exponent)
         .flips = part->flags & PART_INVERSE,
         .node = part->node,
         .composite = NODE_NONE,
+        .twin = SLOT_NONE,
         .material = part->material,
         .order = part->order,
         .data = {part->data[0], part->data[1], part->data[2]},
@@ -33,6 +34,7 @@ static Solid solid_of(const Part *part, int exponent)
             solid.to_object.m[row][column] = ldexp(part->to_object.m[row][column], exponent);
         }
     }
+    solid.extent = solid_extent(&solid);
     return solid;
 }
 

@@ -119,35 +119,80 @@ static Vec3 object_point(const Solid *solid, Vec3 point, uint8_t side)
     return point;
 }
 
-// |n|·R for a normal n of the solid's space, R being per coordinate the sum of the magnitudes of all terms that make the
-// coordinate of p(t).
+static double fixed_size(const Solid *solid, int axis)
+{
+    const double *low = &solid->data[0].x, *high = &solid->data[1].x;
+    return solid->kind == PART_BOX ? fmax(fabs(low[axis]), fabs(high[axis])) : 1.0;
+}
+
+double solid_extent(const Solid *solid)
+{
+    double product = 1.0, sum = 0.0;
+    for (int row = 0; row < 3; row++) {
+        const double *m = solid->to_world.m[row];
+        double length = hypot(hypot(m[0], m[1]), m[2]);
+        product *= length;
+        sum += length * fixed_size(solid, row);
+    }
+    // How far the rows are from right angles, which is what an inverse magnifies rounding by: Hadamard's ratio.
+    const double(*m)[3] = solid->to_object.m;
+    Vec3 x = vec3(m[0][0], m[0][1], m[0][2]), y = vec3(m[1][0], m[1][1], m[1][2]), z = vec3(m[2][0], m[2][1], m[2][2]);
+    return product * fabs(vec3_dot(x, vec3_cross(y, z))) * sum;
+}
+
+// |n|·R for a normal n of the solid's space, R being per coordinate of that space the sum of the magnitudes of all terms that
+// make the coordinate of p(t), and of those of its centre and its points, which are rounded, too. An entry of the map's
+// inverse that is 0, or alone in its column, has only its own rounding; others have that of the whole column.
 static double normal_reach(const Solid *solid, Vec3 n, const Ray *ray, double t)
 {
-    Vec3 f = solid->kind == PART_PLANE ? ray->origin : vec3_sub(ray->origin, solid->centre);
-    double part[3] = {fabs(f.x) + fabs(t * ray->direction.x), fabs(f.y) + fabs(t * ray->direction.y),
-                      fabs(f.z) + fabs(t * ray->direction.z)};
-    if (solid->kind == PART_PLANE) {
-        return fabs(n.x) * part[0] + fabs(n.y) * part[1] + fabs(n.z) * part[2] + fabs(solid->data[1].x);
-    }
+    Vec3 o = ray->origin, d = ray->direction, centre = solid->centre;
+    const double terms[3] = {fabs(o.x) + fabs(centre.x) + fabs(t * d.x), fabs(o.y) + fabs(centre.y) + fabs(t * d.y),
+                             fabs(o.z) + fabs(centre.z) + fabs(t * d.z)};
+    const double normal[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
     double sum = 0.0;
-    double size = solid->kind == PART_BOX ? fmax(vec3_max_abs(solid->data[0]), vec3_max_abs(solid->data[1])) : 1.0;
-    double normal[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
     for (int axis = 0; axis < 3; axis++) {
-        double reach = size;
+        double column = 0.0, reach = 0.0;
+        int entries = 0;
         for (int from = 0; from < 3; from++) {
-            reach += fabs(solid->to_object.m[from][axis]) * part[from];
+            double entry = solid->to_object.m[from][axis];
+            column += entry * entry;
+            reach += entry != 0.0 ? terms[from] * terms[from] : 0.0;
+            entries += entry != 0.0;
         }
-        sum += normal[axis] * reach;
+        double length = entries > 1 ? solid->extent : 0.0;
+        sum += normal[axis] * (fixed_size(solid, axis) + sqrt(column) * (sqrt(reach) + length));
     }
     return sum;
 }
 
-// 48 u: a coordinate in the solid's space is a difference and a product of three terms (4 u), its matrix is the inverse
-// (6 u) of up to six transforms (5 u each, as in transform_is_similarity), and the root itself adds at most 8 u.
 double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side)
 {
+    if (solid->kind == PART_PLANE) {
+        PlaneShape plane = {solid->data[0], solid->data[1].x};
+        return plane_crossing_error(&plane, *ray, t);
+    }
     Vec3 n = object_normal(solid, ray_at(*object, t), side);
-    return 48.0 * (DBL_EPSILON / 2) * normal_reach(solid, n, ray, t) / fabs(vec3_dot(n, object->direction));
+    double reach = normal_reach(solid, n, ray, t);
+    return CROSSING_ROUNDINGS * (DBL_EPSILON / 2) * reach / fabs(vec3_dot(n, object->direction));
+}
+
+double ellipsoid_crossing_error(const EllipsoidShape *ellipsoid, const Ray *ray, double t)
+{
+    Solid solid = {.kind = PART_BALL,
+                   .centre = ellipsoid->centre,
+                   .to_world = ellipsoid->to_world,
+                   .to_object = ellipsoid->to_object};
+    solid.extent = solid_extent(&solid);
+    Ray object = solid_ray(&solid, ray);
+    double chord = 2.0 * fabs(vec3_dot(object.origin, object.direction) / vec3_length_squared(object.direction) + t);
+    return fmin(solid_crossing_error(&solid, ray, &object, t, 0), chord);
+}
+
+double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves)
+{
+    double t = leaves ? chord->leave : chord->enter;
+    uint8_t side = leaves ? chord->leave_side : chord->enter_side;
+    return isinf(t) ? 0.0 : fmin(solid_crossing_error(solid, ray, object, t, side), chord->leave - chord->enter);
 }
 
 void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal)

@@ -10,6 +10,7 @@
 #include "math/transform.h"
 #include "scene/scene.h"
 #include "trace/chord.h"
+#include "trace/ellipsoid.h"
 
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
 // the origin.
@@ -19,9 +20,11 @@ typedef struct Solid {
     bool flips;            // the outside of what the part is in is this part's inside
     uint32_t node;         // of the geometry; NODE_NONE alone
     uint32_t composite;    // NODE_NONE alone
+    uint32_t twin;         // of a ball: the slot of a sphere that equals it, SLOT_NONE if there is none
     MaterialIndex material;
     uint32_t order;
     Vec3 centre;
+    double extent;         // solid_extent
     Transform to_world, to_object; // linear parts; the last rows are 0
     Vec3 data[3];
 } Solid;
@@ -40,8 +43,19 @@ bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord
 // Where the line meets a flat solid.
 bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
 
+// The sum of the lengths that the map gives to the fixed shape, more where it makes angles narrow: what its own rounding, and
+// its inverse's, are beside.
+double solid_extent(const Solid *solid);
+
 // How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
 double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side);
+
+// The same for an ellipsoid, which is a unit ball under a map.
+double ellipsoid_crossing_error(const EllipsoidShape *ellipsoid, const Ray *ray, double t);
+
+// The same for an end of a chord. Where the ray grazes a round side the bound has no bounds, but a crossing is not off by
+// more than the chord is long. 0 for an end that is infinite.
+double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves);
 
 // The point of a hit put back onto the side, and the solid's own outward unit normal there.
 void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal);

@@ -16,6 +16,8 @@
 
 enum { SPHERE_BLOCK = BVH_LEAF_MOST };
 
+enum { SLOT_NONE = UINT32_MAX };
+
 // Empty slots have the radius NaN.
 typedef struct SphereBlock {
     _Alignas(64) double x[SPHERE_BLOCK];
@@ -43,6 +45,7 @@ typedef struct Nearest {
     Hit hit;
     uint32_t order; // of hit.shape
     bool is_rough;
+    double error; // what rounding may do to hit.t; 0 for spheres, whose roots are right to the last place
 } Nearest;
 
 enum { TILE_ROW = 8, TILE_RAYS = 64 };
@@ -115,7 +118,33 @@ RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, b
 {
     if (t > 0.0 && (t < nearest->hit.t ||
                     (t == nearest->hit.t && nearest->hit.shape != SHAPE_NONE && order < nearest->order))) {
-        *nearest = (Nearest){{t, shape, inside}, order, false};
+        *nearest = (Nearest){{t, shape, inside}, order, false, 0.0};
+    }
+}
+
+// Whether rounding cannot tell two roots apart. Each error is of the root's own place; at the nearer one of the two it is
+// less by no more than the ratio of the roots.
+RT_ALWAYS_INLINE bool roots_are_one(double t, double error, double other, double other_error)
+{
+    double apart = fabs(t - other);
+    if (!(apart <= error + other_error)) {
+        return false;
+    }
+    double least = fmin(t, other);
+    return apart <= error * (least / t) + other_error * (least / other);
+}
+
+// The same for a root that may be off by `error`: where surfaces coincide but for rounding, too, the shape that was declared
+// first is seen.
+RT_ALWAYS_INLINE void nearest_offer_within(Nearest *nearest, double t, double error, ShapeId shape, bool inside,
+                                           uint32_t order)
+{
+    if (!(t > 0.0 && t < (double)INFINITY)) {
+        return;
+    }
+    bool is_tie = nearest->hit.shape != SHAPE_NONE && roots_are_one(t, error, nearest->hit.t, nearest->error);
+    if (is_tie ? order < nearest->order : t < nearest->hit.t) {
+        *nearest = (Nearest){{t, shape, inside}, order, false, error};
     }
 }
 
@@ -147,7 +176,7 @@ RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const Spher
     }
     uint32_t order = table->info[slot].order;
     if (t < nearest->hit.t - slack || isinf(nearest->hit.t)) {
-        *nearest = (Nearest){{t, shape, inside}, order, is_rough};
+        *nearest = (Nearest){{t, shape, inside}, order, is_rough, 0.0};
         return;
     }
     nearest_settle(table, ray, nearest);

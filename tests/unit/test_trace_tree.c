@@ -76,7 +76,7 @@ static bool same_hit(const Scene *scene, const Geometry *geometry, Ray ray, RayS
                      Hit *hit)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
-    Ball start_ball = query_start_ball(geometry, start);
+    Ball start_ball = query_start_sphere(geometry, TRACE_ALL_FEATURES, start).ball;
     uint32_t order;
     double t = brute_force(scene, &sphere_ray, &start_ball, start.inward, t_max, &order);
     *met = closest(geometry, ray, start, t_max, hit);

@@ -1,0 +1,142 @@
+// Surfaces of different shapes that coincide: the one that was declared first is seen and the other might as well not be
+// there, whatever the two shapes are and however each of them is rounded.
+//
+// Shapes with a surface in common are put elsewhere by a random turn and move, two at a time and in both orders. The
+// picture of the first and the second, with lights and mirrors, has to be the first one's alone, bit for bit.
+//
+// SPDX-License-Identifier: MIT
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rtlang/rtlang.h"
+#include "unit/random.h"
+#include "unit/tap.h"
+
+enum { WIDTH = 24, HEIGHT = 18, VALUES = 3 * WIDTH * HEIGHT, PLACES = 3, SHAPES_MOST = 16, PLACE_MOST = 192 };
+
+// Shapes as text that ends before their last brace, so that a texture and transforms can follow.
+typedef struct Family {
+    const char *name, *camera;
+    const char *look; // of the first shape
+    const char *shapes[SHAPES_MOST];
+    size_t firsts; // so many of them may come first; 0: all
+} Family;
+
+#define OPAQUE "pigment { rgb <0.9, 0.5, 0.2> } finish { reflection 0.3 phong 0.5 }"
+#define GLASS  "pigment { rgbt <1, 0.8, 0.6, 0.7> } finish { reflection 0.1 } interior { ior 1.3 }"
+
+#define FLAT_SHAPES                                                                                                    \
+    {                                                                                                                  \
+        "plane { y, 0", "box { <-50, -1, -50>, <50, 0, 50>", "box { <-0.5, -3, -0.4>, <0.5, 0, 0.4> scale <100, 0.3, 100>", \
+            "disc { 0, y, 60", "cylinder { -y, 0, 60", "cone { -2 * y, 80, 0, 60",                                     \
+            "triangle { <-200, 0, -200>, <200, 0, -200>, <0, 0, 300>",                                                 \
+            "difference { box { <-50, -1, -50>, <50, 1, 50> } box { <-51, 0, -51>, <51, 2, 51> }",                     \
+            "intersection { box { -40, 40 } plane { y, 0 }",                                                           \
+            "merge { box { <-50, -1, -50>, <0, 0, 50> } box { <0, -1, -50>, <50, 0, 50> }",                            \
+            "box { <-50, -1, -50>, <50, 0, 50> clipped_by { sphere { 0, 70 } }",                                       \
+            "disc { 0, y, 60 clipped_by { box { -55, 55 } }", "plane { -y, 0 inverse"                                  \
+    }
+
+static const Family families[] = {
+    {"flat, from above", "location <0.1, 3, -0.2> look_at 0 angle 12", OPAQUE, FLAT_SHAPES, 0},
+    {"flat, grazing", "location <0.1, 0.05, -3> look_at 0 angle 1", OPAQUE, FLAT_SHAPES, 0},
+    {"round",
+     "location <0.3, 5, -0.7> look_at <0, 1, 0> angle 8",
+     OPAQUE,
+     {"sphere { 0, 1", "sphere { 0, 2 scale 0.5", "sphere { 0, 1 no_shadow", "sphere { 0, 1 clipped_by { plane { -y, 0 } }",
+      "intersection { sphere { 0, 1 } box { <-2, 0, -2>, 2 }", "difference { sphere { 0, 1 } box { -2, <2, -0.2, 2> }",
+      "merge { sphere { 0, 1 } sphere { -0.8 * y, 0.5 }"},
+     0},
+    {"stretched",
+     "location <0.3, 5, -6> look_at <0, 1, 0> angle 8",
+     OPAQUE,
+     {"sphere { 0, 1 scale <2, 2, 3>", "sphere { 0, 1 rotate 37 * z scale <2, 2, 3>", "sphere { 0, 0.5 scale <4, 4, 6> no_shadow",
+      "sphere { 0, 1 rotate 71 * z scale <2, 2, 3> clipped_by { box { <-9, 0, -9>, 9 } }"},
+     0},
+    {"round, glass",
+     "location <0.3, 5, -6> look_at 0 angle 30",
+     GLASS,
+     {"sphere { 0, 1", "sphere { 0, 2 scale 0.5", "sphere { 0, 1 no_shadow", "sphere { 0, 1 clipped_by { plane { -y, 0 } }"},
+     2},
+    {"stretched, glass",
+     "location <0.3, 5, -6> look_at 0 angle 60",
+     GLASS,
+     {"sphere { 0, 1 scale <2, 2, 3>", "sphere { 0, 1 rotate 37 * z scale <2, 2, 3>", "sphere { 0, 0.5 scale <4, 4, 6> no_shadow",
+      "sphere { 0, 1 rotate 71 * z scale <2, 2, 3> clipped_by { box { <-9, 0, -9>, 9 } }"},
+     2},
+};
+
+static bool draw(const Family *family, const char *place, const char *first, const char *second, float *values)
+{
+    static const char head[] = "global_settings { assumed_gamma 1 } background { rgb <0.2, 0.3, 0.5> }";
+    static const char other[] = "pigment { rgb <0.1, 0.9, 0.2> } finish { ambient 1 }";
+    char text[4096];
+    int width, height;
+    int length = snprintf(text, sizeof text,
+                          "%s\ncamera { %s %s }\nlight_source { <3, 5, -2>, 0.8 %s }\nlight_source { <-9, 0.4, 2>, 0.5 %s }\n"
+                          "%s %s %s }\n",
+                          head, family->camera, place, place, place, first, family->look, place);
+    if (second) {
+        length += snprintf(text + length, sizeof text - (size_t)length, "%s %s %s }\n", second, other, place);
+    }
+    rt_session *session = rt_session_new(NULL);
+    rt_set_format(session, RT_FORMAT_JSON);
+    bool is_drawn = rt_set_size(session, WIDTH, HEIGHT) == RT_OK &&
+                    rt_load_text(session, "coincident", text, (size_t)length) == RT_OK && rt_render(session, 1) == RT_OK;
+    if (is_drawn) {
+        memcpy(values, rt_pixels(session, &width, &height), VALUES * sizeof *values);
+    } else {
+        printf("# not drawn: %s\n", text);
+    }
+    rt_session_free(session);
+    return is_drawn;
+}
+
+static int pixels_off(const float *a, const float *b)
+{
+    int off = 0;
+    for (int i = 0; i < VALUES; i += 3) {
+        off += memcmp(a + i, b + i, 3 * sizeof *a) != 0;
+    }
+    return off;
+}
+
+static void test_first(const Family *family, const char *first, const char places[PLACES][PLACE_MOST])
+{
+    static float alone[VALUES], both[VALUES];
+    int off = 0, pairs = 0;
+    const char *worst = first;
+    for (int place = 0; place < PLACES; place++) {
+        bool is_drawn = draw(family, places[place], first, NULL, alone);
+        for (size_t i = 0; is_drawn && i < SHAPES_MOST && family->shapes[i]; i++) {
+            if (family->shapes[i] == first) {
+                continue;
+            }
+            int here = draw(family, places[place], first, family->shapes[i], both) ? pixels_off(alone, both) : WIDTH * HEIGHT;
+            worst = here > 0 ? family->shapes[i] : worst;
+            off += here;
+            pairs++;
+        }
+    }
+    tap_ok(pairs >= 2 * PLACES && off == 0, "%s: %s }, %d of %d pixels beside %d others are off%s%s", family->name, first, off,
+           pairs * WIDTH * HEIGHT, pairs, off > 0 ? ", as beside " : "", off > 0 ? worst : "");
+}
+
+int main(int argc, char **argv)
+{
+    Random random = {random_seed(argc > 1 ? argv[1] : NULL)};
+    char places[PLACES][PLACE_MOST] = {"rotate 0 translate 0"};
+    for (int i = 1; i < PLACES; i++) {
+        snprintf(places[i], sizeof places[i], "rotate <%.17g, %.17g, %.17g> translate <%.17g, %.17g, %.17g>",
+                 random_between(&random, 0, 360), random_between(&random, 0, 360), random_between(&random, 0, 360),
+                 random_between(&random, -9, 9), random_between(&random, -9, 9), random_between(&random, -9, 9));
+    }
+    for (size_t i = 0; i < sizeof families / sizeof families[0]; i++) {
+        const Family *family = &families[i];
+        for (size_t k = 0; k < SHAPES_MOST && family->shapes[k] && (family->firsts == 0 || k < family->firsts); k++) {
+            test_first(family, family->shapes[k], (const char(*)[PLACE_MOST])places);
+        }
+    }
+    return tap_done();
+}
