@@ -130,16 +130,15 @@ static bool read_values(Block *block, EntryList *list, const AstNode *node)
     return is_fine;
 }
 
-// Textures and normals, whose entries begin with a word, a block or the name of one.
+// An entry that begins with a word, a block or the name of one.
 static bool begins_without_number(Block *block)
 {
     const AstNode *item = cursor_peek(&block->cursor);
-    bool has_kind = block->kind == KIND_TEXTURE || block->kind == KIND_NORMAL;
-    if (!block->ev->objects->may_lack_weights || !has_kind || !item) {
+    if (!block->ev->objects->may_lack_weights || !item) {
         return false;
     }
     if (item->kind != AST_NAME) {
-        return item->kind == AST_WORD || item->kind == AST_BLOCK;
+        return !cursor_at_value(&block->cursor);
     }
     const Value *value = item->flags & AST_KNOWN ? item->known : scope_find(block->ev, item->symbol);
     return value && value->kind == VALUE_BLOCK;

@@ -49,7 +49,8 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
         Doubles doubt = SPHERE_DOUBT * sum[i];
         Doubles far_side = doubles_abs(t_middle[i]) + doubles_sqrt(discriminant[i] * ray->inverse_square);
         Doubles near_side = doubles_abs(c) * ray->inverse_square / far_side;
-        Doubles t = doubles_if_negative(t_middle[i], near_side, doubles_if_negative(-c, near_side, far_side));
+        Doubles is_far = (Doubles)(~(DoublesMask)t_middle[i] & (DoublesMask)c); // by its sign
+        Doubles t = doubles_if_negative(is_far, far_side, near_side);
         doubles_store(&hits->t[i * DOUBLES], t);
         certain |= (doubles_ge(discriminant[i], doubt) & doubles_ge(doubles_abs(c), doubt)) << (i * DOUBLES);
         outer |= doubles_ge(c, doubt) << (i * DOUBLES);

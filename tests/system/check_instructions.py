@@ -1,24 +1,33 @@
 #!/usr/bin/env python3
-"""The certified sphere test costs at most 1.6 times the instructions of the textbook's in the same loop, and takes the way of
-double-word arithmetic in no ordinary scene; a scene without sky and fog runs nothing of either; and the error of a sampled
-picture costs at most 2 % of the sampling. Counted by callgrind, so that no clock decides.
+"""The certified sphere test costs at most 1.6 times the instructions of the textbook's in the same loop, one by one and in
+vectors, and takes the way of double-word arithmetic in no ordinary scene; a scene without sky and fog runs nothing of either;
+and the error of a sampled picture costs at most 2 % of the sampling. Counted by callgrind, so that no clock decides.
 SPDX-License-Identifier: MIT
 """
+import glob
 import os
 import re
 import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from tap import Tap
+
 BAR = 1.6
 PROGRAM = os.environ["COUNT_SPHERE_TESTS"]
+TOP = os.environ.get("top_srcdir", ".")
+# The loop over single spheres, and that over blocks of eight in vectors of two and of four.
+LOOPS = {"one by one": PROGRAM, "in vectors of two": PROGRAM.replace("_tests", "_blocks"),
+         "in vectors of four": PROGRAM.replace("_tests", "_blocks_v3")}
+ORDINARY = ["01_one_sphere", "04_", "08_", "10_sphere_flake"]
 RTLANG = os.environ["RTLANG"]
 VALGRIND = os.environ.get("VALGRIND", "")
 
 
-def instructions(function, folder):
+def instructions(program, function, folder):
     """Instructions executed inside calls of a function."""
-    command = [VALGRIND, "--tool=callgrind", f"--callgrind-out-file={folder}/out", f"--toggle-collect={function}", PROGRAM]
+    command = [VALGRIND, "--tool=callgrind", f"--callgrind-out-file={folder}/out", f"--toggle-collect={function}", program]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     found = re.search(r"Collected : (\d+)", run.stderr)
     return (int(found.group(1)) if found else 0), run.stdout.split()
@@ -37,76 +46,85 @@ SAMPLED = {"one sphere": (SPHERE, 64), "300 spheres": (MANY, 16)}
 ESTIMATE_BAR = 1.02
 
 
-def scene_instructions(text, function, folder, *options):
+def file_instructions(scene, function, folder, *options):
     """Instructions executed inside calls of a function while a scene is drawn; None when callgrind cannot tell."""
-    scene = os.path.join(folder, "scene.scn")
-    with open(scene, "w", encoding="utf-8") as out:
-        out.write(text)
     command = [VALGRIND, "--tool=callgrind", f"--callgrind-out-file={folder}/out", f"--toggle-collect={function}",
-               "--trace-children=yes", RTLANG, "-q", "-t1", "-W16", "-H12", "--isa=plain", *options, "-o", f"{folder}/picture.png", scene]
+               "--trace-children=yes", RTLANG, "-q", "-t1", "-W16", "-H12", "--isa=plain", "-I", f"{TOP}/share/rtlang",
+               *options, "-o", f"{folder}/picture.png", scene]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     found = re.findall(r"Collected : (\d+)", run.stderr)
     return max(map(int, found)) if found and run.returncode == 0 else None
 
 
-def judge_around(number, folder):
+def scene_instructions(text, function, folder, *options):
+    """The same for a scene's text."""
+    scene = os.path.join(folder, "scene.scn")
+    with open(scene, "w", encoding="utf-8") as out:
+        out.write(text)
+    return file_instructions(scene, function, folder, *options)
+
+
+def judge_loop(tap, name, program, folder):
+    """The instructions of both tests in a loop, and that both find the same, without double words."""
+    textbook, _ = instructions(program, "count_textbook", folder)
+    certified, counts = instructions(program, "count_certified", folder)
+    if not textbook or not certified:
+        tap.skip(f"instructions of the sphere test {name}", "callgrind does not run this program")
+        return
+    tap.ok(certified <= BAR * textbook,
+           f"{name}: the certified test takes {certified / textbook:.3f} times the instructions of the textbook's")
+    tap.ok(counts[0] == counts[1] and int(counts[1]) > 100 and counts[2] == "0",
+           f"{name}: {counts[1]} hits in an ordinary scene, {counts[2]} tests were doubtful")
+
+
+def judge_around(tap, folder):
     """A line for each of AROUND: its function runs in a scene that has it and in no other."""
-    fine = True
     for statement, function in AROUND.items():
         without, with_it = (scene_instructions(BALLS + more, function, folder) for more in ("", statement))
         if without is None or with_it is None:
-            print(f"ok {number} - {function} # SKIP callgrind does not run rtlang")
+            tap.skip(function, "callgrind does not run rtlang")
         else:
-            good = without == 0 and with_it > 0
-            fine = fine and good
-            print(f"{'ok' if good else 'not ok'} {number} - {function}: {without} instructions where there is none, "
-                  f"{with_it} where there is")
-        number += 1
-    return fine
+            tap.ok(without == 0 and with_it > 0,
+                   f"{function}: {without} instructions where there is none, {with_it} where there is")
 
 
-def judge_estimate(number, folder):
+def judge_ordinary(tap, folder):
+    """No sphere of an example is decided by double words; one that is met at its very edge is."""
+    touched = "camera { orthographic location <1 / 32, 1 + 1 / 24, -5> look_at <1 / 32, 1 + 1 / 24, 0> right x up y }\nsphere { 0, 1 } light_source { 9, 1 }\n"
+    if not scene_instructions(touched, "sphere_exact", folder):
+        tap.skip("double words in ordinary scenes", "callgrind does not run rtlang")
+        return
+    for prefix in ORDINARY:
+        scene = sorted(glob.glob(f"{TOP}/examples/{prefix}*.scn"))[0]
+        count = file_instructions(scene, "sphere_exact", folder)
+        tap.ok(count == 0, f"{os.path.basename(scene)}: {count} instructions in double words")
+
+
+def judge_estimate(tap, folder):
     """A line for each of SAMPLED: the instructions of sampling with and without its error."""
-    fine = True
     for name, (text, samples) in SAMPLED.items():
         told, untold = (scene_instructions(text, "sampling_run", folder, f"--samples={samples}", *more)
                         for more in ((), ("--no-estimate",)))
         if not told or not untold:
-            print(f"ok {number} - the error of {name} # SKIP callgrind does not run rtlang")
+            tap.skip(f"the error of {name}", "callgrind does not run rtlang")
         else:
-            good = told <= ESTIMATE_BAR * untold
-            fine = fine and good
-            print(f"{'ok' if good else 'not ok'} {number} - the error of {name} at {samples} samples costs "
-                  f"{100 * (told / untold - 1):.2f} % of the instructions, at most 2 %")
-        number += 1
-    return fine
+            tap.ok(told <= ESTIMATE_BAR * untold, f"the error of {name} at {samples} samples costs "
+                   f"{100 * (told / untold - 1):.2f} % of the instructions, at most 2 %")
 
 
 def main():
-    print("1..6")
+    tap = Tap()
     if not VALGRIND:
-        print("ok 1 - instructions of the sphere test # SKIP valgrind is not installed")
-        print("ok 2 - doubtful cases # SKIP valgrind is not installed")
-        for number in (3, 4, 5, 6):
-            print(f"ok {number} - sky, fog and sampling # SKIP valgrind is not installed")
-        return 0
+        tap.skip("instructions", "valgrind is not installed")
+        return tap.done()
     with tempfile.TemporaryDirectory() as folder:
-        textbook, _ = instructions("count_textbook", folder)
-        certified, counts = instructions("count_certified", folder)
-    if not textbook or not certified:
-        print("ok 1 - instructions of the sphere test # SKIP callgrind does not run this program")
-        print("ok 2 - doubtful cases # SKIP callgrind does not run this program")
-        for number in (3, 4, 5, 6):
-            print(f"ok {number} - sky, fog and sampling # SKIP callgrind does not run this program")
-        return 0
-    ratio = certified / textbook
-    cheap = ratio <= BAR
-    print(f"{'ok' if cheap else 'not ok'} 1 - the certified test takes {ratio:.2f} times the instructions of the textbook's")
-    fine = counts[0] == counts[1] and int(counts[1]) > 100 and counts[2] == "0"
-    print(f"{'ok' if fine else 'not ok'} 2 - {counts[1]} rays hit in an ordinary scene, {counts[2]} tests were doubtful")
-    with tempfile.TemporaryDirectory() as folder:
-        around = all([judge_around(3, folder), judge_estimate(5, folder)])
-    return 0 if cheap and fine and around else 1
+        for name, program in LOOPS.items():
+            if os.path.exists(program):
+                judge_loop(tap, name, program, folder)
+        judge_around(tap, folder)
+        judge_ordinary(tap, folder)
+        judge_estimate(tap, folder)
+    return tap.done()
 
 
 if __name__ == "__main__":
