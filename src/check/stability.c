@@ -51,10 +51,16 @@ bool stability_measure(Stability *stability, const Options *options, const char 
 
 void stability_fini(Stability *stability)
 {
-    for (size_t i = 0; i < BREAKS; i++) {
+    for (size_t i = 0; i < stability->shown_count; i++) {
+        for (int way = 0; way < SHOWN; way++) {
+            image_fini(&stability->shown[i].in[way]);
+        }
+    }
+    for (size_t i = 0; i < stability->break_count; i++) {
         image_fini(&stability->breaks[i].ours);
         image_fini(&stability->breaks[i].povray);
     }
+    free(stability->breaks);
     free(stability->pictures);
 }
 
@@ -214,11 +220,11 @@ static void print_pictures(const Stability *stability, FILE *out)
     }
     fprintf(out,
             "\nWhere POV-Ray's range ends: pixels that differ by more than 2/255 from the same scene as it "
-            "is.\n\n%-16s %8s %8s %8s\n",
-            "", "pixels", "rtlang", "POV-Ray");
+            "is.\n\n%-34s %-16s %8s %8s %8s\n",
+            "scene", "", "pixels", "rtlang", "POV-Ray");
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
-        fprintf(out, "%-16s %8" PRIu64 " %8" PRIu64, row->what, row->pixels, row->off);
+        fprintf(out, "%-34s %-16s %8" PRIu64 " %8" PRIu64, row->scene, row->what, row->pixels, row->off);
         row->has_povray ? fprintf(out, " %8" PRIu64 "\n", row->povray_off) : fprintf(out, " %8s\n", "none");
     }
 }
@@ -322,8 +328,10 @@ void stability_json(const Stability *stability, FILE *out)
     fprintf(out, "],\n\"limits\": [");
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
-        fprintf(out, "%s\n{\"what\": \"%s\", \"pixels\": %" PRIu64 ", \"rtlang\": %" PRIu64 ", \"povray\": ",
-                i > 0 ? "," : "", row->what, row->pixels, row->off);
+        fprintf(out, "%s\n{\"scene\": ", i > 0 ? "," : "");
+        json_text(out, row->scene);
+        fprintf(out, ", \"what\": \"%s\", \"pixels\": %" PRIu64 ", \"rtlang\": %" PRIu64 ", \"povray\": ", row->what,
+                row->pixels, row->off);
         row->has_povray ? fprintf(out, "%" PRIu64 "}", row->povray_off) : fprintf(out, "null}");
     }
     fprintf(out, "]}\n");

@@ -27,16 +27,24 @@ typedef struct PictureRow {
     double rmse;
 } PictureRow;
 
+// A stiff scene in each precision, and by POV-Ray.
+enum { SHOWN_FLOAT, SHOWN_DOUBLE, SHOWN_QUAD, SHOWN_POVRAY, SHOWN };
+typedef struct ShownRow {
+    const char *scene;
+    bool has[SHOWN]; // false: it cannot be drawn so
+    Image in[SHOWN]; // owned
+} ShownRow;
+
 // A scene where POV-Ray's fixed tolerances end.
 typedef struct BreakRow {
-    char what[48];
+    const char *scene, *what; // how it was put elsewhere
     bool has_povray;          // its picture could be made
     uint64_t povray_off, off; // pixels that differ from the scene where it says by more than 2/255
     uint64_t pixels;
     Image ours, povray; // owned
 } BreakRow;
 
-enum { BREAKS = 6 };
+enum { BREAKS = 6, STIFF_SCENES = 7 };
 
 typedef struct Stability {
     SphereRow families[FAMILIES_MOST];
@@ -49,7 +57,9 @@ typedef struct Stability {
     uint64_t malformed, malformed_hits[FORMULAS];
     PictureRow *pictures; // owned
     size_t picture_count, picture_room;
-    BreakRow breaks[BREAKS];
+    ShownRow shown[STIFF_SCENES];
+    size_t shown_count;
+    BreakRow *breaks; // owned; BREAKS for each scene
     size_t break_count;
 } Stability;
 
@@ -57,8 +67,11 @@ typedef struct Stability {
 bool stability_measure(Stability *stability, const Options *options, const char *povray, const char *folder);
 void stability_fini(Stability *stability);
 
-// stability_pictures.c: the pictures of stiff scenes, of the options' scenes, and POV-Ray's limits.
+// stability_pictures.c: the pictures of stiff scenes and of the options' scenes.
 bool stability_pictures(Stability *stability, const Options *options, const char *povray, const char *folder);
+
+// stability_breaks.c: POV-Ray's limits.
+bool stability_breaks(Stability *stability, const Options *options, const char *povray, const char *folder);
 
 // True when nothing is worse than docs/numerics.md promises of ours.
 bool stability_holds(const Stability *stability);

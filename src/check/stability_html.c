@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 #include "check/stability.h"
 #include "study/oracle.h"
@@ -55,8 +56,10 @@ static void put_families(const Stability *stability, FILE *out)
         html_text(out, row->family);
         fprintf(out, "</td><td class=\"number\">%" PRIu64 "</td>", row->cases);
         for (int formula = 0; formula < FORMULAS; formula++) {
+            // From the surface itself the root that is nearly 0 has a backward bound only.
+            bool from_surface = strcmp(row->family, "leaving a surface") == 0;
             cell_number(out, row->of[formula].backward, 4.0);
-            cell_number(out, row->of[formula].ulps, 4.0);
+            cell_number(out, row->of[formula].ulps, from_surface ? (double)INFINITY : 4.0);
             cell_number(out, (double)row->of[formula].wrong, 0.0);
             cell_number(out, (double)row->of[formula].not_finite, 0.0);
         }
@@ -170,10 +173,34 @@ static void put_mirrors(const Stability *stability, FILE *out)
     tail(out);
 }
 
+static void put_shells(const Stability *stability, FILE *out)
+{
+    static const char *const titles[] = {"Gap", "Cases", "Textbook: wrong order", "Textbook: same t",
+                                         "rtlang: wrong order", "rtlang: same t", NULL};
+    const TotalRow *total = &stability->total;
+    fputs("<h3>Shells within one another</h3>\n", out);
+    head(out, titles);
+    for (int i = 0; i < SHELLS; i++) {
+        const ShellRow *row = &stability->shells[i];
+        fprintf(out, "<tr><td class=\"number\">%.0e</td><td class=\"number\">%" PRIu64 "</td>", row->gap, row->cases);
+        for (int formula = 0; formula < FORMULAS; formula++) {
+            cell_number(out, (double)row->wrong[formula], 0.0);
+            fprintf(out, "<td class=\"number\">%" PRIu64 "</td>", row->ties[formula]);
+        }
+        fputs("</tr>\n", out);
+    }
+    tail(out);
+    fprintf(out,
+            "<h3>Total reflection near its threshold</h3>\n<p>Of %" PRIu64 " cases %" PRIu64
+            " of the wrong class, all with |k| &le; %.2g u of 4.3 u; the bent ray's cosine is off by at most %.2g u of 4.8 u "
+            "over cos<sup>2</sup>.</p>\n",
+            total->cases, total->wrong, total->greatest_wrong, total->cosine_error);
+}
+
 static void put_pictures(const Stability *stability, FILE *out)
 {
     static const char *const titles[] = {"Scene", "Put", "Beside", "Bits", "Values off by 1e-6", "RMSE", NULL};
-    fputs("<h3>Pictures</h3>\n", out);
+    fputs("<h3>Pictures put elsewhere</h3>\n", out);
     head(out, titles);
     for (size_t i = 0; i < stability->picture_count; i++) {
         const PictureRow *row = &stability->pictures[i];
@@ -203,17 +230,40 @@ static bool put_picture(const Image *image, const char *caption, const char *scr
     return fine;
 }
 
+static bool put_shown(const Stability *stability, const char *scratch, FILE *out)
+{
+    static const char *const captions[SHOWN] = {
+        [SHOWN_FLOAT] = "float", [SHOWN_DOUBLE] = "double", [SHOWN_QUAD] = "quad", [SHOWN_POVRAY] = "POV-Ray"};
+    bool fine = true;
+    fputs("<h3>Stiff scenes</h3>\n", out);
+    for (size_t i = 0; i < stability->shown_count; i++) {
+        const ShownRow *row = &stability->shown[i];
+        fprintf(out, "<article><h3>%s</h3><div class=\"pictures\">\n", row->scene);
+        for (int way = 0; way < SHOWN; way++) {
+            if (row->has[way]) {
+                fine = put_picture(&row->in[way], captions[way], scratch, out) && fine;
+            } else {
+                fprintf(out, "<p class=\"bad\">No picture: %s.</p>\n", captions[way]);
+            }
+        }
+        fputs("</div></article>\n", out);
+    }
+    return fine;
+}
+
 static bool put_breaks(const Stability *stability, const char *scratch, FILE *out)
 {
     bool fine = true;
-    fputs("<h3>Where POV-Ray's range ends</h3>\n<p>The same scene in other units and places. Pixels are counted that "
+    fputs("<h3>Where POV-Ray's range ends</h3>\n<p>The same scenes in other units and places. Pixels are counted that "
           "differ by more "
           "than 2/255 from the scene as it is.</p>\n",
           out);
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
         char caption[128];
-        fprintf(out, "<article><h3>%s</h3><div class=\"pictures\">\n", row->what);
+        fputs("<article><h3>", out);
+        html_text(out, row->scene);
+        fprintf(out, ", %s</h3><div class=\"pictures\">\n", row->what);
         snprintf(caption, sizeof caption, "rtlang: %" PRIu64 " of %" PRIu64 " pixels differ", row->off, row->pixels);
         fine = put_picture(&row->ours, caption, scratch, out) && fine;
         if (row->has_povray) {
@@ -238,6 +288,8 @@ bool stability_page(const Stability *stability, ReportPage *page, const char *sc
     put_plot(stability, out);
     put_secondary(stability, out);
     put_mirrors(stability, out);
+    put_shells(stability, out);
+    bool fine = put_shown(stability, scratch, out);
     put_pictures(stability, out);
-    return put_breaks(stability, scratch, out) && !ferror(out);
+    return put_breaks(stability, scratch, out) && fine && !ferror(out);
 }

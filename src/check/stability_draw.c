@@ -1,0 +1,97 @@
+// A scene becomes a session, the session a picture or, for POV-Ray, the text of the scene where it was put.
+//
+// SPDX-License-Identifier: MIT
+#include "check/stability_draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "check/povray_run.h"
+
+// NULL when the scene cannot be read.
+static rt_session *motion_open(const Options *options, const StudyScene *scene, const Motion *motion, int width,
+                               int height)
+{
+    rt_session *session = rt_session_new(NULL);
+    rt_status status = session ? rt_set_size(session, width, height) : RT_FAULT_LIMIT;
+    for (int i = 0; !status && i < options->include_path_count; i++) {
+        status = rt_add_include_path(session, options->include_paths[i]);
+    }
+    status = status ? status : rt_set_world(session, motion->scale, motion->shift);
+    status = status ? status : rt_set_precision(session, motion->precision);
+    status = status          ? status
+             : scene->text   ? rt_load_text(session, scene->name, scene->text, strlen(scene->text))
+                             : rt_load_file(session, scene->name);
+    status = status || motion->camera == 1.0 ? status : rt_move_camera(session, motion->camera);
+    if (status) {
+        rt_session_free(session);
+        return NULL;
+    }
+    return session;
+}
+
+bool motion_draw(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
+                 float *values)
+{
+    rt_session *session = motion_open(options, scene, motion, width, height);
+    bool is_drawn = session && rt_render(session, options->threads) == RT_OK;
+    if (is_drawn) {
+        memcpy(values, rt_pixels(session, &width, &height), 3 * (size_t)width * (size_t)height * sizeof *values);
+    }
+    rt_session_free(session);
+    return is_drawn;
+}
+
+bool motion_image(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
+                  Image *image)
+{
+    *image = (Image){width, height, 3, malloc(3 * (size_t)width * (size_t)height * sizeof(float))};
+    if (image->values && motion_draw(options, scene, motion, width, height, image->values)) {
+        return true;
+    }
+    image_fini(image);
+    return false;
+}
+
+// The scene where it was put, as text for POV-Ray.
+static bool write_scene(const Options *options, const StudyScene *scene, const Motion *motion, const char *path)
+{
+    const char *text;
+    rt_session *session = motion_open(options, scene, motion, 1, 1);
+    FILE *out = session && rt_dump_scene(session, &text) == RT_OK ? fopen(path, "wb") : NULL;
+    bool is_written = out && fputs(text, out) != EOF;
+    is_written = out && fclose(out) == 0 && is_written;
+    rt_session_free(session);
+    return is_written;
+}
+
+bool motion_povray(const Options *options, const char *povray, const char *folder, const StudyScene *scene,
+                   const Motion *motion, int width, int height, Image *image)
+{
+    char path[4096], picture[4096], log[4096], detail[256];
+    snprintf(path, sizeof path, "%s/stability.pov", folder);
+    snprintf(picture, sizeof picture, "%s/stability.png", folder);
+    snprintf(log, sizeof log, "%s/stability.log", folder);
+    *image = (Image){0};
+    if (!write_scene(options, scene, motion, path)) {
+        return false;
+    }
+    PovrayJob job = {.program = povray,
+                     .scene = path,
+                     .output = picture,
+                     .log = log,
+                     .width = width,
+                     .height = height,
+                     .threads = options->threads};
+    ImageError error;
+    bool is_drawn = povray_run(&job, detail, sizeof detail) &&
+                    image_read(picture, (uint64_t)width * (uint64_t)height, image, &error) == IMAGE_OK;
+    if (is_drawn && image->width == width && image->height == height && image->channels == 3) {
+        return true;
+    }
+    if (is_drawn) {
+        image_fini(image);
+    }
+    *image = (Image){0};
+    return false;
+}
