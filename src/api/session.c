@@ -194,9 +194,10 @@ static rt_status load(rt_session *session, Source *source, double start)
     diag_finish(&session->diags);
     session->loaded = fine;
     // A lens wants rays; so many as the scene says, if the client does not.
-    if (session->scene.camera.blur_samples > 1 && session->sampling.samples == 0.0 && !session->sampling.is_adaptive) {
+    bool says_nothing = session->sampling.samples == 0.0 && !session->sampling.is_adaptive;
+    if (session->scene.camera.blur_samples > 1 && says_nothing) {
         session->sampling.samples = session->scene.camera.blur_samples;
-        session->is_sampled = true;
+        session->is_sampled = session->is_sampled_for_lens = true;
     }
     session->parse_seconds = session_clock() - start;
     return session_status(session, fine);
@@ -416,7 +417,8 @@ static rt_status session_ways_fit(rt_session *session)
         return rt_report(session, "E0703", "the reference kernels of `--precision` sample all pixels alike",
                          "leave out goals and `--adaptive`, and use the sampler sobol, halton or random");
     }
-    if (session->method != RT_METHOD_BACKWARD && (session->precision != RT_PRECISION_DOUBLE || session->is_sampled)) {
+    bool wants_samples = session->is_sampled && !session->is_sampled_for_lens;
+    if (session->method != RT_METHOD_BACKWARD && (session->precision != RT_PRECISION_DOUBLE || wants_samples)) {
         return rt_report(session, "E0703", "the forward methods have photons for samples, and double precision only",
                          "leave out `--precision`, `--samples` and goals, and say how many `--photons`");
     }

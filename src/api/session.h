@@ -48,7 +48,7 @@ struct rt_session {
     bool rendered; // the film holds a picture in linear light
     int threads;   // that rendered it
     SamplingOptions sampling;
-    bool is_sampled;
+    bool is_sampled, is_sampled_for_lens; // the latter: only since the scene's camera says so
     int max_trace_level; // 0: the scene's
     rt_method method;
     uint64_t photons; // of the forward methods
