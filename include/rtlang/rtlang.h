@@ -157,7 +157,7 @@ RT_API const char *rt_isa(size_t i);
 /* Use one of them; the best is used if nothing is said. The picture does not depend on it. */
 RT_API rt_status rt_set_isa(rt_session *session, const char *name);
 /* The precision that the next rt_render works in. All but RT_PRECISION_DOUBLE use a reference kernel for study, which
- * tests each shape for each ray and refuses what it does not know, also adaptive sampling; it tells no error.
+ * tests each shape for each ray and refuses what it does not know. It samples as the usual ones do.
  * RT_FAULT_USAGE when the library was built without it. */
 typedef enum rt_precision {
     RT_PRECISION_DOUBLE,
@@ -243,11 +243,14 @@ typedef enum rt_depth {
 typedef struct rt_output {
     rt_depth depth;
     double file_gamma; /* 0: sRGB; otherwise the power, 1 writes linear values */
+    int error_channel; /* 1: with the error of each pixel as a fourth channel, `error`; only EXR has room for it */
 } rt_output;
 
-/* Whether a picture of this size fits the memory limit and could be written to this path, asked before a long run. */
+/* Whether a picture of this size fits the memory limit and could be written to this path, asked before a long run.
+ * RT_FAULT_USAGE for an error channel in another format than EXR. */
 RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output);
-/* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. */
+/* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. RT_FAULT_USAGE
+ * for the channel of an error that is not known. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
 
 /* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red,

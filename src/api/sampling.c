@@ -56,6 +56,22 @@ rt_status rt_write_error(rt_session *session, const char *path)
     return session_image_fault(session, status, path, &fault);
 }
 
+bool session_picture_with_error(const rt_session *session, Image *image)
+{
+    const Film *film = &session->film;
+    if (!image_init(image, film->width, film->height, 4)) {
+        return false;
+    }
+    size_t count = (size_t)film->width * (size_t)film->height;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            image->values[4 * i + c] = film->rgb[3 * i + c];
+        }
+        image->values[4 * i + 3] = (float)render_pixel_error(film, &session->error, i);
+    }
+    return true;
+}
+
 __attribute__((format(printf, 3, 4))) static void note(SessionNotes *notes, const char *name, const char *format, ...)
 {
     va_list arguments;
@@ -75,6 +91,16 @@ static void note_sampling(SessionNotes *notes, const SamplingOptions *sampling, 
     note(notes, "rtlang:adaptive", "%s", sampling->is_adaptive ? "yes" : "no");
 }
 
+static void note_error(SessionNotes *notes, const SamplingError *error)
+{
+    note(notes, "rtlang:rmse", "%.6g", error->rmse);
+    note(notes, "rtlang:rmse-low", "%.6g", error->low);
+    note(notes, "rtlang:rmse-high", "%.6g", error->high);
+    if (error->bias > 0.0) {
+        note(notes, "rtlang:bias", "%.6g", error->bias);
+    }
+}
+
 // Everything that the picture follows from, and its error; no times, so that the same run makes the same file.
 void session_make_notes(const rt_session *session, SessionNotes *notes)
 {
@@ -87,10 +113,11 @@ void session_make_notes(const rt_session *session, SessionNotes *notes)
         note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
     } else if (session->is_sampled) {
         note_sampling(notes, sampling, error);
+        if (session->precision != RT_PRECISION_DOUBLE) {
+            note(notes, "rtlang:precision", "%s", session->kernel);
+        }
     }
     if (error->is_known) {
-        note(notes, "rtlang:rmse", "%.6g", error->rmse);
-        note(notes, "rtlang:rmse-low", "%.6g", error->low);
-        note(notes, "rtlang:rmse-high", "%.6g", error->high);
+        note_error(notes, error);
     }
 }

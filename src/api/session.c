@@ -293,15 +293,23 @@ bool session_memory_suffices(rt_session *session)
     return false;
 }
 
-// Whether the chosen precision can trace the scene; reports when not.
-static bool precision_covers(rt_session *session, const Prepared *prepared)
+// Takes the kernel of the chosen precision, if it can trace the scene; reports when not.
+static bool take_precision(rt_session *session, Prepared *prepared)
 {
 #ifdef WITH_STUDY
-    return session->precision == RT_PRECISION_DOUBLE || study_covers(prepared, &session->diags);
+    static const StudyPrecision precisions[] = {
+        [RT_PRECISION_FLOAT] = STUDY_FLOAT, [RT_PRECISION_QUAD] = STUDY_QUAD, [RT_PRECISION_REFERENCE] = STUDY_DOUBLE};
+    if (session->precision == RT_PRECISION_DOUBLE) {
+        return true;
+    }
+    if (!study_covers(prepared, &session->diags)) {
+        return false;
+    }
+    study_take(prepared, precisions[session->precision]);
 #else
     (void)session, (void)prepared;
-    return true;
 #endif
+    return true;
 }
 
 static void forward_done(void *client, double done)
@@ -335,17 +343,6 @@ static bool forward_fits(rt_session *session, const Prepared *prepared)
 
 static RenderResult trace_film(rt_session *session, const Prepared *prepared, const RenderOptions *options)
 {
-#ifdef WITH_STUDY
-    static const StudyPrecision precisions[] = {
-        [RT_PRECISION_FLOAT] = STUDY_FLOAT, [RT_PRECISION_QUAD] = STUDY_QUAD, [RT_PRECISION_REFERENCE] = STUDY_DOUBLE};
-    if (session->precision != RT_PRECISION_DOUBLE) {
-        session->kernel = study_name(precisions[session->precision]);
-        RenderResult result =
-            study_film(prepared, precisions[session->precision], options, &session->film, &session->statistics);
-        session->error.samples = result == RENDER_OK && options->sampling ? options->sampling->samples : 0.0;
-        return result;
-    }
-#endif
     if (session->method != RT_METHOD_BACKWARD) {
         ForwardOptions forward = forward_options(session, options);
         session->kernel = forward.connects ? "forward, connected" : "forward";
@@ -373,7 +370,7 @@ static rt_status render_scene(rt_session *session, int threads)
     if (session->crop.width) {
         film_put(film, session->crop.left, session->crop.top, session->width, session->height);
     }
-    if (!precision_covers(session, prepared) || !forward_fits(session, prepared)) {
+    if (!take_precision(session, prepared) || !forward_fits(session, prepared)) {
         prepared_free(prepared);
         film_fini(&session->film);
         return session_status(session, false);
@@ -411,12 +408,6 @@ static rt_status render_scene(rt_session *session, int threads)
 // What cannot be combined in one run.
 static rt_status session_ways_fit(rt_session *session)
 {
-    const SamplingOptions *sampling = &session->sampling;
-    if (session->precision != RT_PRECISION_DOUBLE && session->is_sampled &&
-        (sampling->is_adaptive || !sampler_is_sequence(sampling->sampler))) {
-        return rt_report(session, "E0703", "the reference kernels of `--precision` sample all pixels alike",
-                         "leave out goals and `--adaptive`, and use the sampler sobol, halton or random");
-    }
     bool wants_samples = session->is_sampled && !session->is_sampled_for_lens;
     if (session->method != RT_METHOD_BACKWARD && (session->precision != RT_PRECISION_DOUBLE || wants_samples)) {
         return rt_report(session, "E0703", "the forward methods have photons for samples, and double precision only",
@@ -484,9 +475,10 @@ rt_status session_image_fault(rt_session *session, ImageStatus status, const cha
     return session_status(session, false);
 }
 
-static bool is_output(const rt_output *output)
+static bool is_output(const char *path, const rt_output *output)
 {
-    return (output->depth == RT_DEPTH_AUTO || output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 ||
+    return (!output->error_channel || image_path_names_channels(path)) &&
+           (output->depth == RT_DEPTH_AUTO || output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 ||
             output->depth == RT_DEPTH_FLOAT) &&
            output->file_gamma >= 0.0 && isfinite(output->file_gamma);
 }
@@ -504,7 +496,7 @@ static ImageDepth output_depth(const rt_output *output, const char *path)
 rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
 {
     ImageError error = {""};
-    if (!is_output(output)) {
+    if (!is_output(path, output)) {
         return RT_FAULT_USAGE;
     }
     if (!session_memory_suffices(session)) {
@@ -515,12 +507,18 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
 {
-    if (!session->rendered || !is_output(output)) {
+    if (!session->rendered || !is_output(path, output) || (output->error_channel && !session->error.is_known)) {
         return RT_FAULT_USAGE;
     }
     double start = session_clock();
     ImageError error = {""};
-    Image image = {session->film.width, session->film.height, 3, session->film.rgb};
+    Image with_error = {0}, image = {session->film.width, session->film.height, 3, session->film.rgb};
+    if (output->error_channel) {
+        if (!session_picture_with_error(session, &with_error)) {
+            return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
+        }
+        image = with_error;
+    }
     SessionNotes notes;
     session_make_notes(session, &notes);
     ImageEncoding encoding = {
@@ -531,8 +529,10 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
         .gamma = output->file_gamma,
         .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,
         .threads = session->threads,
+        .fourth = output->error_channel ? "error" : NULL,
     };
     ImageStatus status = image_write(&image, &encoding, path, &error);
+    image_fini(&with_error);
     session->write_seconds = session_clock() - start;
     return session_image_fault(session, status, path, &error);
 }

@@ -75,6 +75,9 @@ typedef struct SessionNotes {
 } SessionNotes;
 void session_make_notes(const rt_session *session, SessionNotes *notes);
 
+// The picture with each pixel's error as a fourth channel; released with image_fini. False when out of memory.
+bool session_picture_with_error(const rt_session *session, Image *image) RT_MUST_CHECK;
+
 // Hands new diagnostics to the client.
 void session_deliver(rt_session *session);
 

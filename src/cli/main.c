@@ -302,15 +302,25 @@ static rt_status set_sampling(rt_session *session, const Options *options)
                                    : "`--samples` wants a whole number, unless with `--adaptive` or a goal");
 }
 
+static rt_status check_output(rt_session *session, const Options *options, const char *output)
+{
+    rt_status status = rt_check_output(session, output, &options->encoding);
+    return status == RT_FAULT_USAGE && options->encoding.error_channel
+               ? fail_usage(session, "`--error-channel` wants a picture in EXR")
+               : status;
+}
+
 // Writes what there is to write, and tells of it.
 static rt_status finish(rt_session *session, const Options *options, const char *output)
 {
     rt_status status = rt_write(session, output, &options->encoding);
     if (!status && options->error_map) {
         status = rt_write_error(session, options->error_map);
-        if (status == RT_FAULT_USAGE) {
-            return fail_usage(session, "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
-        }
+    }
+    if (status == RT_FAULT_USAGE) {
+        return fail_usage(session, options->encoding.error_channel
+                                       ? "`--error-channel` wants a sampled picture: `--samples` of 2 or more, or a goal"
+                                       : "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
     }
     if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
         print_summary(session, output);
@@ -328,10 +338,8 @@ static rt_status render(rt_session *session, const Options *options, Progress *p
         output = default_name;
     }
     rt_status status = set_sampling(session, options);
-    status = status ? status : rt_check_output(session, output, &options->encoding);
-    if (!status) {
-        status = rt_load_file(session, options->scene);
-    }
+    status = status ? status : check_output(session, options, output);
+    status = status ? status : rt_load_file(session, options->scene);
     if (status) {
         return status;
     }

@@ -325,6 +325,13 @@ static bool apply_error_map(Options *options, const char *argument, const char *
     return argument[0] != '\0';
 }
 
+static bool apply_error_channel(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->encoding.error_channel = 1;
+    return true;
+}
+
 static bool apply_quiet(Options *options, const char *argument, const char **expected)
 {
     (void)argument, (void)expected;
@@ -487,6 +494,7 @@ static const OptionRow rows[] = {
      "by how much red, green and blue must differ together (default 0.3)"},
     {0, "antialias-gamma", "G", apply_antialias_gamma, "compare colours after their 1/G-th power (default 2.5)"},
     {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
+    {0, "error-channel", NULL, apply_error_channel, "write it as a fourth channel `error` of the picture, which must be EXR"},
     {0, "method", "NAME", apply_method,
      "backward (default), or for study photons from the lights: forward, forward-connect"},
     {0, "photons", "N", apply_photons, "photons of the forward methods (default 1e6)"},

@@ -82,19 +82,33 @@ static ImageStatus format_find(const char *path, ImageDepth depth, char ending[s
     return (*module)->check(ending, depth, error);
 }
 
-ImageDepth image_path_depth(const char *path)
+// Whether the path's ending is one of these.
+static bool path_ends_with(const char *path, const char *const *endings, size_t count)
 {
-    static const char *const float_only[] = {"exr", "sxr", "mxr", "hdr", "rgbe"};
     char ending[ENDING_MAX + 1];
 
     if (!path_is_stdout(path) && path_ending(path, ending)) {
-        for (size_t i = 0; i < RT_COUNT_OF(float_only); i++) {
-            if (strcmp(ending, float_only[i]) == 0) {
-                return IMAGE_DEPTH_FLOAT;
+        for (size_t i = 0; i < count; i++) {
+            if (strcmp(ending, endings[i]) == 0) {
+                return true;
             }
         }
     }
-    return IMAGE_DEPTH_8;
+    return false;
+}
+
+ImageDepth image_path_depth(const char *path)
+{
+    static const char *const float_only[] = {"exr", "sxr", "mxr", "hdr", "rgbe"};
+
+    return path_ends_with(path, float_only, RT_COUNT_OF(float_only)) ? IMAGE_DEPTH_FLOAT : IMAGE_DEPTH_8;
+}
+
+bool image_path_names_channels(const char *path)
+{
+    static const char *const open_exr[] = {"exr", "sxr", "mxr"};
+
+    return path_ends_with(path, open_exr, RT_COUNT_OF(open_exr));
 }
 
 ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *error)
@@ -135,6 +149,7 @@ static ImageStatus write_by_module(const OiioModule *module, const char *ending,
         .depth = source->encoder.encoding.depth,
         .notes = source->encoder.encoding.notes,
         .note_count = source->encoder.encoding.note_count,
+        .fourth = source->encoder.encoding.fourth,
         .client = source,
         .fetch = rows_fetch,
     };

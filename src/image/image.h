@@ -17,7 +17,7 @@
 // Values are linear light unless the encoding says otherwise; row 0 is the top one.
 typedef struct Image {
     int width, height;
-    int channels;  // 1 to 4: grey, grey+alpha, rgb, rgb+alpha
+    int channels;  // 1 to 4: grey, grey+alpha, rgb, rgb+alpha, or rgb and what ImageEncoding.fourth says
     float *values; // width * height * channels; owned
 } Image;
 
@@ -45,6 +45,7 @@ typedef struct ImageEncoding {
     int threads;          // to use for it, at most; the file does not depend on it
     const ImageNote *notes;
     size_t note_count;
+    const char *fourth; // what the fourth channel is called that is no alpha, where image_path_names_channels; or NULL
 } ImageEncoding;
 
 typedef enum ImageStatus {
@@ -68,6 +69,9 @@ ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *err
 
 // The depth a path gets when none is asked for: float for formats that hold nothing else, such as EXR, else 8 bit.
 ImageDepth image_path_depth(const char *path);
+
+// Whether the format that a path's ending names holds channels of any name: EXR.
+bool image_path_names_channels(const char *path);
 
 // Writes a picture. Values are clamped to 0..1 for 8 and 16 bit; for float they are written linear and unclamped.
 ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path,

@@ -85,6 +85,10 @@ ImageStatus open_output(const OiioPicture &picture, MemoryFile &file, std::uniqu
     }
     // No oiio:ColorSpace: OpenImageIO 2.4 then adds an Exif directory to TIFF, which breaks a file written to memory.
     spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (picture.fourth != nullptr) {
+        spec.channelnames.back() = picture.fourth;
+        spec.alpha_channel = -1;
+    }
     spec.attribute("DateTime", ""); // else the writers of EXR and TIFF add the hour
     for (size_t i = 0; i < picture.note_count; i++) {
         spec.attribute(picture.notes[i].name, picture.notes[i].text);
@@ -136,7 +140,7 @@ void fetch_black(const void *, int, int, void *)
 ImageStatus format_check(const char *ending, ImageDepth depth, ImageError *error)
 {
     MemoryFile file;
-    OiioPicture picture = {ending, check_size, check_size, 3, depth, nullptr, 0, nullptr, fetch_black};
+    OiioPicture picture = {ending, check_size, check_size, 3, depth, nullptr, 0, nullptr, nullptr, fetch_black};
 
     return write_picture(picture, file, error);
 }

@@ -13,7 +13,7 @@
 #include "image/picture_file.h"
 
 // Raised with each change of the structures below; a module of another version is passed over.
-#define OIIO_MODULE_VERSION 2u
+#define OIIO_MODULE_VERSION 3u
 #define OIIO_MODULE_FILE "rtlang_oiio.so"
 #define OIIO_MODULE_SYMBOL "rtlang_oiio_module"
 
@@ -24,6 +24,7 @@ typedef struct OiioPicture {
     ImageDepth depth;
     const ImageNote *notes;
     size_t note_count;
+    const char *fourth; // name of the fourth channel; NULL: alpha
     const void *client;
     void (*fetch)(const void *client, int first_row, int row_count, void *samples); // packed, in the machine's order
 } OiioPicture;

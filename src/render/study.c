@@ -1,9 +1,8 @@
-// The reference path: what it covers, and whole pictures of it.
+// The reference path: what it covers, and its kernels in the form that pictures are traced by.
 //
 // SPDX-License-Identifier: MIT
 #include "render/study.h"
 
-#include "base/parallel.h"
 #include "render/prepared.h"
 #include "render/study_kernels.h"
 
@@ -15,19 +14,11 @@ enum {
     REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG | RENDER_NORMALS,
 };
 
-static const struct {
-    const char *name;
-    StudyKernel colour;
-} kernels[STUDY_PRECISIONS] = {
-    [STUDY_FLOAT] = {"float", study_colour_float},
-    [STUDY_DOUBLE] = {"double", study_colour_double},
-    [STUDY_QUAD] = {"quad", study_colour_quad},
+static const StudyKernel colours[STUDY_PRECISIONS] = {
+    [STUDY_FLOAT] = study_colour_float,
+    [STUDY_DOUBLE] = study_colour_double,
+    [STUDY_QUAD] = study_colour_quad,
 };
-
-const char *study_name(StudyPrecision precision)
-{
-    return kernels[precision].name;
-}
 
 // ---- what is covered
 
@@ -124,87 +115,46 @@ bool study_covers(const Prepared *p, DiagSink *diags)
 Rgb study_colour(const Prepared *prepared, StudyPrecision precision, double u, double v)
 {
     RenderStatistics unused = {0};
-    return kernels[precision].colour(prepared, u, v, &unused);
+    return colours[precision](prepared, u, v, &unused);
 }
 
-typedef struct Work {
-    const Prepared *prepared;
-    StudyKernel colour;
-    const RenderOptions *options;
-    Film *film;
-    Filter filter;
-    atomic_int next, done;
-    _Atomic uint64_t camera, shadow, reflected, transmitted;
-} Work;
-
-static Rgb colour_at(const Work *work, int x, int y, FilterSample at, RenderStatistics *statistics)
+static void trace_wanted(const Prepared *p, StudyPrecision precision, const KernelPlaces *places, uint64_t wanted,
+                         Rgb *light, RenderStatistics *statistics)
 {
-    return work->colour(work->prepared, film_u(work->film, x, at.x), film_v(work->film, y, at.y), statistics);
-}
-
-// The mean over the places where the usual kernels sample the pixel, too.
-static Rgb sampled_colour(const Work *work, int x, int y, RenderStatistics *statistics)
-{
-    const SamplingOptions *sampling = work->options->sampling;
-    const Film *film = work->film;
-    uint32_t count = (uint32_t)sampling->samples;
-    SampleStream stream = {
-        .kind = sampling->sampler,
-        .seed = sampler_pixel_seed(sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
-        .count = count};
-    Rgb sum = rgb_grey(0.0);
-    for (; stream.index < count; stream.index++) {
-        stream.pair = 0;
-        FilterSample at = filter_sample(&work->filter, sample_next(&stream));
-        sum = rgb_add_scaled(sum, at.weight, colour_at(work, x, y, at, statistics));
-    }
-    return rgb_scale(1.0 / count, sum);
-}
-
-static void trace_row(const Work *work, int y, RenderStatistics *statistics)
-{
-    const Film *film = work->film;
-    for (int x = 0; x < film->width; x++) {
-        Rgb colour = work->options->sampling ? sampled_colour(work, x, y, statistics)
-                                             : colour_at(work, x, y, (FilterSample){.weight = 1.0}, statistics);
-        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)x)];
-        pixel[0] = (float)colour.red;
-        pixel[1] = (float)colour.green;
-        pixel[2] = (float)colour.blue;
+    for (; wanted; wanted &= wanted - 1) {
+        int i = __builtin_ctzll(wanted);
+        light[i] = colours[precision](p, places->u[i], places->v[i], statistics);
     }
 }
 
-static void trace_rows(void *client, int thread)
+// Nothing that is covered draws numbers.
+static void trace_float(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
+                        Rgb *light, RenderStatistics *statistics)
 {
-    Work *work = client;
-    const RenderOptions *options = work->options;
-    RenderStatistics statistics = {0};
-    for (int y; (y = atomic_fetch_add(&work->next, 1)) < work->film->height;) {
-        if (options->cancel && atomic_load(options->cancel)) {
-            return;
-        }
-        trace_row(work, y, &statistics);
-        int done = atomic_fetch_add(&work->done, 1) + 1;
-        if (thread == 0 && options->progress) {
-            options->progress(options->client,
-                              &(RenderProgress){.done = (double)done / work->film->height, .seconds_left = -1.0});
-        }
-    }
-    atomic_fetch_add(&work->camera, statistics.camera_rays);
-    atomic_fetch_add(&work->shadow, statistics.shadow_rays);
-    atomic_fetch_add(&work->reflected, statistics.reflected_rays);
-    atomic_fetch_add(&work->transmitted, statistics.transmitted_rays);
+    (void)streams;
+    trace_wanted(p, STUDY_FLOAT, places, wanted, light, statistics);
 }
 
-RenderResult study_film(const Prepared *prepared, StudyPrecision precision, const RenderOptions *options, Film *film,
-                        RenderStatistics *statistics)
+static void trace_double(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
+                         Rgb *light, RenderStatistics *statistics)
 {
-    Work work = {.prepared = prepared, .colour = kernels[precision].colour, .options = options, .film = film};
-    filter_init(&work.filter, options->sampling ? options->sampling->filter : FILTER_BOX);
-    parallel_run(options->threads < film->height ? options->threads : film->height, trace_rows, &work);
-    *statistics = (RenderStatistics){.camera_rays = work.camera,
-                                     .shadow_rays = work.shadow,
-                                     .reflected_rays = work.reflected,
-                                     .transmitted_rays = work.transmitted};
-    return atomic_load(&work.done) == film->height ? RENDER_OK : RENDER_CANCELLED;
+    (void)streams;
+    trace_wanted(p, STUDY_DOUBLE, places, wanted, light, statistics);
+}
+
+static void trace_quad(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
+                       Rgb *light, RenderStatistics *statistics)
+{
+    (void)streams;
+    trace_wanted(p, STUDY_QUAD, places, wanted, light, statistics);
+}
+
+void study_take(Prepared *prepared, StudyPrecision precision)
+{
+    static const Kernel kernels[STUDY_PRECISIONS] = {
+        [STUDY_FLOAT] = {"float", COVERED, trace_float},
+        [STUDY_DOUBLE] = {"double", COVERED, trace_double},
+        [STUDY_QUAD] = {"quad", COVERED, trace_quad},
+    };
+    prepared->kernel = &kernels[precision];
 }

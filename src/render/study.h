@@ -13,9 +13,6 @@
 
 typedef enum StudyPrecision { STUDY_FLOAT, STUDY_DOUBLE, STUDY_QUAD, STUDY_PRECISIONS } StudyPrecision;
 
-// "float", "double", "quad"
-const char *study_name(StudyPrecision precision);
-
 // False, with a fault at each kind of thing, when the scene has what the reference path has not.
 bool study_covers(const Prepared *prepared, DiagSink *diags) RT_MUST_CHECK;
 
@@ -23,9 +20,8 @@ bool study_covers(const Prepared *prepared, DiagSink *diags) RT_MUST_CHECK;
 // from the precision that it was worked out in. The scene must be covered.
 Rgb study_colour(const Prepared *prepared, StudyPrecision precision, double u, double v);
 
-// A whole picture of it. Of sampling, if that is asked for, only a whole number of samples of a sequence is followed; they
-// are those of the usual kernels, and no error is told.
-RenderResult study_film(const Prepared *prepared, StudyPrecision precision, const RenderOptions *options, Film *film,
-                        RenderStatistics *statistics) RT_MUST_CHECK;
+// From now on the prepared scene is traced by the reference kernel: render_film samples and tells errors as ever. The scene
+// must be covered. What max_trace_level and adc_bailout cut is not counted.
+void study_take(Prepared *prepared, StudyPrecision precision);
 
 #endif

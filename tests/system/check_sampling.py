@@ -22,6 +22,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.environ.get("top_srcdir", "."), "tests", "povray"))
 from pictures import read_png, unfilter
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from exr import read_exr
 from tap import Tap
 
 RTLANG = os.path.abspath(os.environ["RTLANG"])
@@ -104,6 +105,11 @@ def grey_16(name):
     return values
 
 
+def notes_of(scene, *options):
+    rtlang(scene, *options)
+    return notes("out.png")
+
+
 def linear(name):
     return [code / 65535 for code in read_png(name)[2]]
 
@@ -135,6 +141,49 @@ def test_error_told():
     true = rmse(picture, linear("reference.png"))
     tap.ok(low / 1.2 < true < high * 1.2, "and it is what the picture is off by", f"{low} {true} {high}")
     tap.ok("error:" not in rtlang(BALLS, "--samples=16", "--no-estimate")[1], "not without the estimate")
+
+
+def test_channel():
+    """The same in EXR, where the error of each pixel is a channel of its own."""
+    status, said = rtlang(BALLS, "--samples=16", "--seed=5", "--error-channel", "--error-map=map.exr", output="out.exr")
+    if "E0507" in said:
+        tap.skip("the channel of the error", "OpenImageIO is missing")
+        return
+    found = ERROR.search(said)
+    kept, channels = read_exr("out.exr")
+    fine = all(math.isclose(float(kept["rtlang:" + name]), float(found[place]), rel_tol=6e-3)
+               for place, name in enumerate(("rmse", "rmse-low", "rmse-high", "samples"), 1))
+    tap.ok(status == 0 and fine and kept["rtlang:seed"] == "5" and kept["rtlang:sampler"] == "sobol", "EXR keeps it, too", kept)
+    values = channels.get("error", [0.0])
+    tap.ok(sorted(channels) == ["B", "G", "R", "error"] and len(values) == 64 * 48 and
+           math.isclose(math.sqrt(sum(value * value for value in values) / len(values)), float(found[1]), rel_tol=6e-3),
+           "and on demand a channel with the error of each pixel, whose mean square is the picture's", said)
+    tap.ok(list(read_exr("map.exr")[1].values()) == [values], "which is the map")
+    rtlang(BALLS, "--samples=16", "--seed=5", output="plain.exr")
+    plain = read_exr("plain.exr")[1]
+    tap.ok(sorted(plain) == ["B", "G", "R"] and all(plain[name] == channels[name] for name in plain),
+           "beside the same picture, and not unless asked for")
+    for name, output, options in (("in PNG", "out.png", ("--samples=16",)), ("of nothing", "out.exr", ())):
+        status, said = rtlang(BALLS, "--error-channel", *options, output=output)
+        tap.ok(status == 2 and "error[E0703]: `--error-channel`" in said, "refused: a channel " + name, said)
+
+
+def test_precisions():
+    """The reference kernels sample as the others do, and tell what the others tell."""
+    status, said = rtlang(BALLS, "--samples=8", "--precision=reference")
+    if "--disable-study" in said:
+        tap.skip("the reference kernels", "this rtlang is without them")
+        return
+    usual = ERROR.search(rtlang(BALLS, "--samples=8")[1])
+    for precision in "reference", "float":
+        found = ERROR.search(rtlang(BALLS, "--samples=8", f"--precision={precision}")[1])
+        tap.ok(found and all(math.isclose(float(found[i]), float(usual[i]), rel_tol=0.01) for i in range(1, 5)),
+               f"--precision={precision} tells the same error", f"{found} {usual}")
+        name = {"reference": "double"}.get(precision, precision)
+        tap.equal(notes("out.png").get("rtlang:precision"), name, "and the file says by which numbers")
+    said = rtlang(LENS.replace("aperture 1", "aperture 0"), "--precision=quad", "--target-error=0.02", size=(32, 24))[1]
+    found = ERROR.search(said)
+    tap.ok(found and float(found[3]) <= 0.02 and "; the target is reached" in found[6], "they run to a goal", said)
 
 
 def test_goals():
@@ -174,6 +223,23 @@ def test_interrupt():
     true = rmse(linear("cut.png"), linear("reference.png"))
     floor = 65535 ** -1 + 0.001
     tap.ok(status == 0 and true < 1.5 * float(found[3]) + floor, "which is no worse than that", f"{true} {found[0]}")
+
+
+def test_restart():
+    """A run that was ended, somehow and at any time, and is started again is as if it had never been ended."""
+    scene, options = SOFT, ("-W64", "-H48", "--samples=300", *LINEAR)
+    write("scene.scn", scene)
+    whole = subprocess.run([RTLANG, *options, "-o", "whole.png", "scene.scn"], capture_output=True, text=True, check=False)
+    for threads, (kind, delay) in enumerate(((signal.SIGINT, 0.15), (signal.SIGTERM, 0.3), (signal.SIGKILL, 0.3)), 1):
+        command = [RTLANG, *options, f"-t{threads}", "-o", "again.png", "scene.scn"]
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(delay)
+        process.send_signal(kind)
+        process.wait(timeout=60)
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        found = ERROR.search(run.stderr)
+        tap.ok(run.returncode == 0 and read("whole.png") == read("again.png") and found and found[0] == ERROR.search(whole.stderr)[0],
+               f"started again after {kind.name}: the same file and the same error", run.stderr)
 
 
 def terminal_output(command, seconds, wanted):
@@ -232,6 +298,14 @@ def test_crop():
     one = rtlang(BALLS, "--samples=16", "-t1", "--crop=8,8,40,30")[1]
     other = rtlang(BALLS, "--samples=16", "-t5", "--crop=8,8,40,30")[1]
     tap.equal(ERROR.search(one)[0], ERROR.search(other)[0], "a part's error does not depend on threads")
+    # Independent halves: there the error of the whole is that of its parts, no more is taken from all pixels together.
+    whole = float(notes_of(BALLS, "--samples=16", "--sampler=jittered")["rtlang:rmse"])
+    squares = 0.0
+    for left, top, across, down in parts:
+        part = notes_of(BALLS, "--samples=16", "--sampler=jittered", f"--crop={left},{top},{across},{down}")
+        squares += float(part["rtlang:rmse"]) ** 2 * across * down / (64 * 48)
+    tap.ok(math.isclose(math.sqrt(squares), whole, rel_tol=1e-5), "errors of parts add up to that of the whole",
+           f"{math.sqrt(squares)} {whole}")
     for crop in "60,0,5,5", "0,44,1,5", "64,0,1,1":
         status, said = rtlang(BALLS, "--crop=" + crop)
         tap.ok(status == 2 and "E0703" in said and "--crop" in said, f"a part of {crop} is not in 64 x 48", said)
@@ -261,8 +335,7 @@ def test_forward():
 
 
 def test_refusals():
-    for name, options in (("adaptive sampling in quad", ("--precision=quad", "--adaptive", "--samples=8")),
-                          ("a goal with a set", ("--sampler=grid", "--target-error=0.1")),
+    for name, options in (("a goal with a set", ("--sampler=grid", "--target-error=0.1")),
                           ("adaptive without a number", ("--adaptive",)),
                           ("half a sample", ("--samples=2.5",)),
                           ("a map of nothing", ("--error-map=map.png",))):
@@ -273,7 +346,7 @@ def test_refusals():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for test in (test_error_told, test_goals, test_interrupt, test_plateau, test_crop, test_lens, test_forward, test_refusals):
+        for test in (test_error_told, test_channel, test_precisions, test_goals, test_interrupt, test_restart, test_plateau, test_crop, test_lens, test_forward, test_refusals):
             test()
         os.chdir("/")
     tap.done()
