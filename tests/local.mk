@@ -270,8 +270,9 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) EXPORTERS_LONG=1 $(PYTHON3) $(top_srcdir)/tests/povray/check_exporters.py
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
 
-# Error against samples, with all seeds and scenes.
+# Error against samples, with all seeds and scenes, and photons.
 .PHONY: check-sampling
 check-long: check-sampling
-check-sampling: tests/sampling/test_sampling$(EXEEXT)
+check-sampling: tests/sampling/test_sampling$(EXEEXT) tests/sampling/test_forward$(EXEEXT)
 	tests/sampling/test_sampling$(EXEEXT) long
+	tests/sampling/test_forward$(EXEEXT) long

@@ -11,12 +11,38 @@ typedef struct Scale {
     double low_x, high_x, low_y, high_y; // decimal logarithms
 } Scale;
 
-static const char *const colours[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#7f7f7f",
-                                      "#ff7f0e", "#e0a800", "#17becf", "#bcbd22", "#e377c2", "#444444"};
+enum { COLOURS = 6 };
 
-static const char *colour_of(int method)
+// How the methods of a kind are drawn: no two of a study look alike.
+static const struct {
+    const char *dash;
+    const char *mark; // a path around the point
+    const char *colours[COLOURS];
+} looks[] = {
+    [STUDY_SAMPLER] = {"none",
+                       "m-3,0 a3,3 0 1,0 6,0 a3,3 0 1,0 -6,0z",
+                       {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#7f7f7f"}},
+    [STUDY_REFERENCE] = {"2 2",
+                         "m-2.8,-2.8 h5.6 v5.6 h-5.6z",
+                         {"#17becf", "#0b8a8a", "#005f73", "#17becf", "#0b8a8a", "#005f73"}},
+    [STUDY_FORWARD] = {"10 3 2 3",
+                       "m0,-4 l3.8,6.6 h-7.6z",
+                       {"#ff7f0e", "#a34700", "#ff7f0e", "#a34700", "#ff7f0e", "#a34700"}},
+    [STUDY_POVRAY] = {"6 3",
+                      "m0,-4 l4,4 l-4,4 l-4,-4z",
+                      {"#e0a800", "#bcbd22", "#6b6b00", "#e377c2", "#b0127b", "#444444"}},
+};
+
+// By its place among those of its kind.
+static const char *colour_of(const Study *study, int number)
 {
-    return colours[(size_t)method % (sizeof colours / sizeof colours[0])];
+    const StudyMethod *method = &study->methods[number];
+    int place = 0;
+
+    for (int i = 0; i < number; i++) {
+        place += study->methods[i].kind == method->kind;
+    }
+    return looks[method->kind].colours[place % COLOURS];
 }
 
 static double place_x(const Scale *scale, double x)
@@ -106,11 +132,10 @@ static void print_guide(FILE *out, const Study *study, const Scale *scale, doubl
 static void print_method(FILE *out, const Study *study, const Scale *scale, int number)
 {
     const StudyMethod *method = &study->methods[number];
-    static const char *const dashes[] = {
-        [STUDY_SAMPLER] = "none", [STUDY_REFERENCE] = "2 2", [STUDY_FORWARD] = "10 3 2 3", [STUDY_POVRAY] = "6 3"};
-    const char *dash = dashes[method->kind];
+    const char *dash = looks[method->kind].dash, *mark = looks[method->kind].mark, *colour = colour_of(study, number);
 
-    fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\" points=\"", colour_of(number), dash);
+    fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\" points=\"",
+            colour, dash);
     for (int i = 0; i < method->count; i++) {
         if (is_shown(&method->points[i])) {
             fprintf(out, "%.1f,%.1f ", place_x(scale, method->points[i].seconds),
@@ -122,16 +147,17 @@ static void print_method(FILE *out, const Study *study, const Scale *scale, int 
         const StudyPoint *point = &method->points[i];
         if (is_shown(point)) {
             fprintf(out,
-                    "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"><title>%s, %s: %.3g s, rmse "
-                    "%.3g</title></circle>\n",
-                    place_x(scale, point->seconds), place_y(scale, point->rmse), colour_of(number), method->name,
+                    "<path d=\"M%.1f,%.1f %s\" style=\"fill: %s; stroke: none\"><title>%s, %s: %.3g s, rmse "
+                    "%.3g</title></path>\n",
+                    place_x(scale, point->seconds), place_y(scale, point->rmse), mark, colour, method->name,
                     point->setting, point->seconds, point->rmse);
         }
     }
     int y = TOP + 14 + 20 * number;
     char style[96];
-    snprintf(style, sizeof style, "stroke: %s; stroke-width: 2; stroke-dasharray: %s", colour_of(number), dash);
+    snprintf(style, sizeof style, "stroke: %s; stroke-width: 2; stroke-dasharray: %s", colour, dash);
     print_line(out, WIDTH - RIGHT + 16, y - 4, WIDTH - RIGHT + 40, y - 4, style);
+    fprintf(out, "<path d=\"M%d,%d %s\" style=\"fill: %s; stroke: none\"/>\n", WIDTH - RIGHT + 28, y - 4, mark, colour);
     fprintf(out, "<text x=\"%d\" y=\"%d\">%s%s</text>\n", WIDTH - RIGHT + 46, y, method->name,
             method->is_biased ? " (biased)" : "");
 }

@@ -9,7 +9,7 @@
 
 #include "render/tiles.h"
 
-enum { PILOT_SAMPLES = 16 }; // of every pixel, before some get more than others
+enum { PILOT_SAMPLES = 4 }; // of every pixel, before some get more than others
 
 typedef struct Sampling {
     const Prepared *prepared;
