@@ -41,6 +41,7 @@ unit_programs = \
   tests/unit/test_trace_tree \
   tests/unit/test_trace_secondary \
   tests/unit/test_coincident \
+  tests/unit/test_range \
   tests/unit/test_invariance \
   tests/unit/test_study \
   tests/unit/test_trace_pixel \
@@ -127,6 +128,8 @@ tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_coincident_SOURCES = %D%/unit/test_coincident.c $(unit_headers)
 tests_unit_test_coincident_LDADD = libapi.la
+tests_unit_test_range_SOURCES = %D%/unit/test_range.c $(unit_headers)
+tests_unit_test_range_LDADD = libapi.la
 tests_unit_test_invariance_SOURCES = %D%/unit/test_invariance.c %D%/unit/scenes.h $(unit_headers)
 tests_unit_test_invariance_LDADD = libapi.la
 tests_unit_test_study_SOURCES = %D%/unit/test_study.c %D%/unit/scenes.h
@@ -184,6 +187,7 @@ test_scripts = \
   %D%/system/check_sampling.py \
   %D%/system/check_stability.py \
   %D%/system/check_study.py \
+  %D%/system/check_disable_study.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
   %D%/povray/check_blur.sh \
@@ -259,12 +263,14 @@ update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_d
 # What takes too long for every day.
 .PHONY: check-long
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
-  tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
+  tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
+	tests/unit/test_range$(EXEEXT) 20000
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_disable_study.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_literals.py 5000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) EXPORTERS_LONG=1 $(PYTHON3) $(top_srcdir)/tests/povray/check_exporters.py

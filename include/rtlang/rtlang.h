@@ -277,6 +277,7 @@ typedef struct rt_summary {
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds; /* wall time */
     uint64_t errors, warnings;
     const char *kernel; /* name of the kernel that traced the picture, "" before rt_render */
+    uint64_t out_of_range; /* of the warnings, those of shapes, lights and cameras beyond the range of numbers */
 } rt_summary;
 RT_API void rt_get_summary(const rt_session *session, rt_summary *summary);
 

@@ -27,6 +27,7 @@ static const char *const kind_words[] = {
 static const char *const choice_words[] = {
     [LIFE_MISSES] = "none", [LIFE_BEHIND] = "behind", [LIFE_NEAR] = "near",
     [LIFE_FAR] = "far",     [LIFE_LEFT] = "left",     [LIFE_GOES_THROUGH] = "goes through",
+    [LIFE_CUT] = "cut",
 };
 
 static const char *const choice_reasons[] = {
@@ -36,6 +37,7 @@ static const char *const choice_reasons[] = {
     [LIFE_FAR] = "t2: the ray starts inside, so the first point lies behind it",
     [LIFE_LEFT] = "none: the ray starts on this sphere and leaves it; a sphere is convex, so it is not asked again",
     [LIFE_GOES_THROUGH] = "the one that is not 0: the ray starts on this sphere and goes in, so c = 0 and t = -b / a",
+    [LIFE_CUT] = "both: the sphere is cut with other shapes, and what they leave of it decides which point is seen",
 };
 
 static const char *case_of(double h)
@@ -100,10 +102,15 @@ static void tell_place(const Printer *p, uint64_t source)
 
 static void tell_sphere(const Printer *p, const LifeSphere *s)
 {
-    put(p, "  sphere");
+    put(p, s->is_stretched ? "  stretched sphere" : "  sphere");
     tell_place(p, s->source);
-    tell_place_of(p, ": centre ", s->centre);
-    tell(p, ", radius ", s->radius);
+    if (s->is_stretched) {
+        tell_vector(p, ": in the space where it has its centre at 0 and the radius 1\n    e = ", s->own_origin);
+        tell_vector(p, ", d = ", s->own_direction);
+    } else {
+        tell_place_of(p, ": centre ", s->centre);
+        tell(p, ", radius ", s->radius);
+    }
     tell(p, "\n    a = d·d = ", s->a);
     tell(p, ", b = 2 d·(e - centre) = ", s->b);
     tell(p, ", c = (e - centre)·(e - centre) - radius² = ", s->c);
@@ -131,7 +138,7 @@ static void tell_sphere(const Printer *p, const LifeSphere *s)
     put(p, "\n");
 }
 
-static void tell_layer(const Printer *p, const LifeLayer *layer)
+static void tell_layer(const Printer *p, const LifeLayer *layer, Vec3 normal)
 {
     text_printf(p->out, "    pigment rgbft <%.9g, %.9g, %.9g, %.9g, %.9g>", layer->pigment.red, layer->pigment.green,
                 layer->pigment.blue, layer->pigment.filter, layer->pigment.transmit);
@@ -141,6 +148,9 @@ static void tell_layer(const Printer *p, const LifeLayer *layer)
     if (layer->above.red != 1.0 || layer->above.green != 1.0 || layer->above.blue != 1.0) {
         tell_colour(p, ", seen through layers that leave ", layer->above);
     }
+    if (!vec3_equal(layer->normal, normal)) {
+        tell_vector(p, "\n    its bumps turn the normal to N = ", layer->normal);
+    }
     tell_colour(p, "\n    ambient and emission: ", layer->glow);
     put(p, "\n");
     for (size_t i = layer->first_light; i < layer->first_light + layer->light_count; i++) {
@@ -149,7 +159,10 @@ static void tell_layer(const Printer *p, const LifeLayer *layer)
         tell_place_of(p, " at ", light->position);
         tell(p, ": distance ", light->distance);
         tell(p, ", N·L = ", light->cosine);
+        tell_colour(p, ", sends ", light->sends);
         tell_colour(p, ", visible ", light->visible);
+        tell_colour(p, "\n      diffuse ", light->diffuse);
+        tell_colour(p, ", highlights ", light->highlights);
         tell_colour(p, ", adds ", light->adds);
         put(p, "\n");
     }
@@ -166,7 +179,7 @@ static void tell_hit(const Printer *p, const LifeRay *ray)
     tell_vector(p, ", normal N = ", ray->normal);
     put(p, "\n");
     for (size_t i = ray->first_layer; i < ray->first_layer + ray->layer_count; i++) {
-        tell_layer(p, &p->life->layers.items[i]);
+        tell_layer(p, &p->life->layers.items[i], ray->normal);
     }
     if (!rgb_is_black(ray->reflectance)) {
         tell_colour(p, "    mirrors ", ray->reflectance);
@@ -290,7 +303,14 @@ static void json_spheres(const Printer *p, const LifeRay *ray)
         const LifeSphere *s = &p->life->spheres.items[ray->first_sphere + i];
         put(p, i > 0 ? ", {" : "{");
         json_place(p, s->source);
-        json_place_of(p, "centre", s->centre);
+        json_truth(p, "stretched", s->is_stretched);
+        if (s->is_stretched) {
+            json_vector(p, "own_e", s->own_origin);
+            json_vector(p, "own_d", s->own_direction);
+            json_vector(p, "centre", s->centre);
+        } else {
+            json_place_of(p, "centre", s->centre);
+        }
         json_number(p, "radius", s->radius);
         json_number(p, "a", s->a);
         json_number(p, "b", s->b);
@@ -326,7 +346,10 @@ static void json_lights(const Printer *p, const LifeLayer *layer)
         json_place_of(p, "position", light->position);
         json_number(p, "distance", light->distance);
         json_number(p, "cosine", light->cosine);
+        json_colour(p, "sends", light->sends);
         json_colour(p, "visible", light->visible);
+        json_colour(p, "diffuse", light->diffuse);
+        json_colour(p, "highlights", light->highlights);
         json_colour(p, "adds", light->adds);
         put(p, "}");
     }
@@ -358,6 +381,7 @@ static void json_hit(const Printer *p, const LifeRay *ray)
         json_number(p, "transmit", pigment->transmit);
         json_number(p, "part", layer->part);
         json_colour(p, "above", layer->above);
+        json_vector(p, "normal", layer->normal);
         json_colour(p, "glow", layer->glow);
         json_lights(p, layer);
         put(p, "}");

@@ -547,6 +547,13 @@ const float *rt_pixels(const rt_session *session, int *width, int *height)
     return session->film.rgb;
 }
 
+// Told as warnings, or as errors by -Werror.
+static uint64_t out_of_range(const DiagSink *diags)
+{
+    return diags->reported[DIAG_W0440] + diags->reported[DIAG_W0441] + diags->reported[DIAG_W0442] +
+           diags->reported[DIAG_W0443];
+}
+
 void rt_get_summary(const rt_session *session, rt_summary *summary)
 {
     *summary = (rt_summary){
@@ -565,6 +572,7 @@ void rt_get_summary(const rt_session *session, rt_summary *summary)
         .errors = session->diags.error_count,
         .warnings = session->diags.warning_count,
         .kernel = session->kernel,
+        .out_of_range = out_of_range(&session->diags),
     };
 }
 

@@ -236,6 +236,7 @@ bool diag_report(DiagSink *sink, DiagCode code, Span span, const char *format, .
         diag.severity = DIAG_ERROR;
         diag.class = CLASS_SCENE;
     }
+    sink->reported[code]++;
     if (!report_count(sink, &diag)) {
         sink->dropped[code]++;
         return false;

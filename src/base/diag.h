@@ -71,6 +71,7 @@ typedef struct DiagSink {
     size_t keep_alike;                 // so are warnings beyond this number of one code and message
     size_t kept_warnings;
     size_t dropped[DIAG_CODE_COUNT];   // reported and only counted, by code, since the last diag_finish
+    size_t reported[DIAG_CODE_COUNT];  // all, by code
     uint8_t levels[DIAG_CODE_COUNT];   // DIAG_ON, DIAG_FATAL
     DiagClass class;                   // of the first error; CLASS_NONE while there is none
     bool out_of_memory;                // a record, or a part of one, could not be kept

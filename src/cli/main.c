@@ -243,10 +243,13 @@ static void print_summary(const rt_session *session, const char *output)
 {
     rt_summary s;
     rt_get_summary(session, &s);
-    char warnings[64] = "";
+    char warnings[128] = "", beyond[64] = "";
+    if (s.out_of_range > 0) {
+        snprintf(beyond, sizeof beyond, ", %llu of them of the range of numbers", (unsigned long long)s.out_of_range);
+    }
     if (s.warnings > 0) {
-        snprintf(warnings, sizeof warnings, "; %llu warning%s", (unsigned long long)s.warnings,
-                 s.warnings == 1 ? "" : "s");
+        snprintf(warnings, sizeof warnings, "; %llu warning%s%s", (unsigned long long)s.warnings,
+                 s.warnings == 1 ? "" : "s", beyond);
     }
     fprintf(stderr,
             "%s: %dx%d, %llu object%s, %llu light%s; rays: %llu camera, %llu shadow, %llu reflected, %llu transmitted; "

@@ -48,18 +48,19 @@ static uint64_t sphere_source(const Scene *scene, uint32_t order)
     return 0;
 }
 
-// The quadratic and its roots as a textbook has them.
-static void textbook(LifeSphere *out, Ray ray, const Ball *ball, double scale)
+// The quadratic and its roots as a textbook has them. `unit`: what a distance in the ball's space is in the scene's lengths.
+static void textbook(LifeSphere *out, Ray ray, const Ball *ball, double scale, double unit)
 {
     Vec3 f = vec3_sub(ray.origin, ball->centre);
     double a = vec3_dot(ray.direction, ray.direction);
     double b = 2.0 * vec3_dot(ray.direction, f);
     double c = vec3_dot(f, f) - ball->radius_squared;
     double h = b * b - 4.0 * a * c;
-    out->a = a;
-    out->b = b * scale;
-    out->c = c * scale * scale;
-    out->h = h * scale * scale;
+    double rate = unit / scale; // of lengths by t
+    out->a = a * rate * rate;
+    out->b = b * rate * unit;
+    out->c = c * unit * unit;
+    out->h = h * rate * unit * rate * unit;
     if (h >= 0.0) {
         out->t1 = (-b - sqrt(h)) / (2.0 * a) * scale;
         out->t2 = (-b + sqrt(h)) / (2.0 * a) * scale;
@@ -96,12 +97,88 @@ static void certify(LifeSphere *out, Ray ray, const Ball *ball, const StartSpher
     out->bound = t > 0.0 ? spacing(t) * scale : 0.0;
 }
 
+// Keeps one that the line meets, or any of a few.
+static void keep_sphere(Follower *follower, LifeRay *ray, const LifeSphere *sphere, bool is_of_few)
+{
+    bool is_told = is_of_few || sphere->h >= 0.0 || sphere->t > 0.0;
+    if (!is_told || follower->life->spheres.count - ray->first_sphere >= SPHERES_MOST) {
+        ray->missed++;
+    } else {
+        follower->failed |= !ARRAY_PUSH(&follower->life->spheres, *sphere);
+    }
+}
+
+// A ball under a map, in its own space.
+static LifeSphere stretched(const Follower *follower, Ray object, const StartSphere *on, uint64_t source)
+{
+    LifeSphere sphere = {.source = source,
+                         .is_stretched = true,
+                         .own_origin = object.origin,
+                         .own_direction = vec3_scale(1.0 / follower->scale, object.direction),
+                         .radius = 1.0};
+    Ball ball = UNIT_BALL;
+    textbook(&sphere, object, &ball, follower->scale, 1.0);
+    certify(&sphere, object, &ball, on, follower->scale);
+    return sphere;
+}
+
+static void follow_ellipsoid(Follower *follower, LifeRay *ray, const PendingRay *now, uint32_t index, bool is_of_few)
+{
+    const EllipsoidEntry *entry = &follower->p->geometry->ellipsoids[index];
+    const Scene *scene = follower->p->scene;
+    bool is_start = now->start.shape == shape_id(SHAPE_ELLIPSOID, index);
+    StartSphere on = {0, now->start.inward, is_start ? UNIT_BALL : (Ball){{0.0, 0.0, 0.0}, (double)NAN}};
+    SphereRay world = sphere_ray_make(now->ray.origin, now->ray.direction);
+    SphereRay object = ellipsoid_ray(&entry->shape, &world);
+    uint64_t source = 0;
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        source = scene->ellipsoids.items[i].order == entry->info.order ? scene->ellipsoids.items[i].source : source;
+    }
+    LifeSphere sphere = stretched(follower, (Ray){object.origin, object.direction}, &on, source);
+    if (sphere.t > 0.0) {
+        sphere.bound = ellipsoid_crossing_error(&entry->shape, &now->ray, sphere.t / follower->scale) * follower->scale;
+    }
+    keep_sphere(follower, ray, &sphere, is_of_few);
+}
+
+static bool is_round(const Transform *m)
+{
+    const double(*r)[3] = m->m;
+    return r[0][1] == 0.0 && r[0][2] == 0.0 && r[1][0] == 0.0 && r[1][2] == 0.0 && r[2][0] == 0.0 && r[2][1] == 0.0 &&
+           fabs(r[0][0]) == fabs(r[1][1]) && fabs(r[1][1]) == fabs(r[2][2]);
+}
+
+// Spheres that are cut, or that not all rays see: what their roots lead to is decided with the rest of the composite.
+static void follow_part(Follower *follower, LifeRay *ray, const PendingRay *now, uint32_t index, bool is_of_few)
+{
+    const Solid *solid = &follower->p->geometry->shapes.solids[index];
+    const StartSphere none = {SLOT_NONE, false, {{0.0, 0.0, 0.0}, (double)NAN}};
+    uint64_t source = follower->p->scene->parts.items[index].source;
+    LifeSphere sphere;
+    if (is_round(&solid->to_world)) {
+        double radius = fabs(solid->to_world.m[0][0]);
+        Ball ball = {solid->centre, radius * radius};
+        sphere = (LifeSphere){.source = source,
+                              .centre = in_scene(follower, solid->centre),
+                              .radius = radius * follower->scale};
+        textbook(&sphere, now->ray, &ball, follower->scale, follower->scale);
+        certify(&sphere, now->ray, &ball, &none, follower->scale);
+    } else {
+        sphere = stretched(follower, solid_ray(solid, &now->ray), &none, source);
+    }
+    sphere.choice = sphere.t > 0.0 ? LIFE_CUT : sphere.choice;
+    sphere.is_misjudged = false;
+    sphere.t = sphere.bound = 0.0;
+    keep_sphere(follower, ray, &sphere, is_of_few);
+}
+
 // Spheres that the line meets, or all of a few.
 static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *now)
 {
     const Geometry *g = follower->p->geometry;
     const SphereTable *table = &g->spheres;
     StartSphere on = query_start_sphere(g, TRACE_ALL_FEATURES, now->start);
+    bool is_of_few = table->count + g->ellipsoid_count + g->shapes.solid_count <= SPHERES_FEW;
     ray->first_sphere = follower->life->spheres.count;
     for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
         Ball ball = sphere_table_ball(table, slot);
@@ -110,15 +187,20 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *n
         }
         LifeSphere sphere = {.centre = in_scene(follower, ball.centre),
                              .radius = sqrt(ball.radius_squared) * follower->scale};
-        textbook(&sphere, now->ray, &ball, follower->scale);
+        textbook(&sphere, now->ray, &ball, follower->scale, follower->scale);
         certify(&sphere, now->ray, &ball, &on, follower->scale);
-        bool is_told = table->count <= SPHERES_FEW || sphere.h >= 0.0 || sphere.t > 0.0;
-        if (!is_told || follower->life->spheres.count - ray->first_sphere >= SPHERES_MOST) {
-            ray->missed++;
-            continue;
+        if (is_of_few || sphere.h >= 0.0 || sphere.t > 0.0) {
+            sphere.source = sphere_source(follower->p->scene, table->info[slot].order);
         }
-        sphere.source = sphere_source(follower->p->scene, table->info[slot].order);
-        follower->failed |= !ARRAY_PUSH(&follower->life->spheres, sphere);
+        keep_sphere(follower, ray, &sphere, is_of_few);
+    }
+    for (uint32_t i = 0; i < g->ellipsoid_count; i++) {
+        follow_ellipsoid(follower, ray, now, i, is_of_few);
+    }
+    for (uint32_t i = 0; i < g->shapes.solid_count; i++) {
+        if (g->shapes.solids[i].kind == PART_BALL && !(g->shapes.solids[i].hidden & now->start.use)) {
+            follow_part(follower, ray, now, i, is_of_few);
+        }
     }
     ray->sphere_count = follower->life->spheres.count - ray->first_sphere;
 }
@@ -176,6 +258,19 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
 
 // ---- what is seen there
 
+// The same surface with only some of its terms.
+static Rgb light_of(const Follower *follower, const ShadeMaterial *material, const PreparedLight *light, bool is_diffuse)
+{
+    PreparedFinish finish = *material->finish;
+    ShadeMaterial part = *material;
+    RenderStatistics unused = {0};
+    part.finish = &finish;
+    finish.shines = !is_diffuse && finish.shines;
+    finish.diffuse = is_diffuse ? finish.diffuse : 0.0;
+    finish.diffuse_back = is_diffuse ? finish.diffuse_back : 0.0;
+    return shade_light(follower->p, FEATURES, &part, light, follower->at, &unused);
+}
+
 static void follow_light(Follower *follower, const ShadeMaterial *material, const PreparedLight *light)
 {
     const ShadePoint *at = follower->at;
@@ -188,7 +283,10 @@ static void follow_light(Follower *follower, const ShadeMaterial *material, cons
         .position = in_scene(follower, light->position),
         .distance = distance * follower->scale,
         .cosine = vec3_dot(at->normal, towards),
+        .sends = light->is_plain ? light->colour : rgb_scale(light_strength(light, offset, distance), light->colour),
         .visible = rgb_grey(1.0),
+        .diffuse = light_of(follower, material, light, true),
+        .highlights = light_of(follower, material, light, false),
         .adds = shade_light(follower->p, FEATURES, material, light, at, &unused),
     };
     if (!light->shadowless && distance > 0.0) {
@@ -214,6 +312,7 @@ static Rgb follow_layer(void *client, const TextureLayer *layer)
         .pigment = layer->pigment,
         .part = layer->part,
         .above = layer->above,
+        .normal = at.normal,
         .glow = rgb_mul(material.opaque, material.finish->glow),
         .first_light = follower->life->lights.count,
     };

@@ -28,12 +28,16 @@ typedef enum LifeChoice {
     LIFE_FAR,          // the second: the ray starts inside, so that the first is behind it
     LIFE_LEFT,         // none: the ray leaves this sphere outward, and a sphere is convex
     LIFE_GOES_THROUGH, // the one that is not 0: the ray starts on this sphere and goes in
+    LIFE_CUT,          // both: it is a part of a composite, of which the first crossing that shows is seen
 } LifeChoice;
 
 // A sphere that the ray was tested against: a t² + b t + c = 0 with a = d·d, b = 2 d·(e - centre),
-// c = (e - centre)·(e - centre) - radius², and h = b² - 4 a c, all as plain double arithmetic gives them.
+// c = (e - centre)·(e - centre) - radius², and h = b² - 4 a c, all as plain double arithmetic gives them. Of a stretched
+// sphere e and d are the ray in the space in which it has its centre at 0 and the radius 1; t is the same there.
 typedef struct LifeSphere {
     uint64_t source;
+    bool is_stretched;
+    Vec3 own_origin, own_direction; // is_stretched: e and d in its own space
     Vec3 centre;
     double radius;
     double a, b, c, h;
@@ -50,8 +54,10 @@ typedef struct LifeLight {
     size_t number; // of the scene's lights
     Vec3 position;
     double distance, cosine; // to it; of the angle between its direction and the normal
+    Rgb sends;               // its colour at that distance and angle, were nothing in its way
     Rgb visible;             // the share that arrives, by colour; white where the light throws no shadow
-    Rgb adds;                // what the surface makes of it
+    Rgb diffuse, highlights; // what the surface makes of it
+    Rgb adds;                // both
 } LifeLight;
 
 // One of the materials that are seen at a hit: one, but for layers and maps.
@@ -59,6 +65,7 @@ typedef struct LifeLayer {
     Rgbft pigment;
     double part; // of the texture in a map
     Rgb above;   // what the layers above let through
+    Vec3 normal; // with the layer's bumps
     Rgb glow;    // ambient and emission
     size_t first_light, light_count;
 } LifeLayer;

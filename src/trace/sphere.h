@@ -40,7 +40,7 @@ typedef struct SphereRay {
 RT_ALWAYS_INLINE Ball ball_make(Vec3 centre, double radius)
 {
     double square = radius * radius;
-    return (Ball){centre, radius > 0.0 && square >= 0x1p-960 && square < (double)INFINITY ? square : (double)NAN};
+    return (Ball){centre, radius > 0.0 && square >= 0x1p-960 && square < 0x1p1022 ? square : (double)NAN};
 }
 
 RT_ALWAYS_INLINE bool ball_is_usable(const Ball *ball)

@@ -341,6 +341,13 @@ def test_summary():
     for output, name in ("good.png", r"good\.png"), ("-", "standard output"):
         found = rtlang("-W", "32", "-H", "24", "-o", output, "good.scn").stderr.decode()
         tap.ok(re.fullmatch(form % name, found), "one line of summary for -o " + output, found)
+    # Seven of a kind, of which five are told, one of another, and one that is not of the range.
+    lost = b"#for (I, 1, 7) sphere { <2e20, I, 0>, 1 } #end sphere { 0, 1e-200 } disc { 0, 0, 1 }\n"
+    write("beyond.scn", b"camera { location <2e20, 0, -1e6> direction z } light_source { <2e20, 9, -9>, 1 }\n" + lost)
+    found = rtlang("-W", "32", "-H", "24", "-o", "beyond.png", "beyond.scn").stderr.decode()
+    tap.ok(re.search(r"write \d+\.\d{3}; \d+ warnings, 15 of them of the range of numbers\n$", found) and
+           found.count("warning[W0440]") == 5 and "2 more of this warning are not shown" in found,
+           "the summary counts what is beyond the range of numbers", found)
 
 
 TESTS = [test_messages, test_expected, test_permissions, test_output, test_threads, test_size_and_values,
