@@ -220,11 +220,11 @@ static void print_pictures(const Stability *stability, FILE *out)
     }
     fprintf(out,
             "\nWhere POV-Ray's range ends: pixels that differ by more than 2/255 from the same scene as it "
-            "is.\n\n%-34s %-16s %8s %8s %8s\n",
+            "is.\n\n%-34s %-22s %8s %8s %8s\n",
             "scene", "", "pixels", "rtlang", "POV-Ray");
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
-        fprintf(out, "%-34s %-16s %8" PRIu64 " %8" PRIu64, row->scene, row->what, row->pixels, row->off);
+        fprintf(out, "%-34s %-22s %8" PRIu64 " %8" PRIu64, row->scene, row->what, row->pixels, row->off);
         row->has_povray ? fprintf(out, " %8" PRIu64 "\n", row->povray_off) : fprintf(out, " %8s\n", "none");
     }
 }

@@ -44,7 +44,7 @@ typedef struct BreakRow {
     Image ours, povray; // owned
 } BreakRow;
 
-enum { BREAKS = 6, STIFF_SCENES = 7 };
+enum { BREAKS = 9, STIFF_SCENES = 7 };
 
 typedef struct Stability {
     SphereRow families[FAMILIES_MOST];

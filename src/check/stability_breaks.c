@@ -17,7 +17,6 @@ static const char break_scene[] =
     "sphere { <1.2, 1, 0>, 1 pigment { rgb <0.4, 0.6, 0.9> } finish { reflection 0.4 } }\n"
     "sphere { <0, -1000, 0>, 1000 pigment { rgb 0.7 } }\n";
 
-
 static uint64_t pixels_off(const float *a, const float *b)
 {
     uint64_t off = 0;
@@ -36,15 +35,24 @@ static bool measure_scene(Stability *stability, const Options *options, const St
 {
     static const struct {
         const char *what;
-        double scale, offset;
-    } cases[BREAKS] = {{"as it is", 1.0, 0.0},  {"times 1e-3", 1e-3, 0.0}, {"times 1e-5", 1e-5, 0.0},
-                       {"times 1e6", 1e6, 0.0}, {"times 1e7", 1e7, 0.0},   {"shifted by 1e8", 1.0, 1e8}};
+        double scale, shift[3];
+    } cases[BREAKS] = {
+        {"as it is", 1.0, {0.0}},
+        {"times 1e-3", 1e-3, {0.0}},
+        {"times 1e-5", 1e-5, {0.0}},
+        {"times 1e6", 1e6, {0.0}},
+        {"times 1e7", 1e7, {0.0}},
+        {"shifted by 1e8", 1.0, {1e8}},
+        {"shifted by 1e6 along x", 1.0, {1e6}},
+        {"shifted by 1e6 along y", 1.0, {0.0, 1e6}},
+        {"shifted by 1e6 along z", 1.0, {0.0, 0.0, 1e6}},
+    };
     const BreakRow *first = &stability->breaks[stability->break_count];
     for (size_t i = 0; i < BREAKS; i++) {
         BreakRow *row = &stability->breaks[stability->break_count];
         Motion motion = motion_none;
         motion.scale = cases[i].scale;
-        motion.shift[0] = cases[i].offset;
+        memcpy(motion.shift, cases[i].shift, sizeof motion.shift);
         *row = (BreakRow){.scene = scene->name, .what = cases[i].what, .pixels = WIDTH * HEIGHT};
         if (!motion_image(options, scene, &motion, WIDTH, HEIGHT, &row->ours)) {
             return i == 0; // what cannot be read is told among the pictures

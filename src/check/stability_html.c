@@ -256,7 +256,7 @@ static bool put_breaks(const Stability *stability, const char *scratch, FILE *ou
     bool fine = true;
     fputs("<h3>Where POV-Ray's range ends</h3>\n<p>The same scenes in other units and places. Pixels are counted that "
           "differ by more "
-          "than 2/255 from the scene as it is.</p>\n",
+          "than 2/255 from the scene as it is. A shift by 1e6 is still within that range.</p>\n",
           out);
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];

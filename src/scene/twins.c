@@ -25,7 +25,7 @@ typedef struct Key {
 
 typedef struct Slot {
     uint32_t hash;
-    uint32_t item; // number of the shape + 1, 0: empty
+    uint32_t item; // number of the shape, or after all shapes of the composite, + 1; 0: empty
 } Slot;
 
 typedef struct Twins {
@@ -168,6 +168,78 @@ static void tell(const Key *one, const Key *other, DiagSink *diags)
     }
 }
 
+// ---- composites: equal when their trees are, leaf by leaf
+
+static uint32_t composite_hash(const Twins *twins, const Composite *composite)
+{
+    uint32_t hash = composite->node_count;
+    for (uint32_t i = 0; i < composite->part_count; i++) {
+        Key key = item_key(twins, twins->parts + composite->first_part + i);
+        hash = (hash ^ key_hash(&key)) * UINT32_C(0x9e3779b1);
+    }
+    return hash;
+}
+
+// A place in the tree, counted from its root.
+static uint32_t below(uint32_t node, const Composite *composite)
+{
+    return node == NODE_NONE ? NODE_NONE : node - composite->first_node;
+}
+
+static bool composites_are_equal(const Twins *twins, const Composite *a, const Composite *b)
+{
+    const Scene *scene = twins->scene;
+    bool equal = a->node_count == b->node_count && a->part_count == b->part_count;
+    for (uint32_t i = 0; equal && i < a->node_count; i++) {
+        const Node *one = &scene->nodes.items[a->first_node + i], *other = &scene->nodes.items[b->first_node + i];
+        equal = one->op == other->op && one->is_inverse == other->is_inverse &&
+                one->child_count == other->child_count && below(one->parent, a) == below(other->parent, b);
+    }
+    for (uint32_t i = 0; equal && i < a->part_count; i++) {
+        const Part *one = &scene->parts.items[a->first_part + i], *other = &scene->parts.items[b->first_part + i];
+        Key key = item_key(twins, twins->parts + a->first_part + i);
+        Key known = item_key(twins, twins->parts + b->first_part + i);
+        bool is_same_side = one->kind != PART_PLANE || vec3_equal(one->data[0], other->data[0]);
+        equal = keys_are_equal(&key, &known) && is_same_side && one->flags == other->flags &&
+                below(one->node, a) == below(other->node, b);
+    }
+    return equal;
+}
+
+static void tell_composite(const Composite *one, const Composite *other, DiagSink *diags)
+{
+    const Composite *first = one->order < other->order ? one : other, *second = first == one ? other : one;
+    const uint8_t all = HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR;
+    if (((one->hidden | other->hidden) & all) != all &&
+        diag_report(diags, DIAG_W0444, scene_source_span(second->source),
+                    "this coincides with the same shapes, cut alike, that were declared before it") &&
+        first->source) {
+        diag_note(diags, scene_source_span(first->source), "this one is seen, the other is not");
+    }
+}
+
+static void visit_composite(const Twins *twins, uint32_t number, DiagSink *diags)
+{
+    const Composite *composites = twins->scene->composites.items;
+    uint32_t hash = composite_hash(twins, &composites[number]);
+    for (uint32_t at = hash & twins->mask;; at = (at + 1) & twins->mask) {
+        Slot *slot = &twins->slots[at];
+        if (slot->item == 0) {
+            *slot = (Slot){hash, (uint32_t)twins->end + number + 1};
+            return;
+        }
+        if (slot->hash == hash && slot->item > twins->end) {
+            const Composite *known = &composites[slot->item - 1 - twins->end];
+            if (composites_are_equal(twins, &composites[number], known)) {
+                tell_composite(&composites[number], known, diags);
+                return;
+            }
+        }
+    }
+}
+
+// ---- all of them
+
 // Looks one shape up, and puts it in where its equal was not.
 static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diags)
 {
@@ -177,7 +249,7 @@ static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diag
             *slot = (Slot){hash, (uint32_t)item + 1};
             return;
         }
-        if (slot->hash != hash) {
+        if (slot->hash != hash || slot->item > twins->end) {
             continue;
         }
         Key key = item_key(twins, item), known = item_key(twins, slot->item - 1);
@@ -201,7 +273,7 @@ bool scene_warn_of_twins(const Scene *scene, DiagSink *diags)
         return true;
     }
     uint32_t slots = 4;
-    while (slots < 2 * twins.end) {
+    while (slots < 2 * (twins.end + scene->composites.count)) {
         slots *= 2;
     }
     twins.mask = slots - 1;
@@ -222,6 +294,9 @@ bool scene_warn_of_twins(const Scene *scene, DiagSink *diags)
                 visit(&twins, item, hashes[item - begin], diags);
             }
         }
+    }
+    for (uint32_t i = 0; i < scene->composites.count; i++) {
+        visit_composite(&twins, i, diags);
     }
     free(twins.slots);
     return true;

@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
+#include "scene/faces.h"
 #include "scene/range.h"
 
 static bool rgb_is_finite(Rgb a)
@@ -151,7 +152,7 @@ bool scene_validate(const Scene *scene, DiagSink *diags)
         return false;
     }
     scene_warn_of_range(scene, diags);
-    if (!scene_warn_of_twins(scene, diags)) {
+    if (!scene_warn_of_twins(scene, diags) || !scene_warn_of_faces(scene, diags)) {
         diag_report(diags, DIAG_E0602, SPAN_NONE, "out of memory looking for shapes that coincide");
         return false;
     }

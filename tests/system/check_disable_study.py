@@ -19,7 +19,7 @@ from tap import Tap
 TOP = os.path.abspath(os.environ.get("top_srcdir", "."))
 SCENE = f"{TOP}/examples/01_one_sphere.scn"
 # Arithmetic of float128 in gcc's and clang's libraries, and the names that a kernel of the study has.
-STUDY_CODE = re.compile(r"\b(__\w+tf[23]?|__trunctfdf2|__extenddftf2|\w*quad\w*|study_\w+)\b")
+STUDY_CODE = re.compile(r"\b(__\w+tf[23]?|__trunctfdf2|__extenddftf2|\w*quad\w*|study_(?:film|covers|name|colour\w*)|oracle_\w+)\b")
 
 
 def run(*command, cwd=None):

@@ -47,12 +47,15 @@ def check_pictures(tap, found):
     tap.ok(all(row["made"] and row["off"] == 0 for row in still), f"{len(still)} stiff scenes agree with quadruple precision")
     given = [row for row in found["pictures"] if row["scene"].endswith("01_one_sphere.scn")]
     tap.ok(len(given) == 15 and all(row["made"] for row in given), "a given scene is put elsewhere in 15 ways")
-    tap.ok(len(found["limits"]) == 12 and all(row["rtlang"] <= 2 for row in found["limits"]),
-           "where POV-Ray's range ends rtlang's pictures of its own scene and the given one stay")
+    limits = found["limits"]
+    tap.ok(len(limits) == 18 and all(row["rtlang"] <= 2 for row in limits),
+           "where POV-Ray's range ends rtlang's pictures of its own scene and the given one stay", limits)
     if os.environ.get("POVRAY"):
-        tap.ok(found["limits"][0]["povray"] <= 2 and all(any(row["povray"] is None or row["povray"] > 50 for row in rows)
-                                                           for rows in (found["limits"][1:6], found["limits"][7:])),
-               "and POV-Ray's does not")
+        tap.ok(limits[0]["povray"] <= 2 and all(any(row["povray"] is None or row["povray"] > 50 for row in rows)
+                                                for rows in (limits[1:6], limits[10:15])), "and POV-Ray's does not", limits)
+        moved = [row for row in limits if "1e6 along" in row["what"]]
+        tap.ok(len(moved) == 6 and all(row["rtlang"] == 0 and row["povray"] is not None and row["povray"] <= 20 for row in moved),
+               "shifted by 1e6 along each axis, within POV-Ray's range, no pixel of rtlang's is off", moved)
 
 
 def main():
