@@ -118,6 +118,8 @@ typedef struct GrammarState {
     bool takes_string;     // it is a directive that takes a string
     bool ends_before;      // the last token delivered may end an expression
     bool ends_vector;      // it is the `>` of a vector
+    int last_but_one;      // kind of the token before it
+    bool after_dot;        // it stands behind a `.`: a component, whatever its word means elsewhere
     Token ended_by;        // the directive or call that ended it
     bool has_lookahead;    // the current token was read too much
     AstNode *result;

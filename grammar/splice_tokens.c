@@ -23,7 +23,7 @@ static bool ends_operand(const GrammarState *state)
     case '>':
         return state->ends_vector;
     default:
-        return false;
+        return state->after_dot;
     }
 }
 
@@ -32,6 +32,8 @@ static void track_more(GrammarState *state)
 {
     const Token *last = &state->previous;
     const Opener *open = grammar_innermost(state);
+    state->after_dot = state->last_but_one == '.';
+    state->last_but_one = last->kind;
     if (last->kind == '<' && !state->ends_before) {
         Opener vector = {.kind = '<', .span = last->span};
         if (!ARRAY_PUSH(&state->openers, vector)) {
