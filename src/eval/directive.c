@@ -38,23 +38,34 @@ static void forget_value(Eval *ev, const AstNode *target, bool local)
     }
 }
 
-static bool assign(Eval *ev, const AstNode *node, const Value *value)
-{
-    const AstNode *target = node->a;
-    if (target->kind == AST_NAME) {
-        return scope_declare(ev, target->symbol, node->op == AST_OP_LOCAL, value, target->span);
-    }
-    Value *element;
+// What a declaration gives a value to: an element of an array, or else a name.
+typedef struct Target {
+    Value *element; // NULL: the name
     ValueArray *array;
-    return array_locate(ev, target, &element, &array) && array_assign(ev, array, element, value, node->b->span);
+} Target;
+
+// Before the value is worked out: the macros that are called in an index come first.
+static bool find_target(Eval *ev, const AstNode *node, Target *target)
+{
+    *target = (Target){0};
+    return node->a->kind == AST_NAME ? scope_declare_begin(ev, node->a->symbol, node->op == AST_OP_LOCAL, node->a->span)
+                                     : array_locate(ev, node->a, &target->element, &target->array);
+}
+
+static bool assign(Eval *ev, const AstNode *node, const Target *target, const Value *value)
+{
+    return target->element == NULL
+               ? scope_declare(ev, node->a->symbol, node->op == AST_OP_LOCAL, value, node->a->span)
+               : array_assign(ev, target->array, target->element, value, node->b->span);
 }
 
 static void run_declare(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     Value value;
-    const AstNode *target = node->a;
-    if (target->kind == AST_NAME && !scope_declare_begin(ev, target->symbol, node->op == AST_OP_LOCAL, target->span)) {
+    Target target;
+    if (!find_target(ev, node, &target)) {
+        ev->faulty = true;
         return;
     }
     ev->at_colour = node->b->kind == AST_NAME && !(node->flags & AST_ENDED); // with a vector behind it
@@ -65,7 +76,7 @@ static void run_declare(Cursor *cursor, const AstNode *node)
         return;
     }
     check_end(ev, node, &value);
-    ev->faulty = !assign(ev, node, &value) || ev->faulty;
+    ev->faulty = !assign(ev, node, &target, &value) || ev->faulty;
 }
 
 static void run_undef(Cursor *cursor, const AstNode *node)

@@ -207,8 +207,7 @@ bool spline_create(Eval *ev, const AstNode *block, Value *value)
 
 static double linear_at(const SplinePoint *p, unsigned c, double t)
 {
-    double share = (t - p[0].t) / (p[1].t - p[0].t);
-    return (1.0 - share) * p[0].v[c] + share * p[1].v[c];
+    return (p[1].v[c] - p[0].v[c]) * (t - p[0].t) / (p[1].t - p[0].t) + p[0].v[c]; // as POV-Ray rounds it
 }
 
 // The parabola through three points, its coefficients by Cramer's rule.

@@ -190,7 +190,9 @@ class Expressions:
     def function_call(self, depth):
         if self.scope.splines and self.chance(0.3):
             name = self.dice.choice(list(self.scope.splines))
-            return f"({name}({self.number(depth)})).{self.dice.choice('xy')}"
+            point = f"({name}({self.number(depth)})).{self.dice.choice('xy')}"
+            # The last bits of a curve differ, which a decimal half would show.
+            return point if self.scope.splines[name] == "linear_spline" else f"(pi * {point})"
         if not self.scope.functions:
             return self.of_number(depth)
         name = self.dice.choice(list(self.scope.functions))

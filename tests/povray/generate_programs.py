@@ -445,7 +445,7 @@ class Program(Expressions):
         points = ", ".join(f"{i * 0.5}, <{self.literal()}, {self.literal()}, {self.dice.randrange(-5, 5)}>"
                            for i in range(self.dice.randrange(4, 7)))
         self.add(f"#declare {name} = spline {{ {kind} {points} }}")
-        self.scope.splines[name] = "3"
+        self.scope.splines[name] = kind
 
     def write(self, length):
         """The text of the program, `length` statements and at least one line of output."""
