@@ -173,6 +173,18 @@ void grammar_finish(GrammarState *state, AstNode *result, bool has_lookahead);
 
 // Messages: reports a fault at the current token; `expected` names the tokens that would do.
 void grammar_report_syntax(GrammarState *state, const char *const *expected, size_t count);
+
+// ---- hints.c
+
+// The directive that another language's word most likely stands for, or NULL; *stands_for_it: reading can go on as if it
+// stood there.
+const char *grammar_foreign_directive(const char *word, size_t length, bool *stands_for_it);
+// The help for a mark that is an operator in other languages, or NULL.
+const char *grammar_foreign_mark(char mark);
+// Add to the fault that was kept last: help for the current token, `only_closes` when nothing but `)` could stand there; a
+// note where a `}` is missing by the indentation, with the outermost of the braces that are open at the end of the file.
+void grammar_hint_token(GrammarState *state, bool only_closes);
+void grammar_hint_brace(GrammarState *state, const Opener *outermost);
 void grammar_fault(GrammarState *state, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 
 // Appends a token as messages name it, for example "`rgb`" or "the end of the file".

@@ -230,6 +230,16 @@ static bool report_reserved(GrammarState *state)
     return true;
 }
 
+// The first of the braces that are open within each other.
+static const Opener *outermost_brace(const GrammarState *state)
+{
+    size_t at = state->openers.count - 1;
+    while (at > 0 && state->openers.items[at - 1].kind == '{') {
+        at--;
+    }
+    return &state->openers.items[at];
+}
+
 static void report_end_of_file(GrammarState *state, const char *expected)
 {
     const Opener *opener = grammar_innermost(state);
@@ -248,6 +258,9 @@ static void report_end_of_file(GrammarState *state, const char *expected)
                       text_get(&text));
         text_fini(&text);
         note_opener(state, opener, kept);
+        if (opener->kind == '{' && state->context->diags->count > kept) {
+            grammar_hint_brace(state, outermost_brace(state));
+        }
     }
     state->ended = true;
 }
@@ -394,7 +407,11 @@ static void report_general(GrammarState *state, const Expected *expected)
             text_append(&text, ", found ");
             grammar_describe(state, &state->current, &text);
         }
+        size_t kept = state->context->diags->count;
         grammar_fault(state, DIAG_E0106, state->current.span, "%s", text_get(&text));
+        if (state->context->diags->count > kept) {
+            grammar_hint_token(state, listed && expected->count == 1 && strcmp(expected->names[0], "')'") == 0);
+        }
     }
     text_fini(&text);
 }

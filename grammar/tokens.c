@@ -115,10 +115,13 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
         return TOKEN_INVALID;
     }
     Suggest suggest;
+    bool stands_for_it = false;
+    const char *foreign = grammar_foreign_directive(word, length, &stands_for_it);
     suggest_begin(&suggest, word);
-    for (size_t i = 0; i < RT_COUNT_OF(directives); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(directives) && foreign == NULL; i++) {
         suggest_offer(&suggest, intern_get(state->context->names, (Symbol)directives[i].word));
     }
+    suggest.best = foreign != NULL ? foreign : suggest.best;
     size_t kept = state->context->diags->count;
     grammar_fault(state, DIAG_E0105, span, "`#%.40s` is not a directive", word);
     if (suggest.best == NULL) {
@@ -130,7 +133,7 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
         diag_replace(state->context->diags, span, "#%s", suggest.best);
     }
     // Reading goes on as if the suggestion stood there, unless it is far for such a short word.
-    if (suggest.best_cost > GUESS_COST && length <= GUESS_LENGTH) {
+    if (foreign != NULL ? !stands_for_it : suggest.best_cost > GUESS_COST && length <= GUESS_LENGTH) {
         state->unknown_directives++;
         return TOKEN_INVALID;
     }

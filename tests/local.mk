@@ -220,6 +220,7 @@ lang_cases = \
   %D%/lang/files.test \
   %D%/lang/finish.test \
   %D%/lang/functions.test \
+  %D%/lang/hints.test \
   %D%/lang/includes.test \
   %D%/lang/interior.test \
   %D%/lang/light.test \

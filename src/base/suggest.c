@@ -16,6 +16,7 @@ enum {
     CASE = 2, // the whole name, however many letters
     BAND = 3, // the most edits that are ever accepted, and so the farthest from the diagonal
     ROW = 2 * BAND + 1,
+    PART = 4, // the least length of a word that stands for a longer one: `light` for `light_source`
     FAR = 1000
 };
 
@@ -131,6 +132,11 @@ void suggest_offer(Suggest *suggest, const char *candidate)
 {
     size_t wanted_length = suggest->wanted_length;
     unsigned bound = suggest->best_cost - 1;
+    if (wanted_length >= PART && suggest->best == NULL && strncmp(candidate, suggest->wanted, wanted_length) == 0 &&
+        candidate[wanted_length] == '_') {
+        suggest->best = candidate; // at the highest cost that is accepted
+        return;
+    }
     size_t reach = bound / SLIP < BAND ? bound / SLIP : BAND;
     size_t length = strnlen(candidate, wanted_length + reach + 1);
     if (length > wanted_length + reach || length + reach < wanted_length || length == 0) {

@@ -21,6 +21,7 @@ void suggest_begin(Suggest *suggest, const char *wanted);
 // bytes in length); the name itself is not a suggestion. What fingers do by
 // themselves costs three quarters of an edit: neighbours swapped, a letter doubled or a double one halved, a key beside
 // the right one. Capitals cost half an edit for the whole name.
+// When nothing is near, a candidate that begins with the wanted name and `_` will do.
 void suggest_offer(Suggest *suggest, const char *candidate);
 
 #endif

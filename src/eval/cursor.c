@@ -155,11 +155,14 @@ static void expand(Cursor *cursor, const AstNode *call)
     cursor->at_call = cursor->after_value && !(call->flags & AST_AFTER_COMMA);
     Macro *macro;
     CursorFrame *frame;
+    bool was_lossy = cursor->is_lossy;
+    cursor->is_lossy = true;
     if (!macro_find(ev, call, &macro) || (frame = cursor_push(cursor, FRAME_ITEMS, NULL, call)) == NULL) {
         return;
     }
     if (macro_enter(ev, call, macro, &frame->diag)) {
         frame->kind = FRAME_MACRO;
+        cursor->is_lossy = was_lossy;
         if (!macro->is_torn) {
             frame->next = macro->body->b;
         } else if (!cursor_push_text(cursor, frame, macro->text, NULL, true)) {
@@ -239,7 +242,8 @@ static bool take(Cursor *cursor, Value *value, Span *span)
     if (item == NULL) {
         // Behind the last item, where it would stand.
         *span = cursor->span.end > cursor->span.begin ? (Span){cursor->span.end - 1, cursor->span.end} : cursor->span;
-        return !cursor->ev->stop && eval_fault(cursor->ev, DIAG_E0213, *span, "a value is missing at the end");
+        bool is_told = cursor->ev->stop || cursor->is_lossy || eval_follows_syntax(cursor->ev, cursor->span);
+        return !is_told && eval_fault(cursor->ev, DIAG_E0213, *span, "a value is missing at the end");
     }
     *span = item->span;
     cursor->item = NULL;

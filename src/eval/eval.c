@@ -19,10 +19,10 @@ static const char *const zeros[] = {
 static void fault_not_an_object(Eval *ev, const AstNode *item)
 {
     Value value;
-    bool belongs_to_word = ev->has_stray_word && item->kind <= AST_MEMBER;
-    ev->has_stray_word = belongs_to_word || item->kind == AST_WORD;
-    if (belongs_to_word) {
-        return; // reported with the word
+    bool belongs_to_last = ev->has_stray && item->kind <= AST_MEMBER;
+    ev->has_stray = belongs_to_last || item->kind == AST_WORD;
+    if (belongs_to_last) {
+        return; // reported with what stands before it
     }
     if (item->kind == AST_WORD) {
         eval_fault(ev, DIAG_E0222, item->span, "expected an object or a directive, found `%s`",
@@ -42,8 +42,9 @@ static void place(Eval *ev, const AstNode *item)
     if (!is_placeable) {
         fault_not_an_object(ev, item);
     } else {
-        ev->has_stray_word = false;
-        ev->faulty = !eval_place(ev, item) || ev->faulty;
+        bool fine = eval_place(ev, item);
+        ev->has_stray = !fine && item->kind != AST_BLOCK;
+        ev->faulty = !fine || ev->faulty;
     }
     arena_rewind(&ev->scratch, mark);
 }

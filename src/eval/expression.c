@@ -4,6 +4,7 @@
 // blocks and of what directives do.
 //
 // SPDX-License-Identifier: MIT
+#include <limits.h>
 #include <string.h>
 
 #include "eval/internal.h"
@@ -65,7 +66,10 @@ static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
     }
     if (eval_report(ev, DIAG_E0201, node->span, "%s `%s` is not declared", what, eval_text(ev, node->symbol))) {
         Suggest suggest = scope_nearest(ev, node);
-        if (suggest.best != NULL) {
+        char file[NAME_MAX + 1];
+        if (name_find_include(ev, eval_text(ev, node->symbol), file)) {
+            diag_suggest(ev->options.diags, "`#include \"%s\"` declares it", file);
+        } else if (suggest.best != NULL) {
             diag_did_you_mean(ev->options.diags, eval_word_span(ev, node), suggest.best);
         }
     }

@@ -154,7 +154,7 @@ typedef struct Eval {
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     LiteralWatch literal;
-    bool has_stray_word; // at the top level, reported: its values are not reported as well
+    bool has_stray;      // at the top level, reported: the values after it are not reported as well
     bool faulty;         // something was reported, if only before
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
     unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are worked out; 0: none
@@ -164,6 +164,8 @@ typedef struct Eval {
 
 // Reports a fault at a span; the return value is false, so that `return eval_fault(…)` reads well. What was reported at
 // the same place before is not reported again.
+// A syntax fault was reported inside of a span: what is missing there may have been in what was not understood.
+bool eval_follows_syntax(const Eval *ev, Span whole);
 bool eval_fault(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 void eval_warn(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 // The same; true when the record was kept, so that diag_note and diag_suggest may add to it.
@@ -277,6 +279,8 @@ bool scope_define_macro(Eval *ev, Macro *macro) RT_MUST_CHECK;
 bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
 // Of the names in scope and the reserved words that could stand in the place of a NAME or CALL, the nearest.
 Suggest scope_nearest(const Eval *ev, const AstNode *node);
+// The first file of the include folders that declares a name, of NAME_MAX + 1 bytes; false when none does.
+bool name_find_include(const Eval *ev, const char *name, char *file);
 
 // ---- arrays
 
@@ -382,6 +386,7 @@ typedef struct Cursor {
     bool at_call;        // since then the text of a macro began
     bool included;       // text was included on the way, and stands in the parse arena since `mark`
     bool counted;        // in expression_depth
+    bool is_lossy;       // a call was at fault: what is missing may have been its text
     ArenaMark mark;
 } Cursor;
 

@@ -4,6 +4,7 @@
 // Reports; changes nothing but the block's marks of what was reported. Knows nothing of values.
 //
 // SPDX-License-Identifier: MIT
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,19 +16,11 @@ const char *block_word(const Block *block)
     return schema_kind(block->kind)->word;
 }
 
-// What is missing or misplaced in a block of which a part was not understood may have been in that part.
-static bool follows_from_syntax(const Block *block, DiagCode code)
+// What is missing or misplaced in a block of which a part was not understood, or a call was at fault, may have been there.
+static bool follows_from_other(const Block *block, DiagCode code)
 {
-    const DiagSink *diags = block->ev->options.diags;
-    Span whole = block->node->span;
-    for (size_t i = 0; i < diags->count; i++) {
-        const Diag *diag = &diags->items[i];
-        bool is_inside = diag->span.begin >= whole.begin && diag->span.begin < whole.end;
-        if (is_inside && diag->code >= DIAG_E0101 && diag->code <= DIAG_E0109) {
-            return code == DIAG_E0253 || code == DIAG_E0254 || code == DIAG_E0256;
-        }
-    }
-    return false;
+    bool may_follow = code == DIAG_E0253 || code == DIAG_E0254 || code == DIAG_E0256;
+    return may_follow && (block->cursor.is_lossy || eval_follows_syntax(block->ev, block->node->span));
 }
 
 bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...)
@@ -38,7 +31,7 @@ bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     block->has_fault = true;
-    return follows_from_syntax(block, code) ? false : eval_fault(block->ev, code, span, "%s", message);
+    return follows_from_other(block, code) ? false : eval_fault(block->ev, code, span, "%s", message);
 }
 
 // ---- the nearest word
@@ -64,7 +57,9 @@ bool block_is_misspelt(const Block *block, const AstNode *item)
         return false;
     }
     Suggest name = scope_nearest(block->ev, item);
-    return !name.best || property.best_cost <= name.best_cost;
+    char file[NAME_MAX + 1];
+    return (!name.best || property.best_cost <= name.best_cost) &&
+           !name_find_include(block->ev, eval_text(block->ev, item->symbol), file);
 }
 
 static Suggest nearest_kind(const Eval *ev, const AstNode *item, SchemaKind *nearest)
@@ -105,6 +100,26 @@ void block_unknown(Eval *ev, const AstNode *item)
     }
 }
 
+// A word of the language that is a property of one or two other kinds.
+static bool suggest_place(const Block *block, const AstNode *item)
+{
+    const char *kinds[2];
+    size_t count = 0;
+    for (size_t kind = 0; item->symbol < WORD_COUNT && kind < KIND_COUNT; kind++) {
+        if (block->ev->objects->properties[kind][item->symbol] != 0) {
+            if (count == RT_COUNT_OF(kinds)) {
+                return false;
+            }
+            kinds[count++] = schema_kind((SchemaKind)kind)->word;
+        }
+    }
+    if (count > 0) {
+        diag_suggest(block->ev->options.diags, "it belongs in `%s`%s%s%s", kinds[0], count > 1 ? " or `" : "",
+                     count > 1 ? kinds[1] : "", count > 1 ? "`" : "");
+    }
+    return count > 0;
+}
+
 void block_unknown_property(Block *block, const AstNode *item)
 {
     const char *word = eval_text(block->ev, item->symbol);
@@ -113,7 +128,7 @@ void block_unknown_property(Block *block, const AstNode *item)
     Span word_span = eval_word_span(block->ev, item);
     if (eval_report(block->ev, DIAG_E0250, word_span, "unknown property `%s` in %s", word,
                     block_word(block)) &&
-        suggest.best) {
+        !suggest_place(block, item) && suggest.best) {
         diag_did_you_mean(block->ev->options.diags, word_span, suggest.best);
     }
 }

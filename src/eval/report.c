@@ -110,6 +110,19 @@ bool eval_report(Eval *ev, DiagCode code, Span span, const char *format, ...)
     return kept;
 }
 
+bool eval_follows_syntax(const Eval *ev, Span whole)
+{
+    const DiagSink *diags = ev->options.diags;
+    for (size_t i = 0; i < diags->count; i++) {
+        const Diag *diag = &diags->items[i];
+        bool is_inside = diag->span.begin >= whole.begin && diag->span.begin < whole.end;
+        if (is_inside && diag->code >= DIAG_E0101 && diag->code <= DIAG_E0109) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool eval_fault(Eval *ev, DiagCode code, Span span, const char *format, ...)
 {
     va_list arguments;
