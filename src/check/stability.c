@@ -203,6 +203,13 @@ static void print_stiff(const Stability *stability, FILE *out)
             total->cases, total->wrong, total->greatest_wrong, total->cosine_error);
 }
 
+// A scene's name without its folders.
+static const char *base_name(const char *scene)
+{
+    const char *slash = strrchr(scene, '/');
+    return slash ? slash + 1 : scene;
+}
+
 static void print_pictures(const Stability *stability, FILE *out)
 {
     fprintf(
@@ -211,7 +218,7 @@ static void print_pictures(const Stability *stability, FILE *out)
         "scene", "", "beside", "bits", "off", "RMSE");
     for (size_t i = 0; i < stability->picture_count; i++) {
         const PictureRow *row = &stability->pictures[i];
-        fprintf(out, "%-34s %-26s %-9s ", row->scene, row->what, row->beside);
+        fprintf(out, "%-34s %-26s %-9s ", base_name(row->scene), row->what, row->beside);
         if (row->is_made) {
             fprintf(out, "%6s %6" PRIu64 " %9.2g\n", row->is_same ? "same" : "differ", row->off, row->rmse);
         } else {
@@ -224,7 +231,7 @@ static void print_pictures(const Stability *stability, FILE *out)
             "scene", "", "pixels", "rtlang", "POV-Ray");
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
-        fprintf(out, "%-34s %-22s %8" PRIu64 " %8" PRIu64, row->scene, row->what, row->pixels, row->off);
+        fprintf(out, "%-34s %-22s %8" PRIu64 " %8" PRIu64, base_name(row->scene), row->what, row->pixels, row->off);
         row->has_povray ? fprintf(out, " %8" PRIu64 "\n", row->povray_off) : fprintf(out, " %8s\n", "none");
     }
 }

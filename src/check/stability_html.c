@@ -26,7 +26,8 @@ static void tail(FILE *out)
 
 static void cell_number(FILE *out, double value, double bar)
 {
-    fprintf(out, "<td class=\"number %s\">%.3g</td>", value <= bar ? "good" : "bad", value);
+    const char *verdict = isinf(bar) ? "" : value <= bar ? " good" : " bad"; // infinite: nothing is promised
+    fprintf(out, "<td class=\"number%s\">%.3g</td>", verdict, value);
 }
 
 static void put_families(const Stability *stability, FILE *out)
@@ -238,7 +239,7 @@ static bool put_shown(const Stability *stability, const char *scratch, FILE *out
     fputs("<h3>Stiff scenes</h3>\n", out);
     for (size_t i = 0; i < stability->shown_count; i++) {
         const ShownRow *row = &stability->shown[i];
-        fprintf(out, "<article><h3>%s</h3><div class=\"pictures\">\n", row->scene);
+        fprintf(out, "<article><h3>%s</h3><div class=\"pictures four\">\n", row->scene);
         for (int way = 0; way < SHOWN; way++) {
             if (row->has[way]) {
                 fine = put_picture(&row->in[way], captions[way], scratch, out) && fine;

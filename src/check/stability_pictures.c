@@ -30,7 +30,7 @@ static const StudyScene stiff[STIFF_SCENES] = {
           "sphere { <0, -6371000, 0>, 6371000 pigment { rgb <0.3, 0.5, 0.3> } }\n"
           "sphere { <0, 0.5, 6>, 0.5 pigment { rgb <0.9, 0.5, 0.3> } }\n"},
     {"pea at 1e9 radii",
-     HEAD "camera { location <0, 0, -1e9> direction 3e8 * z right x up y look_at 0 }\nlight_source { <5, 9, -9>, 1 }\n"
+     HEAD "camera { location <0, 0, -1e9> direction 3e8 * z right 4/3 * x up y look_at 0 }\nlight_source { <5, 9, -9>, 1 }\n"
           "sphere { 0, 1 pigment { rgb <0.4, 0.9, 0.3> } }\nsphere { <0.7, 0.6, -0.8>, 0.2 pigment { rgb <0.9, 0.4, "
           "0.3> } }\n"},
     {"grazing light",
