@@ -51,15 +51,15 @@ def check_programs(tap, folder):
     rtlang, rtcheck = f"{folder}/rtlang", f"{folder}/rtcheck"
     pictures = []
     for program in (os.environ["RTLANG"], rtlang):
-        name = f"{folder}/picture{len(pictures)}.pfm"
+        name = f"{folder}/picture{len(pictures)}.png"
         code, _, err = run(program, "-W32", "-H24", "-o", name, SCENE)
         pictures.append(open(name, "rb").read() if code == 0 else err)
     tap.ok(isinstance(pictures[1], bytes) and pictures[0] == pictures[1], "it draws the same picture, bit for bit", pictures[1][:300])
     for what in "float", "quad", "reference":
-        code, _, err = run(rtlang, f"--precision={what}", "-W8", "-H6", "-o", f"{folder}/none.pfm", SCENE)
-        tap.ok(code == 2 and "--precision" in err and "--disable-study" in err and not os.path.exists(f"{folder}/none.pfm"),
+        code, _, err = run(rtlang, f"--precision={what}", "-W8", "-H6", "-o", f"{folder}/none.png", SCENE)
+        tap.ok(code == 2 and "--precision" in err and "--disable-study" in err and not os.path.exists(f"{folder}/none.png"),
                f"--precision={what} is refused, and why is said", (code, err))
-    code, _, err = run(rtlang, "--precision=double", "-W8", "-H6", "-o", f"{folder}/double.pfm", SCENE)
+    code, _, err = run(rtlang, "--precision=double", "-W8", "-H6", "-o", f"{folder}/double.png", SCENE)
     tap.ok(code == 0, "--precision=double is what it has", err)
     code, _, err = run(rtcheck, "--stability")
     tap.ok(code == 2 and "--disable-study" in err, "rtcheck --stability is refused, and why is said", (code, err))
@@ -67,7 +67,7 @@ def check_programs(tap, folder):
         found = study_code(program)
         tap.ok(not found, f"{os.path.basename(program)} has no code of float128 and no study kernel", found[:10])
     usual = study_code(os.environ["RTLANG"])
-    tap.ok("study_film" in usual and any(name.endswith("tf3") for name in usual), "which the usual build has", usual[:10])
+    tap.ok("study_covers" in usual and any(name.endswith("tf3") for name in usual), "which the usual build has", usual[:10])
 
 
 def main():
