@@ -1,4 +1,5 @@
-// Equal shapes: a hash table of all that stand alone finds those that coincide.
+// Equal shapes: a hash table of all that stand alone, and of composites, finds those that coincide; what is cut in a
+// composite is looked up among those that stand alone.
 //
 // A shape becomes a key, equal for equal surfaces, whichever list of the scene it stands in. The table holds hashes
 // beside shape numbers, so that the scene's records are read in order but for those that are alike; its slots are asked
@@ -168,6 +169,17 @@ static void tell(const Key *one, const Key *other, DiagSink *diags)
     }
 }
 
+// Whether they are one surface to some rays; tells of it.
+static bool are_twins(const Key *one, const Key *other, DiagSink *diags)
+{
+    const uint8_t all = HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR;
+    if (((one->hidden | other->hidden) & all) == all || !keys_are_equal(one, other)) {
+        return false;
+    }
+    tell(one, other, diags);
+    return true;
+}
+
 // ---- composites: equal when their trees are, leaf by leaf
 
 static uint32_t composite_hash(const Twins *twins, const Composite *composite)
@@ -238,6 +250,39 @@ static void visit_composite(const Twins *twins, uint32_t number, DiagSink *diags
     }
 }
 
+// ---- shapes that stand alone beside the same ones in composites
+
+// Whether the outside of a leaf is outside of its composite, too, so that where it is not cut away both are seen.
+static bool is_outer(const Scene *scene, const Part *part)
+{
+    bool flips = (part->flags & PART_INVERSE) != 0;
+    for (uint32_t node = part->node; node != NODE_NONE; node = scene->nodes.items[node].parent) {
+        flips ^= scene->nodes.items[node].is_inverse;
+    }
+    return !flips && !(part->flags & PART_UNSEEN);
+}
+
+// Leaves are not compared with each other: two halves of a sphere have it in common, and no surface.
+static void visit_leaf(const Twins *twins, const Composite *composite, uint32_t number, DiagSink *diags)
+{
+    const Part *part = &twins->scene->parts.items[number];
+    if (part->kind == PART_PLANE || !is_outer(twins->scene, part)) {
+        return;
+    }
+    Key key = item_key(twins, twins->parts + number);
+    uint32_t hash = key_hash(&key);
+    key.hidden = composite->hidden;
+    for (uint32_t at = hash & twins->mask; twins->slots[at].item != 0; at = (at + 1) & twins->mask) {
+        const Slot *slot = &twins->slots[at];
+        if (slot->hash == hash && slot->item <= twins->end) {
+            Key known = item_key(twins, slot->item - 1);
+            if (are_twins(&key, &known, diags)) {
+                return;
+            }
+        }
+    }
+}
+
 // ---- all of them
 
 // Looks one shape up, and puts it in where its equal was not.
@@ -253,11 +298,7 @@ static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diag
             continue;
         }
         Key key = item_key(twins, item), known = item_key(twins, slot->item - 1);
-        if (keys_are_equal(&key, &known)) {
-            const uint8_t all = HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR;
-            if (((key.hidden | known.hidden) & all) != all) {
-                tell(&key, &known, diags);
-            }
+        if (are_twins(&key, &known, diags)) {
             return;
         }
     }
@@ -296,7 +337,11 @@ bool scene_warn_of_twins(const Scene *scene, DiagSink *diags)
         }
     }
     for (uint32_t i = 0; i < scene->composites.count; i++) {
+        const Composite *composite = &scene->composites.items[i];
         visit_composite(&twins, i, diags);
+        for (uint32_t k = 0; k < composite->part_count; k++) {
+            visit_leaf(&twins, composite, composite->first_part + k, diags);
+        }
     }
     free(twins.slots);
     return true;
