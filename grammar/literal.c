@@ -360,6 +360,7 @@ const char *grammar_literals_read(GrammarState *state, const char *at, const cha
         grammar_literals_forget(state);
         state->literal_state = *hooks->literal_state;
     }
+    uint64_t read_end = 0; // of the last one
     while (!state->ended) {
         GrammarLiteral literal;
         const char *begin = skip_blanks(at), *after = NULL;
@@ -372,7 +373,8 @@ const char *grammar_literals_read(GrammarState *state, const char *at, const cha
         if (pattern == NULL) {
             state->offset = offset; // nothing before it but blanks, which are passed over
             begin_learning(state, begin, text, end, &literal);
-            return begin;
+            at = begin;
+            break;
         }
         if (!pattern->is_used) {
             break;
@@ -384,10 +386,14 @@ const char *grammar_literals_read(GrammarState *state, const char *at, const cha
             break;
         }
         at = after;
-        state->offset = literal.span.end;
+        state->offset = read_end = literal.span.end;
         if (result == LITERAL_STOP) {
             state->client_ended = state->ended = true;
         }
+    }
+    if (read_end > 0) { // as if its tokens had been delivered
+        state->previous = (Token){.kind = '}', .span = {read_end - 1, read_end}};
+        state->last_read = '}';
     }
     return at;
 }
