@@ -239,11 +239,13 @@ static void break_out(Reading *reading)
 {
     GrammarStream *stream = reading->stream;
     unsigned branches = 0;
+    bool is_from_file = false; // it leaves no macro that is called around the #include
     for (size_t i = stream->frames.count; i > 0; i--) {
         Frame *frame = &stream->frames.items[i - 1];
         Token opener = frame->opened_by, last;
         switch (frame->kind) {
         case FRAME_BRANCH: branches++; break;
+        case FRAME_FILE: is_from_file = true; break;
         case FRAME_SWITCH:
             if (stream_skip(stream, &opener, branches + 1, false, NULL, &last)) {
                 for (size_t j = stream->frames.count; j >= i; j--) {
@@ -253,9 +255,15 @@ static void break_out(Reading *reading)
                 }
             }
             return;
+        case FRAME_MACRO:
+            if (is_from_file) {
+                i = 1;
+                break;
+            }
+            stream_drop_to(stream, i - 1);
+            return;
         case FRAME_WHILE:
-        case FRAME_FOR:
-        case FRAME_MACRO: stream_drop_to(stream, i - 1); return;
+        case FRAME_FOR: stream_drop_to(stream, i - 1); return;
         case FRAME_TEXT:
             if (stream->is_call) {
                 stream_drop_to(stream, i - 1);

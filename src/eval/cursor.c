@@ -108,14 +108,23 @@ static void end_of_frame(Cursor *cursor)
     cursor_pop(cursor);
 }
 
-void cursor_break(Cursor *cursor, const AstNode *node)
+void cursor_break(Cursor *cursor, Span span, bool is_from_file)
 {
+    Eval *ev = cursor->ev;
     const CursorFrame *frame = cursor->frame;
     while (frame != NULL && (frame->kind == FRAME_ITEMS || frame->kind == FRAME_INCLUDE)) {
+        is_from_file |= frame->kind == FRAME_INCLUDE;
         frame = frame->outer;
     }
-    if (frame == NULL) {
-        eval_fault(cursor->ev, DIAG_E0209, node->span, "no loop, `#switch` or macro that `#break` could leave");
+    if (frame == NULL && cursor->top && ev->include_depth > 0) {
+        ev->break_at = span; // what it leaves may stand around the #include
+        while (cursor->frame != NULL) {
+            cursor_pop(cursor);
+        }
+        return;
+    }
+    if (frame == NULL || (is_from_file && frame->kind == FRAME_MACRO)) { // as in POV-Ray
+        eval_fault(ev, DIAG_E0209, span, "no loop, `#switch` or macro that `#break` could leave");
         return;
     }
     const CursorFrame *rest = frame->outer;

@@ -12,11 +12,22 @@ typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 
 // ---- declarations
 
+// A call of a macro whose text ends with the semicolon.
+static bool is_ended_by_call(const Eval *ev, const AstNode *node)
+{
+    const Value *found = node->kind == AST_CALL ? scope_find(ev, node->symbol) : NULL;
+    const AstNode *last = found != NULL && found->kind == VALUE_MACRO && !found->macro->is_torn ? found->macro->body->b : NULL;
+    while (last != NULL && last->next != NULL) {
+        last = last->next;
+    }
+    return last != NULL && (last->flags & AST_ENDED);
+}
+
 // Numbers, vectors and colours end with a semicolon since version 3.5 of the language.
 static void check_end(Eval *ev, const AstNode *node, const Value *value)
 {
     bool needs_end = value->kind == VALUE_NUMBER || value_is_tuple(value);
-    if (!needs_end || (node->flags & AST_ENDED) || ev->version < 3.5) {
+    if (!needs_end || (node->flags & AST_ENDED) || ev->version < 3.5 || is_ended_by_call(ev, node->b)) {
         return;
     }
     Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
@@ -303,7 +314,7 @@ bool loop_continues(Eval *ev, CursorFrame *frame)
 
 static void run_break(Cursor *cursor, const AstNode *node)
 {
-    cursor_break(cursor, node);
+    cursor_break(cursor, node->span, false);
 }
 
 // ---- messages

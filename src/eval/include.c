@@ -11,7 +11,7 @@ static bool take_item(void *client, const AstNode *item)
     Eval *ev = client;
     lint_items(ev, item);
     eval_item(ev, item);
-    return !eval_cancelled(ev);
+    return !span_exists(ev->break_at) && !eval_cancelled(ev);
 }
 
 static bool enter(Eval *ev, DiagFrame *frame, const Source *source, Span span)
@@ -33,7 +33,7 @@ static void stream(Eval *ev, Source *source, const GrammarContext *context, Span
     }
     // What it finds stands in the diagnostics, which decide in the end.
     bool is_whole = grammar_parse(context, source, take_item, ev);
-    ev->faulty = ev->faulty || !is_whole;
+    ev->faulty = ev->faulty || (!is_whole && !span_exists(ev->break_at));
     scope_pop(ev);
     eval_frame_leave(ev);
     ev->include_depth--;
@@ -112,6 +112,11 @@ void include_run(Cursor *cursor, const AstNode *node)
     splice_init(&reading, ev);
     if (cursor->top) {
         stream(ev, source, &reading.context, node->span);
+        Span span = ev->break_at;
+        ev->break_at = SPAN_NONE;
+        if (span_exists(span)) {
+            cursor_break(cursor, span, true);
+        }
     } else {
         splice(cursor, source, &reading.context, node->span);
     }

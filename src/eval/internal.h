@@ -144,6 +144,7 @@ typedef struct Eval {
     const Noise *noise;           // NULL before the first call that needs it
     ARRAY(uint64_t) reported;     // a hash table of what was reported, see report.c
     size_t reported_count;
+    Span break_at; // of a #break that leaves the included file that is read, and more; else SPAN_NONE
     bool include_is_missing; // a name that is not declared may be one that it declares
     bool file_is_missing; // an #fopen had no file: what it should have opened is not open
     TextBuffer line;              // of #debug, not ended yet
@@ -426,7 +427,8 @@ void cursor_pop(Cursor *cursor);
 // Pushes the items of a text that is read in a splice. False when out of memory, which stops the evaluation.
 bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned,
                       bool is_call) RT_MUST_CHECK;
-void cursor_break(Cursor *cursor, const AstNode *node); // #break
+// #break; is_from_file: in a file that was included here. It leaves no macro that is called around the #include.
+void cursor_break(Cursor *cursor, Span span, bool is_from_file);
 const AstNode *case_items(const AstNode *node); // of a CASE, RANGE or ELSE
 bool directive_run(Cursor *cursor, const AstNode *node); // false when the node is no directive
 bool loop_continues(Eval *ev, CursorFrame *frame); // at the end of a loop's body: one more turn
