@@ -273,6 +273,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_disable_study.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_include_names.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_literals.py 5000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) EXPORTERS_LONG=1 $(PYTHON3) $(top_srcdir)/tests/povray/check_exporters.py
 	$(AM_TESTS_ENVIRONMENT) FORMAT_SEED="$$(date +%s)" $(PYTHON3) $(top_srcdir)/tests/format/check_format.py
