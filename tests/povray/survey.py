@@ -67,6 +67,8 @@ GROUPS = {
 }
 GROUP_OF = {word: group for group, words in GROUPS.items() for word in words.split()}
 TOKEN = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\])*\"|#\s*\w+|\w+", re.DOTALL)
+LACKING = {"E0210", "E0250", "E0251", "E0252", "E0269"}
+MARKS = "<!-- survey:begin -->", "<!-- survey:end -->"
 # The greatest difference of a pixel, in steps of 1/65535, up to which scenes are counted together.
 STEPS = [2, 16, 256, 4096, 65535]
 
@@ -75,6 +77,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("scenes", nargs="*", help="scene files, instead of all of the package")
     parser.add_argument("--json", metavar="FILE", help="write all results to FILE")
+    parser.add_argument("--docs", metavar="FILE", help="write the table of blockers between its marks in FILE")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scenes at a time (default: all processors)")
     parser.add_argument("--timeout", type=float, default=30.0, help="seconds a scene and program may take (default 30)")
     parser.add_argument("--render", action="store_true", help="render what is accepted with both programs and compare")
@@ -116,14 +119,14 @@ def call(command, scene, seconds):
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             return None
-    return process.returncode, output.decode("utf-8", "replace"), messages.decode("latin-1")
+    return process.returncode, output.decode("utf-8", "replace"), messages.decode("utf-8", "replace")
 
 
 def need(blocker):
     """The group that a fault belongs to, or its own words."""
     code, words = blocker.split(" ", 1)
     word = words.split(": ")[-1]
-    return GROUP_OF.get(word, "directives that tear items apart" if code == "E0109" else blocker)
+    return GROUP_OF.get(word.split()[0], "directives that tear items apart" if code == "E0109" else blocker)
 
 
 def supported():
@@ -224,6 +227,30 @@ def print_tables(records):
         print(f"{accepted:6} {unlocked:6} {stood:6}  {what}")
 
 
+def blockers_by_need(records):
+    """[(group, scenes in which it is first, is any, is the only one)] of what rtlang lacks."""
+    first, every, only = collections.Counter(), collections.Counter(), collections.Counter()
+    for record in records:
+        lacks = [blocker for blocker in record["blockers"] if blocker.split()[0] in LACKING]
+        groups = list(dict.fromkeys(need(blocker).removeprefix(blocker.split()[0] + " ") for blocker in lacks))
+        first.update(groups[:1])
+        every.update(groups)
+        only.update(groups if len(groups) == 1 and len(lacks) == len(record["blockers"]) else [])
+    return [(group, first[group], count, only[group]) for group, count in sorted(every.items(), key=lambda e: (-e[1], e[0]))]
+
+
+def write_table(records, path):
+    accepted = sum(record["outcome"] == "accepted" for record in records)
+    lines = [f"{accepted} of {len(records)} scenes are accepted. What stands in the way of the others, when it does so in more than one:", "",
+             "| | first fault | any fault | the only one |", "|---|---|---|---|"]
+    lines += [f"| {group} | {first} | {any_} | {only} |" for group, first, any_, only in blockers_by_need(records) if any_ > 1]
+    with open(path, encoding="utf-8") as file:
+        before, rest = file.read().split(MARKS[0])
+    after = rest.split(MARKS[1])[1]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(before + MARKS[0] + "\n" + "\n".join(lines) + "\n" + MARKS[1] + after)
+
+
 def print_pictures(records):
     drawn = [record for record in records if "picture" in record]
     failed = [record for record in drawn if "max" not in record["picture"]]
@@ -269,6 +296,8 @@ def main():
     print_tables(records)
     if options.render:
         print_pictures(records)
+    if options.docs:
+        write_table(records, options.docs)
     if options.json:
         with open(options.json, "w", encoding="utf-8") as out:
             json.dump({"scenes": records, "plan": plan(records)}, out, indent=1)
