@@ -6,6 +6,8 @@
 // SPDX-License-Identifier: MIT
 #include "grammar/splice.h"
 
+enum { MATRIX_COMPONENTS = 12 };
+
 // ---- delivery to the parser
 
 // Whether the last token delivered can be the end of an expression or a block.
@@ -230,12 +232,22 @@ AstNode *grammar_element(GrammarState *state, AstNode *node)
     return next == '[' || next == '=' ? node : grammar_fold(state, node);
 }
 
+// Twelve components, which are worked out each by itself: no value holds them all.
+static bool is_matrix(const AstNode *node)
+{
+    size_t count = 0;
+    for (const AstNode *part = node->kind == AST_VECTOR ? node->a : NULL; part != NULL; part = part->next) {
+        count++;
+    }
+    return count == MATRIX_COMPONENTS;
+}
+
 AstNode *grammar_fold(GrammarState *state, AstNode *node)
 {
     if (RT_LIKELY(state->stream == NULL)) {
         return mark_pastes(node);
     }
-    if (!is_in_function(state) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->stream->failed) {
+    if (!is_matrix(node) && !is_in_function(state) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->stream->failed) {
         state->stream->hooks->fold(state->stream->hooks->client, node);
         state->stream->failed = state->stream->hooks->is_stopped(state->stream->hooks->client);
     }

@@ -452,6 +452,15 @@ static bool calls_unbalanced(const GrammarState *state)
            state->previous.kind != TOKEN_HASH_MACRO && hooks->is_unbalanced(hooks->client, state->current.symbol);
 }
 
+// The function `internal(N)`; without parentheses it is a word, which begins a font of `text`.
+static void settle_internal(GrammarState *state)
+{
+    Token next;
+    grammar_read_token(state, &next);
+    grammar_hold_token(state, next);
+    state->current.kind = next.kind == '(' ? TOKEN_BUILTIN : TOKEN_WORD;
+}
+
 static void next_token(GrammarState *state)
 {
     grammar_track(state, &state->current);
@@ -464,6 +473,9 @@ static void next_token(GrammarState *state)
         grammar_scan_literals(state);
     }
     grammar_read_token(state, &state->current);
+    if (RT_UNLIKELY(state->current.symbol == W_internal && state->current.kind == TOKEN_BUILTIN)) {
+        settle_internal(state);
+    }
     if (state->item_begin == 0) {
         state->item_begin = state->current.span.begin;
         state->faults_before = state->context->diags->error_count;
