@@ -433,28 +433,19 @@ static void refuse_unsupported(Block *block, const AstNode *item)
     }
 }
 
-static void refuse_colour(Block *block, const AstNode *item)
-{
-    block->has_fault = true;
-    bool takes_pigment = block->ev->objects->properties[block->kind][W_pigment] != 0;
-    if (!eval_follows_syntax(block->ev, block->node->span) &&
-        eval_report(block->ev, DIAG_E0254, item->span, "no colour is expected here in %s", block_word(block)) &&
-        takes_pigment) {
-        diag_suggest(block->ev->options.diags, "a colour belongs in `pigment { }`");
-    }
-}
-
 // A word or block that is no property of this kind.
 static void refuse_word(Block *block, const AstNode *item)
 {
     SchemaKind kind = block_kind(block->ev, item);
-    if (object_is_group(block->kind) && schema_kind(kind)->is_object) {
+    if (block_is_lacking(block, item->symbol)) {
+        refuse_unsupported(block, item);
+    } else if (object_is_group(block->kind) && schema_kind(kind)->is_object) {
         block_fault(block, DIAG_E0256, item->span, "`%s` must stand before the properties of the %s",
                     schema_kind(kind)->word, block_word(block));
     } else if (object_is_statement(kind)) {
         block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand here", schema_kind(kind)->word);
     } else if (word_class(item->symbol) == WORD_COLOUR) {
-        refuse_colour(block, item);
+        block_refuse_colour(block, item);
     } else if (item->kind == AST_BLOCK && item->symbol >= WORD_COUNT && object_is_group(block->kind)) {
         block->has_fault = true;
         block_unknown(block->ev, item);
@@ -468,18 +459,12 @@ static void refuse_word(Block *block, const AstNode *item)
     skip_values(block);
 }
 
-static bool is_capital(const Block *block, const AstNode *name)
-{
-    char first = *eval_text(block->ev, name->symbol);
-    return first >= 'A' && first <= 'Z';
-}
-
 // An expression where a property should stand; a name that was never declared is a misspelt one.
 static void refuse_value(Block *block, const AstNode *item)
 {
     Value value;
     bool is_undeclared = item->kind == AST_NAME && !is_declared(block->ev, item);
-    if (is_undeclared && (bodies[block->kind] || is_capital(block, item)) && !block_is_misspelt(block, item)) {
+    if (is_undeclared && (bodies[block->kind] || block_is_capital(block, item)) && !block_is_misspelt(block, item)) {
         // Where objects stand it is more likely one of them, and no property begins with a capital.
         block->has_fault = !eval_expression(block->ev, item, &value);
     } else if (is_undeclared) {

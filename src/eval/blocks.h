@@ -72,6 +72,9 @@ bool block_is_misspelt(const Block *block, const AstNode *item);
 bool block_is_misspelt_object(const Eval *ev, const AstNode *item);
 // Reports a word that is no property of the block, with the nearest that is.
 void block_unknown_property(Block *block, const AstNode *item);
+void block_refuse_colour(Block *block, const AstNode *item);
+bool block_is_capital(const Block *block, const AstNode *name); // no property begins so
+bool block_is_lacking(const Block *block, Symbol symbol); // POV-Ray has the word here, and rtlang in other blocks only
 
 // Marks the block as faulty and reports, unless it follows from a syntax fault inside the block; returns false.
 bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);

@@ -133,7 +133,45 @@ void block_unknown_property(Block *block, const AstNode *item)
     }
 }
 
+// ---- what stands in the wrong place
+
+void block_refuse_colour(Block *block, const AstNode *item)
+{
+    block->has_fault = true;
+    bool takes_pigment = block->ev->objects->properties[block->kind][W_pigment] != 0;
+    if (!eval_follows_syntax(block->ev, block->node->span) &&
+        eval_report(block->ev, DIAG_E0254, item->span, "no colour is expected here in %s", block_word(block)) &&
+        takes_pigment) {
+        diag_suggest(block->ev->options.diags, "a colour belongs in `pigment { }`");
+    }
+}
+
+bool block_is_capital(const Block *block, const AstNode *name)
+{
+    char first = *eval_text(block->ev, name->symbol);
+    return first >= 'A' && first <= 'Z';
+}
+
 // ---- what rtlang has not
+
+bool block_is_lacking(const Block *block, Symbol symbol)
+{
+    static const struct {
+        SchemaKind kind;
+        Word word;
+    } table[] = {
+        {KIND_PIGMENT, W_quilted}, {KIND_PIGMENT, W_control0}, {KIND_PIGMENT, W_control1}, {KIND_PIGMENT, W_object},
+        {KIND_PIGMENT, W_interior}, {KIND_PIGMENT, W_exponent}, {KIND_NORMAL, W_object},    {KIND_NORMAL, W_interior},
+        {KIND_NORMAL, W_exponent},
+    };
+    for (size_t i = 0; i < RT_COUNT_OF(table); i++) {
+        if (table[i].kind == block->kind && (Symbol)table[i].word == symbol) {
+            return true;
+        }
+    }
+    return false;
+}
+
 
 static void tell_unsupported(Eval *ev, const UnsupportedBlueprint *what, Span use)
 {
