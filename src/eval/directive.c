@@ -20,7 +20,7 @@ static bool is_ended_by_call(const Eval *ev, const AstNode *node)
     while (last != NULL && last->next != NULL) {
         last = last->next;
     }
-    return last != NULL && (last->flags & AST_ENDED);
+    return found != NULL && (ev->is_value_ended || (last != NULL && (last->flags & AST_ENDED)));
 }
 
 // Numbers, vectors and colours end with a semicolon since version 3.5 of the language.
@@ -79,6 +79,7 @@ static void run_declare(Cursor *cursor, const AstNode *node)
         ev->faulty = true;
         return;
     }
+    ev->is_value_ended = false;
     ev->at_colour = node->b->kind == AST_NAME && !(node->flags & AST_ENDED); // with a vector behind it
     bool fine = !(node->flags & AST_UNREADABLE) && eval_open_rvalue(ev, node->b, &value);
     ev->at_colour = false;

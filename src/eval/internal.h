@@ -155,6 +155,7 @@ typedef struct Eval {
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     LiteralWatch literal;
+    bool is_value_ended; // the last value of a macro's text has the semicolon behind it
     bool has_stray;      // at the top level, reported: the values after it are not reported as well
     bool faulty;         // something was reported, if only before
     unsigned inner;      // parentheses of any kind around the expression that is being worked out

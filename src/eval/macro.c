@@ -299,13 +299,16 @@ static bool fault_followed(Eval *ev, const Wanted *wanted)
 static bool take_expression(Cursor *cursor, const Wanted *wanted, Value *value)
 {
     Eval *ev = cursor->ev;
-    if (cursor_peek(cursor) == NULL) {
+    const AstNode *item = cursor_peek(cursor);
+    if (item == NULL) {
         return fault_no_value(ev, wanted);
     }
+    bool is_ended = item->flags & AST_ENDED;
     if (!cursor_value(cursor, value)) {
         return false;
     }
-    bool ends_statement = value->kind == VALUE_NUMBER || value_is_tuple(value);
+    ev->is_value_ended = is_ended;
+    bool ends_statement = !is_ended && (value->kind == VALUE_NUMBER || value_is_tuple(value));
     return !(ev->inner == 0 && ends_statement && is_followed(cursor)) || fault_followed(ev, wanted);
 }
 
