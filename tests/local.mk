@@ -192,6 +192,7 @@ test_scripts = \
   %D%/povray/check_pictures.py \
   %D%/povray/check_blur.sh \
   %D%/povray/check_antialias.py \
+  %D%/povray/check_pairs.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \
   %D%/povray/check_debug.py \
@@ -272,6 +273,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_disable_study.py
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_pairs.py 500 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_include_names.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_literals.py 5000 "$$(date +%s)"

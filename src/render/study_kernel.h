@@ -362,6 +362,7 @@ static RealRgb real_visibility(const RealScene *s, const RealHit *at, RealVec to
     RealRay ray = {at->point, towards};
     RealStart start = {at->kind, at->index, true, real_dot(at->normal, towards) < 0};
     RealHit hit;
+    bool fades = at->inside || !start.inward;
     statistics->shadow_rays++;
     for (uint64_t passed = 0; real_closest(s, &ray, start, distance, &hit); passed++) {
         const PreparedFinish *finish;
@@ -371,7 +372,8 @@ static RealRgb real_visibility(const RealScene *s, const RealHit *at, RealVec to
             return real_grey(0);
         }
         share = real_rgb_mul(share, through);
-        share = hit.inside ? real_rgb_mul(share, real_faded(s, hit.material, hit.t, true)) : share;
+        share = hit.inside && fades ? real_rgb_mul(share, real_faded(s, hit.material, hit.t, true)) : share;
+        fades = true;
         ray.e = hit.point;
         distance -= hit.t;
         start = (RealStart){hit.kind, hit.index, true, !hit.inside};
@@ -545,7 +547,6 @@ static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way,
     }
     Real grey = (Real)0.297 * through.red + (Real)0.589 * through.green + (Real)0.114 * through.blue;
     if (weight < (Real)s->p->adc_bailout || grey < (Real)s->p->adc_bailout || way->passed >= s->p->crossings_max) {
-        *is_total = false;
         return false;
     }
     way->weight = weight;

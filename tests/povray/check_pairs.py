@@ -30,7 +30,7 @@ LEFT_OUT = {
     "noise_generator number_of_waves max_intersections mm_per_unit quick_color quick_colour media_interaction"
     " media_attenuation": "they change no picture",
     "colour_map fade_colour": "other spellings",
-    "jitter": "random in both",
+    "jitter aperture blur_samples confidence focal_point variance": "random in both",
     "image_map exr hdr jpeg map_type once interpolate pgm png ppm premultiplied tga tiff use_color use_colour": "need a file;"
     " tests/povray/image_*.scn have them",
     "bumps spotted dents ripples waves wrinkles turb_depth": "tests/povray/*.scn have them",

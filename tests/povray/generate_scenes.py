@@ -80,7 +80,7 @@ PIGMENT = {  # with the wave and the transform of the pattern in WAVE
     "transmit": "pigment { {rgb} transmit {0.3~0.8} }",
     "checker": "pigment { checker {rgb} {rgb} scale {0.3~0.6} WAVE }",
     "hexagon": "pigment { hexagon {rgb} {rgb} {rgb} scale {0.2~0.4} rotate 80*x WAVE }",
-    "brick": "pigment { brick {rgb} {rgb} brick_size <{0.4~0.6}, 0.2, 0.3> mortar {0.03~0.06} WAVE }",
+    "brick": "pigment { brick {rgb} {rgb} brick_size <{0.4~0.6}, 0.2037, 0.3071> mortar {0.03~0.06} WAVE }",
     **{name: f"pigment {{ {text} {COLOURS} WAVE }}" for name, text in PATTERN.items()},
     "map with filter": "pigment { gradient y color_map { [0 {rgb} filter 0.8] [{0.4~0.6} {rgb} filter {0.1~0.5}]"
                        " [1 {rgb} transmit {0.2~0.6}] } WAVE }",
@@ -111,7 +111,7 @@ NORMAL = {
     "none": "",
     "onion": "normal { onion {0.2~0.8} sine_wave scale {0.2~0.4} }",
     "bumps": "normal { bumps {0.3~0.9} scale {0.1~0.3} }",
-    "noise": "normal { granite {0.2~0.5} scale {0.3~0.8} turbulence {0.1~0.4} }",
+    "noise": "normal { granite {0.03~0.1} scale {0.3~0.8} turbulence {0.1~0.4} }",
     "waves": "normal { average normal_map { [1 ripples {0.2~0.5} frequency {1~3}] [waves {0.1~0.4} scale 0.5] [wrinkles {0.2~0.6} scale 0.3]"
              " [dents {0.3~0.8} scale 0.2] } }",
     "quilted": "normal { quilted {0.2~0.6} control0 {0.2~0.8} control1 {0.5~1} scale {0.2~0.4} }",
@@ -239,7 +239,8 @@ DIFFERENT = [
     ({"smooth triangle"}, {"declared", "matrix", "transform"}),
     (COMPOSED | OPEN, BENDING | {"inverse"}),
     (FLAT | CLIPPED | {"inverse"}, {"fade", "fade colour", "mirror fresnel"}),
-    ({"mirror exponent", "mirror exponent inside"}, BENDING),
+    ({"mirror exponent", "mirror exponent inside", "no_reflection"}, BENDING),
+    ({"merge"}, {"mirror fresnel"}),
 ]
 
 
@@ -334,28 +335,36 @@ def fill(rng, text):
     return re.sub(r"\{(?:rgb|axis|point|-?[\d.]+~-?[\d.]+)\}", replace, text)
 
 
-def object_text(rng, choices, place):
+def object_text(rng, choices, place, in_fog):
     finish = f"finish {{ {FINISH[choices['finish']]} }}" if FINISH[choices["finish"]] else ""
     finish = f"{NORMAL[choices['normal']]} {finish}"
     surface = PIGMENT[choices["pigment"]].replace("WAVE", WAVE[choices["wave"]])
     surface = surface.replace("FINISH", finish) if surface.startswith("texture") else f"texture {{ {surface} {finish} }}"
     if choices["interior"] == "material":
         surface = f"material {{ {surface} interior {{ ior {{1.1~1.5}} }} rotate {{10~40}}*z }}"
-    body = f"{surface} {INTERIOR[choices['interior']]} {FLAG[choices['flag']]} {TRANSFORM[choices['transform']]}"
+    flag = "hollow" if in_fog and choices["combined"] in COMPOSED else FLAG[choices["flag"]]  # fog: see the same place
+    body = f"{surface} {INTERIOR[choices['interior']]} {flag} {TRANSFORM[choices['transform']]}"
     text = COMBINED[choices["combined"]].replace("SHAPE", HEAD[choices["shape"]]).replace("BODY", body)
     return fill(rng, f"object {{ {text} translate <{place[0]}, {place[1]}, {{-0.4~0.4}}> }}")
 
 
+def settings_text(choices, objects):
+    """Between bumps that mirror, rounding grows by an order of magnitude a bounce."""
+    settings = SETTINGS[choices["settings"]]
+    has_bumps = any(one["normal"] != "none" for one in objects)
+    return settings.replace("max_trace_level 12", "max_trace_level 6") if has_bumps else settings
+
+
 def scene_text(choices, objects, seed, number):
     rng = random.Random(f"{seed} {number}")
-    lines = ["#version 3.7;", f"global_settings {{ {SETTINGS[choices['settings']]} }}", DEFAULT[choices["default"]],
+    lines = ["#version 3.7;", f"global_settings {{ {settings_text(choices, objects)} }}", DEFAULT[choices["default"]],
              "#declare Turn = transform { rotate <20, 30, 0> scale <1, 1.1, 0.9> }",
              f"camera {{ {CAMERA[choices['camera']]} }}", LIGHT[choices["light"]], SKY[choices["sky"]],
              FLOOR[choices["floor"]]]
     text = "".join(fill(rng, line) + "\n" for line in lines if line)
     for place, one in zip(((-1.35, 1.15), (1.4, 1.2), (-1.3, -1.2), (1.35, -1.15)), objects):
         text += "// " + ", ".join(f"{factor}: {name}" for factor, name in one.items()) + "\n"
-        text += object_text(rng, one, place) + "\n"
+        text += object_text(rng, one, place, "fog" in choices["sky"]) + "\n"
     return "// " + ", ".join(f"{factor}: {name}" for factor, name in choices.items()) + "\n" + text
 
 
