@@ -1,0 +1,262 @@
+// How a point of a surface shines: what reaches it of each light, and what its finish makes of that.
+//
+// Everything here is always-inline and takes the kernel's features as a constant. The lighting model is the scene
+// language's, as its manual describes it and as measured against it; docs/language.md, "Lighting model", has the formulas.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SHADE_LIGHT_H
+#define RENDER_SHADE_LIGHT_H
+
+#include "base/attributes.h"
+#include "render/inside.h"
+#include "render/kernel.h"
+#include "render/light.h"
+#include "render/prepared.h"
+#include "render/texture.h"
+#include "trace/query.h"
+
+// A point being shaded. `normal` is turned towards the viewer, `outward` is the shape's own.
+typedef struct ShadePoint {
+    Vec3 point, normal, outward;
+    Vec3 direction; // of the ray that found it
+    ShapeId shape;
+    MaterialIndex material;
+    uint32_t order;    // of the shape, in the order of declaration
+    uint32_t interior; // of the shape
+    double ior_ratio;  // index of refraction behind the surface over the one before it
+    double way;        // of the ray that found it, in the scene's lengths; where there are interiors
+    bool inside;  // the ray met the surface from the side where the shape is
+    bool leaves;  // what the ray is in; where there are interiors
+    SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
+} ShadePoint;
+
+// What a surface is made of at a point. "Opaque share" is 1 - filter - transmit.
+typedef struct ShadeMaterial {
+    Rgb pigment;
+    Rgb opaque; // opaque share × pigment
+    const PreparedFinish *finish;
+} ShadeMaterial;
+
+RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned features, Rgbft pigment, FinishIndex finish)
+{
+    Rgb colour = rgbft_rgb(pigment);
+    ShadeMaterial out = {colour, colour, &p->finishes[finish]};
+    if (features & RENDER_TRANSPARENCY) {
+        out.opaque = rgb_scale(1.0 - pigment.filter - pigment.transmit, colour);
+    }
+    return out;
+}
+
+RT_ALWAYS_INLINE uint32_t shade_interior(const Prepared *p, MaterialIndex material)
+{
+    return material & MATERIAL_COMPOUND ? p->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
+}
+
+// What an interior leaves of light that comes out of it.
+RT_ALWAYS_INLINE Rgb shade_faded(const Prepared *p, uint32_t interior, double way)
+{
+    return interior != RECORD_NONE && p->interiors[interior].fade_distance != 0.0
+               ? inside_fade(&p->interiors[interior], way)
+               : rgb_grey(1.0);
+}
+
+// The same on the way from a light, where a power of 0 leaves all. Measured.
+RT_ALWAYS_INLINE Rgb shade_shadow_faded(const Prepared *p, const Surface *surface, double t)
+{
+    uint32_t interior = shade_interior(p, surface->material);
+    return interior != RECORD_NONE && p->interiors[interior].fade_power != 0.0
+               ? shade_faded(p, interior, t * p->textures.scale)
+               : rgb_grey(1.0);
+}
+
+// What a surface multiplies light with that goes through it.
+RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface)
+{
+    if ((features & RENDER_TEXTURES) && (surface->material & MATERIAL_COMPOUND)) {
+        const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
+        return texture_walk(&p->textures, compound->texture, surface->point, 0.0, NULL, NULL).light;
+    }
+    return texture_pigment_through(material_pigment(&p->materials[surface->material]));
+}
+
+// The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
+// multiplies it, the first that does not ends it. What is seen from outside and lit from behind, by bumps or on its back,
+// gets its light through itself unfaded. Measured.
+RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, const ShadePoint *at, Ray ray,
+                                         RayStart start, double t_max)
+{
+    Rgb share = rgb_grey(1.0);
+    Hit hit;
+    bool fades = at->inside || !start.inward;
+    for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
+        Surface surface = geometry_surface(p->geometry, features, ray, hit);
+        Rgb through = shade_surface_through(p, features, &surface);
+        if (rgb_is_black(through) || passed > p->crossings_max) {
+            return rgb_grey(0.0);
+        }
+        share = rgb_mul(share, through);
+        if ((features & RENDER_INTERIORS) && hit.inside && fades) {
+            share = rgb_mul(share, shade_shadow_faded(p, &surface, hit.t));
+        }
+        fades = true;
+        ray.origin = surface.point;
+        t_max -= hit.t;
+        start = (RayStart){hit.shape, !hit.inside, HIDDEN_SHADOW};
+    }
+    return share;
+}
+
+// The share of the light that reaches the point, by colour.
+RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadePoint *at, Vec3 towards,
+                                      double distance, RenderStatistics *statistics)
+{
+    Ray ray = {at->point, towards};
+    RayStart start = {at->shape, vec3_dot(at->outward, towards) < 0.0, HIDDEN_SHADOW};
+    statistics->shadow_rays++;
+    if (features & RENDER_TRANSPARENCY) {
+        return shade_light_through(p, features, at, ray, start, distance);
+    }
+    return rgb_grey(geometry_occluded(p->geometry, features, ray, start, distance) ? 0.0 : 1.0);
+}
+
+// The share of the light of a place in an area, `aside` from its middle, that reaches the point.
+RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at,
+                                    const PreparedLight *light, Vec3 aside, RenderStatistics *statistics)
+{
+    Vec3 offset = vec3_sub(vec3_add(light->position, aside), at->point);
+    double distance = vec3_length(offset);
+    return shade_visibility(p, features, at, vec3_scale(1.0 / distance, offset), distance, statistics);
+}
+
+// The mean over an area light, see render/light.h.
+RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const ShadePoint *at,
+                                const PreparedLight *light, RenderStatistics *statistics)
+{
+    LightParts parts;
+    Rgb sum = rgb_grey(0.0);
+    light_parts_begin(&parts, &light->area);
+    while (parts.count > 0) {
+        LightPart part = parts.waiting[--parts.count];
+        Rgb corners[4], mean = rgb_grey(0.0);
+        for (int corner = 0; corner < 4; corner++) {
+            int i = corner & 1 ? part.right : part.left, j = corner & 2 ? part.bottom : part.top;
+            int same = (part.right == part.left ? corner & 2 : corner) & (part.bottom == part.top ? 1 : 3);
+            corners[corner] =
+                same < corner
+                    ? corners[same]
+                    : shade_area_one(p, features, at, light, light_area_offset(light, at->point, i, j), statistics);
+            mean = rgb_add(mean, corners[corner]);
+        }
+        if (!light_part_divides(&parts, &light->area, part, corners)) {
+            sum = rgb_add_scaled(sum, 0.25 * part.weight, mean);
+        }
+    }
+    return sum;
+}
+
+// The same; or of one of its lights by chance, when the camera ray is one of many.
+RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
+                                const PreparedLight *light, RenderStatistics *statistics)
+{
+    return at->stream ? shade_area_one(p, features, at, light, light_area_sample(light, sample_next(at->stream)),
+                                       statistics)
+                      : shade_area_grid(p, features, at, light, statistics);
+}
+
+// Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
+RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const ShadePoint *at, Vec3 towards)
+{
+    double sum = 0.0;
+    if (finish->phong > 0.0) {
+        double cosine = vec3_dot(vec3_reflect(at->direction, at->normal), towards);
+        if (cosine > 0.0) {
+            sum += finish->phong * shade_power(cosine, finish->phong_size);
+        }
+    }
+    if (finish->specular > 0.0) {
+        Vec3 halfway = vec3_sub(towards, at->direction);
+        double cosine = vec3_dot(halfway, at->normal) / vec3_length(halfway);
+        if (cosine > 0.0) {
+            sum += finish->specular * shade_power(cosine, finish->shininess);
+        }
+    }
+    return sum;
+}
+
+// The share of the pigment in a metallic highlight falls with the light's angle x (in right angles) to the normal as 1 - F,
+// F being the Fresnel curve of P. Strauss, "A Realistic Lighting Model for Computer Animators", IEEE CG&A 10(6), 1990:
+// F(x) = (1 / (x - k)² - 1 / k²) / (1 / (1 - k)² - 1 / k²) with k = 1.12. Renderings agree with it to 1/65535. A normal
+// with bumps may be turned away from the viewer: then F goes on beyond 1 right angle, but not above 1.
+RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigment, double cosine)
+{
+    const double k = 1.12;
+    const double at_normal = 1.0 / (k * k), at_grazing = 1.0 / ((1.0 - k) * (1.0 - k));
+    bool is_bumpy = features & RENDER_NORMALS;
+    double x = acos(is_bumpy ? fmax(fmin(cosine, 1.0), -1.0) : fmin(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
+    double fresnel = (1.0 / ((x - k) * (x - k)) - at_normal) / (at_grazing - at_normal);
+    fresnel = is_bumpy ? fmin(fresnel, 1.0) : fresnel;
+    double share = metallic * (1.0 - fresnel);
+    return rgb(1.0 + share * (pigment.red - 1.0), 1.0 + share * (pigment.green - 1.0),
+               1.0 + share * (pigment.blue - 1.0));
+}
+
+// What one light adds at a point: diffuse on the side it stands on, highlights on the viewer's side only.
+RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const ShadeMaterial *material,
+                                 const PreparedLight *light, const ShadePoint *at, RenderStatistics *statistics)
+{
+    const PreparedFinish *finish = material->finish;
+    Vec3 offset = vec3_sub(light->position, at->point);
+    double distance = light->parallel ? vec3_dot(offset, light->towards) : vec3_length(offset);
+    Vec3 towards = light->parallel ? light->towards : vec3_scale(1.0 / distance, offset);
+    double cosine = vec3_dot(at->normal, towards);
+    bool front = cosine > 0.0;
+    bool back = (features & RENDER_BRILLIANCE) && cosine < 0.0 && finish->diffuse_back > 0.0;
+    if (!(front || back)) {
+        return rgb_grey(0.0);
+    }
+    Rgb arriving = light->colour;
+    if ((features & RENDER_LIGHTS) && !light->is_plain) {
+        double strength = light_strength(light, offset, distance);
+        if (!(strength > 0.0)) {
+            return rgb_grey(0.0);
+        }
+        arriving = rgb_scale(strength, arriving);
+    }
+    // Beyond the plane of a parallel light nothing throws a shadow.
+    if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
+        Rgb share = (features & RENDER_LIGHTS) && light->area.size1 > 0
+                        ? shade_area(p, features, at, light, statistics)
+                        : shade_visibility(p, features, at, towards, distance, statistics);
+        if (rgb_is_black(share)) {
+            return share;
+        }
+        arriving = rgb_mul(arriving, share);
+    }
+    double falloff = features & RENDER_BRILLIANCE ? shade_power(fabs(cosine), finish->brilliance) : cosine;
+    Rgb sum = rgb_scale(falloff, rgb_scale(back ? finish->diffuse_back : finish->diffuse, material->opaque));
+    if ((features & RENDER_HIGHLIGHTS) && finish->shines && front && !light->shadowless) {
+        double shine = shade_highlights(finish, at, towards);
+        Rgb tint = finish->metallic > 0.0 ? shade_metallic(features, finish->metallic, material->pigment, cosine)
+                                            : rgb_grey(1.0);
+        sum = rgb_add_scaled(sum, shine, tint);
+    }
+    return rgb_mul(sum, arriving);
+}
+
+// The reflected share at an angle with cosine N·V.
+RT_ALWAYS_INLINE Rgb shade_reflectance(unsigned features, const ShadeMaterial *material, double cosine,
+                                       double ior_ratio)
+{
+    const PreparedFinish *finish = material->finish;
+    double grazing = (features & RENDER_INTERIORS) && finish->is_fresnel
+                         ? inside_fresnel(features & RENDER_NORMALS ? fmax(cosine, 0.0) : cosine, ior_ratio)
+                         : shade_power(fmax(1.0 - cosine, 0.0), finish->reflection_falloff);
+    Rgb span = rgb_add_scaled(finish->reflection_max, -1.0, finish->reflection_min);
+    Rgb share = rgb_add_scaled(finish->reflection_min, grazing, span);
+    if (finish->reflection_metallic > 0.0) {
+        share = rgb_mul(share, shade_metallic(features, finish->reflection_metallic, material->pigment, cosine));
+    }
+    return share;
+}
+
+#endif

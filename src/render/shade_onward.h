@@ -1,0 +1,232 @@
+// The rays that go on from a surface: mirrored, straight through, bent, or mirrored for want of a way out.
+//
+// They wait in a small stack with the weight of what they will add, so that no recursion is needed and the order of
+// additions is fixed. Everything is always-inline and takes the kernel's features as a constant.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SHADE_ONWARD_H
+#define RENDER_SHADE_ONWARD_H
+
+#include "base/limits.h"
+#include "render/shade_light.h"
+
+// A ray that is still to be traced, or (closes) the end of one whose light is raised to a power before it is added.
+typedef struct PendingRay {
+    Ray ray;
+    RayStart start;
+    Rgb share;       // what its light is multiplied with
+    double weight;   // what decides whether it is worth tracing: greatest components of all shares multiplied
+    int level;       // 1 for camera rays; one more after each reflection
+    uint64_t passed; // surfaces gone through since the last reflection
+    double exponent; // closes: of the light; else unused
+    bool opens, closes; // opens: its light is summed by itself, until the one below it closes
+    const Hit *known; // what it hits, where that is known already (SHAPE_NONE: nothing); else NULL
+} PendingRay;
+
+// Normals that the layers of one surface with bumps may have between them.
+enum { SHADE_WAYS_MAX = SCENE_NORMALS_MOST + 1, SHADE_WAY_RAYS = 3 };
+
+// Depth first, each level leaves at most one transmitted ray and one closing entry behind, and more only where bumps send
+// rays in more than one direction; of those, what would not fit (80 in a row that each do so) is not followed.
+enum { PENDING_MAX = 2 * TRACE_LEVEL_MAX + 4 + 80 * SHADE_WAY_RAYS };
+
+// The rays that wait, and the sums of light that are open: one, and one more for each ray with an exponent.
+typedef struct Pending {
+    int count, open;
+    PendingRay rays[PENDING_MAX];
+    Inside inside[PENDING_MAX]; // of each ray, where there are interiors
+    Rgb sums[TRACE_LEVEL_MAX + 1];
+} Pending;
+
+// What a surface sends on, all its layers together.
+typedef struct ShadeOnward {
+    Rgb through;     // what a ray that goes through is multiplied with
+    Rgb reflectance; // the same for the mirrored ray
+    double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
+    double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
+    double reflection_exponent;
+    double part; // where there are bumps: of the textures of a map, those whose light goes through this way
+    bool conserves_energy;
+} ShadeOnward;
+
+RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
+{
+    return rgb(shade_power(light.red, exponent), shade_power(light.green, exponent),
+               shade_power(light.blue, exponent));
+}
+
+// Where a mirror sends the ray. With bumps that may be into the surface: such a ray is mirrored once more, at the surface
+// as it is; or, when the normal is turned away from the viewer, mirrored there only. Measured.
+RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadePoint *at)
+{
+    Vec3 mirrored = vec3_reflect(at->direction, at->normal);
+    Vec3 facing = at->inside ? vec3_neg(at->outward) : at->outward;
+    if ((features & RENDER_NORMALS) && !vec3_equal(at->normal, facing) && vec3_dot(mirrored, facing) < 0.0) {
+        bool is_away = vec3_dot(at->normal, at->direction) > 0.0;
+        mirrored = vec3_reflect(is_away ? at->direction : mirrored, facing);
+    }
+    return vec3_normalize(mirrored);
+}
+
+// The mirrored ray, unless it is too deep or worth too little. The angle does not enter its weight.
+RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                    const ShadePoint *at, const PendingRay *from, Pending *pending)
+{
+    double weight = from->weight * onward->reflection_weight;
+    if (from->level >= p->max_trace_level || weight < p->adc_bailout) {
+        return;
+    }
+    PendingRay ray = {
+        .ray = {at->point, shade_mirrored(features, at)},
+        .start = {at->shape, at->inside, HIDDEN_MIRROR},
+        .share = rgb_mul(from->share, onward->reflectance),
+        .weight = weight,
+        .level = from->level + 1,
+    };
+    if ((features & RENDER_EXPONENT) && onward->reflection_exponent != 1.0) {
+        PendingRay end = {.share = ray.share, .exponent = 1.0 / onward->reflection_exponent, .closes = true};
+        pending->rays[pending->count++] = end;
+        ray.opens = true;
+        ray.share = rgb_grey(1.0);
+    }
+    pending->rays[pending->count++] = ray;
+}
+
+// The ray that goes straight on, whose share may be below 0. It stays on its level; what bounds it is that a line meets
+// only so many surfaces.
+RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onward, const ShadePoint *at,
+                                     const PendingRay *from, Pending *pending)
+{
+    Rgb through = onward->through;
+    double weight = from->weight * (onward->through_weight > 0.0 ? onward->through_weight : rgb_max_abs(through));
+    if (onward->conserves_energy) {
+        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance);
+        through = rgb_mul(through, left);
+        weight *= rgb_max(left);
+    }
+    if (from->level >= p->max_trace_level || weight < p->adc_bailout || from->passed >= p->crossings_max ||
+        (onward->through_weight == 0.0 && fabs(rgb_luminance(through)) < p->adc_bailout)) {
+        return;
+    }
+    pending->rays[pending->count++] = (PendingRay){
+        .ray = {at->point, at->direction},
+        .start = {at->shape, !at->inside, from->start.use},
+        .share = rgb_mul(from->share, through),
+        .weight = weight,
+        .level = from->level,
+        .passed = from->passed + 1,
+    };
+}
+
+// Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind it.
+// A ray leaves what it has entered, and enters anything else, from whichever side it comes to a surface: one that is open
+// or flat, too. Measured.
+RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoint *at, const Inside *before,
+                                  Inside *behind)
+{
+    inside_copy(behind, before);
+    at->leaves = inside_leave(behind, at->order);
+    if (!at->leaves) {
+        bool is_solid = (features & RENDER_FOG) && !scene_is_hollow(p->scene, at->material);
+        inside_enter(behind, at->order, at->interior, is_solid);
+    }
+    at->ior_ratio = inside_ior(p->interiors, behind) / inside_ior(p->interiors, before);
+}
+
+// The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to the
+// next level. There is none when it is too deep or worth too little, and then no other mirrored ray either. Measured.
+RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ShadeOnward *onward, Rgb fade,
+                                 const ShadePoint *at, const PendingRay *from, const Inside *before,
+                                 const Inside *behind, Pending *pending)
+{
+    Vec3 direction, normal = at->normal;
+    if ((features & RENDER_NORMALS) && vec3_dot(normal, at->direction) > 0.0) {
+        normal = vec3_neg(normal);
+    }
+    bool is_bent = inside_bend(at->direction, normal, at->ior_ratio, &direction);
+    int place = pending->count;
+    shade_transmit(p, onward, at, from, pending);
+    if (pending->count == place) {
+        return !is_bent;
+    }
+    PendingRay *ray = &pending->rays[place];
+    if (!is_bent) {
+        // Its weight is that of one that gets through, its light is not. Measured.
+        double part = features & RENDER_NORMALS ? onward->part : 1.0;
+        ray->share = rgb_mul(from->share, rgb_scale(part, fade));
+        direction = shade_mirrored(features, at);
+    }
+    // Bumps may bend a ray back to the side that it came from.
+    bool goes_in = (features & RENDER_NORMALS) && is_bent ? vec3_dot(at->outward, direction) < 0.0
+                                                          : is_bent != at->inside;
+    ray->ray = (Ray){at->point, direction};
+    ray->start = (RayStart){at->shape, goes_in, is_bent ? from->start.use : HIDDEN_MIRROR};
+    ray->level = from->level + 1;
+    ray->passed = 0;
+    inside_copy(&pending->inside[place], is_bent ? behind : before);
+    return !is_bent;
+}
+
+// What goes through; true when all of it is mirrored instead.
+RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                       const ShadePoint *at, const PendingRay *from, const Inside *before,
+                                       const Inside *behind, Pending *pending)
+{
+    int place = pending->count;
+    ShadeOnward faded = *onward;
+    Rgb fade = rgb_grey(1.0);
+    if ((features & RENDER_INTERIORS) && at->leaves) {
+        // Only what comes out of it or is mirrored for want of a way out; not what the surface's finish gives off or
+        // mirrors. Measured.
+        fade = shade_faded(p, at->interior, at->way);
+        faded.through = rgb_mul(onward->through, fade);
+        onward = &faded;
+    }
+    if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
+        return shade_bend(p, features, onward, fade, at, from, before, behind, pending);
+    }
+    shade_transmit(p, onward, at, from, pending);
+    if ((features & RENDER_INTERIORS) && pending->count > place) {
+        inside_copy(&pending->inside[place], behind);
+    }
+    return false;
+}
+
+// Notes the share of a ray that is not followed, in whole units, so that sums do not depend on their order.
+RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, const PendingRay *from, Rgb share, RenderStatistics *statistics)
+{
+    double cut = fmin(fmax(rgb_luminance(rgb_mul(from->share, share)), 0.0), 1.0);
+    uint64_t units = (uint64_t)(cut * 0x1p32);
+    statistics->cut_by_level += from->level >= p->max_trace_level ? units : 0;
+    statistics->cut_by_weight += from->level >= p->max_trace_level ? 0 : units;
+}
+
+// The rays that go on from a hit; the reflected one will be traced first. `before` and `behind` are what the ray is inside
+// of on both sides of the surface, where there are interiors.
+RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                  const ShadePoint *at, const PendingRay *from, const Inside *before,
+                                  const Inside *behind, Pending *pending, RenderStatistics *statistics)
+{
+    int place = pending->count;
+    bool is_total = false;
+    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(onward->through)) {
+        is_total = shade_go_through(p, features, onward, at, from, before, behind, pending);
+        statistics->transmitted_rays += (uint64_t)(pending->count - place);
+        if (pending->count == place) {
+            shade_note_cut(p, from, onward->through, statistics);
+        }
+    }
+    place = pending->count;
+    if ((features & RENDER_REFLECTION) && onward->reflection_weight != 0.0 && !is_total) {
+        shade_reflect(p, features, onward, at, from, pending);
+        statistics->reflected_rays += pending->count > place;
+        if (pending->count == place) {
+            shade_note_cut(p, from, onward->reflectance, statistics);
+        }
+        if ((features & RENDER_INTERIORS) && pending->count > place) {
+            inside_copy(&pending->inside[pending->count - 1], before);
+        }
+    }
+}
+
+#endif
