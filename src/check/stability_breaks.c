@@ -59,8 +59,7 @@ static bool measure_scene(Stability *stability, const Options *options, const St
         }
         stability->break_count++;
         row->off = pixels_off(first->ours.values, row->ours.values);
-        row->has_povray =
-            povray && motion_povray(options, povray, folder, scene, &motion, WIDTH, HEIGHT, &row->povray);
+        row->has_povray = povray && motion_povray(options, povray, folder, scene, &motion, WIDTH, HEIGHT, &row->povray);
         row->povray_off = row->has_povray ? pixels_off(first->ours.values, row->povray.values) : row->pixels;
     }
     return true;

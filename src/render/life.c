@@ -48,7 +48,8 @@ static uint64_t sphere_source(const Scene *scene, uint32_t order)
     return 0;
 }
 
-// The quadratic and its roots as a textbook has them. `unit`: what a distance in the ball's space is in the scene's lengths.
+// The quadratic and its roots as a textbook has them. `unit`: what a distance in the ball's space is in the scene's
+// lengths.
 static void textbook(LifeSphere *out, Ray ray, const Ball *ball, double scale, double unit)
 {
     Vec3 f = vec3_sub(ray.origin, ball->centre);
@@ -158,9 +159,8 @@ static void follow_part(Follower *follower, LifeRay *ray, const PendingRay *now,
     if (is_round(&solid->to_world)) {
         double radius = fabs(solid->to_world.m[0][0]);
         Ball ball = {solid->centre, radius * radius};
-        sphere = (LifeSphere){.source = source,
-                              .centre = in_scene(follower, solid->centre),
-                              .radius = radius * follower->scale};
+        sphere = (LifeSphere){
+            .source = source, .centre = in_scene(follower, solid->centre), .radius = radius * follower->scale};
         textbook(&sphere, now->ray, &ball, follower->scale, follower->scale);
         certify(&sphere, now->ray, &ball, &none, follower->scale);
     } else {
@@ -259,7 +259,8 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
 // ---- what is seen there
 
 // The same surface with only some of its terms.
-static Rgb light_of(const Follower *follower, const ShadeMaterial *material, const PreparedLight *light, bool is_diffuse)
+static Rgb light_of(const Follower *follower, const ShadeMaterial *material, const PreparedLight *light,
+                    bool is_diffuse)
 {
     PreparedFinish finish = *material->finish;
     ShadeMaterial part = *material;
@@ -405,10 +406,7 @@ bool life_trace(Life *life, const Prepared *prepared, int width, int height, int
     *life = (Life){.more_rays = 0};
     Follower follower = {.life = life, .p = prepared, .scale = prepared->textures.scale};
     double u = (x + 0.5) / width - 0.5, v = (y + 0.5) / height - 0.5;
-    PendingRay first = {.start = RAY_START_CAMERA,
-                        .share = rgb_grey(1.0),
-                        .weight = 1.0,
-                        .level = 1};
+    PendingRay first = {.start = RAY_START_CAMERA, .share = rgb_grey(1.0), .weight = 1.0, .level = 1};
     if (!camera_ray(&prepared->camera, u, v, &first.ray)) {
         return true;
     }

@@ -1,5 +1,6 @@
-// Flat faces that lie in one plane, overlap and are turned to the camera: of a floor and a tile in it, of two boxes of one
-// height. Of each plane the faces are swept along one axis, and those whose rectangles overlap are compared as polygons.
+// Flat faces that lie in one plane, overlap and are turned to the camera: of a floor and a tile in it, of two boxes of
+// one height. Of each plane the faces are swept along one axis, and those whose rectangles overlap are compared as
+// polygons.
 //
 // Works on shapes that stand alone: what a composite leaves of a face is known to rays only. Equal shapes are those of
 // scene/twins.c. Faces of one material are passed over, since nothing shows which of them is seen.
@@ -14,7 +15,7 @@
 #include "scene/part.h"
 
 enum {
-    CORNERS_MOST = 16, // of the polygon in a disc
+    CORNERS_MOST = 16,       // of the polygon in a disc
     COMPARED_MOST = 1 << 24, // rectangles, which take some tenths of a second
 };
 
@@ -25,7 +26,7 @@ enum {
 typedef struct Face {
     Vec3 normal; // of unit length, out of the shape
     double distance;
-    double reach; // sum of the magnitudes of the terms of a corner's product with the normal
+    double reach;          // sum of the magnitudes of the terms of a corner's product with the normal
     uint32_t corner_count; // 0: the whole plane
     Vec3 corners[CORNERS_MOST];
     bool is_flat; // has no inside: seen from both sides
@@ -267,7 +268,8 @@ static void compare(Faces *faces, const Face *a, FaceRef other, FaceRef ref, Dia
     const Camera *camera = &faces->scene->camera;
     Face b = face_at(faces->scene, other);
     if (a->order == b.order || a->material == b.material || ((a->hidden | b.hidden) & all) == all ||
-        are_equal(faces->scene, ref, other) || !is_turned_to(a, camera) || !is_turned_to(&b, camera) || !overlap(a, &b)) {
+        are_equal(faces->scene, ref, other) || !is_turned_to(a, camera) || !is_turned_to(&b, camera) ||
+        !overlap(a, &b)) {
         return;
     }
     const Face *first = a->order < b.order ? a : &b, *second = first == a ? &b : a;
@@ -289,8 +291,8 @@ static uint64_t mix(uint64_t hash, double number)
     return hash ^ hash >> 33;
 }
 
-// Of a plane, whichever side of it is out. Numbers that rounding has made different are the same here, but for one in some
-// thousands; those that are the same by chance are told apart by `overlap`.
+// Of a plane, whichever side of it is out. Numbers that rounding has made different are the same here, but for one in
+// some thousands; those that are the same by chance are told apart by `overlap`.
 static uint64_t plane_key(const Faces *faces, const Face *face)
 {
     const Vec3 way = {0.61, 0.53, 0.59}; // at right angles to no plane that anybody would write

@@ -74,9 +74,9 @@ static void write_scene(Random *random, char *text)
     static const int spans[] = {4, 40, 120, 500, 1000};
     int about = (int)(random_bits(random) % 400) - 200;
     int places = spans[random_bits(random) % 5] / 2, sizes = spans[random_bits(random) % 5];
-    size_t length = (size_t)snprintf(text, TEXT_MOST, "camera { location <%.17g, %.17g, %.17g> direction z }\n",
-                                     any_coordinate(random, about), any_coordinate(random, about),
-                                     any_coordinate(random, about));
+    size_t length =
+        (size_t)snprintf(text, TEXT_MOST, "camera { location <%.17g, %.17g, %.17g> direction z }\n",
+                         any_coordinate(random, about), any_coordinate(random, about), any_coordinate(random, about));
     for (int i = 0; i < SPHERES; i++) {
         double radius = random_bits(random) % 30 == 0 ? 0.0 : any_length(random, about - sizes, about + sizes / 2);
         length += (size_t)snprintf(text + length, TEXT_MOST - length, "sphere { <%.17g, %.17g, %.17g>, %.17g }\n",
@@ -166,13 +166,16 @@ int main(int argc, char **argv)
         count(&told, &counts, text);
         rt_session_free(session);
     }
-    tap_ok(wrong == 0 && without_place == 0, "%d scenes: %d not read, or not counted in the summary; %d warnings without a place",
-           scenes, wrong, without_place);
-    tap_ok(counts.dropped == 0, "of %d spheres %d are held, %d beyond the range, %d of radius 0, and %d dropped without a word",
+    tap_ok(wrong == 0 && without_place == 0,
+           "%d scenes: %d not read, or not counted in the summary; %d warnings without a place", scenes, wrong,
+           without_place);
+    tap_ok(counts.dropped == 0,
+           "of %d spheres %d are held, %d beyond the range, %d of radius 0, and %d dropped without a word",
            counts.written, counts.held, counts.beyond, counts.empty, counts.dropped);
     tap_ok(counts.called == 0, "%d of those held are told as not drawn", counts.called);
-    tap_ok(counts.missed == 0, "a ray at its centre misses %d of those held; %d of them are told as too far, %d as lost",
-           counts.missed, counts.far, counts.lost);
+    tap_ok(counts.missed == 0,
+           "a ray at its centre misses %d of those held; %d of them are told as too far, %d as lost", counts.missed,
+           counts.far, counts.lost);
     tap_ok(counts.held > 0 && counts.beyond > 0 && counts.empty > 0 && counts.far > 0 && counts.lost > 0,
            "there are spheres of each kind");
     return tap_done();

@@ -49,8 +49,8 @@ static rt_status draw(const char *folder, const char *path, rt_precision precisi
     return status;
 }
 
-// Values that differ by more than a share of what is there. In double and quad that is one step of the picture's floats, in
-// which a number that lies between two of them may be rounded either way.
+// Values that differ by more than a share of what is there. In double and quad that is one step of the picture's
+// floats, in which a number that lies between two of them may be rounded either way.
 static int differences(const float *a, const float *b, double share)
 {
     int count = 0;
@@ -60,7 +60,8 @@ static int differences(const float *a, const float *b, double share)
     return count;
 }
 
-// Of all scenes: how many values have the same bits in double, and the greatest difference of any, in double and in quad.
+// Of all scenes: how many values have the same bits in double, and the greatest difference of any, in double and in
+// quad.
 static struct {
     int values, same, same_quad;
     double worst, worst_quad, worst_single;
@@ -141,9 +142,10 @@ int main(void)
     check_quad_functions();
     check_scenes("examples/*.scn", 5);
     check_scenes("tests/povray/*.scn", 40);
-    tap_ok(figures.same >= figures.values - figures.values / 1000 && figures.same_quad >= figures.values - figures.values / 1000 &&
-               figures.worst_single > 0.0,
-           "of %d values %d have the same bits by the reference path in double, %d in quad; the greatest differences are %.1e, "
+    tap_ok(figures.same >= figures.values - figures.values / 1000 &&
+               figures.same_quad >= figures.values - figures.values / 1000 && figures.worst_single > 0.0,
+           "of %d values %d have the same bits by the reference path in double, %d in quad; the greatest differences "
+           "are %.1e, "
            "%.1e and, in float, %.1e",
            figures.values, figures.same, figures.same_quad, figures.worst, figures.worst_quad, figures.worst_single);
     return tap_done();

@@ -119,7 +119,8 @@ static void check_stretched(void)
                has(text, "e = <0, 0, -2.5>, d = <0, 0, 0.5>\n    a = d·d = 0.25, b = 2 d·(e - centre) = -2.5, c = "
                          "(e - centre)·(e - centre) - radius² = 5.25") &&
                has(text, "h = b² - 4 a c = 1: h > 0") && has(text, "= 3, t2 = (-b + √h) / 2a = 7") &&
-               has(text, "sphere (f.scn:3:14): centre <0, 0, 9>, radius 4") && has(text, "used: both: the sphere is cut") &&
+               has(text, "sphere (f.scn:3:14): centre <0, 0, 9>, radius 4") &&
+               has(text, "used: both: the sphere is cut") &&
                has(text, "hit: stretched sphere (f.scn:2:28) from the outside at t = 3"),
            "a stretched sphere in its own space, and one that is cut");
     rt_session_free(session);
@@ -129,25 +130,29 @@ static void check_stretched(void)
 static void check_terms(void)
 {
     rt_session *session = rt_session_new(NULL);
-    const char *text = follow(session, "light_source { -9 * z, 0.5 }\n"
-                                       "light_source { -9 * z, 1 spotlight point_at <9, 0, -9> radius 5 falloff 10 }\n"
-                                       "light_source { -9 * z, 1 area_light x, y, 3, 3 }\n"
-                                       "sphere { 0, 2 pigment { rgb 1 } finish { ambient 0.125 diffuse 0.5 phong 0.25 } }\n"
-                                       "fog { distance 10 rgb <0, 0, 1> }");
-    tap_ok(text && has(text, "ambient and emission: rgb <0.125, 0.125, 0.125>") &&
-               has(text, "N·L = 1, sends rgb <0.5, 0.5, 0.5>, visible rgb <1, 1, 1>\n"
-                         "      diffuse rgb <0.25, 0.25, 0.25>, highlights rgb <0.125, 0.125, 0.125>, adds rgb <0.375, 0.375, "
-                         "0.375>") &&
-               has(text, "light 2 at <0, 0, -9>: distance 7, N·L = 1, sends rgb <0, 0, 0>") &&
-               has(text, "light 3 at <0, 0, -9>: distance 7, N·L = 1, sends rgb <1, 1, 1>, visible rgb <1, 1, 1>") &&
-               has(text, "fog on its way adds rgb <0, 0, 0.25"),
-           "each light's colour, shadow, diffuse and highlights; a spotlight that shines elsewhere; fog");
+    const char *text =
+        follow(session, "light_source { -9 * z, 0.5 }\n"
+                        "light_source { -9 * z, 1 spotlight point_at <9, 0, -9> radius 5 falloff 10 }\n"
+                        "light_source { -9 * z, 1 area_light x, y, 3, 3 }\n"
+                        "sphere { 0, 2 pigment { rgb 1 } finish { ambient 0.125 diffuse 0.5 phong 0.25 } }\n"
+                        "fog { distance 10 rgb <0, 0, 1> }");
+    tap_ok(
+        text && has(text, "ambient and emission: rgb <0.125, 0.125, 0.125>") &&
+            has(text,
+                "N·L = 1, sends rgb <0.5, 0.5, 0.5>, visible rgb <1, 1, 1>\n"
+                "      diffuse rgb <0.25, 0.25, 0.25>, highlights rgb <0.125, 0.125, 0.125>, adds rgb <0.375, 0.375, "
+                "0.375>") &&
+            has(text, "light 2 at <0, 0, -9>: distance 7, N·L = 1, sends rgb <0, 0, 0>") &&
+            has(text, "light 3 at <0, 0, -9>: distance 7, N·L = 1, sends rgb <1, 1, 1>, visible rgb <1, 1, 1>") &&
+            has(text, "fog on its way adds rgb <0, 0, 0.25"),
+        "each light's colour, shadow, diffuse and highlights; a spotlight that shines elsewhere; fog");
     rt_session_free(session);
     session = rt_session_new(NULL);
     text = follow(session, "light_source { -9 * z, 0.5 }\n"
                            "sphere { 0, 2 texture { pigment { rgb <1, 0, 0> } normal { bumps 0.8 scale 0.3 } }\n"
                            "texture { pigment { rgbt <0, 1, 0, 0.75> } } }");
-    tap_ok(text && has(text, "pigment rgbft <0, 1, 0, 0, 0.75>") && has(text, "pigment rgbft <1, 0, 0, 0, 0>, seen through") &&
+    tap_ok(text && has(text, "pigment rgbft <0, 1, 0, 0, 0.75>") &&
+               has(text, "pigment rgbft <1, 0, 0, 0, 0>, seen through") &&
                has(text, "its bumps turn the normal to N = <"),
            "layers, and what bumps make of the normal");
     rt_session_free(session);
