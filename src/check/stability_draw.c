@@ -53,11 +53,12 @@ bool motion_image(const Options *options, const StudyScene *scene, const Motion 
     return false;
 }
 
-// The scene where it was put, as text for POV-Ray.
-static bool write_scene(const Options *options, const StudyScene *scene, const Motion *motion, const char *path)
+// The scene where it was put, as text for POV-Ray. The size of the picture is in it where the scene asks for it.
+static bool write_scene(const Options *options, const StudyScene *scene, const Motion *motion, int width, int height,
+                        const char *path)
 {
     const char *text;
-    rt_session *session = motion_open(options, scene, motion, 1, 1);
+    rt_session *session = motion_open(options, scene, motion, width, height);
     FILE *out = session && rt_dump_scene(session, &text) == RT_OK ? fopen(path, "wb") : NULL;
     bool is_written = out && fputs(text, out) != EOF;
     is_written = out && fclose(out) == 0 && is_written;
@@ -73,7 +74,7 @@ bool motion_povray(const Options *options, const char *povray, const char *folde
     snprintf(picture, sizeof picture, "%s/stability.png", folder);
     snprintf(log, sizeof log, "%s/stability.log", folder);
     *image = (Image){0};
-    if (!write_scene(options, scene, motion, path)) {
+    if (!write_scene(options, scene, motion, width, height, path)) {
         return false;
     }
     PovrayJob job = {.program = povray,
