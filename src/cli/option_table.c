@@ -1,0 +1,513 @@
+// What each option does with its argument, and the table that names them all.
+//
+// SPDX-License-Identifier: MIT
+#include "cli/option_table.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+
+static bool parse_integer(const char *text, long low, long high, int *value)
+{
+    char *end;
+    long number = strtol(text, &end, 10);
+    if (end == text || *end || number < low || number > high) {
+        return false;
+    }
+    *value = (int)number;
+    return true;
+}
+
+static bool apply_output(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a file name";
+    options->output = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_warnings(Options *options, const char *argument, const char **expected)
+{
+    *expected = "all, error or the code of a warning";
+    options->warnings[options->warning_count++] = argument;
+    return argument[0] != '\0';
+}
+
+// `-Wall` and the like begin with the same letter.
+static bool apply_width(Options *options, const char *argument, const char **expected)
+{
+    if (isalpha((unsigned char)argument[0])) {
+        return apply_warnings(options, argument, expected);
+    }
+    *expected = "a whole number from 1 to 65535";
+    return parse_integer(argument, 1, 65535, &options->width);
+}
+
+static bool apply_height(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 65535";
+    return parse_integer(argument, 1, 65535, &options->height);
+}
+
+static bool apply_threads(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 1024";
+    return parse_integer(argument, 1, 1024, &options->threads);
+}
+
+static bool apply_isa(Options *options, const char *argument, const char **expected)
+{
+    *expected = "an instruction set of this processor: plain, or on x86-64 v2, v3 or v4";
+    for (size_t i = 0; rt_isa(i); i++) {
+        if (strcmp(argument, rt_isa(i)) == 0) {
+            options->isa = rt_isa(i);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool apply_no_literals(Options *options, const char *argument, const char **expected)
+{
+    (void)argument;
+    *expected = "";
+    return options->no_literals = true;
+}
+
+static bool apply_include_path(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a folder";
+    options->include_paths[options->include_path_count++] = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_declare(Options *options, const char *argument, const char **expected)
+{
+    *expected = "NAME=NUMBER, with a NAME that is not reserved";
+    options->declarations[options->declaration_count++] = argument;
+    return strchr(argument, '=') != NULL;
+}
+
+static bool apply_allow_read(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a folder";
+    options->read_folders[options->read_folder_count++] = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_clock(Options *options, const char *argument, const char **expected)
+{
+    char *end;
+    *expected = "a number";
+    options->clock = strtod(argument, &end);
+    options->clock_given = true;
+    return end != argument && !*end && isfinite(options->clock);
+}
+
+// A whole number; `units` are the letters that may follow, each 1024 times the one before.
+static bool parse_limit(const char *text, const char *units, uint64_t greatest, uint64_t *value)
+{
+    char *end;
+    errno = 0;
+    unsigned long long number = strtoull(text, &end, 10);
+    const char *unit = *end ? strchr(units, *end) : NULL;
+    unsigned shift = unit ? 10 * (unsigned)(unit - units + 1) : 0;
+    if (text[0] < '0' || text[0] > '9' || errno || number == 0 || number > greatest >> shift || end[unit != NULL]) {
+        return false;
+    }
+    *value = (uint64_t)number << shift;
+    return true;
+}
+
+static bool apply_max_steps(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1";
+    return parse_limit(argument, "", UINT64_MAX, &options->limits[RT_LIMIT_STEPS]);
+}
+
+static bool apply_max_depth(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 1000";
+    return parse_limit(argument, "", 1000, &options->limits[RT_LIMIT_DEPTH]);
+}
+
+static bool apply_max_objects(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1";
+    return parse_limit(argument, "", UINT64_MAX, &options->limits[RT_LIMIT_OBJECTS]);
+}
+
+static const char bytes_expected[] = "a number of bytes, as 500K, 64M, 2G or 1T";
+
+static bool apply_max_text(Options *options, const char *argument, const char **expected)
+{
+    *expected = bytes_expected;
+    return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_TEXT]);
+}
+
+static bool apply_max_memory(Options *options, const char *argument, const char **expected)
+{
+    *expected = bytes_expected;
+    return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_MEMORY]);
+}
+
+static bool apply_depth(Options *options, const char *argument, const char **expected)
+{
+    static const struct {
+        const char *name;
+        rt_depth depth;
+    } depths[] = {{"8", RT_DEPTH_8}, {"16", RT_DEPTH_16}, {"float", RT_DEPTH_FLOAT}};
+    *expected = "8, 16 or float";
+    for (size_t i = 0; i < COUNT_OF(depths); i++) {
+        if (strcmp(argument, depths[i].name) == 0) {
+            options->encoding.depth = depths[i].depth;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool apply_file_gamma(Options *options, const char *argument, const char **expected)
+{
+    *expected = "srgb or a number above 0";
+    char *end;
+    double gamma = strcmp(argument, "srgb") == 0 ? 0.0 : strtod(argument, &end);
+    options->encoding.file_gamma = gamma;
+    return strcmp(argument, "srgb") == 0 || (end != argument && !*end && gamma > 0.0 && isfinite(gamma));
+}
+
+static bool parse_positive(const char *text, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    return end != text && !*end && *value > 0.0 && isfinite(*value);
+}
+
+static bool apply_samples(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number from 1 to 16777216";
+    return parse_positive(argument, &options->sampling.samples) && options->sampling.samples >= 1.0 &&
+           options->sampling.samples <= 16777216.0;
+}
+
+static bool apply_seed(Options *options, const char *argument, const char **expected)
+{
+    char *end;
+    *expected = "a whole number from 0 to 18446744073709551615";
+    errno = 0;
+    options->sampling.seed = strtoull(argument, &end, 10);
+    return argument[0] >= '0' && argument[0] <= '9' && !*end && errno == 0;
+}
+
+// Takes one of some names, of which the last is NULL.
+static bool parse_name(const char *argument, const char *const *names, const char **name)
+{
+    for (; *names && strcmp(argument, *names) != 0; names++) {
+    }
+    *name = *names;
+    return *names != NULL;
+}
+
+static bool apply_sampler(Options *options, const char *argument, const char **expected)
+{
+    static const char *const names[] = {"sobol", "halton", "jittered", "grid", "random", NULL};
+    *expected = "sobol, halton, jittered, grid or random";
+    return parse_name(argument, names, &options->sampling.sampler);
+}
+
+static bool apply_filter(Options *options, const char *argument, const char **expected)
+{
+    static const char *const names[] = {"box", "tent", "gaussian", "mitchell", NULL};
+    *expected = "box, tent, gaussian or mitchell";
+    return parse_name(argument, names, &options->sampling.filter);
+}
+
+static bool apply_adaptive(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->sampling.adaptive = 1;
+    return true;
+}
+
+static bool apply_target_error(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number above 0";
+    return parse_positive(argument, &options->sampling.target_error);
+}
+
+static bool apply_time_limit(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number of seconds above 0";
+    return parse_positive(argument, &options->sampling.time_limit);
+}
+
+static bool apply_no_estimate(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->sampling.no_estimate = 1;
+    return true;
+}
+
+static bool apply_method(Options *options, const char *argument, const char **expected)
+{
+    static const char *const names[] = {[RT_METHOD_BACKWARD] = "backward", [RT_METHOD_FORWARD] = "forward",
+                                        [RT_METHOD_FORWARD_CONNECT] = "forward-connect"};
+    *expected = "backward, forward or forward-connect";
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        if (strcmp(argument, names[i]) == 0) {
+            options->method = (rt_method)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool apply_photons(Options *options, const char *argument, const char **expected)
+{
+    double photons;
+    *expected = "a number from 1 to 1e15, as 1000000 or 1e6";
+    bool fine = parse_positive(argument, &photons) && photons >= 1.0 && photons <= 1e15;
+    options->photons = fine ? (uint64_t)photons : 0;
+    return fine;
+}
+
+static bool apply_antialias(Options *options, const char *argument, const char **expected)
+{
+    *expected = "1 or 2";
+    options->antialias.method = strcmp(argument, "2") == 0 ? 2 : 1;
+    return strcmp(argument, "1") == 0 || strcmp(argument, "2") == 0;
+}
+
+static bool apply_antialias_depth(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a whole number from 1 to 9";
+    options->antialias.depth = argument[0] - '0';
+    return argument[0] >= '1' && argument[0] <= '9' && !argument[1];
+}
+
+static bool apply_antialias_threshold(Options *options, const char *argument, const char **expected)
+{
+    char *end;
+    *expected = "a number, 0 or more";
+    options->antialias.threshold = strtod(argument, &end);
+    return end != argument && !*end && options->antialias.threshold >= 0.0;
+}
+
+static bool apply_antialias_gamma(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number above 0";
+    return parse_positive(argument, &options->antialias.gamma);
+}
+
+static bool apply_error_map(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a file name";
+    options->error_map = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_error_channel(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->encoding.error_channel = 1;
+    return true;
+}
+
+static bool apply_quiet(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->quiet = true;
+    return true;
+}
+
+static bool apply_check(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->action = options->action == ACTION_FORMAT ? ACTION_FORMAT_CHECK : ACTION_CHECK;
+    return true;
+}
+
+static bool apply_format(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->action = options->action == ACTION_CHECK ? ACTION_FORMAT_CHECK : ACTION_FORMAT;
+    return true;
+}
+
+static bool apply_budget(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->action = ACTION_BUDGET;
+    return true;
+}
+
+static bool apply_diagnostics(Options *options, const char *argument, const char **expected)
+{
+    *expected = "text or json";
+    options->format = strcmp(argument, "json") == 0 ? RT_FORMAT_JSON : RT_FORMAT_TEXT;
+    return options->format == RT_FORMAT_JSON || strcmp(argument, "text") == 0;
+}
+
+// A letter and four digits; everything else is the name of a scene.
+bool option_is_code(const char *text)
+{
+    return strlen(text) == 5 && strchr("EeWw", text[0]) && strspn(text + 1, "0123456789") == 4;
+}
+
+static bool apply_explain(Options *options, const char *argument, const char **expected)
+{
+    *expected = "the code of a message, such as E0201";
+    options->action = ACTION_EXPLAIN;
+    options->code = argument;
+    return !argument || option_is_code(argument);
+}
+
+static bool apply_dump(Options *options, const char *argument, const char **expected)
+{
+    static const struct {
+        const char *name;
+        Action action;
+    } stages[] = {{"tokens", ACTION_DUMP_TOKENS}, {"ast", ACTION_DUMP_AST}, {"scene", ACTION_DUMP_SCENE}};
+    *expected = "tokens, ast or scene";
+    for (size_t i = 0; i < COUNT_OF(stages); i++) {
+        if (strcmp(argument, stages[i].name) == 0) {
+            options->action = stages[i].action;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool apply_precision(Options *options, const char *argument, const char **expected)
+{
+    static const struct {
+        const char *name;
+        rt_precision precision;
+    } precisions[] = {{"double", RT_PRECISION_DOUBLE},
+                      {"float", RT_PRECISION_FLOAT},
+                      {"quad", RT_PRECISION_QUAD},
+                      {"reference", RT_PRECISION_REFERENCE}};
+    *expected = "float, double, quad or reference";
+    for (size_t i = 0; i < COUNT_OF(precisions); i++) {
+        if (strcmp(argument, precisions[i].name) == 0) {
+            options->precision = precisions[i].precision;
+            return true;
+        }
+    }
+    return false;
+}
+
+// Two whole numbers; whether they lie in the picture is known when all options are read.
+static bool apply_trace_pixel(Options *options, const char *argument, const char **expected)
+{
+    char first[8];
+    size_t length = strcspn(argument, ",");
+    *expected = "the column and the row of a pixel, from 0, as 160,120";
+    options->action = ACTION_TRACE_PIXEL;
+    if (argument[length] == '\0' || length >= sizeof first) {
+        return false;
+    }
+    memcpy(first, argument, length);
+    first[length] = '\0';
+    return parse_integer(first, 0, 65534, &options->pixel_x) &&
+           parse_integer(argument + length + 1, 0, 65534, &options->pixel_y);
+}
+
+// LEFT,TOP,WIDTH,HEIGHT; whether that lies in the picture is known when all options are read.
+static bool apply_crop(Options *options, const char *argument, const char **expected)
+{
+    int *numbers[] = {&options->crop[0], &options->crop[1], &options->crop[2], &options->crop[3]};
+    *expected = "left, top, width and height in pixels, as 0,0,160,120";
+    for (int i = 0; i < 4; i++) {
+        char number[8];
+        size_t length = strcspn(argument, ",");
+        if (length >= sizeof number || (argument[length] == ',') != (i < 3)) {
+            return false;
+        }
+        memcpy(number, argument, length);
+        number[length] = '\0';
+        if (!parse_integer(number, i < 2 ? 0 : 1, 65535, numbers[i])) {
+            return false;
+        }
+        argument += length + 1;
+    }
+    return true;
+}
+
+static const OptionRow rows[] = {
+    {'o', "output", "FILE", apply_output,
+     "write the picture to FILE, its format by the ending; - is PNG to standard output\n"
+     "(default: the scene's name with .png, in the current folder)"},
+    {'W', "width", "PIXELS", apply_width, "width of the picture (default 320)"},
+    {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
+    {0, "crop", "L,T,W,H", apply_crop,
+     "trace W x H pixels from column L and row T only; they are those of the whole picture"},
+    {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
+    {0, "isa", "NAME", apply_isa,
+     "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
+    {0, "no-literals", NULL, apply_no_literals,
+     "parse spheres of nothing but numbers as all else is, not by their text; the scene is the same"},
+    {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
+    {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
+    {'K', "clock", "NUMBER", apply_clock, "the scene's clock (default 0)"},
+    {0, "allow-read", "FOLDER", apply_allow_read,
+     "let the scene read files below FOLDER too, besides its own folder and those of -I; may repeat"},
+    {0, "max-steps", "N", apply_max_steps, "turns of loops and macro calls, all together (default 30000000)"},
+    {0, "max-depth", "N", apply_max_depth, "nesting of expressions, blocks, macro calls and includes (default 1000)"},
+    {0, "max-objects", "N", apply_max_objects, "shapes in the scene (default 1000000000)"},
+    {0, "max-text", "BYTES", apply_max_text, "text of all files of the scene (default 64G)"},
+    {0, "max-memory", "BYTES", apply_max_memory, "memory of scene and picture (default: the machine's)"},
+    {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
+    {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
+    {0, "samples", "N", apply_samples, "rays a pixel (default 1, through its middle); area lights are then sampled, too"},
+    {0, "seed", "N", apply_seed, "another seed, another picture with the same mean (default 0)"},
+    {0, "sampler", "NAME", apply_sampler, "sobol (default), halton, jittered, grid or random"},
+    {0, "filter", "NAME", apply_filter, "how a pixel's rays are spread: box (default), tent, gaussian or mitchell"},
+    {0, "adaptive", NULL, apply_adaptive, "more rays where the error is; N of --samples is then the mean"},
+    {0, "target-error", "E", apply_target_error,
+     "sample until the picture's error is below E: root mean square in linear light, with 95 % confidence"},
+    {0, "time-limit", "SECONDS", apply_time_limit, "sample as long as that; rounds are not begun that would take longer"},
+    {0, "no-estimate", NULL, apply_no_estimate, "do not work out the error of --samples; the picture is the same"},
+    {0, "antialias", "1|2", apply_antialias,
+     "more rays where colours differ, as POV-Ray's `+A -J` with `+AM1` or `+AM2`; not with --samples"},
+    {0, "antialias-depth", "N", apply_antialias_depth, "1 to 9: N² more rays, or N - 1 partings in method 2 (default 3)"},
+    {0, "antialias-threshold", "X", apply_antialias_threshold,
+     "by how much red, green and blue must differ together (default 0.3)"},
+    {0, "antialias-gamma", "G", apply_antialias_gamma, "compare colours after their 1/G-th power (default 2.5)"},
+    {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
+    {0, "error-channel", NULL, apply_error_channel, "write it as a fourth channel `error` of the picture, which must be EXR"},
+    {0, "method", "NAME", apply_method,
+     "backward (default), or for study photons from the lights: forward, forward-connect"},
+    {0, "photons", "N", apply_photons, "photons of the forward methods (default 1e6)"},
+    {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
+    {0, "budget", NULL, apply_budget, "print how much memory rendering the scene takes at most, and stop"},
+    {0, "warnings", "WHAT", apply_warnings,
+     "all: warn of more; error: take warnings for errors; a code, or no- and a code:\n"
+     "turn one on or off; may repeat. -Wall, -Werror and -Wno-CODE are short for it"},
+    {0, "diagnostics", "text|json", apply_diagnostics, "form of the messages (default text; json: an object a line)"},
+    {0, "explain", "[CODE]", apply_explain,
+     "print what the code of a message means; with a SCENE instead of a code what the scene\n"
+     "takes and what it costs, and what is left out and why"},
+    {0, "format", NULL, apply_format,
+     "print the scene's text in the canonical layout, or write it to -o FILE;\n"
+     "with --check tell whether it is in that layout"},
+    {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
+    {0, "precision", "WHAT", apply_precision,
+     "float, quad (float128) or reference (double): trace with the reference path, for study;\n"
+     "it knows spheres, planes and plain lights, and is slow (default double, by the usual kernels)"},
+    {0, "trace-pixel", "X,Y", apply_trace_pixel,
+     "print the life of the ray of one pixel, from 0,0 at the top left, and stop; no picture is made"},
+    {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},
+    {'V', "version", NULL, NULL, "print the version and stop"},
+    {'h', "help", NULL, NULL, "print this and stop"},
+};
+_Static_assert(COUNT_OF(rows) < OPTIONS_MOST, "enlarge OPTIONS_MOST");
+
+const OptionRow *option_row(size_t i)
+{
+    return i < COUNT_OF(rows) ? &rows[i] : NULL;
+}
