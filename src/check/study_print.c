@@ -83,10 +83,14 @@ static void print_forward(const Study *study, FILE *out, const char *before, con
         }
         const StudyPoint *last = &method->points[method->count - 1];
         double times = (last->rmse / goal->rmse) * (last->rmse / goal->rmse); // slope -1/2
-        fprintf(out,
-                "%s%s: a photon counts with probability %.3g, one of %.3g; the error of %s, %s (%.3g) would take about %.3g photons and %.3g "
-                "seconds, %.3g times as long%s\n",
-                before, method->name, 1.0 / method->photons_an_arrival, method->photons_an_arrival, study->methods[0].name, goal->setting, goal->rmse,
+        fprintf(out, "%s%s: a photon counts with probability %.3g, one of %.3g; the error of %s, %s (%.3g) ", before,
+                method->name, 1.0 / method->photons_an_arrival, method->photons_an_arrival, study->methods[0].name,
+                goal->setting, goal->rmse);
+        if (method->is_biased && last->rmse > goal->rmse) {
+            fprintf(out, "is not to be had by more photons%s\n", after);
+            continue;
+        }
+        fprintf(out, "would take about %.3g photons and %.3g seconds, %.3g times as long%s\n",
                 times * last->samples * study->width * study->height, times * last->seconds,
                 times * last->seconds / goal->seconds, after);
     }
@@ -131,9 +135,12 @@ void study_print_text(const Study *study, FILE *out)
     }
     for (int i = 0; i < count; i++) {
         const StudyRatio *r = &ratios[i];
-        fprintf(out, "equal error %.3g: %s %.3f s, rtlang %.4f s%s, ratio %.1f; equal time: rmse %.3g and %.3g\n",
+        fprintf(out,
+                "equal error %.3g: %s %.3f s, rtlang %.4f s%s, ratio %.1f; equal time: rmse %.3g and %.3g, ratio "
+                "%.1f%s\n",
                 r->povray->rmse, r->povray->setting, r->povray->seconds, r->seconds,
-                r->is_extrapolated ? " (extrapolated)" : "", r->povray->seconds / r->seconds, r->povray->rmse, r->rmse);
+                r->is_extrapolated ? " (extrapolated)" : "", r->povray->seconds / r->seconds, r->povray->rmse, r->rmse,
+                r->povray->rmse / r->rmse, r->is_best ? "; one of POV-Ray's best" : "");
     }
     print_best(ratios, count, out, "", "");
 }
@@ -271,8 +278,8 @@ static void section_ratios(const Study *study, FILE *out)
         return;
     }
     fputs("<h3>Equal error and equal time</h3>\n<table class=\"sortable\"><thead><tr><th>POV-Ray</th><th>rmse</th>"
-          "<th>POV-Ray, s</th><th>rtlang to equal error, s</th><th>ratio</th><th>rtlang's rmse in equal "
-          "time</th></tr></thead>"
+          "<th>POV-Ray, s</th><th>rtlang to equal error, s</th><th>ratio of times</th><th>rtlang's rmse in equal "
+          "time</th><th>ratio of errors</th><th>best</th></tr></thead>"
           "<tbody>\n",
           out);
     for (int i = 0; i < count; i++) {
@@ -280,11 +287,14 @@ static void section_ratios(const Study *study, FILE *out)
         fprintf(out,
                 "<tr><td>%s</td><td class=\"number\">%.4g</td><td class=\"number\">%.4g</td><td "
                 "class=\"number\">%.4g%s</td>"
-                "<td class=\"number\">%.1f</td><td class=\"number\">%.4g</td></tr>\n",
+                "<td class=\"number\">%.1f</td><td class=\"number\">%.4g</td><td class=\"number\">%.1f</td>"
+                "<td>%s</td></tr>\n",
                 r->povray->setting, r->povray->rmse, r->povray->seconds, r->seconds, r->is_extrapolated ? " *" : "",
-                r->povray->seconds / r->seconds, r->rmse);
+                r->povray->seconds / r->seconds, r->rmse, r->povray->rmse / r->rmse, r->is_best ? "best" : "");
     }
-    fputs("</tbody></table>\n<p>* beyond rtlang's ladder, on the line through its nearest points</p>\n", out);
+    fputs("</tbody></table>\n<p>* beyond rtlang's ladder, on the line through its nearest points. Best: no other setting "
+          "of POV-Ray is both faster and nearer.</p>\n",
+          out);
     print_best(ratios, count, out, "<p>", "</p>");
 }
 

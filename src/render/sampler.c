@@ -21,14 +21,14 @@ const char *sampler_name(SamplerKind kind)
 // ---- hashing
 
 // Chosen for its even bits by C. Wellons, "Prospecting for hash functions", 2018 (lowbias32).
-static uint32_t hash(uint32_t x)
+static inline uint32_t hash(uint32_t x)
 {
     x = (x ^ (x >> 16)) * UINT32_C(0x7feb352d);
     x = (x ^ (x >> 15)) * UINT32_C(0x846ca68b);
     return x ^ (x >> 16);
 }
 
-static uint32_t hash_add(uint32_t seed, uint32_t value)
+RT_ALWAYS_INLINE uint32_t hash_add(uint32_t seed, uint32_t value)
 {
     return hash(seed ^ (hash(value) + UINT32_C(0x9e3779b9) + (seed << 6) + (seed >> 2)));
 }
@@ -43,7 +43,7 @@ static double unit(uint32_t bits)
     return bits * 0x1p-32;
 }
 
-static uint32_t reverse_bits(uint32_t x)
+static inline uint32_t reverse_bits(uint32_t x)
 {
     x = __builtin_bswap32(x);
     x = (x >> 4 & UINT32_C(0x0f0f0f0f)) | (x & UINT32_C(0x0f0f0f0f)) << 4;
@@ -52,7 +52,7 @@ static uint32_t reverse_bits(uint32_t x)
 }
 
 // A permutation in which each bit depends on those below it only: Laine and Karras, with Burley's constants.
-static uint32_t permute_upward(uint32_t x, uint32_t seed)
+static inline uint32_t permute_upward(uint32_t x, uint32_t seed)
 {
     x += seed;
     x ^= x * UINT32_C(0x6c50b47c);
@@ -61,37 +61,43 @@ static uint32_t permute_upward(uint32_t x, uint32_t seed)
     return x ^ x * UINT32_C(0x8d22f6e6);
 }
 
-// Owen's scrambling of a fraction of 2^32: each bit is flipped by chance that depends on the bits above it.
-static uint32_t owen_scramble(uint32_t x, uint32_t seed)
+// Owen's scrambling of a fraction of 2^32 whose bits are given in reverse: each bit is flipped by chance that depends on
+// the bits above it.
+static inline uint32_t owen_scramble_reversed(uint32_t reversed, uint32_t seed)
 {
-    return reverse_bits(permute_upward(reverse_bits(x), seed));
+    return reverse_bits(permute_upward(reversed, seed));
 }
 
 // ---- Sobol
 
 // Joe and Kuo's numbers for the first two dimensions are bit reversal and Pascal's triangle modulo 2. The latter is a
 // product of five shifts: entry (i, j), C(j, i) mod 2, is 1 where the bits of i are among those of j (Lucas), bit by
-// bit.
-uint32_t sobol_value(uint32_t index, unsigned dimension)
+// bit. Here the bits of both values are left in reverse, as scrambling wants them.
+static inline uint32_t sobol_reversed(uint32_t index, unsigned dimension)
 {
-    uint32_t x = reverse_bits(index);
+    uint32_t x = index;
     if (dimension == 1) {
-        x ^= x << 16;
-        x ^= (x & UINT32_C(0x00ff00ff)) << 8;
-        x ^= (x & UINT32_C(0x0f0f0f0f)) << 4;
-        x ^= (x & UINT32_C(0x33333333)) << 2;
-        x ^= (x & UINT32_C(0x55555555)) << 1;
+        x ^= x >> 16;
+        x ^= x >> 8 & UINT32_C(0x00ff00ff);
+        x ^= x >> 4 & UINT32_C(0x0f0f0f0f);
+        x ^= x >> 2 & UINT32_C(0x33333333);
+        x ^= x >> 1 & UINT32_C(0x55555555);
     }
     return x;
+}
+
+uint32_t sobol_value(uint32_t index, unsigned dimension)
+{
+    return reverse_bits(sobol_reversed(index, dimension));
 }
 
 // The order of the points is shuffled in each pair on its own, so that pairs are independent; a first part whose number
 // is a power of two stays a net.
 static SamplePoint sobol_point(uint32_t seed, uint32_t index)
 {
-    uint32_t shuffled = owen_scramble(index, seed);
-    return (SamplePoint){unit(owen_scramble(sobol_value(shuffled, 0), hash_add(seed, 1))),
-                         unit(owen_scramble(sobol_value(shuffled, 1), hash_add(seed, 2)))};
+    uint32_t shuffled = owen_scramble_reversed(reverse_bits(index), seed);
+    return (SamplePoint){unit(owen_scramble_reversed(sobol_reversed(shuffled, 0), hash_add(seed, 1))),
+                         unit(owen_scramble_reversed(sobol_reversed(shuffled, 1), hash_add(seed, 2)))};
 }
 
 // ---- the others
