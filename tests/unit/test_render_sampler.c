@@ -65,6 +65,49 @@ static void test_nets(void)
     tap_ok(wrong == 0, "scrambled points are nets, from the beginning and in the second half of twice as many");
 }
 
+// Of 2^m points of two pairs, each box of volume 2^(t-m) whose sides are powers of 1/2 has 2^t.
+static bool is_net_of_four(const SampleStream *stream, unsigned m, unsigned t)
+{
+    unsigned free_bits = m - t;
+    for (unsigned split = 0; split < 1u << (2 * 4); split++) {
+        unsigned bits[4] = {split & 15, split >> 4 & 15, 0, 0};
+        for (bits[2] = 0; bits[0] + bits[1] + bits[2] <= free_bits; bits[2]++) {
+            unsigned count[256] = {0};
+            bits[3] = free_bits - bits[0] - bits[1] - bits[2];
+            for (uint32_t i = 0; i < 1u << m; i++) {
+                SampleStream one = *stream;
+                one.index = i;
+                SamplePoint a = sample_next(&one), b = sample_next(&one);
+                const double at[4] = {a.x, a.y, b.x, b.y};
+                unsigned box = 0;
+                for (int d = 0; d < 4; d++) {
+                    box = box << bits[d] | (unsigned)(at[d] * (1u << bits[d]));
+                }
+                if (++count[box] > 1u << t) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+static void test_nets_of_four(void)
+{
+    static const unsigned t_of[] = {0, 0, 1, 1, 1, 2, 2, 2, 3};
+    int wrong = 0, tight = 0;
+    for (uint32_t pixel = 0; pixel < 3; pixel++) {
+        for (unsigned m = 2; m <= 8; m++) {
+            SampleStream stream = {.kind = SAMPLER_SOBOL, .seed = sampler_pixel_seed(5, pixel, 8), .pair = 2 * pixel};
+            wrong += !is_net_of_four(&stream, m, t_of[m]);
+            stream.pair++;
+            tight += m >= 5 && is_net_of_four(&stream, m, t_of[m]); // fewer points may be so by chance
+        }
+    }
+    tap_ok(wrong == 0, "two pairs together are spread in four dimensions");
+    tap_ok(tight == 0, "and pairs of different twos are not: they are independent");
+}
+
 static void test_cells(void)
 {
     int wrong = 0;
@@ -174,6 +217,7 @@ int main(void)
 {
     test_sobol();
     test_nets();
+    test_nets_of_four();
     test_cells();
     test_moments();
     test_filters();
