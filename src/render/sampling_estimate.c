@@ -115,7 +115,7 @@ static double relative_variance(const LevelSums *sums, double ratio, int steps)
 // sets are nets. Measured.
 static double law_error(const Round *round, int level)
 {
-    static const double errors[] = {0.35, 0.35, 0.20, 0.20, 0.14, 0.08}, not_net = 0.14;
+    static const double errors[] = {0.35, 0.35, 0.25, 0.25, 0.20, 0.10}, not_net = 0.14;
     if (!sampler_is_sequence(round->sampling->sampler)) {
         return 0.0;
     }
