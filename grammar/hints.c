@@ -66,6 +66,9 @@ void grammar_hint_token(GrammarState *state, bool only_closes)
     const char *twice = doubled(state);
     if (twice != NULL) {
         diag_suggest(diags, "%s", twice);
+    } else if (count > 0 && open[count - 1].kind == '(' && open[count - 1].word != SYMBOL_NONE) {
+        diag_suggest(diags, "what belongs to `%s` stands in `{ }`",
+                     intern_get(state->context->names, open[count - 1].word));
     } else if (token->kind == ',' && only_closes && count > 0 && open[count - 1].kind == '(') {
         diag_suggest(diags, "a vector stands in `< >`");
     } else if (token->kind == '=' && is_in_for) {

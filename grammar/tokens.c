@@ -171,6 +171,9 @@ static bool is_open(GrammarState *state, int kind)
 static void push_opener(GrammarState *state, const Token *token)
 {
     Opener opener = {.kind = token->kind, .span = token->span};
+    if (token->kind == '(' && state->previous.kind == TOKEN_WORD) {
+        opener.word = state->previous.symbol; // a block that was meant
+    }
     switch (token->kind == '{' ? state->previous.kind : token->kind) {
     case TOKEN_NAME:
     case TOKEN_WORD:

@@ -61,7 +61,8 @@ static bool eval_text_literal(Eval *ev, const AstNode *node, Value *value)
 // Once for each name, and not where the true fault is an #include that was not found.
 static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
 {
-    if (ev->include_is_missing || !eval_is_first(ev, DIAG_E0201, node->symbol)) {
+    bool is_told = ev->include_is_missing || (ev->macro_is_missing && node->kind == AST_CALL);
+    if (is_told || !eval_is_first(ev, DIAG_E0201, node->symbol)) {
         return false;
     }
     if (eval_report(ev, DIAG_E0201, node->span, "%s `%s` is not declared", what, eval_text(ev, node->symbol))) {

@@ -146,6 +146,7 @@ typedef struct Eval {
     size_t reported_count;
     Span break_at; // of a #break that leaves the included file that is read, and more; else SPAN_NONE
     bool include_is_missing; // a name that is not declared may be one that it declares
+    bool macro_is_missing;   // so may a macro that is not declared be one whose head was not understood
     bool file_is_missing; // an #fopen had no file: what it should have opened is not open
     TextBuffer line;              // of #debug, not ended yet
     CursorFrame *free_frames;     // for reuse, in the program arena

@@ -91,6 +91,7 @@ void macro_define(Eval *ev, const AstNode *node, const GrammarText *text)
     const Value *known = scope_find(ev, node->symbol);
     bool is_same = known != NULL && known->kind == VALUE_MACRO && known->macro->span.begin == node->span.begin;
     // A definition in a loop is kept once. One without a name has had its message.
+    ev->macro_is_missing = ev->macro_is_missing || node->symbol == SYMBOL_NONE;
     if (is_same || node->symbol == SYMBOL_NONE) {
         return;
     }

@@ -137,9 +137,10 @@ void block_unknown_property(Block *block, const AstNode *item)
 
 void block_refuse_colour(Block *block, const AstNode *item)
 {
+    bool may_be_missing = block->has_fault; // it may have its place in what was told
     block->has_fault = true;
     bool takes_pigment = block->ev->objects->properties[block->kind][W_pigment] != 0;
-    if (!eval_follows_syntax(block->ev, block->node->span) &&
+    if (!may_be_missing && !eval_follows_syntax(block->ev, block->node->span) &&
         eval_report(block->ev, DIAG_E0254, item->span, "no colour is expected here in %s", block_word(block)) &&
         takes_pigment) {
         diag_suggest(block->ev->options.diags, "a colour belongs in `pigment { }`");
