@@ -1,8 +1,8 @@
 // Rays against many spheres: ours and Embree's, in turn, on the same rays and one core, and the time to build.
 //
-// Usage: trace_rays [spheres ...]. Prints a line of JSON for each number of spheres: millions of rays a second of each, and
-// the ratios of the medians. Embree works in float, we in double; it is given the rays rounded. Without Embree (Debian:
-// libembree-dev) only our own figures are printed. Timing belongs to bench, never to a test.
+// Usage: trace_rays [spheres ...]. Prints a line of JSON for each number of spheres: millions of rays a second of each,
+// and the ratios of the medians. Embree works in float, we in double; it is given the rays rounded. Without Embree
+// (Debian: libembree-dev) only our own figures are printed. Timing belongs to bench, never to a test.
 //
 // SPDX-License-Identifier: MIT
 #include <stdio.h>

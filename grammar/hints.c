@@ -1,7 +1,7 @@
 // What was most likely meant by text that the parser refuses: habits of other languages, and the brace that is missing.
 //
-// Adds help and notes to the fault that was reported last. The place of a missing brace is guessed from the indentation,
-// for which the text is read once more. Changes nothing of the state.
+// Adds help and notes to the fault that was reported last. The place of a missing brace is guessed from the
+// indentation, for which the text is read once more. Changes nothing of the state.
 //
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>

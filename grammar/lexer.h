@@ -2,8 +2,8 @@
 //
 // One GrammarState is one parse. The scanner (lexer.l) turns text into tokens; the token stream (tokens.c) stands
 // between it and the parser: it knows the brackets and directives that are open and skips what cannot be understood;
-// splice.h tells of another such stream, which resolves directives and macro calls while it reads; messages.c says what is
-// wrong; the facade (grammar.c) sets all up.
+// splice.h tells of another such stream, which resolves directives and macro calls while it reads; messages.c says what
+// is wrong; the facade (grammar.c) sets all up.
 //
 // SPDX-License-Identifier: MIT
 #ifndef GRAMMAR_LEXER_H
@@ -176,13 +176,14 @@ void grammar_report_syntax(GrammarState *state, const char *const *expected, siz
 
 // ---- hints.c
 
-// The directive that another language's word most likely stands for, or NULL; *stands_for_it: reading can go on as if it
-// stood there.
+// The directive that another language's word most likely stands for, or NULL; *stands_for_it: reading can go on as if
+// it stood there.
 const char *grammar_foreign_directive(const char *word, size_t length, bool *stands_for_it);
 // The help for a mark that is an operator in other languages, or NULL.
 const char *grammar_foreign_mark(char mark);
-// Add to the fault that was kept last: help for the current token, `only_closes` when nothing but `)` could stand there; a
-// note where a `}` is missing by the indentation, with the outermost of the braces that are open at the end of the file.
+// Add to the fault that was kept last: help for the current token, `only_closes` when nothing but `)` could stand
+// there; a note where a `}` is missing by the indentation, with the outermost of the braces that are open at the end of
+// the file.
 void grammar_hint_token(GrammarState *state, bool only_closes);
 void grammar_hint_brace(GrammarState *state, const Opener *outermost);
 void grammar_fault(GrammarState *state, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);

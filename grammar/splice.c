@@ -1,8 +1,8 @@
 // Splices: text that is read as POV-Ray reads it, directive by directive and call by call, token by token.
 //
-// Turns kept or live tokens into tokens without conditionals, loops, includes and macro calls, and these into items, one by
-// one. What each directive means is asked of the evaluator (GrammarHooks), which has worked out everything before.
-// Knows nothing of values. See splice.h for the other files.
+// Turns kept or live tokens into tokens without conditionals, loops, includes and macro calls, and these into items,
+// one by one. What each directive means is asked of the evaluator (GrammarHooks), which has worked out everything
+// before. Knows nothing of values. See splice.h for the other files.
 //
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>

@@ -1,7 +1,8 @@
-// The pictures of a scene: each file that something seen uses is read once, and its values brought to the working space.
+// The pictures of a scene: each file that something seen uses is read once, and its values brought to the working
+// space.
 //
-// Turns what a file holds into what the renderer looks up. Reports at the place where the file is named. Knows nothing of
-// how pictures are laid, except which palettes they may count on.
+// Turns what a file holds into what the renderer looks up. Reports at the place where the file is named. Knows nothing
+// of how pictures are laid, except which palettes they may count on.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -96,8 +97,8 @@ static bool make_palette(Picture *picture, const PictureFile *file, const Way *w
     return picture->palette != NULL;
 }
 
-// A pixel of a Radiance file is three whole numbers below 256 and one power of two for all, and means the middles of their
-// steps (G. Ward, "Real Pixels", 1991); OpenImageIO gives the lower ends. The greatest number is at least 128.
+// A pixel of a Radiance file is three whole numbers below 256 and one power of two for all, and means the middles of
+// their steps (G. Ward, "Real Pixels", 1991); OpenImageIO gives the lower ends. The greatest number is at least 128.
 static void centre_steps(const Picture *picture)
 {
     float *values = picture->samples;

@@ -30,8 +30,8 @@ NumberResult number_scan(const char *text, size_t length, double *value, size_t 
 // The nearest double to mantissa * 10^power; HUGE_VAL when that is beyond the greatest double.
 double number_from_decimal(uint64_t mantissa, int power) RT_MUST_CHECK;
 
-// A number rounded to single precision. GCC 12 drops such a conversion there and back of two neighbours in memory when it
-// turns both into one vector (seen at -O2), hence volatile.
+// A number rounded to single precision. GCC 12 drops such a conversion there and back of two neighbours in memory when
+// it turns both into one vector (seen at -O2), hence volatile.
 static inline double number_single(double number)
 {
     volatile float single = (float)number;

@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-// Asks the system to back fresh memory with huge pages, where it is large enough to gain by it. Only a wish: contents and
-// addresses stay as they are. NULL is allowed.
+// Asks the system to back fresh memory with huge pages, where it is large enough to gain by it. Only a wish: contents
+// and addresses stay as they are. NULL is allowed.
 void pages_prefer_huge(void *memory, size_t bytes);
 
 #endif

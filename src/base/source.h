@@ -92,7 +92,8 @@ const char *source_name(const Source *source);
 // file cannot be read any more, or when it is a text as a whole (name is then still set if it is known, and line is 0).
 bool source_locate(SourceMap *map, Span span, SourceLocation *location) RT_MUST_CHECK;
 
-// Reads the text of a span, which lies in one text, once more: span.end - span.begin bytes. False when it cannot be read.
+// Reads the text of a span, which lies in one text, once more: span.end - span.begin bytes. False when it cannot be
+// read.
 bool source_read_span(SourceMap *map, Span span, char *buffer) RT_MUST_CHECK;
 
 // Bytes read from all sources so far.

@@ -8,8 +8,8 @@
 
 #include "rtlang/rtlang.h"
 
-// Says in which way a scene is outside of the range in which POV-Ray 3.7 draws it as any other of the same form; "" when
-// it is inside. See docs/numerics.md, "POV-Ray's range".
+// Says in which way a scene is outside of the range in which POV-Ray 3.7 draws it as any other of the same form; ""
+// when it is inside. See docs/numerics.md, "POV-Ray's range".
 void povray_range_describe(const rt_range *range, char *words, size_t size);
 
 #endif

@@ -242,8 +242,8 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     return fine;
 }
 
-// "Pixels:     1300   Samples:    3852   Smpls/Pxl: 2.96", then "  Trace Time:       0 hours  0 minutes  1 seconds (1.234
-// seconds)" and below "using 1 thread(s) with 1.200 CPU-seconds total".
+// "Pixels:     1300   Samples:    3852   Smpls/Pxl: 2.96", then "  Trace Time:       0 hours  0 minutes  1 seconds
+// (1.234 seconds)" and below "using 1 thread(s) with 1.200 CPU-seconds total".
 PovrayCost povray_cost(const char *log)
 {
     FILE *file = fopen(log, "rb");

@@ -201,8 +201,8 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
 
 // ---- the reference kernels
 
-// The program's own sampler in each precision, where the scene is known to be drawn in it. A rung that would take long is
-// left out: what quadruple precision has to show, the lower ones show.
+// The program's own sampler in each precision, where the scene is known to be drawn in it. A rung that would take long
+// is left out: what quadruple precision has to show, the lower ones show.
 static bool reference_methods(Study *study, const StudySettings *settings, const Image *reference)
 {
     static const struct {

@@ -57,8 +57,8 @@ static double student(int freedom)
     return values[freedom];
 }
 
-// Whether the last step gained less than a quarter of what was asked for in addition, in logarithms, where independent samples
-// would gain half of it. What is near the floor tells nothing.
+// Whether the last step gained less than a quarter of what was asked for in addition, in logarithms, where independent
+// samples would gain half of it. What is near the floor tells nothing.
 static bool is_stuck(const StudyMethod *method, double floor)
 {
     if (method->count < 3) {

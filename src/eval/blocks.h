@@ -40,7 +40,8 @@ typedef struct Block {
     bool has_fault;
 } Block;
 
-// literal.c: notes of the object that is watched whether it is a sphere with nothing but a centre, a radius and a texture.
+// literal.c: notes of the object that is watched whether it is a sphere with nothing but a centre, a radius and a
+// texture.
 void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record);
 
 // block.c

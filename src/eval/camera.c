@@ -85,8 +85,8 @@ static bool turn_to_look_at(Block *block)
 {
     CameraBlueprint *camera = &block->record->camera;
     Vec3 way = vec3_sub(camera->look_at, camera->location);
-    // POV-Ray takes a sine up to 3e-11 as parallel and one of 1e-10 as not. It also refuses a distance below 1e-5, which
-    // would forbid small scenes; here only the same point is refused.
+    // POV-Ray takes a sine up to 3e-11 as parallel and one of 1e-10 as not. It also refuses a distance below 1e-5,
+    // which would forbid small scenes; here only the same point is refused.
     const double least_sine = 5e-11;
     if (!(vector_length(way) > 0.0)) {
         return block_fault(block, DIAG_E0346, block->node->span, "the camera cannot look at its own location");

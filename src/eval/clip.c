@@ -1,8 +1,8 @@
 // clipped_by, bounded_by and inverse: what is said of the inside of an object.
 //
-// Clips are kept beside the object, each with the transforms that came after it, because what stands before a transform is
-// moved by it and what stands behind is not. Lists may be shared by copies of an object, so they are never changed, only
-// copied. Knows nothing of how a clip is traced.
+// Clips are kept beside the object, each with the transforms that came after it, because what stands before a transform
+// is moved by it and what stands behind is not. Lists may be shared by copies of an object, so they are never changed,
+// only copied. Knows nothing of how a clip is traced.
 //
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"

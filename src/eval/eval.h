@@ -34,8 +34,8 @@ typedef struct EvalDeclaration {
     double number;    // when text is NULL
 } EvalDeclaration;
 
-// Where the whole scene is put: camera, lights and objects, with their textures, and the lengths that the language leaves as
-// they are (fading, cylinders of light): p' = scale p + shift.
+// Where the whole scene is put: camera, lights and objects, with their textures, and the lengths that the language
+// leaves as they are (fading, cylinders of light): p' = scale p + shift.
 typedef struct EvalWorld {
     double scale; // > 0
     Vec3 shift;

@@ -1,9 +1,10 @@
 // The boxes that min_extent and max_extent tell of.
 //
 // A box is POV-Ray's, as measured: a corner and lengths in single precision. A sphere that was only moved, turned and
-// scaled evenly has its own box; of any other shape, or after any other transform, the corners of a box in the shape's own
-// space are turned. The box of a union or intersection is made of those of its members, and each transform of it turns that
-// box again. What clips or bounds an object gives its box instead where that is smaller. Knows nothing of what is drawn.
+// scaled evenly has its own box; of any other shape, or after any other transform, the corners of a box in the shape's
+// own space are turned. The box of a union or intersection is made of those of its members, and each transform of it
+// turns that box again. What clips or bounds an object gives its box instead where that is smaller. Knows nothing of
+// what is drawn.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

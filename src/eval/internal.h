@@ -454,8 +454,8 @@ bool file_open(Eval *ev, const AstNode *name, FileUse use, Source **source) RT_M
 // Whether there is such a file. False when it may not be asked for; that is reported.
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
 
-// The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a list
-// that NULL ends is added in turn. `node` is the expression that gave the name.
+// The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a
+// list that NULL ends is added in turn. `node` is the expression that gave the name.
 const char *file_find(Eval *ev, const AstNode *node, const char *name, const char *const *endings) RT_MUST_CHECK;
 
 // #fopen, #fclose, #read and #write

@@ -1,8 +1,9 @@
-// What is suspicious in a scene's text and not wrong: names that nothing uses, branches and items that are never reached.
+// What is suspicious in a scene's text and not wrong: names that nothing uses, branches and items that are never
+// reached.
 //
-// Walks the AST of each top-level item before it is evaluated, and looks at nothing but the text: a name is used when it
-// stands anywhere but where it is declared, so that none is reported that a branch or a macro may need. Declarations and
-// branches of the scene's own file count only, uses in all files. Owns what it remembers of names.
+// Walks the AST of each top-level item before it is evaluated, and looks at nothing but the text: a name is used when
+// it stands anywhere but where it is declared, so that none is reported that a branch or a macro may need. Declarations
+// and branches of the scene's own file count only, uses in all files. Owns what it remembers of names.
 //
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>

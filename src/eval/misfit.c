@@ -16,7 +16,8 @@ const char *block_word(const Block *block)
     return schema_kind(block->kind)->word;
 }
 
-// What is missing or misplaced in a block of which a part was not understood, or a call was at fault, may have been there.
+// What is missing or misplaced in a block of which a part was not understood, or a call was at fault, may have been
+// there.
 static bool follows_from_other(const Block *block, DiagCode code)
 {
     bool may_follow = code == DIAG_E0253 || code == DIAG_E0254 || code == DIAG_E0256;

@@ -1,7 +1,8 @@
 // Pasting: an expression in which macros are called is read again with their text in it, where values would not do.
 //
-// A macro stands for its text: in `M() * 2` a body `1 + 2` means 1 + 2*2, and `<M(), 3>` may be a vector of three. Turns
-// such an expression, found by its place in the source, into a value. Owns the texts that it keeps for the next time.
+// A macro stands for its text: in `M() * 2` a body `1 + 2` means 1 + 2*2, and `<M(), 3>` may be a vector of three.
+// Turns such an expression, found by its place in the source, into a value. Owns the texts that it keeps for the next
+// time.
 //
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>

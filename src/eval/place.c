@@ -73,7 +73,8 @@ static bool place_material(Eval *ev, const Placement *at, Span span, MaterialInd
     return material_place(ev, at->texture, &at->texture_outer, at->interior, at->is_hollow, span, material);
 }
 
-// A group is hollow when it says so or its last member is; `hollow off` does not take back what that one says. Measured.
+// A group is hollow when it says so or its last member is; `hollow off` does not take back what that one says.
+// Measured.
 static bool is_hollow(SchemaKind kind, const void *object)
 {
     const ObjectPart *part = object;

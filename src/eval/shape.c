@@ -226,8 +226,8 @@ static void make_zeros_positive(Transform *transform)
     }
 }
 
-// The normals' lengths count where they are weighed against each other, in the scene itself. One that is 1 to 12 digits is
-// left alone, so that it stays the same when a dump is read; no picture tells.
+// The normals' lengths count where they are weighed against each other, in the scene itself. One that is 1 to 12 digits
+// is left alone, so that it stays the same when a dump is read; no picture tells.
 static void normalise_corners(Part *part)
 {
     for (int i = 0; part->kind == PART_SMOOTH_TRIANGLE && i < 3; i++) {

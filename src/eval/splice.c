@@ -1,7 +1,7 @@
 // The evaluator's part in splices: names, expressions, conditions and calls are worked out while text is read.
 //
-// Turns what grammar asks through GrammarHooks into values. A value that was read is kept in the parse arena, beside the
-// node that stands for it. Calls and included files that a splice is inside of are frames of a cursor of its own.
+// Turns what grammar asks through GrammarHooks into values. A value that was read is kept in the parse arena, beside
+// the node that stands for it. Calls and included files that a splice is inside of are frames of a cursor of its own.
 // Knows nothing of tokens.
 //
 // SPDX-License-Identifier: MIT

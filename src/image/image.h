@@ -77,8 +77,8 @@ bool image_path_names_channels(const char *path);
 ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path,
                         ImageError *error) RT_MUST_CHECK;
 
-// Reads a picture to values as they are stored, 0..1 for integer formats; no transfer is undone. What begins as PNG does
-// is read as PNG, whatever the path's ending.
+// Reads a picture to values as they are stored, 0..1 for integer formats; no transfer is undone. What begins as PNG
+// does is read as PNG, whatever the path's ending.
 ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error) RT_MUST_CHECK;
 
 enum { IMAGE_THRESHOLDS = 3 };
@@ -101,8 +101,8 @@ bool image_compare(const Image *a, const Image *b, const double thresholds[IMAGE
 double image_pixel_difference(const Image *a, const Image *b, size_t pixel);
 
 // The mean of LDR-FLIP over two pictures of equal size that hold linear light, clamped to 0..1: 0 for equal ones, 1 at
-// most. Viewed at 67.02 pixels per degree, as from 0.7 m a screen 0.7 m wide with 3840 pixels. Symmetric. False when sizes
-// differ or memory ran out: it takes 128 bytes a pixel.
+// most. Viewed at 67.02 pixels per degree, as from 0.7 m a screen 0.7 m wide with 3840 pixels. Symmetric. False when
+// sizes differ or memory ran out: it takes 128 bytes a pixel.
 bool image_flip(const Image *a, const Image *b, double *mean) RT_MUST_CHECK;
 
 #endif

@@ -40,8 +40,8 @@ typedef struct OiioModule {
     // Whether the format can be written, and at this depth.
     ImageStatus (*check)(const char *ending, ImageDepth depth, ImageError *error);
     ImageStatus (*write)(const OiioPicture *picture, const OiioSink *sink, ImageError *error);
-    // Reads a file of the format that OpenImageIO calls so, or of any (NULL), in its own depth, or in the least above. The
-    // size is judged before memory is taken by `allocate`, which is picture_file_allocate.
+    // Reads a file of the format that OpenImageIO calls so, or of any (NULL), in its own depth, or in the least above.
+    // The size is judged before memory is taken by `allocate`, which is picture_file_allocate.
     ImageStatus (*read)(const char *path, const char *format, const PictureLimit *limit,
                         ImageStatus (*allocate)(PictureFile *file, const PictureLimit *limit), PictureFile *file,
                         ImageError *error);

@@ -37,9 +37,9 @@ typedef struct PictureLimit {
 ImageStatus picture_file_allocate(PictureFile *file, const PictureLimit *limit) RT_MUST_CHECK;
 void picture_file_fini(PictureFile *file); // releases the samples
 
-// Reads a file that must be of the format: one of `png jpeg tga ppm pgm tiff exr hdr`, or NULL for any that can be read.
-// IMAGE_NOT_A_PICTURE when it is of another one. On failure nothing is left to release; width and height then say what
-// the file claims, or 0.
+// Reads a file that must be of the format: one of `png jpeg tga ppm pgm tiff exr hdr`, or NULL for any that can be
+// read. IMAGE_NOT_A_PICTURE when it is of another one. On failure nothing is left to release; width and height then say
+// what the file claims, or 0.
 ImageStatus picture_file_read(const char *path, const char *format, const PictureLimit *limit, PictureFile *file,
                               ImageError *error) RT_MUST_CHECK;
 

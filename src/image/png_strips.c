@@ -1,5 +1,5 @@
-// Strips of rows to pieces of a zlib stream. A piece ends at a byte, by an empty block (zlib's Z_SYNC_FLUSH), and refers to
-// nothing before it, so pieces can be made in any order; what remains is to combine their checksums.
+// Strips of rows to pieces of a zlib stream. A piece ends at a byte, by an empty block (zlib's Z_SYNC_FLUSH), and
+// refers to nothing before it, so pieces can be made in any order; what remains is to combine their checksums.
 //
 // Level 1 and the Sub filter are the measured optimum of time against size for renderings.
 //

@@ -1,5 +1,5 @@
-// The pixels of a PNG file: rows in strips that are encoded, filtered and compressed side by side and put together to one
-// zlib stream (RFC 1950). The stream does not depend on the number of threads.
+// The pixels of a PNG file: rows in strips that are encoded, filtered and compressed side by side and put together to
+// one zlib stream (RFC 1950). The stream does not depend on the number of threads.
 //
 // SPDX-License-Identifier: MIT
 #ifndef IMAGE_PNG_STRIPS_H

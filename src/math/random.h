@@ -1,5 +1,5 @@
-// Random numbers for tests and studies: splitmix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators",
-// OOPSLA 2014), the same on every machine.
+// Random numbers for tests and studies: splitmix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number
+// Generators", OOPSLA 2014), the same on every machine.
 //
 // SPDX-License-Identifier: MIT
 #ifndef MATH_RANDOM_H

@@ -14,7 +14,8 @@ typedef struct AlongPlace {
     double share;
 } AlongPlace;
 
-// Finds the place of `value` in the list that begins with items[first]: from its start to the first entry beyond the value.
+// Finds the place of `value` in the list that begins with items[first]: from its start to the first entry beyond the
+// value.
 #define ALONG_FIND(items, first, value, place)                                                                         \
     do {                                                                                                               \
         uint32_t along_at = (first);                                                                                   \

@@ -1,8 +1,8 @@
-// Anti-aliasing of a tile: rays are asked for, traced by the kernel in full batches, and the rule is tried again until it
-// asks for no more.
+// Anti-aliasing of a tile: rays are asked for, traced by the kernel in full batches, and the rule is tried again until
+// it asks for no more.
 //
-// Both rules look at what rays have brought before they ask for others, so tracing one ray at a time would be natural; a
-// batch costs as much as eight of those. Colours are compared after a power, and averaged before it. Owns what a tile
+// Both rules look at what rays have brought before they ask for others, so tracing one ray at a time would be natural;
+// a batch costs as much as eight of those. Colours are compared after a power, and averaged before it. Owns what a tile
 // needs while it is made.
 //
 // SPDX-License-Identifier: MIT

@@ -1,7 +1,7 @@
 // Pictures at a point: from space to the plane of the picture, from there to pixels, and between them.
 //
-// Owns the palettes that differ from the pictures' own. Colours of pictures that are multiplied with alpha stay so until
-// they are mixed.
+// Owns the palettes that differ from the pictures' own. Colours of pictures that are multiplied with alpha stay so
+// until they are mixed.
 //
 // SPDX-License-Identifier: MIT
 #include "render/image.h"
@@ -164,7 +164,8 @@ static double sample_alpha(const Picture *picture, size_t i)
     return ((const float *)picture->samples)[i];
 }
 
-// Column and row, from above, may be beyond the edges: a picture that is seen once goes on as it ends, another begins anew.
+// Column and row, from above, may be beyond the edges: a picture that is seen once goes on as it ends, another begins
+// anew.
 static void pixel_get(const PreparedImage *image, int column, int row, double parts[static PARTS])
 {
     const Picture *picture = image->picture;
@@ -228,8 +229,8 @@ static void mix_by_distance(const PreparedImage *image, int column, int row, dou
     }
 }
 
-// Weights of the pixels at -1, 0, 1 and 2 for a place x from 0 to 1: E. Catmull, R. Rom, "A class of local interpolating
-// splines", 1974.
+// Weights of the pixels at -1, 0, 1 and 2 for a place x from 0 to 1: E. Catmull, R. Rom, "A class of local
+// interpolating splines", 1974.
 static void spline_weights(double x, double weights[static 4])
 {
     double x2 = x * x, x3 = x2 * x;

@@ -1,7 +1,7 @@
 // What a ray is inside of, and what its surfaces do to it: bending, total reflection, Fresnel's share, fading.
 //
-// A ray keeps the shapes it has entered and not left, in that order; what it travels in is the last one, with empty space
-// below. All measured beside POV-Ray; the formulas are Snell's and Fresnel's, as in any textbook of optics.
+// A ray keeps the shapes it has entered and not left, in that order; what it travels in is the last one, with empty
+// space below. All measured beside POV-Ray; the formulas are Snell's and Fresnel's, as in any textbook of optics.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_INSIDE_H
@@ -89,8 +89,8 @@ static inline bool inside_bend(Vec3 direction, Vec3 normal, double ratio, Vec3 *
     return true;
 }
 
-// The share of unpolarised light that a clear surface reflects (Fresnel's equations in the form of R. Cook, K. Torrance,
-// "A Reflectance Model for Computer Graphics", ACM TOG 1(1), 1982).
+// The share of unpolarised light that a clear surface reflects (Fresnel's equations in the form of R. Cook, K.
+// Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1(1), 1982).
 static inline double inside_fresnel(double cosine, double ratio)
 {
     double square = ratio * ratio - 1.0 + cosine * cosine;

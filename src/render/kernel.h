@@ -46,8 +46,8 @@ typedef struct KernelPlaces {
 typedef struct Kernel {
     const char *name;
     unsigned features;
-    // The light of those of KERNEL_RAYS camera rays whose bit is set in `wanted`; the others have places, too. `streams` are
-    // what each draws numbers from, or NULL: then area lights are the scene's grids. Counts are added.
+    // The light of those of KERNEL_RAYS camera rays whose bit is set in `wanted`; the others have places, too.
+    // `streams` are what each draws numbers from, or NULL: then area lights are the scene's grids. Counts are added.
     void (*trace)(const Prepared *prepared, const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
                   RenderStatistics *statistics);
 } Kernel;

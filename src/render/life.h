@@ -32,8 +32,9 @@ typedef enum LifeChoice {
 } LifeChoice;
 
 // A sphere that the ray was tested against: a t² + b t + c = 0 with a = d·d, b = 2 d·(e - centre),
-// c = (e - centre)·(e - centre) - radius², and h = b² - 4 a c, all as plain double arithmetic gives them. Of a stretched
-// sphere e and d are the ray in the space in which it has its centre at 0 and the radius 1; t is the same there.
+// c = (e - centre)·(e - centre) - radius², and h = b² - 4 a c, all as plain double arithmetic gives them. Of a
+// stretched sphere e and d are the ray in the space in which it has its centre at 0 and the radius 1; t is the same
+// there.
 typedef struct LifeSphere {
     uint64_t source;
     bool is_stretched;

@@ -1,7 +1,7 @@
 // Lights that are more than a point: how strong they are at a place, and which of an area's lights are asked for.
 //
-// Turns a prepared light and a point into a share of its light and into the places of shadow rays. Knows neither surfaces
-// nor rays. The formulas of strength and of the disc are those of the manual or were found by pictures; see
+// Turns a prepared light and a point into a share of its light and into the places of shadow rays. Knows neither
+// surfaces nor rays. The formulas of strength and of the disc are those of the manual or were found by pictures; see
 // docs/language.md, "Lighting model".
 //
 // SPDX-License-Identifier: MIT
@@ -121,8 +121,8 @@ RT_ALWAYS_INLINE Vec3 light_area_offset(const PreparedLight *light, Vec3 point, 
     return light_area_place(area, u, v);
 }
 
-// One of a row's lights, each as often as it counts in the whole grid, which is halved until no light is between its ends;
-// with `jitter`, a place within half a step of it. Rises with `at`, which is below 1.
+// One of a row's lights, each as often as it counts in the whole grid, which is halved until no light is between its
+// ends; with `jitter`, a place within half a step of it. Rises with `at`, which is below 1.
 RT_ALWAYS_INLINE double light_row_sample(int size, bool jitter, double at)
 {
     int low = 0, high = size - 1;

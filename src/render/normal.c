@@ -1,9 +1,9 @@
 // Bumps: how patterns turn a surface's normal.
 //
-// The height is asked for at the four corners of a tetrahedron around the point; the normal loses their sum, each corner's
-// direction weighted with its height. Directions, factors and the order of transforms are measured; docs/language.md,
-// "Bumps". A normal in a map sees the normal and the point as they are in the map's space. The records nest no deeper than
-// the language lets them, so recursion is bounded.
+// The height is asked for at the four corners of a tetrahedron around the point; the normal loses their sum, each
+// corner's direction weighted with its height. Directions, factors and the order of transforms are measured;
+// docs/language.md, "Bumps". A normal in a map sees the normal and the point as they are in the map's space. The
+// records nest no deeper than the language lets them, so recursion is bounded.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

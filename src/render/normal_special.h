@@ -6,8 +6,8 @@
 
 #include "render/pattern.h"
 
-// What the normal gains at a point of the pattern's space, which turbulence has moved, for an amount of 1. For patterns of
-// is_special_normal.
+// What the normal gains at a point of the pattern's space, which turbulence has moved, for an amount of 1. For patterns
+// of is_special_normal.
 Vec3 normal_special(const Pattern *pattern, const NoiseSource *source, Vec3 point);
 
 #endif

@@ -1,7 +1,7 @@
 // Patterns at a point: the value of one that varies, the block of one that fills space with blocks.
 //
-// Points are in the pattern's own space. The formulas are those of the scene language's manual, with what it leaves open
-// measured; docs/language.md, "Patterns". Knows nothing of colours.
+// Points are in the pattern's own space. The formulas are those of the scene language's manual, with what it leaves
+// open measured; docs/language.md, "Patterns". Knows nothing of colours.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_PATTERN_H

@@ -1,4 +1,5 @@
-// Prepares a scene for its kernel: one exact scale, geometry, reduced lights and finishes, and the choice of the kernel.
+// Prepares a scene for its kernel: one exact scale, geometry, reduced lights and finishes, and the choice of the
+// kernel.
 //
 // SPDX-License-Identifier: MIT
 #include "render/prepared.h"

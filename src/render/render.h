@@ -22,8 +22,8 @@
 
 typedef struct Prepared Prepared;
 
-// What is left of a valid scene for rendering; refers to the scene, which must outlive it. The options say how geometry is
-// prepared and traced. NULL when out of memory.
+// What is left of a valid scene for rendering; refers to the scene, which must outlive it. The options say how geometry
+// is prepared and traced. NULL when out of memory.
 Prepared *prepared_new(const Scene *scene, const GeometryOptions *options) RT_MUST_CHECK;
 void prepared_free(Prepared *prepared);
 
@@ -33,9 +33,9 @@ const char *prepared_kernel_name(const Prepared *prepared);
 unsigned prepared_features(const Prepared *prepared);
 size_t prepared_geometry_bytes(const Prepared *prepared);
 
-// What a pixel's samples say of its error, in linear light, as mean squares over its three values. Each is the square of
-// how far two sets of samples are apart, times the product of their shares: if sets were independent, the variance of
-// the mean of both.
+// What a pixel's samples say of its error, in linear light, as mean squares over its three values. Each is the square
+// of how far two sets of samples are apart, times the product of their shares: if sets were independent, the variance
+// of the mean of both.
 typedef struct PixelRecord {
     uint32_t count; // samples taken; 0: nothing is known
     float outer;    // the two halves of all samples
@@ -43,7 +43,8 @@ typedef struct PixelRecord {
     float fresh;    // the halves of the half that was taken last
 } PixelRecord;
 
-// A picture in the scene's working space, or a part of one: rows from the top, pixels from the left, red green blue each.
+// A picture in the scene's working space, or a part of one: rows from the top, pixels from the left, red green blue
+// each.
 typedef struct Film {
     int width, height;
     int left, top, whole_width, whole_height; // where it lies in the whole picture, and how large that is

@@ -61,8 +61,8 @@ static inline uint32_t permute_upward(uint32_t x, uint32_t seed)
     return x ^ x * UINT32_C(0x8d22f6e6);
 }
 
-// Owen's scrambling of a fraction of 2^32 whose bits are given in reverse: each bit is flipped by chance that depends on
-// the bits above it.
+// Owen's scrambling of a fraction of 2^32 whose bits are given in reverse: each bit is flipped by chance that depends
+// on the bits above it.
 static inline uint32_t owen_scramble_reversed(uint32_t reversed, uint32_t seed)
 {
     return reverse_bits(permute_upward(reversed, seed));
@@ -92,10 +92,10 @@ uint32_t sobol_value(uint32_t index, unsigned dimension)
 }
 
 // Another order of the points: the index times a matrix over the field of two numbers, of whose columns only these are
-// not those of the identity. It is triangular, so first parts whose number is a power of two are the same points. Points in
-// both orders together are spread in four dimensions: of the first 2^m each box of volume 2^(t-m) whose sides are powers
-// of two has 2^t, where t is 1 up to m = 4, 2 up to 7 and 3 up to 11. Found by a search, column after column, for the
-// fewest boxes that break this.
+// not those of the identity. It is triangular, so first parts whose number is a power of two are the same points.
+// Points in both orders together are spread in four dimensions: of the first 2^m each box of volume 2^(t-m) whose sides
+// are powers of two has 2^t, where t is 1 up to m = 4, 2 up to 7 and 3 up to 11. Found by a search, column after
+// column, for the fewest boxes that break this.
 static uint32_t other_order(uint32_t index)
 {
     static const uint16_t columns[] = {0x0001, 0x0003, 0x0004, 0x000d, 0x0016, 0x002e, 0x004b,
@@ -107,8 +107,8 @@ static uint32_t other_order(uint32_t index)
     return (index & UINT32_MAX << RT_COUNT_OF(columns)) ^ low;
 }
 
-// The order of the points is shuffled for two pairs at once, and for different ones on its own, which are independent then; a
-// first part whose number is a power of two stays a net.
+// The order of the points is shuffled for two pairs at once, and for different ones on its own, which are independent
+// then; a first part whose number is a power of two stays a net.
 static SamplePoint sobol_point(uint32_t stream_seed, uint32_t pair, uint32_t index)
 {
     uint32_t seed = hash_add(stream_seed, pair);

@@ -2,10 +2,11 @@
 //
 // Turns the place of a sample into points of a square. It keeps nothing, so a picture is the same for any number of
 // threads and any order of pixels. Each pair of dimensions is the two-dimensional Sobol sequence, scrambled and
-// shuffled by hashing, two pairs in orders that make points of four dimensions of them: I. Sobol, "On the distribution of points in a cube", 1967, with the direction numbers of S. Joe
-// and F. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30, 2008; A.
-// Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995; S. Laine and T. Karras, "Stratified sampling for
-// stochastic transparency", EGSR 2011; B. Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
+// shuffled by hashing, two pairs in orders that make points of four dimensions of them: I. Sobol, "On the distribution
+// of points in a cube", 1967, with the direction numbers of S. Joe and F. Kuo, "Constructing Sobol sequences with
+// better two-dimensional projections", SIAM J. Sci. Comput. 30, 2008; A. Owen, "Randomly permuted (t,m,s)-nets and
+// (t,s)-sequences", 1995; S. Laine and T. Karras, "Stratified sampling for stochastic transparency", EGSR 2011; B.
+// Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SAMPLER_H

@@ -53,7 +53,8 @@ typedef struct Estimate {
     uint64_t samples;
 } Estimate;
 
-// After a round, which is whole unless it was cancelled: what it says of the ratios, and what all pixels say of the error.
+// After a round, which is whole unless it was cancelled: what it says of the ratios, and what all pixels say of the
+// error.
 void estimate_update(Estimate *estimate, const Film *film, const Round *round, bool is_whole, SamplingError *error);
 
 // The level of a pixel with so many samples.

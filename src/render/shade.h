@@ -46,8 +46,8 @@ RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *mater
     return true;
 }
 
-// By how much the weight of a mirrored ray falls: by the greatest share of any angle, but with Fresnel by that of its own.
-// Measured.
+// By how much the weight of a mirrored ray falls: by the greatest share of any angle, but with Fresnel by that of its
+// own. Measured.
 RT_ALWAYS_INLINE double shade_mirror_weight(unsigned features, const PreparedFinish *finish, Rgb reflectance)
 {
     return (features & RENDER_INTERIORS) && finish->is_fresnel ? rgb_max(reflectance) : finish->reflection_weight;
@@ -136,8 +136,8 @@ RT_ALWAYS_INLINE Rgb shade_miss(const Prepared *p, unsigned features, Vec3 direc
     return features & RENDER_SKY ? sky_light(p, direction) : p->background;
 }
 
-// Fog on the way of a ray that is inside of `before`: what it adds, which is returned, is added, and what lies behind it
-// will be dimmed.
+// Fog on the way of a ray that is inside of `before`: what it adds, which is returned, is added, and what lies behind
+// it will be dimmed.
 RT_ALWAYS_INLINE Rgb shade_fog(const Prepared *p, double way, const Inside *before, PendingRay *ray, Pending *pending)
 {
     if (inside_is_solid(before)) {
@@ -199,8 +199,8 @@ RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, Pending *
     }
 }
 
-// Takes the ray that was put on the list last: its light is added, and the rays that go on from where it hits are put on
-// the list.
+// Takes the ray that was put on the list last: its light is added, and the rays that go on from where it hits are put
+// on the list.
 RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pending *pending, SampleStream *stream,
                                       RenderStatistics *statistics, ShadeStep *step)
 {

@@ -1,7 +1,8 @@
 // How a point of a surface shines: what reaches it of each light, and what its finish makes of that.
 //
 // Everything here is always-inline and takes the kernel's features as a constant. The lighting model is the scene
-// language's, as its manual describes it and as measured against it; docs/language.md, "Lighting model", has the formulas.
+// language's, as its manual describes it and as measured against it; docs/language.md, "Lighting model", has the
+// formulas.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_LIGHT_H
@@ -80,8 +81,8 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
 }
 
 // The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
-// multiplies it, the first that does not ends it. What is seen from outside and lit from behind, by bumps or on its back,
-// gets its light through itself unfaded. Measured.
+// multiplies it, the first that does not ends it. What is seen from outside and lit from behind, by bumps or on its
+// back, gets its light through itself unfaded. Measured.
 RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, const ShadePoint *at, Ray ray,
                                          RayStart start, double t_max)
 {
@@ -183,10 +184,10 @@ RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const Sha
     return sum;
 }
 
-// The share of the pigment in a metallic highlight falls with the light's angle x (in right angles) to the normal as 1 - F,
-// F being the Fresnel curve of P. Strauss, "A Realistic Lighting Model for Computer Animators", IEEE CG&A 10(6), 1990:
-// F(x) = (1 / (x - k)² - 1 / k²) / (1 / (1 - k)² - 1 / k²) with k = 1.12. Renderings agree with it to 1/65535. A normal
-// with bumps may be turned away from the viewer: then F goes on beyond 1 right angle, but not above 1.
+// The share of the pigment in a metallic highlight falls with the light's angle x (in right angles) to the normal as 1
+// - F, F being the Fresnel curve of P. Strauss, "A Realistic Lighting Model for Computer Animators", IEEE CG&A 10(6),
+// 1990: F(x) = (1 / (x - k)² - 1 / k²) / (1 / (1 - k)² - 1 / k²) with k = 1.12. Renderings agree with it to 1/65535. A
+// normal with bumps may be turned away from the viewer: then F goes on beyond 1 right angle, but not above 1.
 RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigment, double cosine)
 {
     const double k = 1.12;

@@ -26,8 +26,8 @@ typedef struct PendingRay {
 // Normals that the layers of one surface with bumps may have between them.
 enum { SHADE_WAYS_MAX = SCENE_NORMALS_MOST + 1, SHADE_WAY_RAYS = 3 };
 
-// Depth first, each level leaves at most one transmitted ray and one closing entry behind, and more only where bumps send
-// rays in more than one direction; of those, what would not fit (80 in a row that each do so) is not followed.
+// Depth first, each level leaves at most one transmitted ray and one closing entry behind, and more only where bumps
+// send rays in more than one direction; of those, what would not fit (80 in a row that each do so) is not followed.
 enum { PENDING_MAX = 2 * TRACE_LEVEL_MAX + 4 + 80 * SHADE_WAY_RAYS };
 
 // The rays that wait, and the sums of light that are open: one, and one more for each ray with an exponent.
@@ -55,8 +55,8 @@ RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
                shade_power(light.blue, exponent));
 }
 
-// Where a mirror sends the ray. With bumps that may be into the surface: such a ray is mirrored once more, at the surface
-// as it is; or, when the normal is turned away from the viewer, mirrored there only. Measured.
+// Where a mirror sends the ray. With bumps that may be into the surface: such a ray is mirrored once more, at the
+// surface as it is; or, when the normal is turned away from the viewer, mirrored there only. Measured.
 RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadePoint *at)
 {
     Vec3 mirrored = vec3_reflect(at->direction, at->normal);
@@ -118,9 +118,9 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
     };
 }
 
-// Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind it.
-// A ray leaves what it has entered, and enters anything else, from whichever side it comes to a surface: one that is open
-// or flat, too. Measured.
+// Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind
+// it. A ray leaves what it has entered, and enters anything else, from whichever side it comes to a surface: one that
+// is open or flat, too. Measured.
 RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoint *at, const Inside *before,
                                   Inside *behind)
 {
@@ -133,8 +133,9 @@ RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoi
     at->ior_ratio = inside_ior(p->interiors, behind) / inside_ior(p->interiors, before);
 }
 
-// The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to the
-// next level. There is none when it is too deep or worth too little, and then no other mirrored ray either. Measured.
+// The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to
+// the next level. There is none when it is too deep or worth too little, and then no other mirrored ray either.
+// Measured.
 RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ShadeOnward *onward, Rgb fade,
                                  const ShadePoint *at, const PendingRay *from, const Inside *before,
                                  const Inside *behind, Pending *pending)
@@ -201,8 +202,8 @@ RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, const PendingRay *from, 
     statistics->cut_by_weight += from->level >= p->max_trace_level ? 0 : units;
 }
 
-// The rays that go on from a hit; the reflected one will be traced first. `before` and `behind` are what the ray is inside
-// of on both sides of the surface, where there are interiors.
+// The rays that go on from a hit; the reflected one will be traced first. `before` and `behind` are what the ray is
+// inside of on both sides of the surface, where there are interiors.
 RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
                                   const ShadePoint *at, const PendingRay *from, const Inside *before,
                                   const Inside *behind, Pending *pending, RenderStatistics *statistics)

@@ -7,7 +7,8 @@
 
 static const double half_pi = 1.57079632679489661923;
 
-// Before version 3.7 light came through all filters or through all clear shares, and only the background's was coloured.
+// Before version 3.7 light came through all filters or through all clear shares, and only the background's was
+// coloured.
 static bool is_old(const Scene *scene)
 {
     return scene->settings.version < 3.7;

@@ -20,8 +20,8 @@ bool study_covers(const Prepared *prepared, DiagSink *diags) RT_MUST_CHECK;
 // from the precision that it was worked out in. The scene must be covered.
 Rgb study_colour(const Prepared *prepared, StudyPrecision precision, double u, double v);
 
-// From now on the prepared scene is traced by the reference kernel: render_film samples and tells errors as ever. The scene
-// must be covered. What max_trace_level and adc_bailout cut is not counted.
+// From now on the prepared scene is traced by the reference kernel: render_film samples and tells errors as ever. The
+// scene must be covered. What max_trace_level and adc_bailout cut is not counted.
 void study_take(Prepared *prepared, StudyPrecision precision);
 
 #endif

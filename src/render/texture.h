@@ -76,8 +76,8 @@ typedef struct TextureThrough {
 TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
                             void *client);
 
-// The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1. In
-// normal.c.
+// The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1.
+// In normal.c.
 Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal);
 
 #endif

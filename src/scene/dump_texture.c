@@ -1,7 +1,7 @@
 // Patterned pigments and textures as `.scn` text.
 //
-// A record stands after the ones it refers to, for that is the order in which they were added. Knows only what it writes
-// of the language.
+// A record stands after the ones it refers to, for that is the order in which they were added. Knows only what it
+// writes of the language.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/dump.h"

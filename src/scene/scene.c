@@ -1,7 +1,7 @@
 // Scene records: keeps them in order, each different material once.
 //
-// Turns calls of the evaluator into growable arrays. Owns the arrays and the indices of what is kept once. Knows nothing of
-// the language, and checks nothing: that is validate.c.
+// Turns calls of the evaluator into growable arrays. Owns the arrays and the indices of what is kept once. Knows
+// nothing of the language, and checks nothing: that is validate.c.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"

@@ -97,8 +97,8 @@ typedef struct Finish {
 // Index into Scene.finishes.
 typedef uint32_t FinishIndex;
 
-// Without padding: materials are compared and hashed bit by bit. A scene may have as many as shapes, so it is small: the
-// language's colours are of single precision anyhow, and one finish serves many pigments.
+// Without padding: materials are compared and hashed bit by bit. A scene may have as many as shapes, so it is small:
+// the language's colours are of single precision anyhow, and one finish serves many pigments.
 typedef struct Material {
     float red, green, blue, filter, transmit; // the pigment
     FinishIndex finish;
@@ -360,7 +360,8 @@ typedef struct Scene {
 void scene_init(Scene *scene);
 void scene_fini(Scene *scene);
 
-// Bytes that its records and pictures take, records counted as if each list that is full had grown already for one more.
+// Bytes that its records and pictures take, records counted as if each list that is full had grown already for one
+// more.
 size_t scene_bytes(const Scene *scene);
 // Of that, what was read of pictures.
 size_t scene_picture_bytes(const Scene *scene);
@@ -432,8 +433,8 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
 // Adds a part that stands alone.
 bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
 
-// A composite begins, then come its nodes and leaves in their order, each with its parent; scene_end_composite sets what
-// is counted. A leaf's `node` and a node's `parent` are indices into Scene.nodes.
+// A composite begins, then come its nodes and leaves in their order, each with its parent; scene_end_composite sets
+// what is counted. A leaf's `node` and a node's `parent` are indices into Scene.nodes.
 bool scene_begin_composite(Scene *scene, uint8_t hidden, uint64_t source) RT_MUST_CHECK;
 bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, uint64_t source,
                     uint32_t *index) RT_MUST_CHECK;

@@ -1,7 +1,7 @@
 // A ray against a box with its faces along the axes. Sides 0 to 5: low and high x, low and high y, low and high z.
 //
-// The bounds are used as they stand, not as a middle and a size, so that faces of two boxes at one coordinate are met at
-// one t, bit for bit. Knows nothing of transforms.
+// The bounds are used as they stand, not as a middle and a size, so that faces of two boxes at one coordinate are met
+// at one t, bit for bit. Knows nothing of transforms.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_BOX_H

@@ -60,8 +60,8 @@ typedef struct Bvh {
     Vec3 half;    // half the size of the root box, in tree coordinates
 } Bvh;
 
-// A thing while the tree is built: its box in tree coordinates, and in the fourth places its number for whoever builds, 23
-// bits in the fraction of each, so that they can go through vector arithmetic as harmless numbers between 1 and 2.
+// A thing while the tree is built: its box in tree coordinates, and in the fourth places its number for whoever builds,
+// 23 bits in the fraction of each, so that they can go through vector arithmetic as harmless numbers between 1 and 2.
 typedef struct BvhRef {
     _Alignas(16) float low[4];
     float high[4];
@@ -76,9 +76,9 @@ void bvh_place(Bvh *bvh, Vec3 low, Vec3 high);
 // added to make up for that.
 BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index);
 
-// Builds the tree of a placed *bvh over 1 <= count < 2^28 refs and puts them into its order, in which leaves are runs and
-// follow each other as their nodes do. The result does not depend on the number of threads. False when out of memory; *bvh
-// is then empty.
+// Builds the tree of a placed *bvh over 1 <= count < 2^28 refs and puts them into its order, in which leaves are runs
+// and follow each other as their nodes do. The result does not depend on the number of threads. False when out of
+// memory; *bvh is then empty.
 bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads) RT_MUST_CHECK;
 void bvh_fini(Bvh *bvh);
 

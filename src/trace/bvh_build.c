@@ -2,8 +2,8 @@
 //
 // Every step is bounded: the depth (ranges are halved when the heuristic has gone deep enough or cannot separate its
 // things), and the time, n log n for any input, a million coincident boxes among them. Threads take whole ranges from a
-// common stack and make nodes in pools of their own; in the end the nodes are numbered in depth-first order, so that the
-// tree does not show who built what.
+// common stack and make nodes in pools of their own; in the end the nodes are numbered in depth-first order, so that
+// the tree does not show who built what.
 //
 // SPDX-License-Identifier: MIT
 #include <float.h>
@@ -151,8 +151,8 @@ uint32_t bvh_ref_index(const BvhRef *ref)
 
 // ---- one split
 
-// Maps box centres to bins along the axis on which they lie farthest apart. The best of all three axes is seldom another
-// one, and costs three times as much to find.
+// Maps box centres to bins along the axis on which they lie farthest apart. The best of all three axes is seldom
+// another one, and costs three times as much to find.
 typedef struct Binning {
     int axis, count;
     float low, bins_per_unit;

@@ -36,8 +36,8 @@ RT_ALWAYS_INLINE void chord_meet(Chord *chord, const Chord *other)
     }
 }
 
-// A coordinate of the line, o + t d, between two bounds, whose sides are `low_side` and low_side + 1. False when no part
-// of the line is. A line along a bound is inside; NaN is not.
+// A coordinate of the line, o + t d, between two bounds, whose sides are `low_side` and low_side + 1. False when no
+// part of the line is. A line along a bound is inside; NaN is not.
 RT_ALWAYS_INLINE bool chord_slab(double o, double d, double low, double high, uint8_t low_side, uint8_t left_side,
                                  Chord *chord)
 {

@@ -1,9 +1,9 @@
 // A ray against a composite: the crossings of all leaves in order, as changes of what the ray is inside of.
 //
-// At a crossing it is not asked where a point lies: each node counts its children that the ray is inside of, and a leaf's
-// crossing changes the counts on its way to the root. Crossings that rounding cannot tell apart happen together: what
-// hides a surface is judged on that side of them where it would show, so that coincident faces leave no film behind.
-// docs/numerics.md, "Composites", says how near is together.
+// At a crossing it is not asked where a point lies: each node counts its children that the ray is inside of, and a
+// leaf's crossing changes the counts on its way to the root. Crossings that rounding cannot tell apart happen together:
+// what hides a surface is judged on that side of them where it would show, so that coincident faces leave no film
+// behind. docs/numerics.md, "Composites", says how near is together.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/shapes.h"
@@ -118,8 +118,8 @@ static void passage_flat(Passage *p, uint32_t index, RayStart start)
     }
 }
 
-// Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later. A ray that starts on
-// a surface has passed what lies within rounding of its start.
+// Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later. A ray that starts
+// on a surface has passed what lies within rounding of its start.
 static void passage_solid_begin(Passage *p, uint32_t index, RayStart start, bool is_own)
 {
     const Solid *solid = passage_solid(p, index);

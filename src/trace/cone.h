@@ -1,5 +1,5 @@
-// A ray against a cone or cylinder about z: 0 <= z <= 1, radius 1 + (ratio - 1) z, 0 <= ratio <= 1. Side 0 is round, 1 the
-// disc at z = 0, 2 the one at z = 1.
+// A ray against a cone or cylinder about z: 0 <= z <= 1, radius 1 + (ratio - 1) z, 0 <= ratio <= 1. Side 0 is round, 1
+// the disc at z = 0, 2 the one at z = 1.
 //
 // With o and d the ray in x and y, p + q t the radius at its z: |o + t d|² = (p + q t)² has the discriminant
 // |p d - q o|² - (o × d)², which compares lengths where b² - ac would cancel. Knows nothing of transforms.

@@ -1,8 +1,8 @@
 // Double-word arithmetic: a number as the unevaluated sum of two doubles, about 106 bits.
 //
-// Error-free transforms (Møller, Knuth; Dekker) and the operations of Joldes, Muller, Popescu, "Tight and rigorous error
-// bounds for basic building blocks of double-word arithmetic", ACM TOMS 44(2), 2017. An error-free transform has one
-// right result, so a fused multiply-add, where the processor has it, gives the same bits as the split without it.
+// Error-free transforms (Møller, Knuth; Dekker) and the operations of Joldes, Muller, Popescu, "Tight and rigorous
+// error bounds for basic building blocks of double-word arithmetic", ACM TOMS 44(2), 2017. An error-free transform has
+// one right result, so a fused multiply-add, where the processor has it, gives the same bits as the split without it.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_DOUBLE_WORD_H

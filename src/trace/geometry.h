@@ -1,6 +1,7 @@
 // The inside of a Geometry, for trace/ and the inline queries only.
 //
-// Arrays of prepared shapes, one for each kind; a ShapeId is an index into one of them, a slot of the table for spheres.
+// Arrays of prepared shapes, one for each kind; a ShapeId is an index into one of them, a slot of the table for
+// spheres.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_GEOMETRY_H

@@ -25,13 +25,13 @@ RT_ALWAYS_INLINE double plane_root(const PlaneShape *plane, Vec3 origin, Vec3 di
     return (plane->distance - vec3_dot(plane->normal, origin)) / vec3_dot(plane->normal, direction);
 }
 
-// What rounding may have done to the terms of a surface's place in the scene, in units of u: a coordinate in a shape's space is
-// a difference and a product of three terms (4), its matrix is the inverse (6) of up to six transforms (5 each, as in
-// transform_is_similarity), and the root itself adds at most 8.
+// What rounding may have done to the terms of a surface's place in the scene, in units of u: a coordinate in a shape's
+// space is a difference and a product of three terms (4), its matrix is the inverse (6) of up to six transforms (5
+// each, as in transform_is_similarity), and the root itself adds at most 8.
 #define CROSSING_ROUNDINGS 48.0
 
-// How far the parameter at which a plane is crossed may be off by rounding, that of the plane's own place with it. A normal
-// is known to u of its length, but for components that are 0. Infinite along the plane.
+// How far the parameter at which a plane is crossed may be off by rounding, that of the plane's own place with it. A
+// normal is known to u of its length, but for components that are 0. Infinite along the plane.
 RT_ALWAYS_INLINE double plane_crossing_error(const PlaneShape *plane, Ray ray, double t)
 {
     Vec3 n = plane->normal, o = ray.origin, d = ray.direction;

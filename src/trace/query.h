@@ -71,8 +71,8 @@ RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned feature
     return (features & TRACE_SPHERE_BVH) && g->kernels->occluded(&g->spheres, ray, &on.ball, t_max);
 }
 
-// Whether the ray starts on another surface that an ellipsoid, or a plane, may coincide with but for rounding. It has passed
-// what lies within rounding of its start.
+// Whether the ray starts on another surface that an ellipsoid, or a plane, may coincide with but for rounding. It has
+// passed what lies within rounding of its start.
 RT_ALWAYS_INLINE bool query_starts_beside(const Geometry *g, unsigned features, RayStart start, ShapeKind kind)
 {
     if (start.shape == SHAPE_NONE) {
@@ -97,7 +97,8 @@ RT_ALWAYS_INLINE double query_start_error(const Geometry *g, unsigned features, 
     return is_plane && may_coincide ? plane_crossing_error(&g->planes[shape_index(start.shape)].shape, own, 0.0) : 0.0;
 }
 
-// The root of an ellipsoid that the ray may start on but for rounding, as `object` in its space: a start on it goes in or out.
+// The root of an ellipsoid that the ray may start on but for rounding, as `object` in its space: a start on it goes in
+// or out.
 RT_ALWAYS_INLINE double query_ellipsoid_beside(const EllipsoidShape *shape, const SphereRay *ray,
                                                const SphereRay *object, double start_error, double t, bool *inside)
 {
@@ -113,8 +114,8 @@ RT_ALWAYS_INLINE double query_ellipsoid_beside(const EllipsoidShape *shape, cons
                : 0.0;
 }
 
-// The parameter at which an ellipsoid is met, by the rules for spheres; not positive when it is not. `beside`: the start's
-// error, NULL when the ray starts on nothing that may coincide with it.
+// The parameter at which an ellipsoid is met, by the rules for spheres; not positive when it is not. `beside`: the
+// start's error, NULL when the ray starts on nothing that may coincide with it.
 RT_ALWAYS_INLINE double query_ellipsoid_root(const Geometry *g, uint32_t index, const SphereRay *ray, RayStart start,
                                              const double *beside, bool *inside)
 {
@@ -145,8 +146,8 @@ RT_ALWAYS_INLINE double query_plane_root(const Geometry *g, uint32_t index, cons
     return plane_root(shape, ray->origin, ray->direction);
 }
 
-// What rounding may do to a plane's or an ellipsoid's root. Only where there is something that they may coincide with: 0
-// else.
+// What rounding may do to a plane's or an ellipsoid's root. Only where there is something that they may coincide with:
+// 0 else.
 RT_ALWAYS_INLINE double query_plane_error(const Geometry *g, unsigned features, uint32_t index, const SphereRay *ray,
                                           double t)
 {
@@ -230,8 +231,8 @@ RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, c
     }
 }
 
-// The nearest hits, SHAPE_NONE where there is none, of rays that are free in space, of about unit length, and start at one
-// point: 64 camera rays, in rows of eight neighbours. The same bits as geometry_closest gives ray by ray.
+// The nearest hits, SHAPE_NONE where there is none, of rays that are free in space, of about unit length, and start at
+// one point: 64 camera rays, in rows of eight neighbours. The same bits as geometry_closest gives ray by ray.
 RT_ALWAYS_INLINE void geometry_closest_tile(const Geometry *g, unsigned features, const Ray rays[TILE_RAYS],
                                             Hit hits[TILE_RAYS])
 {

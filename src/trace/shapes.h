@@ -69,8 +69,8 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
 void shapes_fini(ShapeTable *table);
 size_t shapes_bytes(const ShapeTable *table);
 
-// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: round ones with round ones,
-// others with others. Such a ray has passed what lies within rounding of its start.
+// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: round ones with round
+// ones, others with others. Such a ray has passed what lies within rounding of its start.
 static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)
 {
     if (start.shape == SHAPE_NONE) {

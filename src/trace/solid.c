@@ -140,9 +140,10 @@ double solid_extent(const Solid *solid)
     return product * fabs(vec3_dot(x, vec3_cross(y, z))) * sum;
 }
 
-// |n|·R for a normal n of the solid's space, R being per coordinate of that space the sum of the magnitudes of all terms that
-// make the coordinate of p(t), and of those of its centre and its points, which are rounded, too. An entry of the map's
-// inverse that is 0, or alone in its column, has only its own rounding; others have that of the whole column.
+// |n|·R for a normal n of the solid's space, R being per coordinate of that space the sum of the magnitudes of all
+// terms that make the coordinate of p(t), and of those of its centre and its points, which are rounded, too. An entry
+// of the map's inverse that is 0, or alone in its column, has only its own rounding; others have that of the whole
+// column.
 static double normal_reach(const Solid *solid, Vec3 n, const Ray *ray, double t)
 {
     Vec3 o = ray->origin, d = ray->direction, centre = solid->centre;

@@ -43,8 +43,8 @@ bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord
 // Where the line meets a flat solid.
 bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
 
-// The sum of the lengths that the map gives to the fixed shape, more where it makes angles narrow: what its own rounding, and
-// its inverse's, are beside.
+// The sum of the lengths that the map gives to the fixed shape, more where it makes angles narrow: what its own
+// rounding, and its inverse's, are beside.
 double solid_extent(const Solid *solid);
 
 // How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
@@ -53,8 +53,8 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
 // The same for an ellipsoid, which is a unit ball under a map.
 double ellipsoid_crossing_error(const EllipsoidShape *ellipsoid, const Ray *ray, double t);
 
-// The same for an end of a chord. Where the ray grazes a round side the bound has no bounds, but a crossing is not off by
-// more than the chord is long. 0 for an end that is infinite.
+// The same for an end of a chord. Where the ray grazes a round side the bound has no bounds, but a crossing is not off
+// by more than the chord is long. 0 for an end that is infinite.
 double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves);
 
 // The point of a hit put back onto the side, and the solid's own outward unit normal there.

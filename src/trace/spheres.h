@@ -122,8 +122,8 @@ RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, b
     }
 }
 
-// Whether rounding cannot tell two roots apart. Each error is of the root's own place; at the nearer one of the two it is
-// less by no more than the ratio of the roots.
+// Whether rounding cannot tell two roots apart. Each error is of the root's own place; at the nearer one of the two it
+// is less by no more than the ratio of the roots.
 RT_ALWAYS_INLINE bool roots_are_one(double t, double error, double other, double other_error)
 {
     double apart = fabs(t - other);
@@ -134,8 +134,8 @@ RT_ALWAYS_INLINE bool roots_are_one(double t, double error, double other, double
     return apart <= error * (least / t) + other_error * (least / other);
 }
 
-// The same for a root that may be off by `error`: where surfaces coincide but for rounding, too, the shape that was declared
-// first is seen.
+// The same for a root that may be off by `error`: where surfaces coincide but for rounding, too, the shape that was
+// declared first is seen.
 RT_ALWAYS_INLINE void nearest_offer_within(Nearest *nearest, double t, double error, ShapeId shape, bool inside,
                                            uint32_t order)
 {

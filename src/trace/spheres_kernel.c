@@ -1,7 +1,7 @@
 // Rays against the tree of spheres: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
 //
-// A leaf is a block of eight spheres, tested at once in doubles. Operations and their order are those of sphere_test, so
-// that verdicts and roots are the same bits in vectors of any width.
+// A leaf is a block of eight spheres, tested at once in doubles. Operations and their order are those of sphere_test,
+// so that verdicts and roots are the same bits in vectors of any width.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/bvh_walk.h"

@@ -30,8 +30,8 @@ typedef enum TraceFeature {
     TRACE_ALL_FEATURES = (1 << 5) - 1,
 } TraceFeature;
 
-// A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below. A part's index is followed
-// by the side of it that was met, in PART_SIDE_BITS.
+// A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below. A part's index is
+// followed by the side of it that was met, in PART_SIDE_BITS.
 typedef uint32_t ShapeId;
 enum { SHAPE_INDEX_BITS = 30, PART_SIDE_BITS = 3 };
 typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_ELLIPSOID, SHAPE_PLANE, SHAPE_PART } ShapeKind;
@@ -52,7 +52,8 @@ static inline uint32_t shape_index(ShapeId id)
     return id & ((1u << SHAPE_INDEX_BITS) - 1);
 }
 
-// Where a ray starts: free in space (SHAPE_NONE), or on a shape, leaving to its outer side or into it; and what it is for.
+// Where a ray starts: free in space (SHAPE_NONE), or on a shape, leaving to its outer side or into it; and what it is
+// for.
 typedef struct RayStart {
     ShapeId shape;
     bool inward;

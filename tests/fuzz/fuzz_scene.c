@@ -1,7 +1,9 @@
-// Fuzzing through the public interface: any bytes are a scene that must end in a picture or a message, never in a crash.
+// Fuzzing through the public interface: any bytes are a scene that must end in a picture or a message, never in a
+// crash.
 //
 // LLVMFuzzerTestOneInput is what libFuzzer calls (clang -fsanitize=fuzzer,address -DFUZZER …). Without it, main replays
-// files given as arguments, each as it is, cut short, and with bytes changed by a fixed sequence: the replay in `make check`.
+// files given as arguments, each as it is, cut short, and with bytes changed by a fixed sequence: the replay in `make
+// check`.
 //
 // SPDX-License-Identifier: MIT
 #include <stdint.h>

@@ -1,8 +1,8 @@
-// For tests/system/check_instructions.py: the vector loop over blocks of spheres as the tracer has it, and the same loop with
-// the textbook's test, so that callgrind can count the instructions of each.
+// For tests/system/check_instructions.py: the vector loop over blocks of spheres as the tracer has it, and the same
+// loop with the textbook's test, so that callgrind can count the instructions of each.
 //
-// The tracer's file itself is compiled in here, for one instruction set. Prints how many spheres each loop says are met, and how
-// many tests doubles alone could not decide.
+// The tracer's file itself is compiled in here, for one instruction set. Prints how many spheres each loop says are
+// met, and how many tests doubles alone could not decide.
 //
 // SPDX-License-Identifier: MIT
 #define SPHERE_KERNELS counted

@@ -1,5 +1,6 @@
 // For tests/system/check_instructions.py: a loop over spheres with the textbook's test, and the same with ours, so that
-// callgrind can count the instructions of each. Prints how many rays hit, and how many tests doubles alone could not decide.
+// callgrind can count the instructions of each. Prints how many rays hit, and how many tests doubles alone could not
+// decide.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -1,4 +1,5 @@
-// Random numbers for the unit tests, and their seed: a new one each run, so that no constant can be fitted to the cases.
+// Random numbers for the unit tests, and their seed: a new one each run, so that no constant can be fitted to the
+// cases.
 //
 // SPDX-License-Identifier: MIT
 #ifndef UNIT_RANDOM_H
@@ -11,8 +12,8 @@
 
 #include "math/random.h"
 
-// The seed in `text`, else in the environment's RTLANG_SEED, else one from the clock. It is printed, so that a run can be
-// repeated.
+// The seed in `text`, else in the environment's RTLANG_SEED, else one from the clock. It is printed, so that a run can
+// be repeated.
 __attribute__((unused)) static uint64_t random_seed(const char *text)
 {
     struct timespec now;

@@ -1,5 +1,5 @@
-// Surfaces of different shapes that coincide: the one that was declared first is seen and the other might as well not be
-// there, whatever the two shapes are and however each of them is rounded.
+// Surfaces of different shapes that coincide: the one that was declared first is seen and the other might as well not
+// be there, whatever the two shapes are and however each of them is rounded.
 //
 // Shapes with a surface in common are put elsewhere by a random turn and move, two at a time and in both orders. The
 // picture of the first and the second, with lights and mirrors, has to be the first one's alone, bit for bit.

@@ -33,8 +33,9 @@ static double flip_of(const Image *a, const Image *b)
 }
 
 // Where all is of one colour nothing is blurred and there are no edges: what is left is the difference of two colours.
-// Between black and white L* differs by 100, and 100^0.7 = 25.119. Green and blue are 203.27 apart, so that the greatest
-// difference is 203.27^0.7 = 41.275 and the knee is at 16.510: 0.95 + 0.05 (25.119 - 16.510) / (41.275 - 16.510).
+// Between black and white L* differs by 100, and 100^0.7 = 25.119. Green and blue are 203.27 apart, so that the
+// greatest difference is 203.27^0.7 = 41.275 and the knee is at 16.510: 0.95 + 0.05 (25.119 - 16.510) / (41.275 -
+// 16.510).
 static void test_plain(void)
 {
     static const struct {

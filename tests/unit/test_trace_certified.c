@@ -195,8 +195,8 @@ static void test_family(const SphereFamily *family, int cases, uint64_t seed, Ex
 
 // ---- near ties
 
-// A sphere, one within it that is smaller by the gap and a quarter of that aside, and a ray that comes from some hundred
-// radii away or from near by.
+// A sphere, one within it that is smaller by the gap and a quarter of that aside, and a ray that comes from some
+// hundred radii away or from near by.
 static void shell_case(Random *random, double gap, SphereCase out[2])
 {
     Vec3 centre = vec3_scale(random_between(random, 0.0, 2.0), random_direction(random));

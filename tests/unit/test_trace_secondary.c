@@ -1,7 +1,7 @@
 // Secondary rays: they neither meet what they leave nor miss what they touch, at any scale.
 //
-// Usage: test_trace_secondary [cases a scale [seed]]; 100 000 if nothing is said, a million in `make check-long`, with a new
-// seed each time (unit/random.h).
+// Usage: test_trace_secondary [cases a scale [seed]]; 100 000 if nothing is said, a million in `make check-long`, with
+// a new seed each time (unit/random.h).
 //
 // SPDX-License-Identifier: MIT
 #include <float.h>

@@ -1,5 +1,6 @@
-// Boxes, cones, discs, triangles and composites: hits lie on the surfaces, the tree finds what testing each shape finds,
-// rays that leave a shape meet what they must, composites are what their members' insides say, scale changes no bit.
+// Boxes, cones, discs, triangles and composites: hits lie on the surfaces, the tree finds what testing each shape
+// finds, rays that leave a shape meet what they must, composites are what their members' insides say, scale changes no
+// bit.
 //
 // SPDX-License-Identifier: MIT
 #include <float.h>
@@ -302,7 +303,8 @@ static void test_composites(void)
            lines);
 }
 
-// Two boxes with faces on one plane, under a turn that is rounded differently for each: the one taken away leaves no film.
+// Two boxes with faces on one plane, under a turn that is rounded differently for each: the one taken away leaves no
+// film.
 static void test_coincident(void)
 {
     Random random = {5};

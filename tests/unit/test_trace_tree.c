@@ -283,8 +283,8 @@ static void test_kernels(size_t family)
     scene_fini(&scene);
 }
 
-// Tiles of rays from one point, narrow, wide, across an axis, with rays given twice, near and far: the same hits as ray by
-// ray.
+// Tiles of rays from one point, narrow, wide, across an axis, with rays given twice, near and far: the same hits as ray
+// by ray.
 static void test_tiles(size_t family, int count)
 {
     Random random = {family + 120};
