@@ -123,7 +123,8 @@ static double time_closest(const Geometry *g, const RaySet *set, size_t *hits)
     *hits = 0;
     for (size_t i = 0; i < set->count; i++) {
         Hit hit;
-        *hits += geometry_closest(g, TRACE_SPHERES | TRACE_SPHERE_BVH, set->rays[i], set->starts[i], set->ends[i], &hit);
+        *hits +=
+            geometry_closest(g, TRACE_SPHERES | TRACE_SPHERE_BVH, set->rays[i], set->starts[i], set->ends[i], &hit);
     }
     return now() - start;
 }
@@ -335,8 +336,8 @@ static void report(Bench *b, uint32_t count)
         if (ours > 0) {
             printf(", \"%s\": {\"ours\": %.2f", measure_names[m], 1e-6 * work[m] / ours);
             if (embree > 0) {
-                printf(", \"embree\": %.2f, \"ratio\": %.2f, \"hits\": [%zu, %zu]", 1e-6 * work[m] / embree, embree / ours,
-                       b->hits[OURS][m], b->hits[EMBREE][m]);
+                printf(", \"embree\": %.2f, \"ratio\": %.2f, \"hits\": [%zu, %zu]", 1e-6 * work[m] / embree,
+                       embree / ours, b->hits[OURS][m], b->hits[EMBREE][m]);
             }
             putchar('}');
         }

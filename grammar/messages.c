@@ -441,7 +441,8 @@ static bool cuts_branch(GrammarState *state)
     DirectiveRole role = grammar_role(state->current.kind);
     const Opener *opener = grammar_innermost(state);
     bool is_item = grammar_is_directive(state->previous.kind); // what is wrong is the directive itself
-    bool is_inside = !is_item && opener != NULL && (grammar_is_directive(opener->kind) || outer_opener(state, true) != NULL);
+    bool is_inside =
+        !is_item && opener != NULL && (grammar_is_directive(opener->kind) || outer_opener(state, true) != NULL);
     return is_inside && (role == ROLE_MIDDLE || role == ROLE_ELSE || role == ROLE_END);
 }
 

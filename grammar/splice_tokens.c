@@ -247,7 +247,8 @@ AstNode *grammar_fold(GrammarState *state, AstNode *node)
     if (RT_LIKELY(state->stream == NULL)) {
         return mark_pastes(node);
     }
-    if (!is_matrix(node) && !is_in_function(state) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->stream->failed) {
+    if (!is_matrix(node) && !is_in_function(state) && !(node->flags & AST_KNOWN) && !state->builder.failed &&
+        !state->stream->failed) {
         state->stream->hooks->fold(state->stream->hooks->client, node);
         state->stream->failed = state->stream->hooks->is_stopped(state->stream->hooks->client);
     }

@@ -91,8 +91,9 @@ static bool make_palette(Picture *picture, const PictureFile *file, const Way *w
     picture->palette = calloc(PICTURE_PALETTE, sizeof *picture->palette);
     for (int i = 0; picture->palette && i < file->palette_count; i++) {
         const uint8_t *codes = file->palette[i];
-        picture->palette[i] = (PictureColour){(float)way_go(way, codes[0] / 255.0), (float)way_go(way, codes[1] / 255.0),
-                                              (float)way_go(way, codes[2] / 255.0), 0.0F, 1.0F - (float)codes[3] / 255.0F};
+        picture->palette[i] =
+            (PictureColour){(float)way_go(way, codes[0] / 255.0), (float)way_go(way, codes[1] / 255.0),
+                            (float)way_go(way, codes[2] / 255.0), 0.0F, 1.0F - (float)codes[3] / 255.0F};
     }
     return picture->palette != NULL;
 }
@@ -171,7 +172,8 @@ static bool picture_take(Picture *picture, const PictureSource *source, PictureF
         convert_floats(picture, &way);
         return true;
     }
-    return make_table(picture, &way, source->format == PICTURE_PNG && file->channels == 1 && file->depth == IMAGE_DEPTH_8);
+    return make_table(picture, &way,
+                      source->format == PICTURE_PNG && file->channels == 1 && file->depth == IMAGE_DEPTH_8);
 }
 
 // ---- reading
@@ -180,12 +182,14 @@ static bool picture_take(Picture *picture, const PictureSource *source, PictureF
 static const char *form_trouble(const PictureSource *source, const PictureFile *file)
 {
     if (source->format == PICTURE_TIFF && (file->bits != 8 || file->channels % 2 == 0)) {
-        return "it is a TIFF file of other than 8 bits or with alpha, of which POV-Ray reads 8 bits, multiplied with alpha";
+        return "it is a TIFF file of other than 8 bits or with alpha, of which POV-Ray reads 8 bits, multiplied with "
+               "alpha";
     }
     if (source->format == PICTURE_PNG && file->has_key && file->channels == 1 && file->depth == IMAGE_DEPTH_8) {
         return "it is a grey PNG file with a transparent grey, which ends POV-Ray";
     }
-    if ((source->format == PICTURE_PPM && file->channels != 3) || (source->format == PICTURE_PGM && file->channels != 1)) {
+    if ((source->format == PICTURE_PPM && file->channels != 3) ||
+        (source->format == PICTURE_PGM && file->channels != 1)) {
         return "it has another number of colours than its type";
     }
     return NULL;
@@ -215,8 +219,8 @@ static void report_status(rt_session *session, const Picture *picture, const Pic
     case IMAGE_OK: break;
     case IMAGE_NO_MEMORY: diag_report(diags, DIAG_E0602, picture->span, "out of memory reading `%s`", path); break;
     case IMAGE_NO_MODULE:
-        diag_report(diags, DIAG_E0507, picture->span, "reading `%s` needs OpenImageIO, which cannot be loaded%s%s", path,
-                    colon, detail);
+        diag_report(diags, DIAG_E0507, picture->span, "reading `%s` needs OpenImageIO, which cannot be loaded%s%s",
+                    path, colon, detail);
         break;
     case IMAGE_TOO_LARGE: report_too_large(session, picture, path, file); break;
     case IMAGE_IO: diag_report(diags, DIAG_E0502, picture->span, "cannot read `%s`%s%s", path, colon, detail); break;
@@ -268,8 +272,8 @@ static bool check_shades(rt_session *session, const ImageMap *map)
         }
         const char *path = scene->picture_sources.items[map->picture].path;
         if (picture->places > 0) {
-            diag_report(&session->diags, DIAG_E0512, span, "the palette of `%s` has places from 0 to %lu, not %lu", path,
-                        (unsigned long)picture->places - 1, (unsigned long)shade->place);
+            diag_report(&session->diags, DIAG_E0512, span, "the palette of `%s` has places from 0 to %lu, not %lu",
+                        path, (unsigned long)picture->places - 1, (unsigned long)shade->place);
         } else if (diag_report(&session->diags, DIAG_E0512, span, "`%s` has no palette to name a place of", path)) {
             diag_suggest(&session->diags, "`all` in the number's stead makes the whole picture transparent");
         }

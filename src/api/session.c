@@ -415,7 +415,8 @@ static rt_status session_ways_fit(rt_session *session)
     }
     bool is_plain = session->precision == RT_PRECISION_DOUBLE && session->method == RT_METHOD_BACKWARD;
     if (session->antialias.method != 0 && (session->is_sampled || !is_plain || session->crop.width)) {
-        return rt_report(session, "E0703", "`--antialias` is for whole pictures of the ordinary kernels without sampling",
+        return rt_report(session, "E0703",
+                         "`--antialias` is for whole pictures of the ordinary kernels without sampling",
                          "leave out `--samples` and goals, `--precision`, `--method` and `--crop`");
     }
     return RT_OK;

@@ -195,7 +195,8 @@ rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling)
 rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias)
 {
     enum { DEPTH_DEFAULT = 3, DEPTH_MOST = 9 };
-    AntialiasOptions options = {.method = antialias->method, .depth = antialias->depth ? antialias->depth : DEPTH_DEFAULT,
+    AntialiasOptions options = {.method = antialias->method,
+                                .depth = antialias->depth ? antialias->depth : DEPTH_DEFAULT,
                                 .threshold = antialias->threshold,
                                 .gamma = antialias->gamma != 0.0 ? antialias->gamma : 2.5};
     if (options.method < 0 || options.method > 2 || options.depth < 1 || options.depth > DEPTH_MOST ||

@@ -298,8 +298,8 @@ static bool report_print_page(const Check *check, const char *path)
         return false;
     }
     snprintf(bar, sizeof bar,
-             "A scene of %d x %d pixels agrees when at most %g %% of them differ by more than %g/65535.", options->width,
-             options->height, 100.0 * options->ties, report_steps(options->threshold));
+             "A scene of %d x %d pixels agrees when at most %g %% of them differ by more than %g/65535.",
+             options->width, options->height, 100.0 * options->ties, report_steps(options->threshold));
     fine = scenes_report_print(check->report, page, bar);
     return report_page_close(page) && fine;
 }

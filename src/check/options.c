@@ -169,10 +169,13 @@ static const OptionRow rows[] = {
     {0, "report", "FOLDER", apply_report, "a folder", "write index.html there, with all pictures in it"},
     {0, "stability", NULL, apply_stability, "",
      "measure how numbers hold up: formulas, stiff scenes, and the scenes put elsewhere"},
-    {0, "cases", "N", apply_cases, "a whole number from 1 to 1000000000", "with --stability: cases of each family (default 20000)"},
-    {0, "seed", "N", apply_seed, "a whole number from 0 to 1000000000", "with --stability: other random cases (default 0)"},
+    {0, "cases", "N", apply_cases, "a whole number from 1 to 1000000000",
+     "with --stability: cases of each family (default 20000)"},
+    {0, "seed", "N", apply_seed, "a whole number from 0 to 1000000000",
+     "with --stability: other random cases (default 0)"},
     {0, "json", NULL, apply_json, "", "print one JSON object a scene; with --report also results.json"},
-    {0, "study", NULL, apply_study, "", "error against time instead: ladders of samples, and POV-Ray's own anti-aliasing"},
+    {0, "study", NULL, apply_study, "",
+     "error against time instead: ladders of samples, and POV-Ray's own anti-aliasing"},
     {0, "most", "N", apply_most, "a whole number from 64 to 65536",
      "with --study: samples a pixel at the top of a ladder (default 256); the reference has 16 times as many"},
     {'V', "version", NULL, NULL, "", "print the version and stop"},
@@ -265,7 +268,13 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     char short_options[SHORT_ROOM];
     int val;
 
-    *options = (Options){.width = 320, .height = 240, .threshold = 2.0 / 65535.0, .ties = 1e-4, .povray = "povray", .cases = 20000, .most_samples = 256};
+    *options = (Options){.width = 320,
+                         .height = 240,
+                         .threshold = 2.0 / 65535.0,
+                         .ties = 1e-4,
+                         .povray = "povray",
+                         .cases = 20000,
+                         .most_samples = 256};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
     if (options->include_paths == NULL) {
         return complain("out of memory", "");

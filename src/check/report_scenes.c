@@ -169,8 +169,8 @@ static bool pictures_print(ScenesReport *report, const Image *ours, const Image 
     bool fine;
 
     fputs("<div class=\"pictures\">\n", report->out);
-    fine = figure_print(report, ours, &for_screens, "rtlang") && figure_print(report, theirs, &for_screens, "POV-Ray") &&
-           differences_print(report, ours, theirs, &histogram);
+    fine = figure_print(report, ours, &for_screens, "rtlang") &&
+           figure_print(report, theirs, &for_screens, "POV-Ray") && differences_print(report, ours, theirs, &histogram);
     fputs("</div>\n<output class=\"probe\"></output>\n", report->out);
     histogram_print(report->out, &histogram);
     for (int i = 0; i < HISTOGRAM_BINS; i++) {

@@ -193,7 +193,8 @@ static void put_shells(const Stability *stability, FILE *out)
     tail(out);
     fprintf(out,
             "<h3>Total reflection near its threshold</h3>\n<p>Of %" PRIu64 " cases %" PRIu64
-            " of the wrong class, all with |k| &le; %.2g u of 4.3 u; the bent ray's cosine is off by at most %.2g u of 4.8 u "
+            " of the wrong class, all with |k| &le; %.2g u of 4.3 u; the bent ray's cosine is off by at most %.2g u of "
+            "4.8 u "
             "over cos<sup>2</sup>.</p>\n",
             total->cases, total->wrong, total->greatest_wrong, total->cosine_error);
 }

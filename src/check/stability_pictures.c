@@ -29,10 +29,10 @@ static const StudyScene stiff[STIFF_SCENES] = {
      HEAD "camera { location <0, 1, 0> look_at <0, 0.9, 5> }\nlight_source { <1e9, 1e9, -1e9>, 1 }\n"
           "sphere { <0, -6371000, 0>, 6371000 pigment { rgb <0.3, 0.5, 0.3> } }\n"
           "sphere { <0, 0.5, 6>, 0.5 pigment { rgb <0.9, 0.5, 0.3> } }\n"},
-    {"pea at 1e9 radii",
-     HEAD "camera { location <0, 0, -1e9> direction 3e8 * z right 4/3 * x up y look_at 0 }\nlight_source { <5, 9, -9>, 1 }\n"
-          "sphere { 0, 1 pigment { rgb <0.4, 0.9, 0.3> } }\nsphere { <0.7, 0.6, -0.8>, 0.2 pigment { rgb <0.9, 0.4, "
-          "0.3> } }\n"},
+    {"pea at 1e9 radii", HEAD
+     "camera { location <0, 0, -1e9> direction 3e8 * z right 4/3 * x up y look_at 0 }\nlight_source { <5, 9, -9>, 1 }\n"
+     "sphere { 0, 1 pigment { rgb <0.4, 0.9, 0.3> } }\nsphere { <0.7, 0.6, -0.8>, 0.2 pigment { rgb <0.9, 0.4, "
+     "0.3> } }\n"},
     {"grazing light",
      HEAD "camera { location <0, 3, -6> look_at 0 }\nlight_source { <1e6, 1.0001, 0>, 1 parallel point_at <0, 1, 0> }\n"
           "plane { y, 0 pigment { rgb 0.8 } }\nsphere { <0, 1, 0>, 1 pigment { rgb <0.9, 0.4, 0.3> } }\n"

@@ -446,8 +446,10 @@ bool study_run(Study *study, const char *scene, const StudySettings *settings)
     rt_sampling sampling = {.sampler = "halton", .samples = REFERENCE_TIMES * settings->most_samples, .seed = 1};
     Run reference = {.method = RT_METHOD_BACKWARD};
 
-    *study = (Study){
-        .scene = scene, .width = settings->width, .height = settings->height, .reference_samples = REFERENCE_TIMES * settings->most_samples};
+    *study = (Study){.scene = scene,
+                     .width = settings->width,
+                     .height = settings->height,
+                     .reference_samples = REFERENCE_TIMES * settings->most_samples};
     rtlang_render(scene, settings, &sampling, RT_PRECISION_DOUBLE, 0, &reference);
     if (reference.status != RT_OK) {
         snprintf(study->fault, sizeof study->fault, "%s", reference.fault);

@@ -292,9 +292,10 @@ static void section_ratios(const Study *study, FILE *out)
                 r->povray->setting, r->povray->rmse, r->povray->seconds, r->seconds, r->is_extrapolated ? " *" : "",
                 r->povray->seconds / r->seconds, r->rmse, r->povray->rmse / r->rmse, r->is_best ? "best" : "");
     }
-    fputs("</tbody></table>\n<p>* beyond rtlang's ladder, on the line through its nearest points. Best: no other setting "
-          "of POV-Ray is both faster and nearer.</p>\n",
-          out);
+    fputs(
+        "</tbody></table>\n<p>* beyond rtlang's ladder, on the line through its nearest points. Best: no other setting "
+        "of POV-Ray is both faster and nearer.</p>\n",
+        out);
     print_best(ratios, count, out, "<p>", "</p>");
 }
 
@@ -317,8 +318,8 @@ void study_print_section(const Study *study, ReportPage *page, int number)
 
 static void print_total(const StudyTotal *total, FILE *out)
 {
-    fprintf(out, "over %d scenes POV-Ray takes %.1f times as long as rtlang to equal error, geometric mean", total->scenes,
-            exp(total->logarithms / total->scenes));
+    fprintf(out, "over %d scenes POV-Ray takes %.1f times as long as rtlang to equal error, geometric mean",
+            total->scenes, exp(total->logarithms / total->scenes));
 }
 
 void study_print_total(const StudyTotal *total, FILE *out)

@@ -321,9 +321,10 @@ static rt_status finish(rt_session *session, const Options *options, const char 
         status = rt_write_error(session, options->error_map);
     }
     if (status == RT_FAULT_USAGE) {
-        return fail_usage(session, options->encoding.error_channel
-                                       ? "`--error-channel` wants a sampled picture: `--samples` of 2 or more, or a goal"
-                                       : "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
+        return fail_usage(session,
+                          options->encoding.error_channel
+                              ? "`--error-channel` wants a sampled picture: `--samples` of 2 or more, or a goal"
+                              : "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
     }
     if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
         print_summary(session, output);

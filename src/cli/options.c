@@ -199,8 +199,8 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     options->scene = argv[optind];
     if (options->action == ACTION_TRACE_PIXEL &&
         (options->pixel_x >= options->width || options->pixel_y >= options->height)) {
-        return complain(options, "pixel %d,%d is not in a picture of %d x %d pixels", options->pixel_x, options->pixel_y,
-                        options->width, options->height);
+        return complain(options, "pixel %d,%d is not in a picture of %d x %d pixels", options->pixel_x,
+                        options->pixel_y, options->width, options->height);
     }
     return OPTIONS_GO;
 }

@@ -11,7 +11,8 @@
 // Objects are of one type, whatever their shapes; of what is not supported nobody knows.
 static bool same_block(const Value *one, const Value *other)
 {
-    bool are_objects = schema_kind((SchemaKind)one->block)->is_object && schema_kind((SchemaKind)other->block)->is_object;
+    bool are_objects =
+        schema_kind((SchemaKind)one->block)->is_object && schema_kind((SchemaKind)other->block)->is_object;
     return one->block == other->block || are_objects || one->block == KIND_UNSUPPORTED ||
            other->block == KIND_UNSUPPORTED;
 }
@@ -46,7 +47,8 @@ bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *valu
 bool initialiser_fault(Eval *ev, Span span)
 {
     ev->faulty = true;
-    if (eval_report(ev, DIAG_E0223, span, "no directive and no macro call can stand here, in the elements of an array")) {
+    if (eval_report(ev, DIAG_E0223, span,
+                    "no directive and no macro call can stand here, in the elements of an array")) {
         diag_suggest(ev->options.diags, "put it into parentheses if it is part of a number or vector, or declare the "
                                         "element before the array");
     }

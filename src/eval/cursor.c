@@ -193,7 +193,8 @@ static void check_pasted_sign(Cursor *cursor, const AstNode *item)
         }
         bool is_sign = first->kind == AST_UNARY && first->op != AST_OP_NOT && !(first->flags & AST_IN_PARENTHESES);
         if (is_sign) {
-            eval_fault(cursor->ev, DIAG_E0110, item->span, "this text of a macro goes on with the value before the call");
+            eval_fault(cursor->ev, DIAG_E0110, item->span,
+                       "this text of a macro goes on with the value before the call");
         }
     }
     cursor->at_call = false;

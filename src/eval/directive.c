@@ -16,7 +16,8 @@ typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 static bool is_ended_by_call(const Eval *ev, const AstNode *node)
 {
     const Value *found = node->kind == AST_CALL ? scope_find(ev, node->symbol) : NULL;
-    const AstNode *last = found != NULL && found->kind == VALUE_MACRO && !found->macro->is_torn ? found->macro->body->b : NULL;
+    const AstNode *last =
+        found != NULL && found->kind == VALUE_MACRO && !found->macro->is_torn ? found->macro->body->b : NULL;
     while (last != NULL && last->next != NULL) {
         last = last->next;
     }

@@ -239,7 +239,8 @@ static Extent common_extent(const UnionBlueprint *group, bool is_difference)
 {
     double least[3] = {-boundless, -boundless, -boundless}, greatest[3] = {boundless, boundless, boundless};
     for (const UnionMember *member = group->members; member != NULL; member = member->next) {
-        bool is_inverse = ((const ObjectPart *)member->object)->is_inverse != (is_difference && member != group->members);
+        bool is_inverse =
+            ((const ObjectPart *)member->object)->is_inverse != (is_difference && member != group->members);
         if (member->kind == KIND_PLANE) {
             plane_narrows(member->object, is_inverse, least, greatest);
         } else if (!is_inverse) {

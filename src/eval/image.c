@@ -124,7 +124,8 @@ static bool type_action(Block *block, const SchemaProperty *property)
 // ---- how it is laid
 
 // A number that is cut towards zero and must be in a list that a negative one ends.
-static bool read_choice(Block *block, const char *word, Span span, const int *choices, const char *text, uint32_t *chosen)
+static bool read_choice(Block *block, const char *word, Span span, const int *choices, const char *text,
+                        uint32_t *chosen)
 {
     double number;
     const AstNode *item = cursor_peek(&block->cursor);
@@ -175,7 +176,8 @@ static bool shade_action(Block *block, const SchemaProperty *property, Span word
     } else {
         shade.place = (uint32_t)place;
     }
-    if (!cursor_number(&block->cursor, &shade.amount, &span) || !block_finite(block, shade.amount, span, property->word)) {
+    if (!cursor_number(&block->cursor, &shade.amount, &span) ||
+        !block_finite(block, shade.amount, span, property->word)) {
         return false;
     }
     return block->record->image.shade_count < PICTURE_PALETTE * 4

@@ -138,7 +138,10 @@ void light_transform(LightBlueprint *light, const Transform *transform)
 static LightType light_type(const LightBlueprint *light)
 {
     // The rays of a parallel spotlight are all as on its axis.
-    return light->cylinder ? LIGHT_CYLINDER : light->parallel ? LIGHT_PARALLEL : light->spotlight ? LIGHT_SPOT : LIGHT_POINT;
+    return light->cylinder    ? LIGHT_CYLINDER
+           : light->parallel  ? LIGHT_PARALLEL
+           : light->spotlight ? LIGHT_SPOT
+                              : LIGHT_POINT;
 }
 
 bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer)

@@ -63,8 +63,9 @@ static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigmen
     PatternedPigment record = {.pattern = part->pattern, .entries = RECORD_NONE};
     if (!place_pattern(builder, &part->transform, outer, &record.to_world) ||
         (is_picture && !image_place(builder->ev, part->image, &record.pattern.image)) ||
-        (!is_picture && !add_pigment_entries(builder, part->map ? part->map : pattern_default_map((PatternType)part->pattern.type),
-                                             &record.entries))) {
+        (!is_picture &&
+         !add_pigment_entries(builder, part->map ? part->map : pattern_default_map((PatternType)part->pattern.type),
+                              &record.entries))) {
         return false;
     }
     *out = (Pigment){.pattern = 0};
@@ -248,9 +249,9 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
     }
     unsigned unused;
     *ways = layers_ways(texture);
-    if (!layers_have_patterns(builder->ev, texture) || !add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
-        (has_bumps(texture) &&
-         !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
+    if (!layers_have_patterns(builder->ev, texture) ||
+        !add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
+        (has_bumps(texture) && !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
         (texture->below && !hides_all(texture) &&
          !add_texture(builder, texture->below, &moved, &record.below, &unused))) {
         return false;

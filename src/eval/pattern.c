@@ -313,7 +313,8 @@ static bool check_count(Block *block, const Pattern *pattern, Span span)
     bool has_steps = pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA;
     if (has_steps && (pattern->count < 1 || pattern->count > PATTERN_STEPS_MOST)) {
         return block_fault(block, DIAG_E0342, span, "`%s` takes 1 to %d steps, not %d",
-                           pattern_info((PatternType)pattern->type)->word, (int)PATTERN_STEPS_MOST, (int)pattern->count);
+                           pattern_info((PatternType)pattern->type)->word, (int)PATTERN_STEPS_MOST,
+                           (int)pattern->count);
     }
     return true;
 }
@@ -350,8 +351,8 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     PatternType type = type_of(property->word);
     const PatternInfo *before = pattern_info((PatternType)pattern->type), *info = pattern_info(type);
     if (block->items > 1 || block->arguments > 0) {
-        return block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s", property->word,
-                           block_word(block));
+        return block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s",
+                           property->word, block_word(block));
     }
     // A list of blocks is no map along values, nor the other way round; but a list of normals becomes one. Measured.
     if (block->kind == KIND_NORMAL ? info->blocks != 0 : before->blocks != 0) {

@@ -55,8 +55,8 @@ static bool append_number(Eval *ev, Span span, TextBuffer *out, double number, i
     int length = width < 0 ? snprintf(text, sizeof text, "%0*.*f", -width, precision, number)
                            : snprintf(text, sizeof text, "%*.*f", width, precision, number);
     if (length > FORMAT_MAX) {
-        return eval_fault(ev, DIAG_E0304, span, "this number takes %d characters, and at most %d can be written", length,
-                          FORMAT_MAX);
+        return eval_fault(ev, DIAG_E0304, span, "this number takes %d characters, and at most %d can be written",
+                          length, FORMAT_MAX);
     }
     use_point(text);
     text_append(out, text);

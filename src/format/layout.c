@@ -213,8 +213,8 @@ static void pop_group(Layout *layout, size_t group)
         return;
     }
     size_t kept = group;
-    for (unsigned i = layout->frames.items[group].closes; i > 0 && layout->frames.items[kept - 1].role == PIECE_OPENS_BLOCK;
-         i--) {
+    for (unsigned i = layout->frames.items[group].closes;
+         i > 0 && layout->frames.items[kept - 1].role == PIECE_OPENS_BLOCK; i--) {
         kept--;
     }
     for (size_t i = group + 1; i < layout->frames.count; i++) {

@@ -207,7 +207,8 @@ static void mix(const PreparedImage *image, int column, int row, const double *a
 }
 
 // Each of the four pixels weighs as much as its distance's square is small.
-static void mix_by_distance(const PreparedImage *image, int column, int row, double x, double y, double sum[static PARTS])
+static void mix_by_distance(const PreparedImage *image, int column, int row, double x, double y,
+                            double sum[static PARTS])
 {
     double weights = 0.0;
     for (int j = 0; j < 2; j++) {

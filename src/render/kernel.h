@@ -48,8 +48,8 @@ typedef struct Kernel {
     unsigned features;
     // The light of those of KERNEL_RAYS camera rays whose bit is set in `wanted`; the others have places, too.
     // `streams` are what each draws numbers from, or NULL: then area lights are the scene's grids. Counts are added.
-    void (*trace)(const Prepared *prepared, const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
-                  RenderStatistics *statistics);
+    void (*trace)(const Prepared *prepared, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
+                  Rgb *light, RenderStatistics *statistics);
 } Kernel;
 
 // The kernel with the fewest features that has all of these; the last one has all there are.

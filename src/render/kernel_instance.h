@@ -13,7 +13,8 @@
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
 
 // Returns the places at which the camera sees anything, a bit for each.
-RT_ALWAYS_INLINE uint64_t places_closest(const Prepared *p, unsigned features, const KernelPlaces *places, Ray *rays, Hit *hits)
+RT_ALWAYS_INLINE uint64_t places_closest(const Prepared *p, unsigned features, const KernelPlaces *places, Ray *rays,
+                                         Hit *hits)
 {
     const PreparedCamera *camera = &p->camera;
     if (camera->type == CAMERA_PERSPECTIVE && !places->lens) {

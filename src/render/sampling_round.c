@@ -75,10 +75,11 @@ static void pixel_add(const Round *round, Batch *batch, int x, int y, uint32_t c
 {
     const Film *film = round->film;
     uint32_t before = film->records[(size_t)y * (size_t)film->width + (size_t)x].count;
-    SampleStream stream = {.kind = round->sampling->sampler,
-                           .seed = sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
-                           .first = before,
-                           .count = count};
+    SampleStream stream = {
+        .kind = round->sampling->sampler,
+        .seed = sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
+        .first = before,
+        .count = count};
     for (uint32_t i = 0; i < count; i++) {
         stream.index = before + i;
         batch_add(round, batch, x, y, stream, &halves->sum[i >= (count + 1) / 2]);

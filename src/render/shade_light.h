@@ -193,7 +193,8 @@ RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigm
     const double k = 1.12;
     const double at_normal = 1.0 / (k * k), at_grazing = 1.0 / ((1.0 - k) * (1.0 - k));
     bool is_bumpy = features & RENDER_NORMALS;
-    double x = acos(is_bumpy ? fmax(fmin(cosine, 1.0), -1.0) : fmin(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
+    double x =
+        acos(is_bumpy ? fmax(fmin(cosine, 1.0), -1.0) : fmin(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
     double fresnel = (1.0 / ((x - k) * (x - k)) - at_normal) / (at_grazing - at_normal);
     fresnel = is_bumpy ? fmin(fresnel, 1.0) : fresnel;
     double share = metallic * (1.0 - fresnel);

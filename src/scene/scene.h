@@ -39,7 +39,8 @@ typedef enum CameraType {
 typedef struct Camera {
     CameraType type;
     Vec3 location, direction, right, up;
-    double angle, angle_vertical; // in degrees; of a fisheye, an ultra wide angle and a spherical camera; of the last, both
+    double angle,
+        angle_vertical;    // in degrees; of a fisheye, an ultra wide angle and a spherical camera; of the last, both
     double lens_radius;    // 0: a point; else rays start on a disc around the location, across the direction …
     double focal_distance; // … and meet those of the same (u, v) at this distance, > 0
     int blur_samples;      // rays a pixel where nothing else is said; with a lens >= 1

@@ -62,7 +62,8 @@ static const SchemaProperty pattern_modifiers[] = {
     {"mandel", TYPE_ACTION, ACTION_PATTERN, .doc = "the Mandelbrot set in x and y, after so many steps"},
     {"julia", TYPE_ACTION, ACTION_PATTERN, .doc = "the Julia set of a complex number, after so many steps"},
     {"average", TYPE_ACTION, ACTION_PATTERN, .doc = "all entries of the map at once, by their weights"},
-    {"form", TYPE_VECTOR, PATTERN_AT(form), .doc = "of `crackle`: what the distances to the nearest three points count"},
+    {"form", TYPE_VECTOR, PATTERN_AT(form),
+     .doc = "of `crackle`: what the distances to the nearest three points count"},
     {"metric", TYPE_NUMBER, PATTERN_AT(metric), .range = {RANGE_FAULT, true, 0.0, INFINITY},
      .doc = "of `crackle`: exponent of the distance"},
     {"offset", TYPE_NUMBER, PATTERN_AT(offset), .doc = "of `crackle`: distance from space in a fourth dimension"},
@@ -95,7 +96,8 @@ static const SchemaProperty object_modifiers[] = {
     {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what it is filled with"},
     {"material", TYPE_BLOCK, ACTION_MATERIAL, .doc = "a texture and an interior"},
     {"clipped_by", TYPE_BLOCK, ACTION_CLIP, .doc = "`{ objects }`: only what is inside of all of them is seen"},
-    {"bounded_by", TYPE_BLOCK, ACTION_CLIP, .doc = "`{ objects }`: accepted; changes no picture of what is inside of them"},
+    {"bounded_by", TYPE_BLOCK, ACTION_CLIP,
+     .doc = "`{ objects }`: accepted; changes no picture of what is inside of them"},
     {"inverse", TYPE_ACTION, ACTION_INVERSE, .doc = "alone: inside and outside change places"},
     {"no_shadow", TYPE_FLAG, AT(ObjectPart, no_shadow), .doc = "takes no light from others"},
     {"no_image", TYPE_FLAG, AT(ObjectPart, no_image), .doc = "is not seen by the camera, nor through others"},
@@ -128,7 +130,8 @@ static const SchemaProperty camera_properties[] = {
     {"look_at", TYPE_VECTOR, AT(CameraBlueprint, look_at), GIVEN(CameraBlueprint, has_look_at),
      .doc = "a point in the middle of the picture; `direction`, `right` and `up` keep only their lengths"},
     {"angle", TYPE_ACTION, ACTION_ANGLE, AT(CameraBlueprint, angle_deg), GIVEN(CameraBlueprint, has_angle),
-     .doc = "the field of view from left to right in degrees, of a perspective camera 0 to 180; there it sets the length of `direction`"},
+     .doc = "the field of view from left to right in degrees, of a perspective camera 0 to 180; there it sets the "
+            "length of `direction`"},
     {"aperture", TYPE_NUMBER, AT(CameraBlueprint, aperture), .doc = "of the lens: four times its radius; 0 is a point"},
     {"blur_samples", TYPE_ACTION, ACTION_BLUR_SAMPLES,
      .doc = "`[least,] most`: rays a pixel through the lens, unless `--samples` says; without it there is no blur"},
@@ -177,7 +180,8 @@ static const SchemaProperty light_properties[] = {
     {"looks_like", TYPE_BLOCK, ACTION_LOOKS_LIKE,
      .doc = "an object that is seen where the light is and throws no shadow; what is said before moves it too"},
     {"media_interaction", TYPE_SWITCH, AT(LightBlueprint, is_ignored), .doc = "accepted; changes no picture"},
-    {"media_attenuation", TYPE_SWITCH, AT(LightBlueprint, is_attenuated), .doc = "not in fog; changes no picture elsewhere"},
+    {"media_attenuation", TYPE_SWITCH, AT(LightBlueprint, is_attenuated),
+     .doc = "not in fog; changes no picture elsewhere"},
     {"shadowless", TYPE_ACTION, ACTION_SHADOWLESS,
      .doc = "casts no shadows and makes no highlights; takes back `spotlight` and `cylinder`, and they it"},
 };
@@ -257,7 +261,8 @@ static const SchemaProperty smooth_triangle_arguments[] = {
     {"first normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[0]), .doc = "there; 0: not drawn"},
     {"second corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[1]), .doc = "likewise"},
     {"second normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[1]), .doc = "likewise"},
-    {"third corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[2]), .doc = "on one line with the others: not drawn"},
+    {"third corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[2]),
+     .doc = "on one line with the others: not drawn"},
     {"third normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[2]), .doc = "likewise"},
 };
 
@@ -277,7 +282,8 @@ static const SchemaProperty background_arguments[] = {
 static const BackgroundBlueprint background_defaults = {.colour = {0, 0, 0, 0, 0}};
 
 static const SchemaProperty sky_sphere_properties[] = {
-    {"pigment", TYPE_BLOCK, ACTION_SKY_LAYER, .doc = "a layer over those before it; the ray's direction, of length 1, is its point"},
+    {"pigment", TYPE_BLOCK, ACTION_SKY_LAYER,
+     .doc = "a layer over those before it; the ray's direction, of length 1, is its point"},
     {"emission", TYPE_RGB, AT(SkySphereBlueprint, emission), .doc = "multiplies the light of the layers"},
 };
 
@@ -292,8 +298,10 @@ static const SchemaProperty fog_properties[] = {
     {"fog_type", TYPE_INTEGER, AT(FogBlueprint, type), .doc = "2: it lies on the ground; else it is everywhere"},
     {"distance", TYPE_NUMBER, AT(FogBlueprint, distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "the way on which all but 1/e of the light is lost; 0: no fog"},
-    {"fog_offset", TYPE_NUMBER, AT(FogBlueprint, offset), .doc = "type 2: the height up to which it is as dense as anywhere"},
-    {"fog_alt", TYPE_NUMBER, AT(FogBlueprint, alt), .doc = "type 2: how far above that it is half as dense; more than 0"},
+    {"fog_offset", TYPE_NUMBER, AT(FogBlueprint, offset),
+     .doc = "type 2: the height up to which it is as dense as anywhere"},
+    {"fog_alt", TYPE_NUMBER, AT(FogBlueprint, alt),
+     .doc = "type 2: how far above that it is half as dense; more than 0"},
     {"up", TYPE_VECTOR, AT(FogBlueprint, up), .doc = "type 2: the direction of height, of any length but 0"},
     {"turbulence", TYPE_ACTION, ACTION_TURBULENCE, .doc = "only 0 is supported"},
     {"turb_depth", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
@@ -334,7 +342,8 @@ static const SchemaProperty texture_properties[] = {
 };
 
 static const SchemaProperty normal_arguments[] = {
-    {"amount", TYPE_NUMBER, AT(NormalBlueprint, amount), .is_optional = true, .doc = "how deep: stands after the pattern"},
+    {"amount", TYPE_NUMBER, AT(NormalBlueprint, amount), .is_optional = true,
+     .doc = "how deep: stands after the pattern"},
 };
 
 static const SchemaProperty normal_properties[] = {
@@ -374,8 +383,10 @@ static const SchemaProperty image_properties[] = {
     FILE_TYPE("tiff", "of a TIFF file of 8 bits without alpha"),
     FILE_TYPE("exr", "of an OpenEXR file"),
     FILE_TYPE("hdr", "of a Radiance file"),
-    {"gamma", TYPE_ACTION, ACTION_IMAGE, .doc = "right after the name: how the values are encoded, a number above 0 or `srgb`"},
-    {"premultiplied", TYPE_ACTION, ACTION_IMAGE, .doc = "right after the name: whether colours are multiplied with alpha"},
+    {"gamma", TYPE_ACTION, ACTION_IMAGE,
+     .doc = "right after the name: how the values are encoded, a number above 0 or `srgb`"},
+    {"premultiplied", TYPE_ACTION, ACTION_IMAGE,
+     .doc = "right after the name: whether colours are multiplied with alpha"},
     {"map_type", TYPE_ACTION, ACTION_IMAGE, .doc = "0 plane, 1 sphere, 2 cylinder, 5 torus"},
     {"interpolate", TYPE_ACTION, ACTION_IMAGE, .doc = "2 bilinear, 3 bicubic, 4 by distance"},
     {"once", TYPE_FLAG, AT(ImageBlueprint, is_once), .doc = "transparent beyond the picture, which is else repeated"},
@@ -455,7 +466,8 @@ static const TextureBlueprint texture_defaults = {
 static const SchemaProperty interior_properties[] = {
     {"ior", TYPE_NUMBER, AT(InteriorBlueprint, interior.ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "index of refraction; 0 is 1"},
-    {"fade_distance", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_distance), .doc = "the way that halves the light; 0: none is lost"},
+    {"fade_distance", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_distance),
+     .doc = "the way that halves the light; 0: none is lost"},
     {"fade_power", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_power),
      .doc = "1 / (1 + (way / distance) ^ power); from 1000 on exp(-way / distance)"},
     {"fade_color", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "what the light fades to"},
@@ -492,16 +504,17 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                      .is_fixed = true,
                      .groups = {LIST(camera_properties), TRANSFORMS},
                      .doc = "The order of its words does not matter; transforms come last. The last camera counts."},
-    [KIND_LIGHT_SOURCE] = {.word = "light_source",
-                           .size = sizeof(LightBlueprint),
-                           .defaults = &light_defaults,
-                           .is_object = true,
-                           .is_declarable = true,
-                           .is_fixed = true,
-                           .arguments = LIST(light_arguments),
-                           .groups = {LIST(light_properties), TRANSFORMS},
-                           .doc = "A point light, if nothing else is said. Transforms move what stands before them, but not `radius` and "
-                                  "`falloff`."},
+    [KIND_LIGHT_SOURCE] =
+        {.word = "light_source",
+         .size = sizeof(LightBlueprint),
+         .defaults = &light_defaults,
+         .is_object = true,
+         .is_declarable = true,
+         .is_fixed = true,
+         .arguments = LIST(light_arguments),
+         .groups = {LIST(light_properties), TRANSFORMS},
+         .doc = "A point light, if nothing else is said. Transforms move what stands before them, but not `radius` and "
+                "`falloff`."},
     [KIND_SPHERE] = {.word = "sphere",
                      .size = sizeof(SphereBlueprint),
                      .defaults = &sphere_defaults,
@@ -549,7 +562,8 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .is_declarable = true,
                    .arguments = LIST(disc_arguments),
                    .groups = {OBJECT_GROUPS},
-                   .doc = "Round and flat, without an inside: not for merge, intersection, difference and `clipped_by`."},
+                   .doc =
+                       "Round and flat, without an inside: not for merge, intersection, difference and `clipped_by`."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .size = sizeof(TriangleBlueprint),
                        .defaults = &triangle_defaults,
@@ -650,12 +664,13 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                      .is_declarable = true,
                      .groups = {LIST(finish_properties)},
                      .doc = "What a surface does with light."},
-    [KIND_COLOUR_MAP] = {.word = "color_map",
-                         .size = sizeof(PatternMap),
-                         .defaults = &map_defaults,
-                         .is_declarable = true,
-                         .doc = "`[value colour]` or `[value value colour colour]`, values rising from 0 to 1. Also written "
-                                "`colour_map`."},
+    [KIND_COLOUR_MAP] =
+        {.word = "color_map",
+         .size = sizeof(PatternMap),
+         .defaults = &map_defaults,
+         .is_declarable = true,
+         .doc = "`[value colour]` or `[value value colour colour]`, values rising from 0 to 1. Also written "
+                "`colour_map`."},
     [KIND_PIGMENT_MAP] = {.word = "pigment_map",
                           .size = sizeof(PatternMap),
                           .defaults = &map_defaults,
@@ -666,11 +681,12 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                           .defaults = &map_defaults,
                           .is_declarable = true,
                           .doc = "`[value texture]`, the texture being what may stand in `texture { }`."},
-    [KIND_IMAGE_MAP] = {.word = "image_map",
-                        .size = sizeof(ImageBlueprint),
-                        .defaults = &image_defaults,
-                        .groups = {LIST(image_properties)},
-                        .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name tells it."},
+    [KIND_IMAGE_MAP] =
+        {.word = "image_map",
+         .size = sizeof(ImageBlueprint),
+         .defaults = &image_defaults,
+         .groups = {LIST(image_properties)},
+         .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name tells it."},
     [KIND_NORMAL_MAP] = {.word = "normal_map",
                          .size = sizeof(PatternMap),
                          .defaults = &map_defaults,
@@ -696,16 +712,18 @@ static const SchemaBlock kinds[KIND_COUNT] = {
     [KIND_CLIPPED_BY] = {.word = "clipped_by",
                          .size = sizeof(UnionBlueprint),
                          .defaults = &union_defaults,
-                         .doc = "In an object: solids without textures, or the word `bounded_by` for what stands there."},
+                         .doc =
+                             "In an object: solids without textures, or the word `bounded_by` for what stands there."},
     [KIND_BOUNDED_BY] = {.word = "bounded_by",
                          .size = sizeof(UnionBlueprint),
                          .defaults = &union_defaults,
                          .doc = "In an object: likewise, or the word `clipped_by`."},
-    [KIND_LOOKS_LIKE] = {.word = "looks_like",
-                         .size = sizeof(UnionBlueprint),
-                         .defaults = &union_defaults,
-                         .groups = {OBJECT_GROUPS},
-                         .doc = "In a light: one object, or the name of one, put where the light is, and then how this copy differs."},
+    [KIND_LOOKS_LIKE] =
+        {.word = "looks_like",
+         .size = sizeof(UnionBlueprint),
+         .defaults = &union_defaults,
+         .groups = {OBJECT_GROUPS},
+         .doc = "In a light: one object, or the name of one, put where the light is, and then how this copy differs."},
     [KIND_REFLECTION] = {.word = "reflection",
                          .size = sizeof(FinishBlueprint),
                          .defaults = &finish_defaults,

@@ -201,7 +201,8 @@ RT_ALWAYS_INLINE void bvh_walk_push(BvhWalk *walk, unsigned bottom, uint64_t key
 }
 
 // The nearest of the children that are met; the others wait.
-RT_ALWAYS_INLINE BvhChild bvh_walk_choose(BvhWalk *walk, const BvhNode *node, unsigned met, const float enters[BVH_WIDTH])
+RT_ALWAYS_INLINE BvhChild bvh_walk_choose(BvhWalk *walk, const BvhNode *node, unsigned met,
+                                          const float enters[BVH_WIDTH])
 {
     unsigned i = (unsigned)__builtin_ctz(met);
     BvhChild child = node->child[i];

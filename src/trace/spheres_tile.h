@@ -48,7 +48,8 @@ static bool view_tile(const TileView *view, const double u[TILE_RAYS], const dou
         for (int axis = 0; axis < 3; axis++) {
             towards[axis] = begin[axis] + (doubles_load(&u[i]) * right[axis] - doubles_load(&v[i]) * up[axis]);
         }
-        Doubles shrink = 1.0 / doubles_sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
+        Doubles shrink =
+            1.0 / doubles_sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
         Doubles x = shrink * towards[0], y = shrink * towards[1], z = shrink * towards[2];
         Doubles inverse_square = 1.0 / (x * x + y * y + z * z);
         doubles_store(&tile->direction[0][i], x);

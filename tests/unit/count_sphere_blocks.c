@@ -98,7 +98,8 @@ int main(void)
         Ray ray = {vec3_scale(15, random_direction(&random)), {0, 0, 0}};
         Vec3 aim = vec3_scale(8, random_direction(&random));
         ray.direction = vec3_normalize(vec3_sub(aim, ray.origin));
-        double textbook = count_textbook(blocks, &ray, &met[0]), ours = count_certified(blocks, &ray, &met[1], &doubtful);
+        double textbook = count_textbook(blocks, &ray, &met[0]),
+               ours = count_certified(blocks, &ray, &met[1], &doubtful);
         differ += isfinite(textbook) != isfinite(ours);
     }
     printf("%d %d %d\n", met[0], met[1] + differ, doubtful);

@@ -72,7 +72,8 @@ static unsigned plain_distance(const char *a, const char *b)
             best = j == 0 && i > 0 ? cells[i - 1][0] + extra(a, i - 1) : best;
             if (i > 0 && j > 0) {
                 unsigned choices[] = {
-                    cells[i - 1][j] + extra(a, i - 1), cells[i][j - 1] + extra(b, j - 1), cells[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 4),
+                    cells[i - 1][j] + extra(a, i - 1), cells[i][j - 1] + extra(b, j - 1),
+                    cells[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 4),
                     i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] ? cells[i - 2][j - 2] + 3 : 1000};
                 for (size_t k = 0; k < RT_COUNT_OF(choices); k++) {
                     best = choices[k] < best ? choices[k] : best;

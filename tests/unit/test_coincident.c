@@ -44,25 +44,28 @@ static const Family families[] = {
     {"round",
      "location <0.3, 5, -0.7> look_at <0, 1, 0> angle 8",
      OPAQUE,
-     {"sphere { 0, 1", "sphere { 0, 2 scale 0.5", "sphere { 0, 1 no_shadow", "sphere { 0, 1 clipped_by { plane { -y, 0 } }",
-      "intersection { sphere { 0, 1 } box { <-2, 0, -2>, 2 }", "difference { sphere { 0, 1 } box { -2, <2, -0.2, 2> }",
-      "merge { sphere { 0, 1 } sphere { -0.8 * y, 0.5 }"},
+     {"sphere { 0, 1", "sphere { 0, 2 scale 0.5", "sphere { 0, 1 no_shadow",
+      "sphere { 0, 1 clipped_by { plane { -y, 0 } }", "intersection { sphere { 0, 1 } box { <-2, 0, -2>, 2 }",
+      "difference { sphere { 0, 1 } box { -2, <2, -0.2, 2> }", "merge { sphere { 0, 1 } sphere { -0.8 * y, 0.5 }"},
      0},
     {"stretched",
      "location <0.3, 5, -6> look_at <0, 1, 0> angle 8",
      OPAQUE,
-     {"sphere { 0, 1 scale <2, 2, 3>", "sphere { 0, 1 rotate 37 * z scale <2, 2, 3>", "sphere { 0, 0.5 scale <4, 4, 6> no_shadow",
+     {"sphere { 0, 1 scale <2, 2, 3>", "sphere { 0, 1 rotate 37 * z scale <2, 2, 3>",
+      "sphere { 0, 0.5 scale <4, 4, 6> no_shadow",
       "sphere { 0, 1 rotate 71 * z scale <2, 2, 3> clipped_by { box { <-9, 0, -9>, 9 } }"},
      0},
     {"round, glass",
      "location <0.3, 5, -6> look_at 0 angle 30",
      GLASS,
-     {"sphere { 0, 1", "sphere { 0, 2 scale 0.5", "sphere { 0, 1 no_shadow", "sphere { 0, 1 clipped_by { plane { -y, 0 } }"},
+     {"sphere { 0, 1", "sphere { 0, 2 scale 0.5", "sphere { 0, 1 no_shadow",
+      "sphere { 0, 1 clipped_by { plane { -y, 0 } }"},
      2},
     {"stretched, glass",
      "location <0.3, 5, -6> look_at 0 angle 60",
      GLASS,
-     {"sphere { 0, 1 scale <2, 2, 3>", "sphere { 0, 1 rotate 37 * z scale <2, 2, 3>", "sphere { 0, 0.5 scale <4, 4, 6> no_shadow",
+     {"sphere { 0, 1 scale <2, 2, 3>", "sphere { 0, 1 rotate 37 * z scale <2, 2, 3>",
+      "sphere { 0, 0.5 scale <4, 4, 6> no_shadow",
       "sphere { 0, 1 rotate 71 * z scale <2, 2, 3> clipped_by { box { <-9, 0, -9>, 9 } }"},
      2},
 };
@@ -73,17 +76,19 @@ static bool draw(const Family *family, const char *place, const char *first, con
     static const char other[] = "pigment { rgb <0.1, 0.9, 0.2> } finish { ambient 1 }";
     char text[4096];
     int width, height;
-    int length = snprintf(text, sizeof text,
-                          "%s\ncamera { %s %s }\nlight_source { <3, 5, -2>, 0.8 %s }\nlight_source { <-9, 0.4, 2>, 0.5 %s }\n"
-                          "%s %s %s }\n",
-                          head, family->camera, place, place, place, first, family->look, place);
+    int length =
+        snprintf(text, sizeof text,
+                 "%s\ncamera { %s %s }\nlight_source { <3, 5, -2>, 0.8 %s }\nlight_source { <-9, 0.4, 2>, 0.5 %s }\n"
+                 "%s %s %s }\n",
+                 head, family->camera, place, place, place, first, family->look, place);
     if (second) {
         length += snprintf(text + length, sizeof text - (size_t)length, "%s %s %s }\n", second, other, place);
     }
     rt_session *session = rt_session_new(NULL);
     rt_set_format(session, RT_FORMAT_JSON);
     bool is_drawn = rt_set_size(session, WIDTH, HEIGHT) == RT_OK &&
-                    rt_load_text(session, "coincident", text, (size_t)length) == RT_OK && rt_render(session, 1) == RT_OK;
+                    rt_load_text(session, "coincident", text, (size_t)length) == RT_OK &&
+                    rt_render(session, 1) == RT_OK;
     if (is_drawn) {
         memcpy(values, rt_pixels(session, &width, &height), VALUES * sizeof *values);
     } else {
@@ -113,14 +118,15 @@ static void test_first(const Family *family, const char *first, const char place
             if (family->shapes[i] == first) {
                 continue;
             }
-            int here = draw(family, places[place], first, family->shapes[i], both) ? pixels_off(alone, both) : WIDTH * HEIGHT;
+            int here =
+                draw(family, places[place], first, family->shapes[i], both) ? pixels_off(alone, both) : WIDTH * HEIGHT;
             worst = here > 0 ? family->shapes[i] : worst;
             off += here;
             pairs++;
         }
     }
-    tap_ok(pairs >= 2 * PLACES && off == 0, "%s: %s }, %d of %d pixels beside %d others are off%s%s", family->name, first, off,
-           pairs * WIDTH * HEIGHT, pairs, off > 0 ? ", as beside " : "", off > 0 ? worst : "");
+    tap_ok(pairs >= 2 * PLACES && off == 0, "%s: %s }, %d of %d pixels beside %d others are off%s%s", family->name,
+           first, off, pairs * WIDTH * HEIGHT, pairs, off > 0 ? ", as beside " : "", off > 0 ? worst : "");
 }
 
 int main(int argc, char **argv)

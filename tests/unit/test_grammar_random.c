@@ -294,7 +294,8 @@ static AstNode *make_directive(Bench *bench, unsigned depth)
     case 4:
         return make(bench, AST_INCLUDE, AST_OP_NONE, 0, name, NULL, NULL);
     case 5:
-        return make(bench, AST_MESSAGE, (AstOp)(AST_OP_DEBUG + below(&bench->random, 5)), 0, make_expression(bench, depth), NULL, NULL);
+        return make(bench, AST_MESSAGE, (AstOp)(AST_OP_DEBUG + below(&bench->random, 5)), 0,
+                    make_expression(bench, depth), NULL, NULL);
     case 6:
         return make_list(bench, AST_DEFAULT, AST_OP_NONE, 0, make_items(bench, depth, false), (AstList){0},
                          (AstList){0});

@@ -114,7 +114,8 @@ static void test_compare(void)
     tap_ok(fabs(difference.rmse - sqrt(1.211181640625 / 30000.0)) < 1e-15, "rmse: %.17g", difference.rmse);
     tap_ok(fabs(difference.psnr + 20.0 * log10(difference.rmse)) < 1e-12, "psnr: %g", difference.psnr);
     b.values[0] = NAN;
-    tap_ok(image_compare(&a, &b, thresholds, &difference) && difference.max == HUGE_VAL && difference.pixels_beyond[1] == 11,
+    tap_ok(image_compare(&a, &b, thresholds, &difference) && difference.max == HUGE_VAL &&
+               difference.pixels_beyond[1] == 11,
            "not a number differs from any");
     a.values[0] = NAN;
     tap_ok(image_compare(&a, &b, thresholds, &difference) && difference.max < 1.0, "but not from itself");

@@ -203,7 +203,8 @@ static void test_reach(void)
     scene.spheres.count = 1;
     scene_reach(&scene, &reach);
     // The ellipsoid's box reaches from <-1, -2, -3> to <1, 2, 3>.
-    tap_ok(reach.least_size == 0.5 && fabs(reach.reach - (sqrt(916.0) + sqrt(14.0))) < 1e-12, "a stretched sphere's box");
+    tap_ok(reach.least_size == 0.5 && fabs(reach.reach - (sqrt(916.0) + sqrt(14.0))) < 1e-12,
+           "a stretched sphere's box");
     scene_fini(&scene);
 }
 

@@ -21,8 +21,8 @@ static bool exits_rightly(const Geometry *geometry, Ray ray, Hit hit, Surface su
 {
     Ray within = {surface.point, ray.direction};
     Hit exit;
-    if (!closest(geometry, within, (RayStart){hit.shape, true, 0}, (double)INFINITY, &exit) || exit.shape != hit.shape ||
-        !exit.inside) {
+    if (!closest(geometry, within, (RayStart){hit.shape, true, 0}, (double)INFINITY, &exit) ||
+        exit.shape != hit.shape || !exit.inside) {
         return false;
     }
     double cosine = -vec3_dot(surface.normal, ray.direction);

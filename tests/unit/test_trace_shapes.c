@@ -137,7 +137,8 @@ static void test_tree(void)
         shadows_differ += geometry_occluded(geometry, TRACE_ALL_FEATURES, ray, RAY_START_FREE, 5.0) != (t < 5.0);
         met += is_met;
     }
-    tap_ok(met > RAYS / 10 && differ == 0, "the tree finds what testing each shape finds (%d of %d differ)", differ, RAYS);
+    tap_ok(met > RAYS / 10 && differ == 0, "the tree finds what testing each shape finds (%d of %d differ)", differ,
+           RAYS);
     tap_ok(shadows_differ == 0, "and so it does for shadows");
     geometry_free(geometry);
     for (int i = 0; i < COUNT; i++) {
@@ -167,7 +168,8 @@ static void test_secondary(double size)
             Ray on = {surface.point, random_direction(&random)};
             // Grazing as often as not.
             double rise = vec3_dot(on.direction, surface.normal);
-            on.direction = vec3_normalize(vec3_add_scaled(on.direction, -rise * (k % 2 ? 1.0 - 1e-9 : 0.0), surface.normal));
+            on.direction =
+                vec3_normalize(vec3_add_scaled(on.direction, -rise * (k % 2 ? 1.0 - 1e-9 : 0.0), surface.normal));
             rise = vec3_dot(on.direction, surface.normal);
             bool inward = rise < 0.0;
             bool met = closest(geometry, on, (RayStart){hit.shape, inward, 0}, (double)INFINITY, &next);
@@ -299,8 +301,8 @@ static void test_composites(void)
         scene_fini(&scene);
     }
     printf("# %d lines, %d crossings\n", lines, crossings);
-    tap_ok(crossings > 5000 && wrong == 0, "the surfaces of composites are where the inside changes (%d of %d lines)", wrong,
-           lines);
+    tap_ok(crossings > 5000 && wrong == 0, "the surfaces of composites are where the inside changes (%d of %d lines)",
+           wrong, lines);
 }
 
 // Two boxes with faces on one plane, under a turn that is rounded differently for each: the one taken away leaves no
@@ -362,8 +364,9 @@ static void test_scale(void)
         Geometry *geometries[2];
         for (int which = 0; which < 2; which++) {
             Part one = part;
-            one.to_world = transform_compose(part.to_world, transform_scale(vec3(ldexp(1.0, which * k), ldexp(1.0, which * k),
-                                                                                 ldexp(1.0, which * k))));
+            one.to_world = transform_compose(
+                part.to_world,
+                transform_scale(vec3(ldexp(1.0, which * k), ldexp(1.0, which * k), ldexp(1.0, which * k))));
             scene_init(&scenes[which]);
             if (!transform_invert(&one.to_world, &one.to_object)) {
                 abort();

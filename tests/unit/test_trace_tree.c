@@ -175,7 +175,8 @@ static void test_planet_is_loose(void)
     make_planet(&scene, &random, 1000);
     Geometry *geometry = prepare(&scene, 0);
     tap_ok(geometry->spheres.loose_count == 3, "spheres far larger than the rest stay out of the tree");
-    tap_ok(vec3_max_abs(geometry->spheres.bvh.half) / geometry->spheres.bvh.scale < 20, "so that the tree is as large as the rest");
+    tap_ok(vec3_max_abs(geometry->spheres.bvh.half) / geometry->spheres.bvh.scale < 20,
+           "so that the tree is as large as the rest");
     geometry_free(geometry);
     scene_fini(&scene);
 }
