@@ -7,9 +7,7 @@
 # SPDX-License-Identifier: MIT
 import math
 import os
-import pty
 import re
-import select
 import signal
 import struct
 import subprocess
@@ -24,6 +22,7 @@ from pictures import read_png, unfilter
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from exr import read_exr
 from tap import Tap
+from terminal import terminal_output
 
 RTLANG = os.path.abspath(os.environ["RTLANG"])
 HEAD = "#version 3.7; global_settings { assumed_gamma 1 }\n"
@@ -242,19 +241,8 @@ def test_restart():
                f"started again after {kind.name}: the same file and the same error", run.stderr)
 
 
-def terminal_output(command, seconds, wanted):
-    """What a terminal sees until `wanted` comes, or for so many seconds; then the process is interrupted."""
-    master, slave = pty.openpty()
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=slave)
-    text, end = b"", time.monotonic() + seconds
-    while time.monotonic() < end and not re.search(wanted, text):
-        if select.select([master], [], [], 0.1)[0]:
-            text += os.read(master, 4096)
-    process.send_signal(signal.SIGINT)
-    process.wait(timeout=60)
-    os.close(slave)
-    os.close(master)
-    return text
+def at_terminal(command):
+    return lambda slave: subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=slave)
 
 
 def test_plateau():
@@ -269,12 +257,12 @@ def test_plateau():
     write("scene.scn", MIRRORS)
     command = [RTLANG, "-W400", "-H300", "-o", "out.png", "--samples=1048576", "scene.scn"]
     wanted = rb"\d+ s left  error \S+ at \S+ rays a pixel; more will not help: max_trace_level cuts rays"
-    text = terminal_output(command, 60, wanted)
+    text = terminal_output(at_terminal(command), 60, wanted)
     tap.ok(re.search(wanted, text), "the bar tells the error, what is left, and the plateau with its cause", text[-400:])
     write("scene.scn", BALLS)
     command = [RTLANG, "-W400", "-H300", "-o", "out.png", "--target-error=1e-5", "scene.scn"]
     wanted = rb"\d+ s left  error \S+ at \S+ rays a pixel"
-    text = terminal_output(command, 60, wanted)
+    text = terminal_output(at_terminal(command), 60, wanted)
     tap.ok(re.search(wanted, text) and b"will not help" not in text, "and of others the first two", text[-400:])
 
 

@@ -2,13 +2,13 @@
 #
 # SPDX-License-Identifier: MIT
 import os
-import pty
 import re
-import select
 import signal
 import subprocess
 import sys
 import time
+
+from terminal import terminal_output
 
 # Far more than a second of work for one thread of any machine.
 SLOW = b"""#version 3.7;
@@ -122,27 +122,13 @@ def tests(tap, program):
                 tap.equal((process.returncode, message), (code, b"rtlang: interrupted; nothing was written\n"),
                           "%s while it works on %s" % (number.name, " ".join(arguments)))
 
-    def terminal_output(process, master, seconds, wanted):
-        """What comes until `wanted` does, or for so many seconds. Then the process is interrupted."""
-        text, end = b"", time.monotonic() + seconds
-        while time.monotonic() < end and not re.search(wanted, text):
-            if select.select([master], [], [], 0.1)[0]:
-                text += os.read(master, 4096)
-        process.send_signal(signal.SIGINT)
-        process.wait(timeout=60)
-        return text
-
     def test_progress():
-        master, slave = pty.openpty()
-        process = start_slow(stderr=slave)
         start = time.monotonic()
-        text = terminal_output(process, master, 60, BAR)
+        text = terminal_output(lambda slave: start_slow(stderr=slave), 60, BAR)
         tap.ok(re.search(BAR, text), "a bar at a terminal", text)
         tap.ok(time.monotonic() - start >= 1, "not in the first second")
-        process = start_slow("-q", stderr=slave)
-        tap.ok(b"%" not in terminal_output(process, master, 2, BAR), "no bar with --quiet")
-        os.close(slave)
-        os.close(master)
+        text = terminal_output(lambda slave: start_slow("-q", stderr=slave), 2, BAR)
+        tap.ok(b"%" not in text, "no bar with --quiet")
         process = start_slow(stderr=subprocess.PIPE)
         time.sleep(2)
         process.send_signal(signal.SIGINT)
