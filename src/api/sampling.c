@@ -111,7 +111,7 @@ void session_make_notes(const rt_session *session, SessionNotes *notes)
         note(notes, "rtlang:method", session->method == RT_METHOD_FORWARD ? "forward" : "forward-connect");
         note(notes, "rtlang:photons", "%llu", (unsigned long long)session->photons);
         note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
-    } else if (session->is_sampled) {
+    } else if (session_is_sampled(session)) {
         note_sampling(notes, sampling, error);
         if (session->precision != RT_PRECISION_DOUBLE) {
             note(notes, "rtlang:precision", "%s", session->kernel);

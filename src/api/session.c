@@ -193,12 +193,6 @@ static rt_status load(rt_session *session, Source *source, double start)
     source_close(source);
     diag_finish(&session->diags);
     session->loaded = fine;
-    // A lens wants rays; so many as the scene says, if the client does not.
-    bool says_nothing = session->sampling.samples == 0.0 && !session->sampling.is_adaptive;
-    if (session->scene.camera.blur_samples > 1 && says_nothing) {
-        session->sampling.samples = session->scene.camera.blur_samples;
-        session->is_sampled = session->is_sampled_for_lens = true;
-    }
     session->parse_seconds = session_clock() - start;
     return session_status(session, fine);
 }
@@ -256,7 +250,7 @@ static rt_budget budget_of(const rt_session *session)
         .objects = objects,
         .scene = scene,
         .prepared = (scene - pictures) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
-        .picture = film_bytes(width, height, session->is_sampled) +
+        .picture = film_bytes(width, height, session_is_sampled(session)) +
                    (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
         .limit = session->limits.memory_bytes,
     };
@@ -378,12 +372,13 @@ static rt_status render_scene(rt_session *session, int threads)
     session->kernel = prepared_kernel_name(prepared);
     session->prepare_seconds = session_clock() - start;
     start = session_clock();
+    SamplingOptions sampling = session_sampling(session);
     RenderOptions options = {
         .threads = threads,
         .progress = session->callbacks.progress ? forward_progress : NULL,
         .client = session,
         .cancel = &session->cancel,
-        .sampling = session->is_sampled ? &session->sampling : NULL,
+        .sampling = sampling_is_wanted(&sampling) ? &sampling : NULL,
         .antialias = session->antialias.method != 0 ? &session->antialias : NULL,
     };
     RenderResult result = trace_film(session, prepared, &options);
@@ -408,13 +403,13 @@ static rt_status render_scene(rt_session *session, int threads)
 // What cannot be combined in one run.
 static rt_status session_ways_fit(rt_session *session)
 {
-    bool wants_samples = session->is_sampled && !session->is_sampled_for_lens;
-    if (session->method != RT_METHOD_BACKWARD && (session->precision != RT_PRECISION_DOUBLE || wants_samples)) {
+    bool is_precise = session->precision != RT_PRECISION_DOUBLE;
+    if (session->method != RT_METHOD_BACKWARD && (is_precise || sampling_is_wanted(&session->sampling))) {
         return rt_report(session, "E0703", "the forward methods have photons for samples, and double precision only",
                          "leave out `--precision`, `--samples` and goals, and say how many `--photons`");
     }
-    bool is_plain = session->precision == RT_PRECISION_DOUBLE && session->method == RT_METHOD_BACKWARD;
-    if (session->antialias.method != 0 && (session->is_sampled || !is_plain || session->crop.width)) {
+    bool is_plain = !is_precise && session->method == RT_METHOD_BACKWARD;
+    if (session->antialias.method != 0 && (session_is_sampled(session) || !is_plain || session->crop.width)) {
         return rt_report(session, "E0703",
                          "`--antialias` is for whole pictures of the ordinary kernels without sampling",
                          "leave out `--samples` and goals, `--precision`, `--method` and `--crop`");

@@ -48,7 +48,6 @@ struct rt_session {
     bool rendered; // the film holds a picture in linear light
     int threads;   // that rendered it
     SamplingOptions sampling;
-    bool is_sampled, is_sampled_for_lens; // the latter: only since the scene's camera says so
     int max_trace_level; // 0: the scene's
     rt_method method;
     uint64_t photons; // of the forward methods
@@ -89,6 +88,28 @@ rt_status session_status(rt_session *session, bool fine);
 
 // Reports what became of writing `path`, and turns it into a status.
 rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error);
+
+static inline bool sampling_is_wanted(const SamplingOptions *sampling)
+{
+    return sampling->is_adaptive || sampling->samples > 1.0;
+}
+
+// What the client wants of samples, and where it says nothing, what the camera of the loaded scene does: a lens wants
+// rays.
+static inline SamplingOptions session_sampling(const rt_session *session)
+{
+    SamplingOptions sampling = session->sampling;
+    if (sampling.samples == 0.0 && !sampling.is_adaptive && session->scene.camera.blur_samples > 1) {
+        sampling.samples = session->scene.camera.blur_samples;
+    }
+    return sampling;
+}
+
+static inline bool session_is_sampled(const rt_session *session)
+{
+    SamplingOptions sampling = session_sampling(session);
+    return sampling_is_wanted(&sampling);
+}
 
 // The size of what is traced.
 static inline int session_film_width(const rt_session *session)

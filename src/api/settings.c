@@ -188,7 +188,6 @@ rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling)
     }
     session->max_trace_level = sampling->max_trace_level;
     session->sampling = options;
-    session->is_sampled = options.is_adaptive || options.samples > 1.0;
     return RT_OK;
 }
 
