@@ -6,9 +6,16 @@
 #ifndef MATH_TRANSFORM_H
 #define MATH_TRANSFORM_H
 
+#include <float.h>
 #include <stdbool.h>
 
 #include "math/vec3.h"
+
+// What rounding may have done to the terms of a surface's place in the scene, beside the sum of their magnitudes: a
+// coordinate in a shape's space is a difference and a product of three terms (4 u), its matrix is the inverse (6 u) of
+// up to six transforms (5 u each, as in transform_is_similarity), and the root of a ray adds at most 8 u. See
+// docs/numerics.md, "Composites".
+#define TRANSFORM_ROUNDING (48.0 * (DBL_EPSILON / 2))
 
 typedef struct Transform {
     double m[4][3]; // rows 0 to 2: images of x, y and z; row 3: image of the origin

@@ -8,26 +8,26 @@
 // SPDX-License-Identifier: MIT
 #include "scene/faces.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "scene/part.h"
+#include "scene/range.h"
 
 enum {
     CORNERS_MOST = 16,       // of the polygon in a disc
     COMPARED_MOST = 1 << 24, // rectangles, which take some tenths of a second
 };
 
-// What rounding does to a point of a face beside the sum of the magnitudes of its terms: the bound of docs/numerics.md,
-// "Composites".
-#define FACE_ERROR (48.0 * (DBL_EPSILON / 2))
-
-typedef struct Face {
+typedef struct FacePlane {
     Vec3 normal; // of unit length, out of the shape
     double distance;
-    double reach;          // sum of the magnitudes of the terms of a corner's product with the normal
-    uint32_t corner_count; // 0: the whole plane
+    double reach; // sum of the magnitudes of the terms of a corner's product with the normal
+} FacePlane;
+
+typedef struct Face {
+    FacePlane plane;
+    uint32_t corner_count; // 0: all of the plane
     Vec3 corners[CORNERS_MOST];
     bool is_flat; // has no inside: seen from both sides
     MaterialIndex material;
@@ -78,102 +78,110 @@ static uint32_t face_count(const Part *part)
     }
 }
 
-static void face_add(Face *face, const Transform *m, Vec3 corner)
+static uint32_t corner_count(const Part *part)
 {
-    face->corners[face->corner_count++] = transform_point(m, corner);
+    bool is_round = part->kind == PART_CONE || (part->kind == PART_DISC && !(part->data[0].x > 0.0));
+    return part->kind >= PART_TRIANGLE ? 3 : is_round ? CORNERS_MOST : 4;
 }
 
-// A polygon in the circle of that radius.
-static void face_round(Face *face, const Transform *m, double z, double radius)
+// Of a polygon in the circle of that radius.
+static Vec3 round_corner(double z, double radius, uint32_t i)
 {
-    for (int i = 0; i < CORNERS_MOST; i++) {
-        double angle = 2.0 * M_PI * i / CORNERS_MOST;
-        face_add(face, m, vec3(radius * cos(angle), radius * sin(angle), z));
-    }
+    double angle = 2.0 * M_PI * i / CORNERS_MOST;
+    return vec3(radius * cos(angle), radius * sin(angle), z);
 }
 
-// One of the pieces of a ring, its inner edge just outside of the hole.
-static void face_ring(Face *face, const Transform *m, double hole, uint32_t number)
+// Of one of the pieces of a ring, its inner edge just outside of the hole.
+static Vec3 ring_corner(double hole, uint32_t number, uint32_t i)
 {
-    double begin = 2.0 * M_PI * number / CORNERS_MOST, end = 2.0 * M_PI * (number + 1) / CORNERS_MOST;
-    double inner = fmin(1.0, hole / cos(M_PI / CORNERS_MOST));
-    face_add(face, m, vec3(cos(begin), sin(begin), 0.0));
-    face_add(face, m, vec3(cos(end), sin(end), 0.0));
-    face_add(face, m, vec3(inner * cos(end), inner * sin(end), 0.0));
-    face_add(face, m, vec3(inner * cos(begin), inner * sin(begin), 0.0));
+    double angle = 2.0 * M_PI * (number + (i == 1 || i == 2)) / CORNERS_MOST;
+    double radius = i < 2 ? 1.0 : fmin(1.0, hole / cos(M_PI / CORNERS_MOST));
+    return vec3(radius * cos(angle), radius * sin(angle), 0.0);
 }
 
-static Vec3 face_box(Face *face, const Part *part, uint32_t number)
+static Vec3 box_corner(const Part *part, uint32_t number, uint32_t i)
 {
     const double low[3] = {part->data[0].x, part->data[0].y, part->data[0].z};
     const double high[3] = {part->data[1].x, part->data[1].y, part->data[1].z};
-    uint32_t axis = number / 2;
-    double normal[3] = {0.0, 0.0, 0.0};
-    normal[axis] = number % 2 ? 1.0 : -1.0;
-    for (int i = 0; i < 4; i++) {
-        double p[3];
-        p[axis] = number % 2 ? high[axis] : low[axis];
-        p[(axis + 1) % 3] = i == 1 || i == 2 ? high[(axis + 1) % 3] : low[(axis + 1) % 3];
-        p[(axis + 2) % 3] = i >= 2 ? high[(axis + 2) % 3] : low[(axis + 2) % 3];
-        face_add(face, &part->to_world, vec3(p[0], p[1], p[2]));
-    }
-    return vec3(normal[0], normal[1], normal[2]);
+    uint32_t axis = number / 2, second = (axis + 1) % 3, third = (axis + 2) % 3;
+    double p[3];
+    p[axis] = number % 2 ? high[axis] : low[axis];
+    p[second] = i == 1 || i == 2 ? high[second] : low[second];
+    p[third] = i >= 2 ? high[third] : low[third];
+    return vec3(p[0], p[1], p[2]);
 }
 
-static void face_of_part(Face *face, const Part *part, uint32_t number)
+// In the space of the part's fixed shape, as is the next.
+static Vec3 local_corner(const Part *part, uint32_t number, uint32_t i)
 {
-    Vec3 normal = vec3(0.0, 0.0, 1.0);
-    face->is_flat = part->kind >= PART_DISC;
     switch (part->kind) {
     case PART_BOX:
-        normal = face_box(face, part, number);
-        break;
+        return box_corner(part, number, i);
     case PART_CONE:
-        face_round(face, &part->to_world, number, number ? part->data[0].x : 1.0);
-        normal.z = number ? 1.0 : -1.0;
-        break;
+        return round_corner(number, number ? part->data[0].x : 1.0, i);
     case PART_DISC:
-        if (part->data[0].x > 0.0) {
-            face_ring(face, &part->to_world, part->data[0].x, number);
-        } else {
-            face_round(face, &part->to_world, 0.0, 1.0);
-        }
-        break;
+        return part->data[0].x > 0.0 ? ring_corner(part->data[0].x, number, i) : round_corner(0.0, 1.0, i);
     default:
-        face_add(face, &part->to_world, vec3(0.0, 0.0, 0.0));
-        face_add(face, &part->to_world, vec3(1.0, 0.0, 0.0));
-        face_add(face, &part->to_world, vec3(0.0, 1.0, 0.0));
+        return vec3(i == 1, i == 2, 0.0);
     }
-    face->normal = vec3_normalize(transform_normal(&part->to_object, normal));
-    face->distance = vec3_dot(face->normal, face->corners[0]);
-    face->reach = part_reach(part, face->normal);
+}
+
+static Vec3 local_normal(const Part *part, uint32_t number)
+{
+    double side = number % 2 ? 1.0 : -1.0;
+    uint32_t axis = part->kind == PART_BOX ? number / 2 : 2;
+    side = part->kind >= PART_DISC ? 1.0 : side;
+    return vec3(axis == 0 ? side : 0.0, axis == 1 ? side : 0.0, axis == 2 ? side : 0.0);
+}
+
+static FacePlane plane_of_part(const Part *part, uint32_t number)
+{
+    FacePlane plane;
+    if (part->kind == PART_PLANE) {
+        plane = (FacePlane){part->data[0], part->data[1].x, fabs(part->data[1].x)};
+    } else {
+        Vec3 corner = transform_point(&part->to_world, local_corner(part, number, 0));
+        plane.normal = vec3_normalize(transform_normal(&part->to_object, local_normal(part, number)));
+        plane.distance = vec3_dot(plane.normal, corner);
+        plane.reach = part_reach(part, plane.normal);
+    }
+    if (part->flags & PART_INVERSE) {
+        plane.normal = vec3_neg(plane.normal);
+        plane.distance = -plane.distance;
+    }
+    return plane;
+}
+
+static const Part *ref_part(const Scene *scene, FaceRef ref)
+{
+    return &scene->parts.items[ref.item - scene->planes.count];
+}
+
+static FacePlane plane_at(const Scene *scene, FaceRef ref)
+{
+    if (ref.item < scene->planes.count) {
+        const Plane *plane = &scene->planes.items[ref.item];
+        return (FacePlane){plane->normal, plane->distance, fabs(plane->distance)};
+    }
+    return plane_of_part(ref_part(scene, ref), ref.face);
 }
 
 static Face face_at(const Scene *scene, FaceRef ref)
 {
-    Face face = {.word = "plane"};
+    Face face = {.plane = plane_at(scene, ref), .word = "plane"};
     if (ref.item < scene->planes.count) {
         const Plane *plane = &scene->planes.items[ref.item];
-        face.normal = plane->normal;
-        face.distance = plane->distance;
-        face.reach = fabs(plane->distance);
         face.material = plane->material;
         face.order = plane->order;
         face.source = plane->source;
         return face;
     }
-    const Part *part = &scene->parts.items[ref.item - scene->planes.count];
-    if (part->kind == PART_PLANE) {
-        face.normal = part->data[0];
-        face.distance = part->data[1].x;
-        face.reach = fabs(face.distance);
-    } else {
-        face_of_part(&face, part, ref.face);
+    const Part *part = ref_part(scene, ref);
+    face.corner_count = part->kind == PART_PLANE ? 0 : corner_count(part);
+    for (uint32_t i = 0; i < face.corner_count; i++) {
+        face.corners[i] = transform_point(&part->to_world, local_corner(part, ref.face, i));
     }
-    if (part->flags & PART_INVERSE) {
-        face.normal = vec3_neg(face.normal);
-        face.distance = -face.distance;
-    }
+    face.is_flat = part->kind >= PART_DISC;
     face.hidden = part->hidden;
     face.material = part->material;
     face.order = part->order;
@@ -188,16 +196,7 @@ static Face face_at(const Scene *scene, FaceRef ref)
 static bool are_equal(const Scene *scene, FaceRef a, FaceRef b)
 {
     size_t planes = scene->planes.count;
-    if (a.item < planes || b.item < planes) {
-        return false;
-    }
-    const Part *one = &scene->parts.items[a.item - planes], *other = &scene->parts.items[b.item - planes];
-    bool equal = vec3_equal(one->data[0], other->data[0]) && vec3_equal(one->data[1], other->data[1]);
-    equal = one->kind >= PART_TRIANGLE ? other->kind >= PART_TRIANGLE : one->kind == other->kind && equal;
-    for (int i = 0; i < 12 && equal; i++) {
-        equal = one->to_world.m[i / 3][i % 3] == other->to_world.m[i / 3][i % 3];
-    }
-    return equal;
+    return a.item >= planes && b.item >= planes && scene_parts_are_twins(ref_part(scene, a), ref_part(scene, b));
 }
 
 // Whether the camera is on the side that the face is seen from.
@@ -206,17 +205,18 @@ static bool is_turned_to(const Face *face, const Camera *camera)
     if (face->is_flat) {
         return true;
     }
-    return camera->type == CAMERA_ORTHOGRAPHIC ? vec3_dot(face->normal, camera->direction) < 0.0
-                                               : vec3_dot(face->normal, camera->location) > face->distance;
+    return camera->type == CAMERA_ORTHOGRAPHIC ? vec3_dot(face->plane.normal, camera->direction) < 0.0
+                                               : vec3_dot(face->plane.normal, camera->location) > face->plane.distance;
 }
 
 // Whether all of `a` lies in the plane of `b`, but for rounding.
 static bool lies_in(const Face *a, const Face *b)
 {
     for (uint32_t i = 0; i < a->corner_count; i++) {
-        Vec3 p = a->corners[i], n = b->normal;
+        Vec3 p = a->corners[i], n = b->plane.normal;
         double terms = fabs(p.x * n.x) + fabs(p.y * n.y) + fabs(p.z * n.z);
-        if (!(fabs(vec3_dot(p, n) - b->distance) <= FACE_ERROR * (terms + a->reach + b->reach))) {
+        if (!(fabs(vec3_dot(p, n) - b->plane.distance) <=
+              TRANSFORM_ROUNDING * (terms + a->plane.reach + b->plane.reach))) {
             return false;
         }
     }
@@ -245,9 +245,10 @@ static bool separates(const Face *a, const Face *b)
 {
     for (uint32_t i = 0; i < a->corner_count; i++) {
         Vec3 edge = vec3_sub(a->corners[(i + 1) % a->corner_count], a->corners[i]);
-        Vec3 axis = vec3_cross(a->normal, edge);
+        Vec3 axis = vec3_cross(a->plane.normal, edge);
         Interval one = along(a, axis), other = along(b, axis);
-        if (fmin(one.high, other.high) - fmax(one.low, other.low) <= 2.0 * FACE_ERROR * (one.terms + other.terms)) {
+        if (fmin(one.high, other.high) - fmax(one.low, other.low) <=
+            2.0 * TRANSFORM_ROUNDING * (one.terms + other.terms)) {
             return true;
         }
     }
@@ -262,17 +263,16 @@ static bool overlap(const Face *a, const Face *b)
     return lies_in(a, b) && lies_in(b, a) && !separates(a, b) && !separates(b, a);
 }
 
-static void compare(Faces *faces, const Face *a, FaceRef other, FaceRef ref, DiagSink *diags)
+static void compare(Faces *faces, FaceRef one, FaceRef other, DiagSink *diags)
 {
-    const uint8_t all = HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR;
     const Camera *camera = &faces->scene->camera;
-    Face b = face_at(faces->scene, other);
-    if (a->order == b.order || a->material == b.material || ((a->hidden | b.hidden) & all) == all ||
-        are_equal(faces->scene, ref, other) || !is_turned_to(a, camera) || !is_turned_to(&b, camera) ||
-        !overlap(a, &b)) {
+    Face a = face_at(faces->scene, one), b = face_at(faces->scene, other);
+    if (a.order == b.order || a.material == b.material || !hidden_meet(a.hidden, b.hidden) ||
+        are_equal(faces->scene, one, other) || !is_turned_to(&a, camera) || !is_turned_to(&b, camera) ||
+        !overlap(&a, &b)) {
         return;
     }
-    const Face *first = a->order < b.order ? a : &b, *second = first == a ? &b : a;
+    const Face *first = a.order < b.order ? &a : &b, *second = first == &a ? &b : &a;
     if (faces->told != second->order + UINT64_C(1) &&
         diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "a face of this %s coincides with one of a %s that was declared before it", second->word,
@@ -293,14 +293,14 @@ static uint64_t mix(uint64_t hash, double number)
 
 // Of a plane, whichever side of it is out. Numbers that rounding has made different are the same here, but for one in
 // some thousands; those that are the same by chance are told apart by `overlap`.
-static uint64_t plane_key(const Faces *faces, const Face *face)
+static uint64_t plane_key(const Faces *faces, const FacePlane *plane)
 {
     const Vec3 way = {0.61, 0.53, 0.59}; // at right angles to no plane that anybody would write
-    double sign = vec3_dot(face->normal, way) < 0.0 ? -1.0 : 1.0;
-    uint64_t hash = mix(0, nearbyint(sign * face->normal.x * 0x1p30));
-    hash = mix(hash, nearbyint(sign * face->normal.y * 0x1p30));
-    hash = mix(hash, nearbyint(sign * face->normal.z * 0x1p30));
-    return mix(hash, nearbyint(sign * face->distance / faces->unit));
+    double sign = vec3_dot(plane->normal, way) < 0.0 ? -1.0 : 1.0;
+    uint64_t hash = mix(0, nearbyint(sign * plane->normal.x * 0x1p30));
+    hash = mix(hash, nearbyint(sign * plane->normal.y * 0x1p30));
+    hash = mix(hash, nearbyint(sign * plane->normal.z * 0x1p30));
+    return mix(hash, nearbyint(sign * plane->distance / faces->unit));
 }
 
 static int by_key(const void *a, const void *b)
@@ -342,18 +342,17 @@ static bool sweep(Faces *faces, const FaceRef *refs, size_t count, DiagSink *dia
     if (!list) {
         return false;
     }
-    Vec3 normal = face_at(faces->scene, refs[0]).normal;
+    Vec3 normal = plane_at(faces->scene, refs[0]).normal;
     for (size_t i = 0; i < count; i++) {
         Face face = face_at(faces->scene, refs[i]);
         list[i] = rectangle(&face, normal, refs[i]);
     }
     qsort(list, count, sizeof *list, by_low);
     for (size_t i = 0; i < count; i++) {
-        Face face = face_at(faces->scene, list[i].ref);
         for (size_t j = i + 1; j < count && list[j].low[0] < list[i].high[0] && faces->compared < COMPARED_MOST; j++) {
             faces->compared++;
             if (list[j].low[1] < list[i].high[1] && list[i].low[1] < list[j].high[1]) {
-                compare(faces, &face, list[j].ref, list[i].ref, diags);
+                compare(faces, list[i].ref, list[j].ref, diags);
             }
         }
     }
@@ -378,14 +377,14 @@ static bool collect(Faces *faces)
         uint32_t count = item < scene->planes.count ? 1 : face_count(&scene->parts.items[item - scene->planes.count]);
         for (uint32_t i = 0; i < count; i++) {
             FaceRef ref = {0, (uint32_t)item, i};
-            reach = fmax(reach, face_at(scene, ref).reach);
+            reach = fmax(reach, plane_at(scene, ref).reach);
             faces->refs[faces->count++] = ref;
         }
     }
     faces->unit = reach > 0.0 && isfinite(reach) ? ldexp(1.0, ilogb(reach) - 40) : 1.0;
     for (size_t i = 0; i < faces->count; i++) {
-        Face face = face_at(scene, faces->refs[i]);
-        faces->refs[i].key = plane_key(faces, &face);
+        FacePlane plane = plane_at(scene, faces->refs[i]);
+        faces->refs[i].key = plane_key(faces, &plane);
     }
     return true;
 }

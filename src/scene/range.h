@@ -30,4 +30,7 @@ void scene_warn_of_range(const Scene *scene, DiagSink *diags);
 // Warns of equal shapes that some ray could see both of. Linear in the number of shapes. False when out of memory.
 bool scene_warn_of_twins(const Scene *scene, DiagSink *diags) RT_MUST_CHECK;
 
+// Whether that takes two parts for equal.
+bool scene_parts_are_twins(const Part *a, const Part *b);
+
 #endif

@@ -250,6 +250,12 @@ typedef enum PartFlag {
 // Rays that pass a shape as if it were not there.
 typedef enum HiddenFrom { HIDDEN_CAMERA = 1, HIDDEN_SHADOW = 2, HIDDEN_MIRROR = 4 } HiddenFrom;
 
+// Whether any ray meets both of two shapes that are hidden from the rays of `a` and of `b`.
+static inline bool hidden_meet(uint8_t a, uint8_t b)
+{
+    return (a | b) != (HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR);
+}
+
 #define NODE_NONE UINT32_MAX
 
 typedef struct Part {

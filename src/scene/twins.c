@@ -156,6 +156,15 @@ static bool keys_are_equal(const Key *a, const Key *b)
            memcmp(a->numbers, b->numbers, a->count * sizeof a->numbers[0]) == 0;
 }
 
+bool scene_parts_are_twins(const Part *a, const Part *b)
+{
+    Key one, other;
+    one.count = other.count = 0;
+    key_part(&one, a);
+    key_part(&other, b);
+    return keys_are_equal(&one, &other);
+}
+
 static void tell(const Key *one, const Key *other, DiagSink *diags)
 {
     const Key *first = one->order < other->order ? one : other, *second = first == one ? other : one;
@@ -172,8 +181,7 @@ static void tell(const Key *one, const Key *other, DiagSink *diags)
 // Whether they are one surface to some rays; tells of it.
 static bool are_twins(const Key *one, const Key *other, DiagSink *diags)
 {
-    const uint8_t all = HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR;
-    if (((one->hidden | other->hidden) & all) == all || !keys_are_equal(one, other)) {
+    if (!hidden_meet(one->hidden, other->hidden) || !keys_are_equal(one, other)) {
         return false;
     }
     tell(one, other, diags);
@@ -221,8 +229,7 @@ static bool composites_are_equal(const Twins *twins, const Composite *a, const C
 static void tell_composite(const Composite *one, const Composite *other, DiagSink *diags)
 {
     const Composite *first = one->order < other->order ? one : other, *second = first == one ? other : one;
-    const uint8_t all = HIDDEN_CAMERA | HIDDEN_SHADOW | HIDDEN_MIRROR;
-    if (((one->hidden | other->hidden) & all) != all &&
+    if (hidden_meet(one->hidden, other->hidden) &&
         diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "this coincides with the same shapes, cut alike, that were declared before it") &&
         first->source) {

@@ -25,11 +25,6 @@ RT_ALWAYS_INLINE double plane_root(const PlaneShape *plane, Vec3 origin, Vec3 di
     return (plane->distance - vec3_dot(plane->normal, origin)) / vec3_dot(plane->normal, direction);
 }
 
-// What rounding may have done to the terms of a surface's place in the scene, in units of u: a coordinate in a shape's
-// space is a difference and a product of three terms (4), its matrix is the inverse (6) of up to six transforms (5
-// each, as in transform_is_similarity), and the root itself adds at most 8.
-#define CROSSING_ROUNDINGS 48.0
-
 // How far the parameter at which a plane is crossed may be off by rounding, that of the plane's own place with it. A
 // normal is known to u of its length, but for components that are 0. Infinite along the plane.
 RT_ALWAYS_INLINE double plane_crossing_error(const PlaneShape *plane, Ray ray, double t)
@@ -39,7 +34,7 @@ RT_ALWAYS_INLINE double plane_crossing_error(const PlaneShape *plane, Ray ray, d
     double y = n.y != 0.0 ? fabs(o.y) + fabs(t * d.y) : 0.0;
     double z = n.z != 0.0 ? fabs(o.z) + fabs(t * d.z) : 0.0;
     double reach = sqrt(x * x + y * y + z * z) + fabs(plane->distance);
-    return CROSSING_ROUNDINGS * (DBL_EPSILON / 2) * reach / fabs(vec3_dot(n, d));
+    return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, d));
 }
 
 // True when two planes are the same surface, whatever side of it they call their inside.

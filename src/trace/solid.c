@@ -174,7 +174,7 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
     }
     Vec3 n = object_normal(solid, ray_at(*object, t), side);
     double reach = normal_reach(solid, n, ray, t);
-    return CROSSING_ROUNDINGS * (DBL_EPSILON / 2) * reach / fabs(vec3_dot(n, object->direction));
+    return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }
 
 double ellipsoid_crossing_error(const EllipsoidShape *ellipsoid, const Ray *ray, double t)
