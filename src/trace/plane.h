@@ -12,6 +12,7 @@
 
 #include "base/attributes.h"
 #include "math/ray.h"
+#include "math/transform.h"
 
 // All points p with p·normal = distance.
 typedef struct PlaneShape {
