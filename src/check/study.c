@@ -177,7 +177,7 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
         const char *name;
         rt_sampling sampling;
         int least; // samples
-    } methods[] = {{"rtlang sobol", {.sampler = "sobol"}, 1},   {"rtlang adaptive", {.adaptive = 1}, 6},
+    } methods[] = {{"rtlang sobol", {.sampler = "sobol"}, 1},   {"rtlang adaptive", {.adaptive = 1}, 2},
                    {"rtlang halton", {.sampler = "halton"}, 4}, {"rtlang jittered", {.sampler = "jittered"}, 4},
                    {"rtlang grid", {.sampler = "grid"}, 4},     {"rtlang random", {.sampler = "random"}, 4}};
 

@@ -34,5 +34,6 @@ uint64_t film_bytes(int width, int height, bool is_sampled)
 {
     uint64_t chosen = sizeof(uint16_t); // a bucket for each pixel, in sampling.c
     uint64_t pixel = 3 * sizeof(float) + (is_sampled ? sizeof(PixelRecord) + chosen : 0);
-    return (uint64_t)width * (uint64_t)height * pixel;
+    uint64_t rows = is_sampled ? 4 * sizeof(double) : 0; // of sampling_near.c
+    return (uint64_t)width * ((uint64_t)height * pixel + rows);
 }

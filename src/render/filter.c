@@ -49,6 +49,9 @@ void filter_init(Filter *filter, FilterKind kind)
     enum { FINE = 64 * FILTER_STEPS };
     double radius = filter_radius(kind), step = 2.0 * radius / FINE, size = 0.0, sum = 0.0;
     *filter = (Filter){.kind = kind, .scale = 1.0};
+    if (kind == FILTER_BOX) {
+        return;
+    }
     for (int i = 0; i < FINE; i++) {
         double value = filter_value(kind, (i + 0.5) * step - radius);
         size += fabs(value) * step;

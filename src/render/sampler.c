@@ -194,3 +194,65 @@ SamplePoint sample_next(SampleStream *stream)
     seed = hash_add(seed, stream->index);
     return (SamplePoint){unit(hash_add(seed, 1)), unit(hash_add(seed, 2))};
 }
+
+// ---- many at once
+
+// Four samples a step. Shifts, products and sums are those of single words.
+typedef uint32_t Words __attribute__((vector_size(16)));
+enum { WORDS = 4 };
+
+static inline Words words_reverse_bits(Words x)
+{
+    x = x >> 16 | x << 16;
+    x = (x >> 8 & UINT32_C(0x00ff00ff)) | (x & UINT32_C(0x00ff00ff)) << 8;
+    x = (x >> 4 & UINT32_C(0x0f0f0f0f)) | (x & UINT32_C(0x0f0f0f0f)) << 4;
+    x = (x >> 2 & UINT32_C(0x33333333)) | (x & UINT32_C(0x33333333)) << 2;
+    return (x >> 1 & UINT32_C(0x55555555)) | (x & UINT32_C(0x55555555)) << 1;
+}
+
+static inline Words words_scramble_reversed(Words x, uint32_t seed)
+{
+    x += seed;
+    x ^= x * UINT32_C(0x6c50b47c);
+    x ^= x * UINT32_C(0xb82f1e52);
+    x ^= x * UINT32_C(0xc7afe638);
+    return words_reverse_bits(x ^ x * UINT32_C(0x8d22f6e6));
+}
+
+static inline Words words_second(Words x)
+{
+    x ^= x >> 16;
+    x ^= x >> 8 & UINT32_C(0x00ff00ff);
+    x ^= x >> 4 & UINT32_C(0x0f0f0f0f);
+    x ^= x >> 2 & UINT32_C(0x33333333);
+    return x ^ (x >> 1 & UINT32_C(0x55555555));
+}
+
+static void sobol_places(const SampleStream *stream, uint32_t count, SamplePoint *places)
+{
+    uint32_t order = hash_add(stream->seed, stream->pair), seed = order;
+    uint32_t seeds[] = {hash_add(seed, 1), hash_add(seed, 2)};
+    for (uint32_t i = 0; i < count; i += WORDS) {
+        Words index = {i, i + 1, i + 2, i + 3};
+        Words shuffled = words_scramble_reversed(words_reverse_bits(index + stream->index), order);
+        Words x = words_scramble_reversed(shuffled, seeds[0]);
+        Words y = words_scramble_reversed(words_second(shuffled), seeds[1]);
+        for (uint32_t j = 0; j < WORDS && i + j < count; j++) {
+            places[i + j] = (SamplePoint){unit(x[j]), unit(y[j])};
+        }
+    }
+}
+
+void sample_places(const SampleStream *stream, uint32_t count, SamplePoint *places)
+{
+    bool is_second = stream->pair & 1; // in an order of its own
+    if (stream->kind == SAMPLER_SOBOL && !is_second) {
+        sobol_places(stream, count, places);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        SampleStream one = *stream;
+        one.index += i;
+        places[i] = sample_next(&one);
+    }
+}

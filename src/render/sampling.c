@@ -9,7 +9,7 @@
 
 #include "render/tiles.h"
 
-enum { PILOT_SAMPLES = 4 }; // of every pixel, before some get more than others
+enum { ALIKE_SAMPLES = 4 }; // of every pixel, before some get more than others, where middles are no pilot
 
 typedef struct Sampling {
     const Prepared *prepared;
@@ -52,7 +52,11 @@ static void forward_progress(void *client, double done)
 static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
 {
     const Sampling *s = client;
-    round_trace(&s->round, tile, counted);
+    if (s->round.is_middles) {
+        round_trace_middles(&s->round, tile, counted);
+    } else {
+        round_trace(&s->round, tile, counted);
+    }
 }
 
 // What rays would have brought that were not followed, if they were as bright as the picture is in the mean.
@@ -70,8 +74,7 @@ static void find_bias(Sampling *s)
     s->error->bias_by_level = by_level * unit * mean;
 }
 
-// One round; false when it was cancelled, which leaves pixels with and without it.
-static bool run_round(Sampling *s)
+static bool trace_round(Sampling *s)
 {
     double start = clock_seconds();
     TileWork work = {s, s->film->width, s->film->height, trace_tile, s->options->progress ? forward_progress : NULL};
@@ -79,6 +82,13 @@ static bool run_round(Sampling *s)
     if (is_whole) {
         s->sample_seconds = (clock_seconds() - start) / s->round_samples;
     }
+    return is_whole;
+}
+
+// One round; false when it was cancelled, which leaves pixels with and without it.
+static bool run_round(Sampling *s)
+{
+    bool is_whole = trace_round(s);
     if (!s->wanted->has_no_estimate) {
         estimate_update(&s->estimate, s->film, &s->round, is_whole, s->error);
         find_bias(s);
@@ -98,7 +108,7 @@ static double predict(const Sampling *s)
         double left = fmax(wanted->time_limit - (clock_seconds() - s->start), 0.0);
         all = fmin(all, (double)s->estimate.samples + left / s->sample_seconds);
     }
-    if (wanted->target_error > 0.0 && s->round.buckets) {
+    if (wanted->target_error > 0.0 && s->choice.power > 0.0) {
         double samples = choice_predict(&s->choice, &s->estimate, s->error, wanted->target_error);
         all = samples > 0.0 ? fmin(all, samples) : all;
     }
@@ -110,7 +120,7 @@ static bool is_enough(Sampling *s)
 {
     const SamplingOptions *wanted = s->wanted;
     SamplingError *error = s->error;
-    if (wanted->target_error > 0.0 && error->samples >= 4.0 && error->high <= wanted->target_error) {
+    if (wanted->target_error > 0.0 && s->choice.power > 0.0 && error->high <= wanted->target_error) {
         error->end = SAMPLING_TARGET;
         return true;
     }
@@ -158,17 +168,40 @@ static bool run_alike(Sampling *s, uint32_t all)
     return true;
 }
 
+// One ray through the middle of each pixel, and some pixels that tell what that is worth. False when it was cancelled.
+static bool run_pilot(Sampling *s)
+{
+    Round *round = &s->round;
+    *round = (Round){.prepared = round->prepared, .sampling = round->sampling, .film = round->film,
+                     .filter = round->filter, .count = 1, .has_middles = true, .is_middles = true, .is_pilot = true};
+    s->round_samples = pixel_count(s);
+    s->all_samples = predict(s);
+    if (!run_round(s)) {
+        return false;
+    }
+    pilot_sort(s->film, s->wanted->seed, s->choice.of_pixel, s->choice.memory);
+    round->is_middles = false;
+    round->count = 0;
+    round->buckets = s->choice.of_pixel;
+    round->least_bucket = PILOT_PROBE;
+    if (!trace_round(s)) {
+        return false;
+    }
+    round->is_pilot = false;
+    pilot_judge(&s->estimate, s->film, s->choice.of_pixel);
+    estimate_now(&s->estimate, s->film, round, s->error);
+    find_bias(s);
+    return true;
+}
+
 static void run_adaptive(Sampling *s)
 {
     s->round.buckets = s->choice.of_pixel;
     s->round.count = 0;
     for (;;) {
-        choice_make(&s->choice, &s->estimate, s->film);
+        choice_make(&s->choice, &s->estimate, &s->round);
         s->round.least_bucket = s->choice.least_bucket;
-        s->round_samples = 0.0;
-        for (int i = s->choice.least_bucket; i < BUCKETS; i++) {
-            s->round_samples += s->choice.cost[i];
-        }
+        s->round_samples = s->choice.spent;
         s->all_samples = predict(s);
         if (is_enough(s)) {
             return;
@@ -187,10 +220,12 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     size_t pixels = (size_t)film->width * (size_t)film->height;
     Sampling *s = calloc(1, sizeof *s);
     uint16_t *buckets = wanted->is_adaptive ? calloc(pixels, sizeof *buckets) : NULL;
+    double *memory = wanted->is_adaptive ? calloc((size_t)film->width, NEAR_ROWS * sizeof *memory) : NULL;
     film->records = calloc(pixels, sizeof *film->records);
-    if (!s || !film->records || (wanted->is_adaptive && !buckets)) {
+    if (!s || !film->records || (wanted->is_adaptive && (!buckets || !memory))) {
         free(s);
         free(buckets);
+        free(memory);
         return RENDER_NO_MEMORY;
     }
     *s = (Sampling){.prepared = prepared,
@@ -200,10 +235,14 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
                     .statistics = statistics,
                     .error = error,
                     .start = clock_seconds(),
-                    .choice = {.of_pixel = buckets}};
+                    .choice = {.of_pixel = buckets, .memory = memory}};
     s->round = (Round){.prepared = prepared, .sampling = wanted, .film = film};
     filter_init(&s->round.filter, wanted->filter);
-    if (run_alike(s, wanted->is_adaptive ? PILOT_SAMPLES : (uint32_t)wanted->samples) && wanted->is_adaptive) {
+    bool has_pilot = wanted->is_adaptive && wanted->filter == FILTER_BOX;
+    uint32_t alike = wanted->is_adaptive ? ALIKE_SAMPLES : (uint32_t)wanted->samples;
+    if (has_pilot && !run_pilot(s)) {
+        error->end = SAMPLING_INTERRUPTED;
+    } else if ((has_pilot || run_alike(s, alike)) && wanted->is_adaptive) {
         run_adaptive(s);
     }
     bool is_whole = error->end != SAMPLING_INTERRUPTED;
@@ -214,5 +253,6 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     }
     free(s);
     free(buckets);
+    free(memory);
     return is_whole ? RENDER_OK : RENDER_CANCELLED;
 }

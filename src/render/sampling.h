@@ -24,7 +24,18 @@ typedef struct Round {
     const uint16_t *buckets; // by priority, of each pixel; NULL: all pixels take part
     uint16_t least_bucket;   // of those that take part
     uint32_t count;          // how many samples they shall have; 0: twice as many as they have
+    bool has_middles;        // a pixel's only sample is the ray through its middle: what goes on from there starts anew
+    bool is_middles;         // these rays
+    bool is_pilot;           // pixels that start are to say how good their middles were
 } Round;
+
+enum { START_SAMPLES = 4 };
+
+// Whether a pixel that has so many samples starts anew.
+static inline bool round_starts(const Round *round, uint32_t count)
+{
+    return round->has_middles && count == 1 && round->count == 0;
+}
 
 static inline bool round_has(const Round *round, size_t pixel)
 {
@@ -34,28 +45,38 @@ static inline bool round_has(const Round *round, size_t pixel)
 // The samples that a pixel gets in a round.
 uint32_t round_samples(const Round *round, size_t pixel);
 
+// Traces the rays through the middles of a tile's pixels.
+void round_trace_middles(const Round *round, Tile tile, RenderStatistics *counted);
+
 // Traces the samples of a tile's pixels.
 void round_trace(const Round *round, Tile tile, RenderStatistics *counted);
 
 // ---- sampling_estimate.c: figures
 
-enum { LEVELS = 33 };
+enum { LEVELS = 33, PILOT_SORTS = 32 };
 
 // Sums over pixels that have between 2^level and 2^(level+1) - 1 samples.
 typedef struct LevelSums {
     double outer, inner;             // of pixels that came to it, as they came: nothing was chosen by these
     double outer_now, outer_squares; // of those that are there now
+    double inner_now;
 } LevelSums;
 
 typedef struct Estimate {
     LevelSums levels[LEVELS];
     double ratio[LEVELS]; // by which variance is taken to fall when samples are doubled
     uint64_t samples;
+    // Of pixels that have their middle only, by sort: the sum of what they are taken to be off by, and its relative
+    // variance.
+    double sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
 } Estimate;
 
 // After a round, which is whole unless it was cancelled: what it says of the ratios, and what all pixels say of the
 // error.
 void estimate_update(Estimate *estimate, const Film *film, const Round *round, bool is_whole, SamplingError *error);
+
+// The same after pixels were judged otherwise.
+void estimate_now(Estimate *estimate, const Film *film, const Round *round, SamplingError *error);
 
 // The level of a pixel with so many samples.
 static inline int estimate_level(uint32_t count)
@@ -63,19 +84,51 @@ static inline int estimate_level(uint32_t count)
     return count > 1 ? 31 - __builtin_clz(count) : 0;
 }
 
+// ---- sampling_near.c: means over a pixel and its neighbours
+
+// Rows of values are given from the top; then those of a row are weighted 4, 2 and 1 by nearness, once the row below is
+// given. Beyond the picture's sides the pixel beside them stands.
+typedef struct Near {
+    double *values;  // of a row, to be filled in; then its means
+    double *widened; // of the last three rows
+    int width, height;
+} Near;
+
+enum { NEAR_ROWS = 4 };
+// `memory`: NEAR_ROWS rows of a picture.
+Near near_begin(double *memory, int width, int height);
+// Takes near->values as row y.
+void near_give(Near *near, int y);
+// Puts the means of row y into near->values.
+void near_take(Near *near, int y);
+
+// ---- sampling_pilot.c: what one ray a pixel is worth
+
+// Pixels have the ray through their middle, and are sorted by how much it differs from what its neighbours let expect.
+// Of each square of pixels one is chosen by chance: those have buckets from PILOT_PROBE on, the others below.
+enum { PILOT_PROBE = 0x8000 };
+void pilot_sort(const Film *film, uint64_t seed, uint16_t *buckets, double *memory);
+
+// When the chosen ones have started: what they differ from their middles by is taken for what those of their sort are
+// off by.
+void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
+
 // ---- sampling_choice.c: where the next samples go, and how many it will take
 
-// Pixels in classes of like priority; a finer one is of greater priority, by a factor of 2^(1/4).
-enum { BUCKETS = 1024 };
+// Pixels in classes of like priority, four for a factor of two: exponent and two bits of a float.
+enum { BUCKETS = 1020 };
 typedef struct Choice {
     uint16_t *of_pixel;    // width * height; owned by the caller
-    double cost[BUCKETS];  // samples that its pixels have
+    double *memory;        // NEAR_ROWS * width; owned by the caller
+    double cost[BUCKETS], middle_cost[BUCKETS]; // samples that pixels get next; those that have their middle only
+    double middle_priority; // of such a pixel, over what it is off by
+    double spent;          // samples of the next round
     double power;          // p: variances fall as n^-p
     uint16_t least_bucket; // of the next round
 } Choice;
 
 // Sorts all pixels and chooses the next round's.
-void choice_make(Choice *choice, const Estimate *estimate, const Film *film);
+void choice_make(Choice *choice, const Estimate *estimate, const Round *round);
 
 // Samples in all that it takes to bring `high` to the target, predicted; 0 when it cannot be told.
 double choice_predict(const Choice *choice, const Estimate *estimate, const SamplingError *error, double target);

@@ -10,13 +10,16 @@
 
 #include "render/sampling.h"
 
-enum { BUCKET_FINE = 4, BUCKET_MIDDLE = 700 }; // buckets for a factor of two; that of priority 1
+enum { BUCKET_FINE = 4, BUCKET_SHIFT = 21 }; // buckets for a factor of two; bits of a float below a bucket's
 
 // A round takes about this share of all samples taken before it: what a run may spend too much.
 static const double ROUND_SHARE = 0.25;
 
 // Where nothing has been seen, something may be: of the mean of all pixels.
 static const double PRIORITY_FLOOR = 1e-3;
+
+// As many samples as the neighbours of a pixel count for.
+static const double NEIGHBOURS_COUNT = 8.0;
 
 // What is predicted is taken between what was seen, which is told with caution, and what hard edges mostly have; the
 // interval gets narrower on the way, to this power of its width now. Measured.
@@ -32,107 +35,148 @@ static double mean_log_ratio(const Estimate *estimate)
     return weight > 0.0 ? sum / weight : 1.0;
 }
 
+// The middle of a bucket.
 static double bucket_priority(int bucket)
 {
-    return exp2((bucket + 0.5 - BUCKET_MIDDLE) / BUCKET_FINE);
+    union { uint32_t bits; float value; } number = {.bits = (uint32_t)bucket << BUCKET_SHIFT | 1u << (BUCKET_SHIFT - 1)};
+    return (double)number.value;
 }
 
-static uint16_t bucket_of(double priority)
+static inline uint16_t bucket_of(double priority)
 {
-    double bucket = BUCKET_FINE * log2(priority) + BUCKET_MIDDLE;
-    return (uint16_t)(bucket < 0.0 ? 0.0 : bucket >= BUCKETS ? BUCKETS - 1.0 : bucket);
+    union { float value; uint32_t bits; } number = {.value = (float)priority};
+    uint32_t bucket = number.bits >> BUCKET_SHIFT;
+    return (uint16_t)(bucket < BUCKETS ? bucket : BUCKETS - 1);
 }
 
 // The constants c of all pixels, and what goes from there to a priority.
 typedef struct Constants {
-    const Film *film;
     double to_constant[LEVELS], to_priority[LEVELS]; // by level: counts are powers of two
     double floor;
 } Constants;
 
-static double constant_at(const Constants *constants, size_t pixel)
-{
-    const PixelRecord *record = &constants->film->records[pixel];
-    return record->inner * constants->to_constant[estimate_level(record->count)];
-}
-
-static void constants_init(Constants *constants, const Film *film, double power)
+static void constants_init(Constants *constants, const Estimate *estimate, double pixels, double power)
 {
     double sum = 0.0;
-    size_t pixels = (size_t)film->width * (size_t)film->height;
-    constants->film = film;
     for (int level = 0; level < LEVELS; level++) {
         constants->to_constant[level] = exp2(power * level);
         constants->to_priority[level] = exp2(-(power + 1.0) * level);
+        sum += constants->to_constant[level] * estimate->levels[level].inner_now;
     }
-    for (size_t i = 0; i < pixels; i++) {
-        sum += constant_at(constants, i);
-    }
-    constants->floor = fmax(PRIORITY_FLOOR * sum / (double)pixels, 1e-30);
+    constants->floor = fmax(PRIORITY_FLOOR * sum / pixels, 1e-30);
 }
 
-// Weighted 4, 2 and 1 by nearness; beyond the picture's sides the pixel beside them stands.
-static double constant_near(const Constants *constants, int x, int y)
+// The buckets of a row, from the constants around its pixels. A pixel's own counts the more, the more samples it is
+// from.
+static void choose_row(Choice *choice, const Constants *constants, const Round *round, int y, const double *near)
 {
-    const Film *film = constants->film;
-    double sum = 0.0;
-    for (int dy = -1; dy <= 1; dy++) {
-        for (int dx = -1; dx <= 1; dx++) {
-            int at_x = x + dx >= 0 && x + dx < film->width ? x + dx : x;
-            int at_y = y + dy >= 0 && y + dy < film->height ? y + dy : y;
-            double weight = (2 - abs(dx)) * (2 - abs(dy)) / 16.0;
-            sum += weight * constant_at(constants, (size_t)at_y * (size_t)film->width + (size_t)at_x);
+    size_t begin = (size_t)y * (size_t)round->film->width;
+    for (int x = 0; x < round->film->width; x++) {
+        size_t pixel = begin + (size_t)x;
+        const PixelRecord *record = &round->film->records[pixel];
+        int level = estimate_level(record->count);
+        double count = record->count, own = record->inner * constants->to_constant[level];
+        double constant = (NEIGHBOURS_COUNT * near[x] + count * own) / (NEIGHBOURS_COUNT + count);
+        constant = constant > constants->floor ? constant : constants->floor;
+        bool is_full = record->count > UINT32_MAX / 4;
+        uint16_t bucket = is_full ? 0 : bucket_of(constant * constants->to_priority[level]);
+        choice->of_pixel[pixel] = bucket;
+        if (round_starts(round, record->count)) {
+            choice->middle_cost[bucket] += START_SAMPLES;
+        } else {
+            choice->cost[bucket] += count;
         }
     }
-    return fmax(sum, constants->floor);
 }
 
-void choice_make(Choice *choice, const Estimate *estimate, const Film *film)
+static double choice_cost(const Choice *choice, int bucket)
 {
+    return choice->cost[bucket] + choice->middle_cost[bucket];
+}
+
+void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
+{
+    const Film *film = round->film;
     Constants constants;
     double spent = 0.0;
     choice->power = mean_log_ratio(estimate);
-    constants_init(&constants, film, choice->power);
-    for (int i = 0; i < BUCKETS; i++) {
-        choice->cost[i] = 0.0;
+    constants_init(&constants, estimate, (double)film->width * film->height, choice->power);
+    choice->middle_priority = 1.0;
+    if (round->has_middles) {
+        // Of a middle that is followed by START_SAMPLES, as of samples that are doubled.
+        double left = exp2(-choice->power);
+        choice->middle_priority = (1.0 - left * left) / (START_SAMPLES * (1.0 - left));
+        constants.to_priority[0] = choice->middle_priority;
     }
-    for (int y = 0; y < film->height; y++) {
-        for (int x = 0; x < film->width; x++) {
-            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            uint32_t count = film->records[pixel].count;
-            double priority = constant_near(&constants, x, y) * constants.to_priority[estimate_level(count)];
-            bool is_full = count > UINT32_MAX / 4;
-            choice->of_pixel[pixel] = is_full ? 0 : bucket_of(priority);
-            choice->cost[choice->of_pixel[pixel]] += count;
+    for (int i = 0; i < BUCKETS; i++) {
+        choice->cost[i] = choice->middle_cost[i] = 0.0;
+    }
+    Near near = near_begin(choice->memory, film->width, film->height);
+    for (int y = 0; y <= film->height; y++) {
+        const PixelRecord *record = &film->records[(size_t)y * (size_t)film->width];
+        for (int x = 0; y < film->height && x < film->width; x++) {
+            near.values[x] = record[x].inner * constants.to_constant[estimate_level(record[x].count)];
+        }
+        near_give(&near, y);
+        if (y > 0) {
+            near_take(&near, y - 1);
+            choose_row(choice, &constants, round, y - 1, near.values);
         }
     }
     int least = BUCKETS;
-    while (least > 1 && (spent == 0.0 || spent + choice->cost[least - 1] <= ROUND_SHARE * (double)estimate->samples)) {
-        spent += choice->cost[--least];
+    while (least > 1 && (spent == 0.0 || spent + choice_cost(choice, least - 1) <= ROUND_SHARE * (double)estimate->samples)) {
+        spent += choice_cost(choice, --least);
     }
     choice->least_bucket = (uint16_t)least;
+    choice->spent = spent;
 }
 
-// Plays the rounds that are to come on the buckets alone.
+// Pixels by bucket while the coming rounds are played: the samples that they get next, and their share of the error.
+typedef struct Play {
+    double cost[BUCKETS], square[BUCKETS];
+    double known; // sum of the squares
+} Play;
+
+static double play_begin(Play *play, const double costs[BUCKETS], double scale)
+{
+    play->known = 0.0;
+    for (int i = 0; i < BUCKETS; i++) {
+        play->cost[i] = costs[i];
+        play->square[i] = scale * costs[i] * bucket_priority(i);
+        play->known += play->square[i];
+    }
+    return play->known;
+}
+
+// A bucket's pixels get their samples: a share of their error stays, and they go down by `fall` buckets.
+static double play_bucket(Play *from, Play *to, int bucket, int fall, double times, double share)
+{
+    double cost = from->cost[bucket], square = from->square[bucket];
+    from->cost[bucket] = from->square[bucket] = 0.0;
+    from->known -= square;
+    to->cost[bucket - fall] += times * cost;
+    to->square[bucket - fall] += share * square;
+    to->known += share * square;
+    return cost;
+}
+
 double choice_predict(const Choice *choice, const Estimate *estimate, const SamplingError *error, double target)
 {
-    double cost[BUCKETS], square[BUCKETS], known = 0.0, samples = (double)estimate->samples;
-    for (int i = 0; i < BUCKETS; i++) {
-        cost[i] = choice->cost[i];
-        square[i] = cost[i] * bucket_priority(i);
-        known += square[i];
-    }
+    Play middles, others;
+    double samples = (double)estimate->samples, power = 0.5 * (choice->power + USUAL_POWER);
+    // Of middles, priority is the error times this, for each sample that they start with.
+    double middle_scale = 1.0 / (START_SAMPLES * choice->middle_priority);
+    double known = play_begin(&middles, choice->middle_cost, middle_scale);
+    known += play_begin(&others, choice->cost, 1.0);
     // In units of what is known now.
-    double power = 0.5 * (choice->power + USUAL_POWER);
     double high = error->rmse * pow(error->high / error->rmse, WIDTH_POWER);
-    double goal = known * (target / high) * (target / high);
+    double goal = known * (target / high) * (target / high), share = exp2(-power);
     int fall = (int)lround(BUCKET_FINE * (power + 1.0));
-    double share = exp2(-power);
-    for (int least = BUCKETS - 1; known > goal && least > fall; least--) {
-        samples += cost[least];
-        known -= square[least] * (1.0 - share);
-        cost[least - fall] += 2.0 * cost[least];
-        square[least - fall] += square[least] * share;
+    int middle_fall = (int)lround(BUCKET_FINE * (2.0 * (power + 1.0) + log2(choice->middle_priority)));
+    for (int least = BUCKETS - 1; middles.known + others.known > goal && least > 2 * fall; least--) {
+        samples += play_bucket(&middles, &others, least, middle_fall, 1.0, share * share);
+        samples += play_bucket(&others, &others, least, fall, 2.0, share);
     }
-    return known <= goal ? samples * (1.0 + 0.5 * ROUND_SHARE) : 0.0; // the last round goes beyond
+    bool is_enough = middles.known + others.known <= goal;
+    return is_enough ? samples * (1.0 + 0.5 * ROUND_SHARE) : 0.0; // the last round goes beyond
 }

@@ -60,20 +60,27 @@ static double ratio_of(const Estimate *estimate, const Round *round, int level, 
     return *steps > 0 ? fmin(fmax(exp2(least), RATIO_LEAST), RATIO_MOST) : RATIO_LEAST;
 }
 
-static void add_now(Estimate *estimate, const Film *film)
+static void add_now(Estimate *estimate, const Film *film, const Round *round)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
     estimate->samples = 0;
+    for (int sort = 0; sort < PILOT_SORTS; sort++) {
+        estimate->sort_sum[sort] = 0.0;
+    }
     for (int level = 0; level < LEVELS; level++) {
         LevelSums *sums = &estimate->levels[level];
-        sums->outer_now = sums->outer_squares = 0.0;
+        sums->outer_now = sums->outer_squares = sums->inner_now = 0.0;
     }
     for (size_t i = 0; i < pixels; i++) {
         const PixelRecord *record = &film->records[i];
         LevelSums *sums = &estimate->levels[estimate_level(record->count)];
-        estimate->samples += record->count;
+        estimate->samples += record->count + (round->has_middles && record->count > 1 ? 1 : 0);
         sums->outer_now += record->outer;
+        sums->inner_now += record->inner;
         sums->outer_squares += (double)record->outer * record->outer;
+        if (round->has_middles && record->count == 1) {
+            estimate->sort_sum[(int)record->fresh] += record->outer;
+        }
     }
 }
 
@@ -81,7 +88,7 @@ static void add_now(Estimate *estimate, const Film *film)
 static void add_alike(Estimate *estimate, const Film *film, uint32_t count)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
-    LevelSums sums = {0.0, 0.0, 0.0, 0.0};
+    LevelSums sums = {0};
     for (size_t i = 0; i < pixels; i++) {
         double outer = film->records[i].outer;
         sums.outer += outer;
@@ -89,8 +96,10 @@ static void add_alike(Estimate *estimate, const Film *film, uint32_t count)
         sums.outer_squares += outer * outer;
     }
     sums.outer_now = sums.outer;
+    sums.inner_now = sums.inner;
     for (int level = 0; level < LEVELS; level++) {
-        estimate->levels[level].outer_now = estimate->levels[level].outer_squares = 0.0;
+        LevelSums *none = &estimate->levels[level];
+        none->outer_now = none->outer_squares = none->inner_now = 0.0;
     }
     estimate->levels[estimate_level(count)] = sums;
     estimate->samples = (uint64_t)count * pixels;
@@ -111,6 +120,18 @@ static double relative_variance(const LevelSums *sums, double ratio, int steps)
     return ((1.0 + by_ratio) * (1.0 + by_ratio) + by_ratio * by_ratio + 1.0) * outer;
 }
 
+// The same of pixels that have their middle only.
+static double middles_variance(const Estimate *estimate)
+{
+    double variance = 0.0, sum = 0.0;
+    for (int sort = 0; sort < PILOT_SORTS; sort++) {
+        double part = estimate->sort_sum[sort];
+        sum += part;
+        variance += part * part * estimate->sort_variance[sort];
+    }
+    return sum > 0.0 ? variance / (sum * sum) : 0.0;
+}
+
 // By how much the law of the ratios may be wrong, by level: less, the more steps were seen, and the least where all
 // sets are nets. Measured.
 static double law_error(const Round *round, int level)
@@ -123,16 +144,10 @@ static double law_error(const Round *round, int level)
     return (round->count & (round->count - 1)) != 0 ? fmax(error, not_net) : error;
 }
 
-void estimate_update(Estimate *estimate, const Film *film, const Round *round, bool is_whole, SamplingError *error)
+static void tell(Estimate *estimate, const Film *film, const Round *round, SamplingError *error)
 {
     const double normal = 1.96; // 95 % of a normal distribution is within
     double pixels = (double)film->width * film->height, sum = 0.0, variance = 0.0, slope = 0.0, law = 0.0;
-    if (is_whole && !round->buckets) {
-        add_alike(estimate, film, round->count);
-    } else {
-        add_fresh(estimate, film, round);
-        add_now(estimate, film);
-    }
     for (int level = 0; level < LEVELS; level++) {
         const LevelSums *sums = &estimate->levels[level];
         int steps;
@@ -140,17 +155,35 @@ void estimate_update(Estimate *estimate, const Film *film, const Round *round, b
         double part = sums->outer_now / (ratio - 1.0);
         sum += part;
         slope += part * log2(ratio);
-        variance += part * part * relative_variance(sums, ratio, steps);
+        bool is_middles = level == 0 && round->has_middles;
+        variance += part * part * (is_middles ? middles_variance(estimate) : relative_variance(sums, ratio, steps));
         law += part * law_error(round, level);
     }
     double relative = sum > 0.0 ? normal * 0.5 * sqrt(variance) / sum : 0.0, wrong = sum > 0.0 ? law / sum : 0.0;
     double spread = exp(sqrt(relative * relative + wrong * wrong));
     error->samples = (double)estimate->samples / pixels;
-    error->is_known = error->samples >= 2.0;
+    error->is_known = round->has_middles ? !round->is_pilot : error->samples >= 2.0;
     error->rmse = sqrt(sum / pixels);
     error->low = error->rmse / spread;
     error->high = error->rmse * spread;
     error->slope = sum > 0.0 ? -0.5 * slope / sum : -0.5;
+}
+
+void estimate_update(Estimate *estimate, const Film *film, const Round *round, bool is_whole, SamplingError *error)
+{
+    if (is_whole && !round->buckets) {
+        add_alike(estimate, film, round->count);
+    } else {
+        add_fresh(estimate, film, round);
+        add_now(estimate, film, round);
+    }
+    tell(estimate, film, round, error);
+}
+
+void estimate_now(Estimate *estimate, const Film *film, const Round *round, SamplingError *error)
+{
+    add_now(estimate, film, round);
+    tell(estimate, film, round, error);
 }
 
 double render_pixel_error(const Film *film, const SamplingError *error, size_t pixel)

@@ -9,10 +9,13 @@
 
 enum { TILE_PIXELS = TILE_SIZE * TILE_SIZE };
 
-// Sums over the halves of a pixel's new samples.
-typedef struct Halves {
-    Rgb sum[2];
-} Halves;
+// So that rays through middles draw other numbers than the samples of their pixel.
+static const uint32_t MIDDLE_SEED = UINT32_C(0x9e3779b9);
+
+// Sums over the halves of a pixel's new samples; over their quarters where the pixel starts.
+typedef struct Parts {
+    Rgb sum[START_SAMPLES];
+} Parts;
 
 // Samples on their way through the kernel.
 typedef struct Batch {
@@ -23,7 +26,15 @@ typedef struct Batch {
     Rgb *sums[KERNEL_RAYS];
     Rgb light[KERNEL_RAYS];
     int count;
+    bool draws; // whether anything but the place in the pixel is drawn from the streams
 } Batch;
+
+// A pixel that takes part.
+typedef struct Chosen {
+    int x, y;
+    size_t index;
+    uint32_t count; // samples that it gets
+} Chosen;
 
 uint32_t round_samples(const Round *round, size_t pixel)
 {
@@ -31,12 +42,25 @@ uint32_t round_samples(const Round *round, size_t pixel)
     if (!round_has(round, pixel)) {
         return 0;
     }
-    return round->count > 0 ? round->count - count : count;
+    return round->count > 0 ? round->count - count : round_starts(round, count) ? START_SAMPLES : count;
+}
+
+static void batch_init(Batch *batch, const Prepared *p)
+{
+    bool has_lens = p->camera.lens_radius > 0.0;
+    batch->count = 0;
+    batch->places.lens = has_lens ? batch->lens : NULL;
+    batch->draws = has_lens || (p->kernel->features & RENDER_LIGHTS);
+}
+
+static void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted)
+{
+    const Prepared *p = round->prepared;
+    p->kernel->trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, counted);
 }
 
 static void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
 {
-    const Prepared *p = round->prepared;
     if (batch->count == 0) {
         return;
     }
@@ -48,44 +72,67 @@ static void batch_flush(const Round *round, Batch *batch, RenderStatistics *coun
         }
     }
     uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
-    p->kernel->trace(p, &batch->places, batch->streams, wanted, batch->light, counted);
+    batch_trace(round, batch, wanted, counted);
     for (int i = 0; i < batch->count; i++) {
         *batch->sums[i] = rgb_add_scaled(*batch->sums[i], batch->weights[i], batch->light[i]);
     }
     batch->count = 0;
 }
 
-static void batch_add(const Round *round, Batch *batch, int x, int y, SampleStream stream, Rgb *sum)
+// Some samples of a pixel, for one sum, or for a sum each; there is room for them. `stream` is that of the first.
+static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, const SampleStream *stream,
+                      uint32_t count, Rgb *sum, bool has_sums)
 {
     const Film *film = round->film;
-    int i = batch->count++;
-    FilterSample at = filter_sample(&round->filter, sample_next(&stream));
-    batch->places.u[i] = film_u(film, x, at.x);
-    batch->places.v[i] = film_v(film, y, at.y);
-    if (batch->places.lens) {
-        batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&stream));
+    SamplePoint places[KERNEL_RAYS];
+    bool is_box = round->filter.kind == FILTER_BOX;
+    sample_places(stream, count, places);
+    for (uint32_t j = 0; j < count; j++) {
+        int i = batch->count++;
+        FilterSample at = {places[j].x - 0.5, places[j].y - 0.5, 1.0};
+        at = is_box ? at : filter_sample(&round->filter, places[j]);
+        batch->places.u[i] = film_u(film, pixel->x, at.x);
+        batch->places.v[i] = film_v(film, pixel->y, at.y);
+        batch->weights[i] = at.weight;
+        batch->sums[i] = has_sums ? sum + j : sum;
+        if (!batch->draws) {
+            continue;
+        }
+        batch->streams[i] = *stream;
+        batch->streams[i].index += j;
+        batch->streams[i].pair++;
+        if (batch->places.lens) {
+            batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&batch->streams[i]));
+        }
     }
-    batch->weights[i] = at.weight;
-    batch->streams[i] = stream;
-    batch->sums[i] = sum;
 }
 
-static void pixel_add(const Round *round, Batch *batch, int x, int y, uint32_t count, Halves *halves,
-                      RenderStatistics *counted)
+static uint32_t pixel_seed(const Round *round, int x, int y)
 {
     const Film *film = round->film;
-    uint32_t before = film->records[(size_t)y * (size_t)film->width + (size_t)x].count;
+    return sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y));
+}
+
+static void pixel_add(const Round *round, Batch *batch, const Chosen *pixel, Parts *parts, RenderStatistics *counted)
+{
+    uint32_t had = round->film->records[pixel->index].count, count = pixel->count;
+    bool starts = round_starts(round, had);
+    uint32_t before = starts ? 0 : had;
     SampleStream stream = {
         .kind = round->sampling->sampler,
-        .seed = sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y)),
+        .seed = pixel_seed(round, pixel->x, pixel->y),
         .first = before,
         .count = count};
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count;) {
+        uint32_t half = (count + 1) / 2, room = (uint32_t)(KERNEL_RAYS - batch->count);
+        uint32_t part = starts ? i : i >= half, end = !starts && i < half ? half : count;
+        uint32_t some = end - i < room ? end - i : room;
         stream.index = before + i;
-        batch_add(round, batch, x, y, stream, &halves->sum[i >= (count + 1) / 2]);
+        batch_add(round, batch, pixel, &stream, some, &parts->sum[part], starts);
         if (batch->count == KERNEL_RAYS) {
             batch_flush(round, batch, counted);
         }
+        i += some;
     }
 }
 
@@ -97,17 +144,47 @@ static inline float square_apart(Rgb difference, Rgb slope, double a, double b)
     return (float)(a * b / (3.0 * (a + b) * (a + b)) * (red * red + green * green + blue * blue));
 }
 
-static void pixel_finish(const Round *round, size_t pixel, uint32_t count, const Halves *halves)
+static void value_put(float *value, Rgb light)
+{
+    value[0] = (float)light.red;
+    value[1] = (float)light.green;
+    value[2] = (float)light.blue;
+}
+
+// A pixel that had the ray through its middle only, which is left out of its mean. How far the two are apart is kept
+// for sampling_pilot.c.
+static void pixel_start(const Round *round, size_t pixel, const Parts *parts)
+{
+    PixelRecord *record = &round->film->records[pixel];
+    float *value = &round->film->rgb[3 * pixel];
+    const Rgb *sum = parts->sum;
+    Rgb middle = rgb(value[0], value[1], value[2]);
+    Rgb halves[2] = {rgb_scale(0.5, rgb_add(sum[0], sum[1])), rgb_scale(0.5, rgb_add(sum[2], sum[3]))};
+    Rgb mean = rgb_scale(0.5, rgb_add(halves[0], halves[1]));
+    value_put(value, mean);
+    Rgb slope = linear_slope(&round->prepared->scene->settings, value);
+    float first = square_apart(rgb_add_scaled(sum[0], -1.0, sum[1]), slope, 1.0, 1.0);
+    float second = square_apart(rgb_add_scaled(sum[2], -1.0, sum[3]), slope, 1.0, 1.0);
+    *record = (PixelRecord){
+        .count = START_SAMPLES,
+        .outer = square_apart(rgb_add_scaled(halves[0], -1.0, halves[1]), slope, 2.0, 2.0),
+        .inner = 0.5f * (first + second),
+        .fresh = round->is_pilot ? 4.0f * square_apart(rgb_add_scaled(middle, -1.0, mean), slope, 1.0, 1.0) : second};
+}
+
+static void pixel_finish(const Round *round, size_t pixel, uint32_t count, const Parts *parts)
 {
     PixelRecord *record = &round->film->records[pixel];
     float *value = &round->film->rgb[3 * pixel];
     double first = (count + 1) / 2, second = count / 2, before = record->count, now = before + count;
-    Rgb mean = rgb_scale(1.0 / count, rgb_add(halves->sum[0], halves->sum[1]));
+    if (round_starts(round, record->count)) {
+        pixel_start(round, pixel, parts);
+        return;
+    }
+    Rgb mean = rgb_scale(1.0 / count, rgb_add(parts->sum[0], parts->sum[1]));
     Rgb old = rgb(value[0], value[1], value[2]);
     Rgb all = rgb_add(rgb_scale(before / now, old), rgb_scale(count / now, mean));
-    value[0] = (float)all.red;
-    value[1] = (float)all.green;
-    value[2] = (float)all.blue;
+    value_put(value, all);
     record->count += count;
     if (round->sampling->has_no_estimate) {
         return;
@@ -115,7 +192,7 @@ static void pixel_finish(const Round *round, size_t pixel, uint32_t count, const
     Rgb slope = linear_slope(&round->prepared->scene->settings, value);
     record->fresh = 0.0f;
     if (second > 0.0) {
-        Rgb apart = rgb_add_scaled(rgb_scale(1.0 / first, halves->sum[0]), -1.0 / second, halves->sum[1]);
+        Rgb apart = rgb_add_scaled(rgb_scale(1.0 / first, parts->sum[0]), -1.0 / second, parts->sum[1]);
         record->fresh = square_apart(apart, slope, first, second);
     }
     if (before > 0.0) {
@@ -127,35 +204,89 @@ static void pixel_finish(const Round *round, size_t pixel, uint32_t count, const
     }
 }
 
-void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
+// The pixels of a block that take part.
+static Chosen *block_choose(const Round *round, Tile block, Chosen *chosen)
 {
-    Halves halves[TILE_PIXELS];
-    Batch batch;
-    batch.count = 0;
-    batch.places.lens = round->prepared->camera.lens_radius > 0.0 ? batch.lens : NULL;
-    // Blocks of pixels, so that rays of one call stay near each other.
-    for (int i = 0; i < TILE_PIXELS; i++) {
-        int block = i / KERNEL_RAYS, blocks = TILE_SIZE / KERNEL_ROW, inside = i % KERNEL_RAYS;
-        int x = tile.left + block % blocks * KERNEL_ROW + inside % KERNEL_ROW;
-        int y = tile.top + block / blocks * KERNEL_ROW + inside / KERNEL_ROW;
-        if (x >= tile.right || y >= tile.bottom) {
-            continue;
-        }
-        uint32_t count = round_samples(round, (size_t)y * (size_t)round->film->width + (size_t)x);
-        if (count > 0) {
-            Halves *sums = &halves[(y - tile.top) * TILE_SIZE + x - tile.left];
-            *sums = (Halves){{rgb_grey(0.0), rgb_grey(0.0)}};
-            pixel_add(round, &batch, x, y, count, sums, counted);
+    for (int y = block.top; y < block.bottom; y++) {
+        size_t begin = (size_t)y * (size_t)round->film->width;
+        for (int x = block.left; x < block.right; x++) {
+            uint32_t count = round_samples(round, begin + (size_t)x);
+            if (count > 0) {
+                *chosen++ = (Chosen){x, y, begin + (size_t)x, count};
+            }
         }
     }
+    return chosen;
+}
+
+void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
+{
+    Chosen chosen[TILE_PIXELS], *end = chosen;
+    Parts parts[TILE_PIXELS];
+    Batch batch;
+    batch_init(&batch, round->prepared);
+    // Blocks of pixels, so that rays of one call stay near each other.
+    for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
+        for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
+            Tile block = {left, top, left + KERNEL_ROW < tile.right ? left + KERNEL_ROW : tile.right,
+                          top + KERNEL_ROW < tile.bottom ? top + KERNEL_ROW : tile.bottom};
+            end = block_choose(round, block, end);
+        }
+    }
+    for (const Chosen *pixel = chosen; pixel < end; pixel++) {
+        Parts *sums = &parts[pixel - chosen];
+        *sums = (Parts){{rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0)}};
+        pixel_add(round, &batch, pixel, sums, counted);
+    }
     batch_flush(round, &batch, counted);
-    for (int y = tile.top; y < tile.bottom; y++) {
-        for (int x = tile.left; x < tile.right; x++) {
-            size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
-            uint32_t count = round_samples(round, pixel);
-            if (count > 0) {
-                pixel_finish(round, pixel, count, &halves[(y - tile.top) * TILE_SIZE + x - tile.left]);
-            }
+    for (const Chosen *pixel = chosen; pixel < end; pixel++) {
+        pixel_finish(round, pixel->index, pixel->count, &parts[pixel - chosen]);
+    }
+}
+
+// The middles of a block of pixels; where it is cut off, its last ones are traced again.
+static void block_middles(const Round *round, Tile block, Batch *batch, RenderStatistics *counted)
+{
+    const Film *film = round->film;
+    for (int i = 0; i < KERNEL_RAYS; i++) {
+        int x = block.left + i % KERNEL_ROW, y = block.top + i / KERNEL_ROW;
+        x = x < block.right ? x : block.right - 1;
+        y = y < block.bottom ? y : block.bottom - 1;
+        batch->places.u[i] = film_u(film, x, 0.0);
+        batch->places.v[i] = film_v(film, y, 0.0);
+        if (batch->draws) {
+            batch->streams[i] = (SampleStream){.kind = round->sampling->sampler,
+                                               .seed = pixel_seed(round, x, y) ^ MIDDLE_SEED,
+                                               .count = 1,
+                                               .pair = 1};
+        }
+        if (batch->places.lens) {
+            batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&batch->streams[i]));
+        }
+    }
+    uint64_t wanted = 0;
+    for (int row = 0; row < block.bottom - block.top; row++) {
+        wanted |= (UINT64_C(0xff) >> (KERNEL_ROW - (block.right - block.left))) << (row * KERNEL_ROW);
+    }
+    batch_trace(round, batch, wanted, counted);
+    for (; wanted; wanted &= wanted - 1) {
+        int i = __builtin_ctzll(wanted);
+        size_t y = (size_t)(block.top + i / KERNEL_ROW), x = (size_t)(block.left + i % KERNEL_ROW);
+        size_t pixel = y * (size_t)film->width + x;
+        value_put(&film->rgb[3 * pixel], batch->light[i]);
+        film->records[pixel] = (PixelRecord){.count = 1};
+    }
+}
+
+void round_trace_middles(const Round *round, Tile tile, RenderStatistics *counted)
+{
+    Batch batch;
+    batch_init(&batch, round->prepared);
+    for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
+        for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
+            Tile block = {left, top, left + KERNEL_ROW < tile.right ? left + KERNEL_ROW : tile.right,
+                          top + KERNEL_ROW < tile.bottom ? top + KERNEL_ROW : tile.bottom};
+            block_middles(round, block, &batch, counted);
         }
     }
 }

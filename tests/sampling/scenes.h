@@ -56,6 +56,13 @@ static const SamplingScene scene_glass = {
     "#for (I, -1, 1) sphere { <I*2, 0, 0>, 0.9 pigment { rgbf <0.95,0.9,1,0.9> }\n"
     "finish { ambient 0 diffuse 0.1 phong 0.5 } interior { ior 1.4 } } #end\n"};
 
+// Even light almost everywhere.
+__attribute__((unused)) static const SamplingScene scene_even = {
+    "even light",
+    SCENE_HEAD SCENE_CAMERA "light_source { <-8,12,-10> rgb 1 }\n"
+                            "sphere { <0,0.5,0>, 1 pigment { rgb <1,0.5,0.3> } finish { ambient 0.1 diffuse 0.7 } }\n"
+                            "sphere { <2,0,1>, 0.8 pigment { rgb <0.3,0.5,1> } finish { ambient 0.1 diffuse 0.7 } }\n"};
+
 __attribute__((unused)) static const SamplingScene *const sampling_scenes[] = {
     &scene_balls, &scene_soft, &scene_mirrors, &scene_checker, &scene_glass};
 

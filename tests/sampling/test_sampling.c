@@ -101,6 +101,32 @@ static void test_adaptive(void)
     picture_free(reference);
 }
 
+// Where light is even one ray a pixel is enough, and it is known that it is.
+static void test_even(void)
+{
+    enum { SEEDS = 10 };
+    rt_sampling halton = {.sampler = "halton", .samples = 1024, .seed = 77}, alike = {.samples = 4};
+    Picture *reference = picture_make(&scene_even, 2 * WIDTH, 2 * HEIGHT, &halton, THREADS);
+    Picture *four = picture_make(&scene_even, 2 * WIDTH, 2 * HEIGHT, &alike, THREADS);
+    double samples = 0.0, square = 0.0;
+    int held = 0;
+    for (int seed = 0; seed < SEEDS; seed++) {
+        rt_sampling sampling = {.samples = 2.0, .adaptive = 1, .seed = 6000u + (unsigned)seed};
+        Picture *picture = picture_make(&scene_even, 2 * WIDTH, 2 * HEIGHT, &sampling, THREADS);
+        double error = picture_rmse(picture, reference);
+        held += error >= picture->error.low && error <= picture->error.high;
+        samples += picture->error.samples / SEEDS;
+        square += error * error / SEEDS;
+        picture_free(picture);
+    }
+    double share = sqrt(square) / picture_rmse(four, reference);
+    tap_ok(samples < 3.0 && share < 0.5, "even light: %.2f samples a pixel have %.2f of the error of four alike", samples,
+           share);
+    tap_ok(held >= 8, "even light: the interval holds the error in %d of %d runs", held, SEEDS);
+    picture_free(reference);
+    picture_free(four);
+}
+
 // How often the interval holds the true error.
 static void test_coverage(void)
 {
@@ -280,6 +306,7 @@ int main(int argc, char **argv)
     test_area_grid();
     test_slopes();
     test_adaptive();
+    test_even();
     test_coverage();
     test_targets();
     if (is_long) {

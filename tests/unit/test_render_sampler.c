@@ -213,6 +213,34 @@ static void test_rows(void)
     tap_ok(wrong == 0, "each light of a row is drawn as often as it counts in the grid");
 }
 
+// Many at once are what they are one by one.
+static void test_places(void)
+{
+    enum { COUNT = 11 };
+    int wrong = 0;
+    for (SamplerKind kind = 0; kind < SAMPLER_COUNT; kind++) {
+        for (uint32_t pair = 0; pair < 4; pair++) {
+            for (uint32_t first = 0; first < 1u << 20; first = 3 * first + 1) {
+                SampleStream stream = {.kind = kind,
+                                       .seed = sampler_pixel_seed(first, pair, 5),
+                                       .index = first,
+                                       .first = first,
+                                       .count = COUNT,
+                                       .pair = pair};
+                SamplePoint places[COUNT];
+                sample_places(&stream, COUNT, places);
+                for (uint32_t i = 0; i < COUNT; i++) {
+                    SampleStream one = stream;
+                    one.index += i;
+                    SamplePoint place = sample_next(&one);
+                    wrong += place.x != places[i].x || place.y != places[i].y;
+                }
+            }
+        }
+    }
+    tap_ok(wrong == 0, "many places at once are those of single samples: %d differ", wrong);
+}
+
 int main(void)
 {
     test_sobol();
@@ -222,5 +250,6 @@ int main(void)
     test_moments();
     test_filters();
     test_rows();
+    test_places();
     return tap_done();
 }
