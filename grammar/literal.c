@@ -38,75 +38,77 @@ static bool is_letter(char c)
     return (unsigned char)((c | ' ') - 'a') < 26 || c == '_';
 }
 
-// Digits behind those of the mantissa. Eight are looked at at a time: a byte holds a digit when its high half is 3 and
-// adding 6 to the low half does not carry; then pairs, pairs of pairs and so on are put together by multiplication.
-static const char *read_digits(const char *at, const char *end, uint64_t *mantissa)
+// How many digits eight bytes of text begin with: a byte holds a digit when its high half is 3 and adding 6 to the low
+// half does not carry.
+static inline unsigned count_digits(uint64_t chunk)
 {
-    static const uint64_t tens[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
-    uint64_t value = *mantissa;
+    uint64_t halves = chunk ^ UINT64_C(0x3030303030303030);
+    uint64_t others = (halves | (halves + UINT64_C(0x0606060606060606))) & UINT64_C(0xf0f0f0f0f0f0f0f0);
+    return others != 0 ? (unsigned)__builtin_ctzll(others) / 8 : 8;
+}
+
+// Their number, of `count` >= 1: pairs, pairs of pairs and so on are put together by multiplication.
+static inline uint64_t join_digits(uint64_t chunk, unsigned count)
+{
+    chunk = (chunk ^ UINT64_C(0x3030303030303030)) << (64 - 8 * count); // zeros before the first digit
+    chunk = chunk * 10 + (chunk >> 8);
+    return ((chunk & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x000f424000000064) +
+            (chunk >> 16 & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x0000271000000001)) >> 32;
+}
+
+// A number without its sign, of any form.
+static const char *read_any(const char *at, const char *end, double *number)
+{
+    size_t length = (size_t)(end - at), used;
+    length = length < NUMBER_LONGEST ? length : NUMBER_LONGEST;
+    if (!is_digit(*at) || number_scan(at, length, number, &used) != NUMBER_OK || used >= NUMBER_LONGEST) {
+        return NULL;
+    }
+    at += used;
+    return is_digit(at[-1]) || at[-1] == '.' ? at : NULL;
+}
+
+// What goes on with a number, or makes a word of its end.
+static const bool goes_on[256] = {
+    ['0' ... '9'] = true, ['A' ... 'Z'] = true, ['a' ... 'z'] = true, ['_'] = true, ['.'] = true,
+};
+
+// A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
+// Signs are multiplied with, since they come as they like and a branch would be foretold badly.
+RT_ALWAYS_INLINE const char *read_number(const char *at, const char *end, double *number)
+{
+    static const double signs[] = {1.0, -1.0};
+    static const struct {
+        uint64_t integer;
+        double real;
+    } tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6}, {10000000, 1e7}};
+    enum { DIGITS_FEW = 8, AHEAD = 24 };
+    double sign = signs[*at == '-'];
+    at += *at == '-';
 #if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    if (RT_LIKELY(end - at >= 8)) {
-        uint64_t chunk;
-        memcpy(&chunk, at, sizeof chunk);
-        chunk ^= UINT64_C(0x3030303030303030);
-        uint64_t others = (chunk | (chunk + UINT64_C(0x0606060606060606))) & UINT64_C(0xf0f0f0f0f0f0f0f0);
-        unsigned count = others != 0 ? (unsigned)__builtin_ctzll(others) / 8 : 8;
-        if (count == 0) {
-            return at;
+    // An integer of up to 15 digits is a double, and so is the power of ten that divides it: the quotient is rounded once.
+    if (RT_LIKELY(end - at >= AHEAD && is_digit(*at))) {
+        const char *point = at + 1;
+        uint64_t chunk, whole = (uint64_t)(*at - '0');
+        for (; is_digit(*point) && point - at < DIGITS_FEW; point++) { // few, most of the time
+            whole = whole * 10 + (uint64_t)(*point - '0');
         }
-        chunk <<= 64 - 8 * count; // zeros before the first digit
-        chunk = chunk * 10 + (chunk >> 8);
-        chunk = ((chunk & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x000f424000000064) +
-                 (chunk >> 16 & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x0000271000000001)) >> 32;
-        value = value * tens[count] + chunk;
-        at += count;
-        if (count < 8) {
-            *mantissa = value;
-            return at;
+        memcpy(&chunk, point + 1, sizeof chunk);
+        unsigned count = count_digits(chunk);
+        const char *after = point + 1 + count;
+        if (RT_LIKELY(*point == '.' && count - 1 < DIGITS_FEW - 1 && !goes_on[(unsigned char)*after])) {
+            *number = sign * ((double)(whole * tens[count].integer + join_digits(chunk, count)) / tens[count].real);
+            return after;
+        }
+        if (!goes_on[(unsigned char)*point]) {
+            *number = sign * (double)whole;
+            return point;
         }
     }
 #endif
-    for (; is_digit(*at); at++) {
-        value = value * 10 + (uint64_t)(*at - '0');
-    }
-    *mantissa = value;
-    return at;
-}
-
-// A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
-static const char *read_number(const char *at, const char *end, double *number)
-{
-    static const double tens[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-    enum { DIGITS_EXACT = 15 }; // an integer of so many digits is a double, and so is the power of ten that divides it
-    bool is_negative = *at == '-';
-    const char *first = at += is_negative;
-    uint64_t mantissa = 0;
-    for (; is_digit(*at); at++) { // few, most of the time
-        mantissa = mantissa * 10 + (uint64_t)(*at - '0');
-    }
-    if (at == first) {
-        return NULL;
-    }
-    const char *point = at;
-    if (*at == '.') {
-        at = read_digits(at + 1, end, &mantissa);
-    }
-    size_t fraction = at > point ? (size_t)(at - point) - 1 : 0;
-    if (RT_LIKELY((size_t)(point - first) + fraction <= DIGITS_EXACT && (*at | ' ') != 'e')) {
-        *number = (double)mantissa / tens[fraction];
-    } else {
-        size_t length = (size_t)(end - first), used;
-        length = length < NUMBER_LONGEST ? length : NUMBER_LONGEST;
-        if (number_scan(first, length, number, &used) != NUMBER_OK || used >= NUMBER_LONGEST) {
-            return NULL;
-        }
-        at = first + used;
-        if (!is_digit(at[-1]) && at[-1] != '.') {
-            return NULL;
-        }
-    }
-    *number = is_negative ? -*number : *number;
-    return is_letter(*at) || *at == '.' ? NULL : at;
+    at = read_any(at, end, number);
+    *number *= sign;
+    return at != NULL && !goes_on[(unsigned char)*at] ? at : NULL;
 }
 
 // `count` numbers with commas between them and blanks around.

@@ -42,7 +42,16 @@ typedef struct Branch {
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer);
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *branch);
 
-static bool may_add(Eval *ev, Span span)
+static bool memory_suffices(Eval *ev, Span span)
+{
+    if (ev->memory.used + scene_bytes(ev->scene) > ev->memory.limit) {
+        ev->memory.refused = true;
+        return eval_no_memory(ev, span);
+    }
+    return true;
+}
+
+static bool may_add_one(Eval *ev, Span span)
 {
     if (eval_cancelled(ev)) {
         return false;
@@ -55,11 +64,12 @@ static bool may_add(Eval *ev, Span span)
         ev->stop = true; // only now: nothing is reported after it
         return false;
     }
-    if (ev->memory.used + scene_bytes(ev->scene) > ev->memory.limit) {
-        ev->memory.refused = true;
-        return eval_no_memory(ev, span);
-    }
     return true;
+}
+
+static bool may_add(Eval *ev, Span span)
+{
+    return may_add_one(ev, span) && memory_suffices(ev, span);
 }
 
 static uint8_t hidden_of(const ObjectPart *part)
@@ -115,9 +125,14 @@ static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placemen
 bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span)
 {
     MaterialIndex index;
-    return may_add(ev, span) && ((scene_add_material_record(ev->scene, material, &index) &&
-                                  scene_add_sphere(ev->scene, centre, radius, index, span.begin)) ||
-                                 eval_no_memory(ev, span));
+    const Scene *scene = ev->scene;
+    // Nothing else takes memory before one of these lists is full.
+    bool takes_memory =
+        scene->spheres.count == scene->spheres.capacity || scene->materials.count == scene->materials.capacity;
+    return may_add_one(ev, span) && (!takes_memory || memory_suffices(ev, span)) &&
+           ((scene_add_material_record(ev->scene, material, &index) &&
+             scene_add_sphere(ev->scene, centre, radius, index, span.begin)) ||
+            eval_no_memory(ev, span));
 }
 
 static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner, const Part *part)

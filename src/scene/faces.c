@@ -267,8 +267,8 @@ static void compare(Faces *faces, FaceRef one, FaceRef other, DiagSink *diags)
 {
     const Camera *camera = &faces->scene->camera;
     Face a = face_at(faces->scene, one), b = face_at(faces->scene, other);
-    if (a.order == b.order || a.material == b.material || !hidden_meet(a.hidden, b.hidden) ||
-        are_equal(faces->scene, one, other) || !is_turned_to(&a, camera) || !is_turned_to(&b, camera) ||
+    if (a.order == b.order || !hidden_meet(a.hidden, b.hidden) ||
+        scene_materials_are_equal(faces->scene, a.material, b.material) || are_equal(faces->scene, one, other) || !is_turned_to(&a, camera) || !is_turned_to(&b, camera) ||
         !overlap(&a, &b)) {
         return;
     }

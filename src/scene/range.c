@@ -4,26 +4,32 @@
 #include "scene/range.h"
 
 #include <float.h>
-#include <limits.h>
 #include <math.h>
 
 #include "scene/part.h"
 
 // ---- the exact scale
 
-// Least and greatest binary exponent of the lengths that rays meet. Zero, infinite and NaN lengths do not count.
-typedef struct ExponentRange {
-    int least, greatest;
-} ExponentRange;
+// The least and the greatest of the lengths that rays meet. Zero, infinite and NaN lengths do not count.
+typedef struct LengthRange {
+    double least, greatest;
+} LengthRange;
 
-static void range_add(ExponentRange *range, double length)
+static inline void range_add(LengthRange *range, double length)
 {
-    if (length == 0.0 || !isfinite(length)) {
-        return;
+    double size = fabs(length);
+    if (size > 0.0 && size <= DBL_MAX) {
+        range->least = size < range->least ? size : range->least;
+        range->greatest = size > range->greatest ? size : range->greatest;
     }
-    int exponent = ilogb(length);
-    range->least = exponent < range->least ? exponent : range->least;
-    range->greatest = exponent > range->greatest ? exponent : range->greatest;
+}
+
+// As vec3_max_abs, for numbers.
+static inline double max_abs(Vec3 a)
+{
+    double x = fabs(a.x), y = fabs(a.y), z = fabs(a.z);
+    x = y > x ? y : x;
+    return z > x ? z : x;
 }
 
 static double row_size(const Transform *transform, int row)
@@ -33,7 +39,7 @@ static double row_size(const Transform *transform, int row)
 }
 
 // A box has lengths of its own; the other fixed shapes are as large as 1.
-static void range_add_part(ExponentRange *range, const Part *part)
+static void range_add_part(LengthRange *range, const Part *part)
 {
     if (part->kind == PART_PLANE) {
         range_add(range, part->data[1].x);
@@ -52,9 +58,9 @@ static void range_add_part(ExponentRange *range, const Part *part)
 
 int scene_exponent(const Scene *scene)
 {
-    ExponentRange range = {INT_MAX, INT_MIN};
+    LengthRange range = {INFINITY, 0.0};
     for (size_t i = 0; i < scene->spheres.count; i++) {
-        range_add(&range, vec3_max_abs(scene->spheres.items[i].centre));
+        range_add(&range, max_abs(scene->spheres.items[i].centre));
         range_add(&range, scene->spheres.items[i].radius);
     }
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
@@ -75,7 +81,7 @@ int scene_exponent(const Scene *scene)
     if (range.least > range.greatest) {
         return 0;
     }
-    int sum = range.least + range.greatest;
+    int sum = ilogb(range.least) + ilogb(range.greatest);
     return (sum - (sum < 0)) / 2; // rounded down, also below 0
 }
 
@@ -147,9 +153,9 @@ static void tell_far(const Watch *watch, const Extent *extent, double distance)
 }
 
 // Most shapes pass with five comparisons.
-static void check_extent(const Watch *watch, const Extent *extent, const char *seen_beyond)
+static inline void check_extent(const Watch *watch, const Extent *extent, const char *seen_beyond)
 {
-    double place = vec3_max_abs(extent->place);
+    double place = max_abs(extent->place);
     bool is_point = extent->size == 0.0; // a box of which rounding leaves nothing
     if (!((extent->size >= watch->least || is_point) && extent->size < watch->end && place < watch->end)) {
         bool is_far = place >= watch->end;
@@ -163,7 +169,7 @@ static void check_extent(const Watch *watch, const Extent *extent, const char *s
     if (is_point) {
         return;
     }
-    double distance = vec3_max_abs(vec3_sub(extent->place, watch->eye));
+    double distance = max_abs(vec3_sub(extent->place, watch->eye));
     if (distance > RANGE_RADII * extent->size) {
         tell_far(watch, extent, distance);
     }

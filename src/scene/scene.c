@@ -6,6 +6,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.h"
 
+#include <string.h>
+
 _Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
 _Static_assert(sizeof(Pattern) == 8 * sizeof(uint32_t) + 18 * sizeof(double), "no padding in a pattern");
 _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * sizeof(uint32_t), "no padding");
@@ -165,10 +167,21 @@ bool scene_add_compound(Scene *scene, const Compound *compound, MaterialIndex *i
     return is_added;
 }
 
+// One for each sphere where all have colours of their own.
 bool scene_add_material_record(Scene *scene, const Material *material, MaterialIndex *index)
 {
-    return scene->materials.count < MATERIAL_COMPOUND &&
-           ADD_ONCE(&scene->materials, &scene->material_index, material, index);
+    size_t count = scene->materials.count;
+    return count < MATERIAL_COMPOUND && ARRAY_RESERVE(&scene->materials, count + 1) &&
+           unique_place_if_worth(&scene->material_index, scene->materials.items, count, sizeof *material, material,
+                                 index) &&
+           (*index < count || ARRAY_PUSH(&scene->materials, *material));
+}
+
+bool scene_materials_are_equal(const Scene *scene, MaterialIndex one, MaterialIndex other)
+{
+    bool are_plain = one < scene->materials.count && other < scene->materials.count;
+    return one == other || (are_plain && memcmp(&scene->materials.items[one], &scene->materials.items[other],
+                                                sizeof(Material)) == 0);
 }
 
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index)

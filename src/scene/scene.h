@@ -337,7 +337,7 @@ typedef struct Scene {
     Camera camera;
     ARRAY(Light) lights;
     ARRAY(Finish) finishes;    // each different one once
-    ARRAY(Material) materials; // each different one once
+    ARRAY(Material) materials; // each different one once, or nearly so, see scene_add_material_record
     ARRAY(PigmentEntry) pigment_entries; // of these nine, too, each different one once
     ARRAY(PatternedPigment) patterns;
     ARRAY(PictureSource) picture_sources; // and these three
@@ -376,7 +376,10 @@ size_t scene_picture_bytes(const Scene *scene);
 // The index of an equal material, added if there is none; the pigment is rounded to single precision. False when out of
 // memory.
 bool scene_add_material(Scene *scene, Rgbft pigment, const Finish *finish, MaterialIndex *index) RT_MUST_CHECK;
+// Of many that next to never repeat, some are kept more than once.
 bool scene_add_material_record(Scene *scene, const Material *material, MaterialIndex *index) RT_MUST_CHECK;
+// Whether two materials look alike. Those of what has none may be asked for.
+bool scene_materials_are_equal(const Scene *scene, MaterialIndex one, MaterialIndex other);
 
 // The pigment of a material.
 static inline Rgbft material_pigment(const Material *material)

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pages.h"
 #include "scene/part.h"
 #include "scene/range.h"
 
@@ -326,6 +327,7 @@ bool scene_warn_of_twins(const Scene *scene, DiagSink *diags)
     }
     twins.mask = slots - 1;
     twins.slots = calloc(slots, sizeof *twins.slots);
+    pages_prefer_huge(twins.slots, slots * sizeof *twins.slots);
     if (!twins.slots) {
         return false;
     }
