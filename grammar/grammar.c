@@ -73,6 +73,7 @@ static bool run(GrammarState *state)
     } else if (!grammar_scan_begin(state)) {
         report_no_memory(state);
     } else {
+        state->quick = state->context->token_by_token ? NULL : grammar_quick_new(); // without it all is read as well
         parse(state);
     }
     grammar_scan_end(state);

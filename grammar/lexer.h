@@ -51,6 +51,8 @@ typedef struct Opener {
 typedef struct LiteralPattern LiteralPattern;
 enum { LITERAL_PATTERNS = 8 };
 
+typedef struct GrammarQuick GrammarQuick; // quick.c
+
 typedef struct GrammarState {
     const GrammarContext *context;
     AstBuilder builder;
@@ -83,6 +85,12 @@ typedef struct GrammarState {
     unsigned comment_depth;
     int comment_return; // start condition
     TextBuffer string;
+
+    // Tokens that are read at once.
+    GrammarQuick *quick; // NULL: there are none
+    bool after_dot;      // the token before the previous one was a `.`; in a splice, the one before the current
+    AstNode *node;       // of the current token VECTOR
+    AstList list;        // of the current token ITEMS
 
     // Literal spheres.
     bool takes_literals;
@@ -119,7 +127,6 @@ typedef struct GrammarState {
     bool ends_before;      // the last token delivered may end an expression
     bool ends_vector;      // it is the `>` of a vector
     int last_but_one;      // kind of the token before it
-    bool after_dot;        // it stands behind a `.`: a component, whatever its word means elsewhere
     Token ended_by;        // the directive or call that ended it
     bool has_lookahead;    // the current token was read too much
     AstNode *result;
@@ -135,6 +142,18 @@ void grammar_scan_literals(GrammarState *state);
 // The same for the scanner's buffer, which ends with a zero: returns where reading goes on, and moves `offset` there.
 const char *grammar_literals_read(GrammarState *state, const char *at, const char *end);
 void grammar_literals_forget(GrammarState *state);
+
+// The next token, if it can be read at once from the scanner's buffer (quick.c).
+bool grammar_scan_quick(GrammarState *state, Token *token);
+// The same for the buffer, which ends with a zero: returns where reading goes on, and moves `offset` there; NULL: nothing
+// was read.
+const char *grammar_quick_read(GrammarState *state, const char *at, const char *end, Token *token);
+// The current token was refused: it becomes the mark that it begins with, and the scanner goes back to what follows.
+void grammar_scan_apart(GrammarState *state);
+GrammarQuick *grammar_quick_new(void) RT_MUST_CHECK; // NULL when out of memory
+void grammar_quick_free(GrammarQuick *quick);
+// The items between braces have been parsed: their nodes.
+void grammar_learn_items(GrammarState *state, Span braces, AstList list);
 
 // Token stream: the symbol and directive tables.
 int grammar_word_token(Symbol symbol);

@@ -10,106 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "grammar/lexer.h"
+#include "grammar/plain.h"
 
 enum {
     TEXT_LONGEST = 4096,  // of what follows the radius
-    NUMBER_LONGEST = 250, // a longer one is left to the scanner
     MISSES_MOST = 64,     // so many texts in a row that no statement repeats: from then on few are kept
 };
-
-static const char *skip_blanks(const char *at)
-{
-    // The scanner's buffer ends in zeros.
-    while (*at == ' ' || *at == '\n' || *at == '\t' || *at == '\r') {
-        at++;
-    }
-    return at;
-}
-
-static bool is_digit(char c)
-{
-    return (unsigned char)(c - '0') < 10;
-}
-
-static bool is_letter(char c)
-{
-    return (unsigned char)((c | ' ') - 'a') < 26 || c == '_';
-}
-
-// How many digits eight bytes of text begin with: a byte holds a digit when its high half is 3 and adding 6 to the low
-// half does not carry.
-static inline unsigned count_digits(uint64_t chunk)
-{
-    uint64_t halves = chunk ^ UINT64_C(0x3030303030303030);
-    uint64_t others = (halves | (halves + UINT64_C(0x0606060606060606))) & UINT64_C(0xf0f0f0f0f0f0f0f0);
-    return others != 0 ? (unsigned)__builtin_ctzll(others) / 8 : 8;
-}
-
-// Their number, of `count` >= 1: pairs, pairs of pairs and so on are put together by multiplication.
-static inline uint64_t join_digits(uint64_t chunk, unsigned count)
-{
-    chunk = (chunk ^ UINT64_C(0x3030303030303030)) << (64 - 8 * count); // zeros before the first digit
-    chunk = chunk * 10 + (chunk >> 8);
-    return ((chunk & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x000f424000000064) +
-            (chunk >> 16 & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x0000271000000001)) >> 32;
-}
-
-// A number without its sign, of any form.
-static const char *read_any(const char *at, const char *end, double *number)
-{
-    size_t length = (size_t)(end - at), used;
-    length = length < NUMBER_LONGEST ? length : NUMBER_LONGEST;
-    if (!is_digit(*at) || number_scan(at, length, number, &used) != NUMBER_OK || used >= NUMBER_LONGEST) {
-        return NULL;
-    }
-    at += used;
-    return is_digit(at[-1]) || at[-1] == '.' ? at : NULL;
-}
-
-// What goes on with a number, or makes a word of its end.
-static const bool goes_on[256] = {
-    ['0' ... '9'] = true, ['A' ... 'Z'] = true, ['a' ... 'z'] = true, ['_'] = true, ['.'] = true,
-};
-
-// A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
-// Signs are multiplied with, since they come as they like and a branch would be foretold badly.
-RT_ALWAYS_INLINE const char *read_number(const char *at, const char *end, double *number)
-{
-    static const double signs[] = {1.0, -1.0};
-    static const struct {
-        uint64_t integer;
-        double real;
-    } tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6}, {10000000, 1e7}};
-    enum { DIGITS_FEW = 8, AHEAD = 24 };
-    double sign = signs[*at == '-'];
-    at += *at == '-';
-#if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    // An integer of up to 15 digits is a double, and so is the power of ten that divides it: the quotient is rounded once.
-    if (RT_LIKELY(end - at >= AHEAD && is_digit(*at))) {
-        const char *point = at + 1;
-        uint64_t chunk, whole = (uint64_t)(*at - '0');
-        for (; is_digit(*point) && point - at < DIGITS_FEW; point++) { // few, most of the time
-            whole = whole * 10 + (uint64_t)(*point - '0');
-        }
-        memcpy(&chunk, point + 1, sizeof chunk);
-        unsigned count = count_digits(chunk);
-        const char *after = point + 1 + count;
-        if (RT_LIKELY(*point == '.' && count - 1 < DIGITS_FEW - 1 && !goes_on[(unsigned char)*after])) {
-            *number = sign * ((double)(whole * tens[count].integer + join_digits(chunk, count)) / tens[count].real);
-            return after;
-        }
-        if (!goes_on[(unsigned char)*point]) {
-            *number = sign * (double)whole;
-            return point;
-        }
-    }
-#endif
-    at = read_any(at, end, number);
-    *number *= sign;
-    return at != NULL && !goes_on[(unsigned char)*at] ? at : NULL;
-}
 
 // `count` numbers with commas between them and blanks around.
 static const char *read_numbers(const char *at, const char *end, unsigned count, double *numbers)
@@ -121,11 +28,11 @@ static const char *read_numbers(const char *at, const char *end, unsigned count,
             }
             at++;
         }
-        at = read_number(skip_blanks(at), end, &numbers[i]);
+        at = plain_read_number(plain_skip_blanks(at), end, &numbers[i]);
         if (at == NULL) {
             return NULL;
         }
-        at = skip_blanks(at);
+        at = plain_skip_blanks(at);
     }
     return at;
 }
@@ -137,15 +44,15 @@ static const char *read_head(const char *at, const char *end, GrammarLiteral *li
     if ((size_t)(end - at) < sizeof word || memcmp(at, word, sizeof word - 1) != 0) {
         return NULL;
     }
-    at = skip_blanks(at + sizeof word - 1);
-    if (*at != '{' || *(at = skip_blanks(at + 1)) != '<') {
+    at = plain_skip_blanks(at + sizeof word - 1);
+    if (*at != '{' || *(at = plain_skip_blanks(at + 1)) != '<') {
         return NULL;
     }
     at = read_numbers(at + 1, end, 3, literal->centre);
-    if (at == NULL || *at != '>' || *(at = skip_blanks(at + 1)) != ',') {
+    if (at == NULL || *at != '>' || *(at = plain_skip_blanks(at + 1)) != ',') {
         return NULL;
     }
-    return read_number(skip_blanks(at + 1), end, &literal->radius);
+    return plain_read_number(plain_skip_blanks(at + 1), end, &literal->radius);
 }
 
 // ---- patterns
@@ -217,8 +124,8 @@ static bool ends_colour(const char *at, const char *end, Word word)
         size_t length = strncmp(at, filter, sizeof filter - 1) == 0       ? sizeof filter - 1
                         : strncmp(at, transmit, sizeof transmit - 1) == 0 ? sizeof transmit - 1
                                                                           : 0;
-        at = length > 0 ? read_number(skip_blanks(at + length), end, &number) : NULL;
-        at = at != NULL ? skip_blanks(at) : NULL;
+        at = length > 0 ? plain_read_number(plain_skip_blanks(at + length), end, &number) : NULL;
+        at = at != NULL ? plain_skip_blanks(at) : NULL;
     }
     return at != NULL && *at == '}';
 }
@@ -226,12 +133,12 @@ static bool ends_colour(const char *at, const char *end, Word word)
 static void find_gap(const char *at, const char *end, Symbol word, Gap *gap)
 {
     GrammarLiteral literal;
-    at = skip_blanks(at);
+    at = plain_skip_blanks(at);
     if ((word != W_rgb && word != W_rgbf && word != W_rgbt && word != W_rgbft) || *at != '<') {
         return;
     }
     const char *after = read_colour(at + 1, end, (Word)word, &literal);
-    if (after != NULL && *after == '>' && ends_colour(skip_blanks(after + 1), end, (Word)word)) {
+    if (after != NULL && *after == '>' && ends_colour(plain_skip_blanks(after + 1), end, (Word)word)) {
         *gap = (Gap){at + 1, after, (Word)word};
     }
 }
@@ -244,8 +151,8 @@ static const char *survey(const GrammarState *state, const char *at, const char 
     *gap = (Gap){0};
     while (at < limit && depth > 0) {
         const char *begin = at;
-        if (is_letter(*at)) {
-            while (is_letter(*at) || is_digit(*at)) {
+        if (plain_is_letter(*at)) {
+            while (plain_is_letter(*at) || plain_is_digit(*at)) {
                 at++;
             }
             Symbol word = intern_find(state->context->names, begin, (size_t)(at - begin));
@@ -258,9 +165,9 @@ static const char *survey(const GrammarState *state, const char *at, const char 
             }
             begins_pigment = word == W_pigment || (begins_pigment && (word == W_color || word == W_colour));
             is_after_number = false;
-        } else if (is_digit(*at) || *at == '.' || (*at == '-' && !is_after_number)) {
+        } else if (plain_is_digit(*at) || *at == '.' || (*at == '-' && !is_after_number)) {
             double number;
-            at = read_number(at, end, &number);
+            at = plain_read_number(at, end, &number);
             if (at == NULL) {
                 return NULL;
             }
@@ -365,7 +272,7 @@ const char *grammar_literals_read(GrammarState *state, const char *at, const cha
     uint64_t read_end = 0; // of the last one
     while (!state->ended) {
         GrammarLiteral literal;
-        const char *begin = skip_blanks(at), *after = NULL;
+        const char *begin = plain_skip_blanks(at), *after = NULL;
         const char *text = read_head(begin, end, &literal);
         if (text == NULL || !(literal.radius > 0.0)) {
             break;

@@ -12,6 +12,8 @@ libgrammar_la_SOURCES = \
   %D%/literal.c \
   %D%/messages.c \
   %D%/parser.y \
+  %D%/plain.h \
+  %D%/quick.c \
   %D%/splice.c \
   %D%/splice.h \
   %D%/splice_directives.c \
@@ -19,6 +21,6 @@ libgrammar_la_SOURCES = \
   %D%/splice_tokens.c \
   %D%/tokens.c
 # The generated header is included by files of this folder only, so the rule stands here by hand.
-%D%/grammar.lo %D%/hints.lo %D%/lexer.lo %D%/literal.lo %D%/messages.lo %D%/tokens.lo: %D%/parser.h
+%D%/grammar.lo %D%/hints.lo %D%/lexer.lo %D%/literal.lo %D%/messages.lo %D%/quick.lo %D%/tokens.lo: %D%/parser.h
 %D%/splice.lo %D%/splice_directives.lo %D%/splice_stream.lo %D%/splice_tokens.lo: %D%/parser.h
 MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

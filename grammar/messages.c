@@ -110,6 +110,8 @@ static ExpectedClass expected_class(const char *name)
         {"the next item", EXPECT_NOTHING},
         {"a directive's word", EXPECT_NOTHING},
         {"deprecated", EXPECT_NOTHING},
+        {"a vector of numbers", EXPECT_NOTHING},
+        {"the items of a block", EXPECT_NOTHING},
     };
     for (size_t i = 0; i < RT_COUNT_OF(classes); i++) {
         if (strcmp(name, classes[i].name) == 0) {

@@ -42,6 +42,7 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
     ast_node_list(&state->builder, AST_##kind, AST_OP_##op, (symbol), (at), (a), (b), (c))
 #define LIST(kind, symbol, at, a) LISTS(kind, NONE, symbol, at, a, EMPTY, EMPTY)
 #define ONE(node) ast_append(EMPTY, (node))
+#define LEARN(items, opens, closes) grammar_learn_items(state, (Span){(opens).begin, (closes).end}, (items))
 #define FOLD(node) grammar_fold(state, (node))
 #define FINISH(node)                                                                                                   \
     do {                                                                                                               \
@@ -67,6 +68,8 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token INVALID "an unreadable token"
 %token RESYNC "the next item"
 %token <number> NUMBER "a number"
+%token <node> VECTOR "a vector of numbers"
+%token <list> ITEMS "the items of a block"
 %token <symbol> STRING "a string"
 %token <symbol> NAME "a name" CONSTANT "a constant" BUILTIN "a function"
 %token <symbol> WORD "a word" COLOUR "a colour word" TEXTURE "texture"
@@ -190,14 +193,18 @@ item:
 word: WORD | COLOUR | TEXTURE;
 
 block:
-  block_word '{' block_body '}'     { $$ = LIST(BLOCK, $block_word, @$, $block_body); }
+  block_word '{' block_body '}'     { LEARN($3, @2, @4); $$ = LIST(BLOCK, $block_word, @$, $block_body); }
+| block_word ITEMS                  { $$ = LIST(BLOCK, $block_word, @$, $ITEMS); }
 | layer                             { $$ = $layer; }
 ;
 
 // A name in the place of a block's word is a slip of the pen that the evaluator explains better.
 block_word: WORD | NAME;
 
-layer: TEXTURE '{' block_body '}'   { $$ = LIST(BLOCK, $TEXTURE, @$, $block_body); };
+layer:
+  TEXTURE '{' block_body '}'        { LEARN($3, @2, @4); $$ = LIST(BLOCK, $TEXTURE, @$, $block_body); }
+| TEXTURE ITEMS                     { $$ = LIST(BLOCK, $TEXTURE, @$, $ITEMS); }
+;
 
 entry:
   '[' entry_items comma ']'         { $$ = LIST(ENTRY, SYMBOL_NONE, @$, $entry_items); }
@@ -218,7 +225,8 @@ value:
 | colour                            %prec JUXTAPOSED { $$ = LIST(SEQUENCE, SYMBOL_NONE, @$, $colour); }
 | layers                            %prec JUXTAPOSED { $$ = LIST(SEQUENCE, SYMBOL_NONE, @$, $layers); }
 | layer                             %prec JUXTAPOSED { $$ = $layer; }
-| block_word '{' block_body '}'     { $$ = LIST(BLOCK, $block_word, @$, $block_body); }
+| block_word '{' block_body '}'     { LEARN($3, @2, @4); $$ = LIST(BLOCK, $block_word, @$, $block_body); }
+| block_word ITEMS                  { $$ = LIST(BLOCK, $block_word, @$, $ITEMS); }
 | array                             { $$ = $array; }
 | function                          { $$ = $function; }
 | inline                            { $$ = $inline; }
@@ -479,6 +487,7 @@ relation:
 // One rule, by precedences: a number is one reduction away from here.
 sum:
   NUMBER                            { $$ = ast_number(&state->builder, $NUMBER, @$); }
+| VECTOR                            { $$ = $VECTOR; }
 | STRING                            { $$ = LEAF(STRING, $STRING, @$); }
 | NAME                              %prec JUXTAPOSED { $$ = grammar_name(state, $NAME, @$); }
 | CONSTANT                          { $$ = LEAF(CONSTANT, $CONSTANT, @$); }
@@ -553,6 +562,7 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message)
 
 static int yyreport_syntax_error(const yypcontext_t *fault, GrammarState *state)
 {
+    grammar_scan_apart(state);
     yysymbol_kind_t kinds[YYNTOKENS];
     const char *expected[YYNTOKENS];
     int count = yypcontext_expected_tokens(fault, kinds, YYNTOKENS);

@@ -464,18 +464,46 @@ static void settle_internal(GrammarState *state)
     state->current.kind = next.kind == '(' ? TOKEN_BUILTIN : TOKEN_WORD;
 }
 
+// From the scanner's buffer at once, if nothing forbids it.
+static bool read_quick(GrammarState *state)
+{
+    bool may_be_quick = state->quick != NULL && state->held_count == 0 && !state->ended && !state->builder.failed &&
+                        state->last_read != TOKEN_HASH_INCLUDE;
+    if (!may_be_quick || !grammar_scan_quick(state, &state->current)) {
+        return false;
+    }
+    state->last_read = state->current.kind == TOKEN_VECTOR ? '>' : state->current.kind == TOKEN_ITEMS ? '}' : state->current.kind;
+    return true;
+}
+
+// What stands before the next token: of several that were read at once the last.
+static void pass_current(GrammarState *state)
+{
+    state->after_dot = state->previous.kind == '.';
+    state->previous = state->current;
+    int kind = state->current.kind;
+    if (kind == TOKEN_VECTOR || kind == TOKEN_ITEMS) {
+        state->previous.kind = kind == TOKEN_VECTOR ? '>' : '}';
+        state->previous.span.begin = state->previous.span.end - 1;
+        state->previous.symbol = SYMBOL_NONE;
+    }
+}
+
 static void next_token(GrammarState *state)
 {
     grammar_track(state, &state->current);
-    state->previous = state->current;
     if (RT_UNLIKELY(state->stream != NULL)) {
+        state->previous = state->current;
         grammar_splice_token(state, &state->current);
         return;
     }
+    pass_current(state);
     if (state->item_begin == 0 && state->takes_literals && state->held_count == 0) {
         grammar_scan_literals(state);
     }
-    grammar_read_token(state, &state->current);
+    if (!read_quick(state)) {
+        grammar_read_token(state, &state->current);
+    }
     if (RT_UNLIKELY(state->current.symbol == W_internal && state->current.kind == TOKEN_BUILTIN)) {
         settle_internal(state);
     }
@@ -502,10 +530,11 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state)
     } else {
         next_token(state);
     }
-    if (state->current.kind == TOKEN_NUMBER) {
-        value->number = state->current.number;
-    } else {
-        value->symbol = state->current.symbol;
+    switch (state->current.kind) {
+    case TOKEN_NUMBER: value->number = state->current.number; break;
+    case TOKEN_VECTOR: value->node = state->node; break;
+    case TOKEN_ITEMS: value->list = state->list; break;
+    default: value->symbol = state->current.symbol; break;
     }
     *span = state->current.span;
     return state->current.kind;

@@ -27,7 +27,7 @@ static bool lay_out(rt_session *session, Source *source, const TextBuffer *text)
 {
     Arena arena;
     arena_init(&arena, session->limits.memory_bytes);
-    GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL};
+    GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL, false};
     bool fine = format_source(&context, source, text_get(text), text->length, &session->dump);
     arena_fini(&arena);
     if (!fine) {

@@ -55,7 +55,7 @@ static void bench_fini(Bench *bench)
 static bool parse_text(Bench *bench, const char *text, size_t length, AstList *items)
 {
     Limits limits = LIMITS_DEFAULT;
-    GrammarContext context = {bench->names, &bench->arena, &bench->diags, &limits, NULL};
+    GrammarContext context = {bench->names, &bench->arena, &bench->diags, &limits, NULL, false};
     Source *source = source_open_text(bench->sources, "test", text, length);
     if (source == NULL) {
         abort();

@@ -1,0 +1,131 @@
+// Plain text in the scanner's buffer: blanks, digits, letters and numbers, read without the scanner's tables.
+//
+// The buffer ends with a zero. What is not sure to be read as the scanner would read it is refused, and left to it.
+// Private to the grammar.
+//
+// SPDX-License-Identifier: MIT
+#ifndef GRAMMAR_PLAIN_H
+#define GRAMMAR_PLAIN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "base/attributes.h"
+#include "base/number.h"
+
+enum { PLAIN_NUMBER_LONGEST = 250 }; // a longer one is left to the scanner
+
+static inline const char *plain_skip_blanks(const char *at)
+{
+    while (*at == ' ' || *at == '\n' || *at == '\t' || *at == '\r') {
+        at++;
+    }
+    return at;
+}
+
+static inline bool plain_is_digit(char c)
+{
+    return (unsigned char)(c - '0') < 10;
+}
+
+static inline bool plain_is_letter(char c)
+{
+    return (unsigned char)((c | ' ') - 'a') < 26 || c == '_';
+}
+
+// What goes on with a number, or makes a word of its end.
+static inline bool plain_goes_on(char c)
+{
+    static const bool table[256] = {
+        ['0' ... '9'] = true, ['A' ... 'Z'] = true, ['a' ... 'z'] = true, ['_'] = true, ['.'] = true,
+    };
+    return table[(unsigned char)c];
+}
+
+// How many digits eight bytes of text begin with: a byte holds a digit when its high half is 3 and adding 6 to the low
+// half does not carry.
+static inline unsigned plain_count_digits(uint64_t chunk)
+{
+    uint64_t halves = chunk ^ UINT64_C(0x3030303030303030);
+    uint64_t others = (halves | (halves + UINT64_C(0x0606060606060606))) & UINT64_C(0xf0f0f0f0f0f0f0f0);
+    return others != 0 ? (unsigned)__builtin_ctzll(others) / 8 : 8;
+}
+
+// Their number, of `count` >= 1: pairs, pairs of pairs and so on are put together by multiplication.
+static inline uint64_t plain_join_digits(uint64_t chunk, unsigned count)
+{
+    chunk = (chunk ^ UINT64_C(0x3030303030303030)) << (64 - 8 * count); // zeros before the first digit
+    chunk = chunk * 10 + (chunk >> 8);
+    return ((chunk & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x000f424000000064) +
+            (chunk >> 16 & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x0000271000000001)) >> 32;
+}
+
+// A number without its sign, of any form, and where it ends; NULL: it is refused.
+static inline const char *plain_read_any(const char *at, const char *end, double *number)
+{
+    size_t length = (size_t)(end - at), used;
+    length = length < PLAIN_NUMBER_LONGEST ? length : PLAIN_NUMBER_LONGEST;
+    if (!plain_is_digit(*at) || number_scan(at, length, number, &used) != NUMBER_OK || used >= PLAIN_NUMBER_LONGEST) {
+        return NULL;
+    }
+    at += used;
+    return plain_is_digit(at[-1]) || at[-1] == '.' ? at : NULL;
+}
+
+// A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
+// A number that is cut off by the end of the buffer is read as if it ended there.
+// Signs are multiplied with, since they come as they like and a branch would be foretold badly.
+RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, double *number)
+{
+    static const double signs[] = {1.0, -1.0};
+    double sign = signs[*at == '-'];
+    at += *at == '-';
+#if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    static const struct {
+        uint64_t integer;
+        double real;
+    } tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6}, {10000000, 1e7}, {100000000, 1e8},
+              {1000000000, 1e9}, {10000000000, 1e10}, {100000000000, 1e11}, {1000000000000, 1e12},
+              {10000000000000, 1e13}, {100000000000000, 1e14}};
+    enum { DIGITS_FEW = 8, DIGITS_EXACT = 15, AHEAD = 32 };
+    // An integer of up to 15 digits is a double, and so is the power of ten that divides it: the quotient is rounded once.
+    if (RT_LIKELY(end - at >= AHEAD && plain_is_digit(*at))) {
+        const char *point = at + 1;
+        uint64_t chunk, whole = (uint64_t)(*at - '0');
+        for (; plain_is_digit(*point) && point - at < DIGITS_FEW; point++) { // few, most of the time
+            whole = whole * 10 + (uint64_t)(*point - '0');
+        }
+        memcpy(&chunk, point + 1, sizeof chunk);
+        unsigned count = plain_count_digits(chunk);
+        const char *after = point + 1 + count;
+        if (RT_LIKELY(*point == '.' && count - 1 < DIGITS_FEW - 1 && !plain_goes_on(*after))) {
+            *number = sign * ((double)(whole * tens[count].integer + plain_join_digits(chunk, count)) / tens[count].real);
+            return after;
+        }
+        if (*point == '.' && count == DIGITS_FEW) {
+            uint64_t next;
+            memcpy(&next, after, sizeof next);
+            unsigned more = plain_count_digits(next), fraction = count + more;
+            if (more > 0 && (size_t)(point - at) + fraction <= DIGITS_EXACT && !plain_goes_on(after[more])) {
+                whole = whole * tens[count].integer + plain_join_digits(chunk, count);
+                *number = sign * ((double)(whole * tens[more].integer + plain_join_digits(next, more)) / tens[fraction].real);
+                return after + more;
+            }
+        }
+        if (!plain_goes_on(*point)) {
+            *number = sign * (double)whole;
+            return point;
+        }
+    }
+#endif
+    double size;
+    at = plain_read_any(at, end, &size);
+    if (at == NULL || plain_goes_on(*at)) {
+        return NULL;
+    }
+    *number = sign * size;
+    return at;
+}
+
+#endif
