@@ -398,7 +398,7 @@ static void report_general(GrammarState *state, const Expected *expected)
         text_append(&text, "unexpected ");
         grammar_describe(state, &state->current, &text);
     }
-    if (state->previous.kind != 0) {
+    if (state->previous.kind != 0 && state->previous.kind != TOKEN_RESYNC) {
         text_append(&text, " after ");
         grammar_describe(state, &state->previous, &text);
     }

@@ -50,6 +50,7 @@ unit_programs = \
   tests/unit/test_schema \
   tests/unit/test_ast \
   tests/unit/test_grammar \
+  tests/unit/test_grammar_quick \
   tests/unit/test_grammar_random \
   tests/unit/test_image \
   tests/unit/test_image_flip \
@@ -108,6 +109,8 @@ tests_unit_test_ast_SOURCES = %D%/unit/test_ast.c
 tests_unit_test_ast_LDADD = libast.la libbase.la
 tests_unit_test_grammar_SOURCES = %D%/unit/test_grammar.c
 tests_unit_test_grammar_LDADD = $(UNIT_GRAMMAR)
+tests_unit_test_grammar_quick_SOURCES = %D%/unit/test_grammar_quick.c
+tests_unit_test_grammar_quick_LDADD = $(UNIT_GRAMMAR)
 tests_unit_test_grammar_random_SOURCES = %D%/unit/test_grammar_random.c
 tests_unit_test_grammar_random_LDADD = $(UNIT_GRAMMAR)
 tests_unit_test_image_SOURCES = %D%/unit/test_image.c %D%/unit/image_forms.h
