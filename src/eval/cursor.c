@@ -201,17 +201,19 @@ static void check_pasted_sign(Cursor *cursor, const AstNode *item)
     cursor->after_value = is_value;
 }
 
-const AstNode *cursor_peek(Cursor *cursor)
+const AstNode *cursor_advance(Cursor *cursor)
 {
     Eval *ev = cursor->ev;
-    if (cursor->item != NULL) {
-        return ev->stop ? NULL : cursor->item;
-    }
     while (cursor->frame != NULL && !ev->stop) {
         const AstNode *item = take_next(cursor);
         if (item == NULL) {
             end_of_frame(cursor);
             continue;
+        }
+        if (RT_LIKELY((item->kind == AST_WORD || item->kind == AST_NUMBER || item->kind == AST_BLOCK) && !cursor->at_call)) {
+            cursor->after_value = item->kind == AST_NUMBER;
+            cursor->item = item;
+            return item;
         }
         if (is_in_initialiser(ev) && item->kind <= AST_MEMBER && begins_with_call(ev, item)) {
             (void)initialiser_fault(ev, item->span);

@@ -396,8 +396,15 @@ typedef struct Cursor {
 void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span);
 void cursor_close(Cursor *cursor); // unwinds scopes of macro calls that were not walked to their end
 
-// The next item, not consumed; NULL at the end of the block or when evaluation must stop.
-const AstNode *cursor_peek(Cursor *cursor);
+// cursor_peek gives the next item, not consumed; NULL at the end of the block or when evaluation must stop.
+// The same when none is pending: on to the next one, with directives run and calls expanded on the way.
+const AstNode *cursor_advance(Cursor *cursor);
+
+static inline const AstNode *cursor_peek(Cursor *cursor)
+{
+    return cursor->item == NULL ? cursor_advance(cursor) : cursor->ev->stop ? NULL : cursor->item;
+}
+
 // Consumes the item that cursor_peek returned.
 void cursor_skip(Cursor *cursor);
 

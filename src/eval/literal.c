@@ -39,9 +39,8 @@ static void watch(void *client, const GrammarLiteral *literal)
 void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record)
 {
     const ObjectPart *part = &record->part;
-    Transform identity = transform_identity();
     const TextureBlueprint *texture = part->texture ? part->texture : ev->objects->defaults;
-    ev->literal.is_plain = kind == KIND_SPHERE && memcmp(&part->transform, &identity, sizeof identity) == 0 &&
+    ev->literal.is_plain = kind == KIND_SPHERE && transform_is_identity(&part->transform) &&
                            !part->is_inverse && !part->no_shadow && !part->no_image && !part->no_reflection &&
                            !part->interior && !part->clips && !part->bounds && texture->ior == 0.0;
 }

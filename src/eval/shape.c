@@ -56,8 +56,8 @@ static void set_round(Transform *frame, Vec3 n, double radius)
 
 bool sphere_image_radius(double radius, const Transform *transform, double *image)
 {
-    double factor;
-    if (transform_is_similarity(transform, &factor)) {
+    double factor = 1.0;
+    if (transform_is_identity(transform) || transform_is_similarity(transform, &factor)) {
         *image = radius * factor;
         return true;
     }

@@ -8,6 +8,7 @@
 #include "math/transform.h"
 
 #include <float.h>
+#include <string.h>
 
 #include "base/attributes.h"
 
@@ -89,9 +90,19 @@ Transform transform_rotate(Vec3 degrees)
     return transform_compose(transform_compose(about_x, about_y), about_z);
 }
 
+// Most objects are not moved.
+bool transform_is_identity(const Transform *transform)
+{
+    static const Transform identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}};
+    return memcmp(transform, &identity, sizeof identity) == 0;
+}
+
 Transform transform_compose(Transform first, Transform second)
 {
     Transform both;
+    if (transform_is_identity(&second) && transform_is_identity(&first)) {
+        return first;
+    }
     for (int row = 0; row < 4; row++) {
         Vec3 image = vec3(first.m[row][0], first.m[row][1], first.m[row][2]);
         image = row < 3 ? transform_direction(&second, image) : transform_point(&second, image);

@@ -22,6 +22,8 @@ typedef struct Transform {
 } Transform;
 
 Transform transform_identity(void);
+// Whether it is that, bit for bit.
+bool transform_is_identity(const Transform *transform);
 Transform transform_translate(Vec3 by);
 Transform transform_scale(Vec3 by);
 Transform transform_rotate(Vec3 degrees);

@@ -58,6 +58,10 @@ static bool grow(UniqueIndex *index, const void *records, size_t count, size_t s
 bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
                   uint32_t *place)
 {
+    if (index->last < count && memcmp((const char *)records + index->last * size, record, size) == 0) {
+        *place = index->last;
+        return true;
+    }
     if (2 * (count + 1) > index->slots.count && !grow(index, records, count, size)) {
         return false;
     }
@@ -68,7 +72,7 @@ bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t 
         }
         *slot = (uint32_t)count + 1;
     }
-    *place = *slot - 1;
+    *place = index->last = *slot - 1;
     return true;
 }
 

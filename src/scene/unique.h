@@ -16,6 +16,7 @@
 
 typedef struct UniqueIndex {
     ARRAY(uint32_t) slots; // place in the array + 1, 0 when empty; a power of two of them
+    uint32_t last;         // the place that was told last
     size_t found;          // records that had an equal
     bool is_recent;        // of records with equal low bits in their hashes only the last one is known
 } UniqueIndex;
