@@ -52,6 +52,7 @@ typedef struct LiteralPattern LiteralPattern;
 enum { LITERAL_PATTERNS = 8 };
 
 typedef struct GrammarQuick GrammarQuick; // quick.c
+typedef struct GrammarItems GrammarItems; // items.c
 
 typedef struct GrammarState {
     const GrammarContext *context;
@@ -154,6 +155,12 @@ GrammarQuick *grammar_quick_new(void) RT_MUST_CHECK; // NULL when out of memory
 void grammar_quick_free(GrammarQuick *quick);
 // The items between braces have been parsed: their nodes.
 void grammar_learn_items(GrammarState *state, Span braces, AstList list);
+// The same, for what quick.c owns; and items after the previous token, a word, that are like some that were learnt: their
+// nodes into `list`, and where reading goes on; NULL: there are none, or they are perhaps learnt now.
+GrammarItems *grammar_items_new(void) RT_MUST_CHECK; // NULL when out of memory
+void grammar_items_free(GrammarItems *items);
+void grammar_items_learn(GrammarItems *items, const GrammarState *state, Span braces, AstList list);
+const char *grammar_items_read(GrammarItems *items, GrammarState *state, const char *at, const char *end);
 
 // Token stream: the symbol and directive tables.
 int grammar_word_token(Symbol symbol);

@@ -1,15 +1,15 @@
 // Tokens that are read at once: what scenes are mostly made of is taken from the scanner's buffer without its tables,
-// a vector of numbers as one token, and a block whose items were read before as a copy of their nodes.
+// and a vector of numbers as one token; items that differ from earlier ones in their numbers only are the matter of
+// items.c.
 //
 // Turns text into a token with its nodes, or leaves it to the scanner: whatever is not wholly in the buffer, begins a
 // comment or a string, or is not written in the most usual way. The nodes are those that the parser would have made.
-// Owns the words and the items that it has seen.
+// Owns the words that it has seen.
 //
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
 #include <string.h>
 
-#include "ast/words.h"
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
 #include "grammar/plain.h"
@@ -19,10 +19,6 @@ enum {
     WORD_LONGEST = 16,   // a longer one is left to the scanner
     WORDS = 512,         // places for words, by their hash
     COMPONENTS_MOST = 5,
-    ITEMS_KEPT = 8,      // texts of items
-    ITEMS_LONGEST = 1024, // bytes of one
-    ITEMS_NODES = 256,
-    MISSES_MOST = 32,    // so many texts in a row of a word's block that no other repeats: from then on few are kept
 };
 
 typedef struct QuickWord {
@@ -31,45 +27,33 @@ typedef struct QuickWord {
     int kind;
 } QuickWord;
 
-// `{ … }` after a word, and the nodes of the items in it.
-typedef struct QuickItems {
-    Symbol word;
-    char *text;
-    size_t length;
-    uint64_t begin;  // where it stood when it was learnt
-    AstNode *nodes;  // NULL: not known yet
-    size_t count;
-    AstList list;    // of the outermost nodes
-} QuickItems;
-
 struct GrammarQuick {
     QuickWord words[WORDS];
-    QuickItems *items[ITEMS_KEPT]; // the one used last first
-    QuickItems *learning;          // its text is being parsed, or NULL
-    unsigned char misses[WORD_COUNT];
+    GrammarItems *items;
 };
 
 GrammarQuick *grammar_quick_new(void)
 {
-    return calloc(1, sizeof(GrammarQuick));
-}
-
-static void items_free(QuickItems *items)
-{
-    if (items != NULL) {
-        free(items->text);
-        free(items->nodes);
-        free(items);
+    GrammarQuick *quick = calloc(1, sizeof(GrammarQuick));
+    if (quick != NULL) {
+        quick->items = grammar_items_new(); // without it all is read as well
     }
+    return quick;
 }
 
 void grammar_quick_free(GrammarQuick *quick)
 {
-    for (unsigned i = 0; quick != NULL && i < ITEMS_KEPT; i++) {
-        items_free(quick->items[i]);
+    if (quick != NULL) {
+        grammar_items_free(quick->items);
+        free(quick);
     }
-    items_free(quick != NULL ? quick->learning : NULL);
-    free(quick);
+}
+
+void grammar_learn_items(GrammarState *state, Span braces, AstList list)
+{
+    if (state->quick != NULL && state->quick->items != NULL) {
+        grammar_items_learn(state->quick->items, state, braces, list);
+    }
 }
 
 // ---- words
@@ -192,181 +176,18 @@ static const char *read_vector(GrammarState *state, const char *at, const char *
     return after;
 }
 
-// ---- items
+// ---- any
 
-// The end of `{ … }` when it holds nothing but words of the language, numbers, commas and brackets; else NULL.
-static const char *survey(const GrammarState *state, const char *at, const char *end)
-{
-    const char *limit = end - at > ITEMS_LONGEST ? at + ITEMS_LONGEST : end;
-    unsigned depth = 0;
-    while (at < limit) {
-        const char *begin = at;
-        if (plain_is_letter(*at)) {
-            while (is_in_word(*at)) {
-                at++;
-            }
-            Symbol word = intern_find(state->context->names, begin, (size_t)(at - begin));
-            if (word == SYMBOL_NONE || word >= WORD_COUNT || word_class(word) == WORD_DIRECTIVE ||
-                word_class(word) == WORD_BUILTIN) {
-                return NULL;
-            }
-            continue;
-        }
-        if (!plain_is_digit(*at) && (*at == '\0' || strchr("{}<>,. \n\t\r-+", *at) == NULL)) {
-            return NULL;
-        }
-        depth += (*at == '{') - (unsigned)(*at == '}');
-        at++;
-        if (depth == 0) {
-            return at;
-        }
-    }
-    return NULL;
-}
-
-// Keeps the text of items that are now parsed, if they may come again.
-static void begin_learning(GrammarState *state, const char *at, const char *end)
-{
-    GrammarQuick *quick = state->quick;
-    Symbol word = state->previous.symbol;
-    unsigned char *misses = &quick->misses[word < WORD_COUNT ? word : 0];
-    *misses = *misses < 2 * MISSES_MOST - 1 ? (unsigned char)(*misses + 1) : MISSES_MOST;
-    if (*misses > MISSES_MOST) {
-        return;
-    }
-    const char *after = survey(state, at, end);
-    if (after == NULL) {
-        return;
-    }
-    QuickItems *items = quick->learning != NULL ? quick->learning : calloc(1, sizeof *items);
-    char *text = items != NULL ? realloc(items->text, (size_t)(after - at)) : NULL;
-    quick->learning = items;
-    if (text == NULL) {
-        items_free(items);
-        quick->learning = NULL;
-        return;
-    }
-    memcpy(text, at, (size_t)(after - at));
-    items->text = text;
-    items->word = word;
-    items->length = (size_t)(after - at);
-    items->begin = state->offset;
-}
-
-static size_t count_nodes(const AstNode *node)
-{
-    size_t count = 0;
-    for (; node != NULL; node = node->next) {
-        count++;
-        if (node->kind != AST_NUMBER) {
-            count += count_nodes(node->a) + count_nodes(node->b) + count_nodes(node->c);
-        }
-    }
-    return count;
-}
-
-// Copies a list and all below it to *to, which moves on; returns the first.
-static AstNode *flatten(const AstNode *node, AstNode **to)
-{
-    AstNode *first = NULL, **link = &first;
-    for (; node != NULL; node = node->next) {
-        AstNode *copy = (*to)++;
-        *copy = *node;
-        copy->next = NULL;
-        *link = copy;
-        link = &copy->next;
-        if (node->kind != AST_NUMBER) {
-            copy->a = flatten(node->a, to);
-            copy->b = flatten(node->b, to);
-            copy->c = flatten(node->c, to);
-        }
-    }
-    return first;
-}
-
-void grammar_learn_items(GrammarState *state, Span braces, AstList list)
-{
-    GrammarQuick *quick = state->quick;
-    QuickItems *items = quick != NULL ? quick->learning : NULL;
-    if (items == NULL || items->begin != braces.begin || items->length != braces.end - braces.begin ||
-        state->context->diags->error_count != state->faults_before || state->builder.failed) {
-        return;
-    }
-    size_t count = count_nodes(list.first);
-    items->nodes = count > 0 && count <= ITEMS_NODES ? malloc(count * sizeof *items->nodes) : NULL;
-    if (items->nodes == NULL) {
-        return;
-    }
-    AstNode *to = items->nodes;
-    items->list = list;
-    items->count = count;
-    items->list.first = items->list.last = flatten(list.first, &to);
-    while (items->list.last->next != NULL) {
-        items->list.last = items->list.last->next;
-    }
-    items_free(quick->items[ITEMS_KEPT - 1]);
-    memmove(quick->items + 1, quick->items, (ITEMS_KEPT - 1) * sizeof *quick->items);
-    quick->items[0] = items;
-    quick->learning = NULL;
-}
-
-static AstNode *moved(AstNode *node, const AstNode *from, AstNode *to)
-{
-    return node != NULL ? to + (node - from) : NULL;
-}
-
-static bool copy_items(GrammarState *state, const QuickItems *items)
-{
-    AstNode *nodes = arena_alloc_array(state->builder.arena, items->count, sizeof *nodes), *from = items->nodes;
-    if (nodes == NULL) {
-        return false;
-    }
-    uint64_t shift = state->offset - items->begin;
-    for (size_t i = 0; i < items->count; i++) {
-        AstNode *node = &nodes[i];
-        *node = from[i];
-        node->span.begin += shift;
-        node->span.end += shift;
-        node->next = moved(node->next, from, nodes);
-        if (node->kind != AST_NUMBER) {
-            node->a = moved(node->a, from, nodes);
-            node->b = moved(node->b, from, nodes);
-            node->c = moved(node->c, from, nodes);
-        }
-    }
-    state->list = items->list;
-    state->list.first = moved(state->list.first, from, nodes);
-    state->list.last = moved(state->list.last, from, nodes);
-    return true;
-}
-
-// Items that were read before, or NULL; then they are perhaps learnt now.
+// Items after a word, if they are like some that were read before.
 static const char *read_items(GrammarState *state, const char *at, const char *end, Token *token)
 {
-    GrammarQuick *quick = state->quick;
-    Symbol word = state->previous.symbol;
     bool follows_word = state->previous.kind == TOKEN_WORD || state->previous.kind == TOKEN_TEXTURE;
-    if (!follows_word || state->after_dot) {
+    if (!follows_word || state->after_dot || state->quick->items == NULL) {
         return NULL;
     }
-    for (unsigned i = 0; i < ITEMS_KEPT && quick->items[i] != NULL; i++) {
-        QuickItems *items = quick->items[i];
-        if (items->word == word && (size_t)(end - at) > items->length && memcmp(at, items->text, items->length) == 0) {
-            if (!copy_items(state, items)) {
-                return NULL;
-            }
-            memmove(quick->items + 1, quick->items, i * sizeof *quick->items);
-            quick->items[0] = items;
-            quick->misses[word < WORD_COUNT ? word : 0] = 0;
-            token->kind = TOKEN_ITEMS;
-            return at + items->length;
-        }
-    }
-    begin_learning(state, at, end);
-    return NULL;
+    token->kind = TOKEN_ITEMS;
+    return grammar_items_read(state->quick->items, state, at, end);
 }
-
-// ---- any
 
 // Marks that are tokens whatever follows them.
 static const bool marks[256] = {

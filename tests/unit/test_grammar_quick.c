@@ -141,9 +141,37 @@ static void add_vector(TextBuffer *out, Random *random, unsigned mischief)
     text_append(out, mischief > 0 && below(random, 12) == 0 ? "" : ">");
 }
 
+// Blocks of a few forms, whose numbers, signs and blanks differ; `@` is a number, `~` a blank or none.
+static void add_form(TextBuffer *out, Random *random)
+{
+    static const char *const forms[] = {
+        "sphere { <@,~@,~@>,~@ pigment { rgb <@, @, @> } finish { ambient @ phong~@ } }\n",
+        "sphere {~<@, @, @>,~@~texture { pigment { color rgb~<@,@,@> }~} }\n",
+        "finish {~ambient @ diffuse @~}",
+        "pigment { rgb @ }",
+        "pigment { gradient <@, @, @> scale @ translate x }",
+        "normal { @, @ }",
+        "normal { @ @ }",
+        "normal { x~@ }",
+        "scale~{ <@ @ @> }",
+        "matrix {~<@,@,@,\n@,@,@,~@,@,@,@,@,@>~}",
+    };
+    static const char *const plain[] = {" ", "", "", "  ", "\n", "\t"};
+    for (const char *at = forms[below(random, RT_COUNT_OF(forms))]; *at != '\0'; at++) {
+        if (*at == '@') {
+            text_append(out, below(random, 3) == 0 ? "-" : below(random, 20) == 0 ? "- " : "");
+            add(out, random, numbers, 10);
+        } else if (*at == '~') {
+            add(out, random, plain, RT_COUNT_OF(plain));
+        } else {
+            text_append_char(out, *at);
+        }
+    }
+}
+
 static void add_piece(TextBuffer *out, Random *random, unsigned mischief)
 {
-    switch (below(random, mischief > 0 ? 9 : 6)) {
+    switch (below(random, mischief > 0 ? 12 : 9)) {
     case 0:
         text_append(out, "sphere {");
         add_vector(out, random, mischief);
@@ -172,16 +200,19 @@ static void add_piece(TextBuffer *out, Random *random, unsigned mischief)
     case 5:
         text_append(out, "#if (A.red < 1) box { <0, 0, 0>, <1, 1, 1> pigment { rgb <1, 0, 0> } } #end\n");
         break;
-    case 6:
+    case 9:
         ADD(words);
         ADD(blanks);
         break;
-    case 7:
+    case 10:
         ADD(marks);
         break;
-    default:
+    case 11:
         ADD(numbers);
         ADD(blanks);
+        break;
+    default:
+        add_form(out, random);
         break;
     }
 }
@@ -215,9 +246,10 @@ static void test_texts(unsigned rounds, unsigned pieces, unsigned mischief, cons
 
 int main(void)
 {
-    test_texts(300, 40, 0, "without mistakes");
-    test_texts(3000, 6, 3, "with mistakes");
-    test_texts(2000, 12, 12, "with few mistakes");
+    test_texts(150, 40, 0, "without mistakes");
+    test_texts(2000, 6, 3, "with mistakes");
+    test_texts(300, 60, 60, "of many blocks");
+    test_texts(1500, 12, 12, "with few mistakes");
     test_texts(3, 20000, 0, "longer than the scanner's buffer");
     return tap_done();
 }
