@@ -165,7 +165,9 @@ tests_unit_count_sphere_blocks_v3_SOURCES = %D%/unit/count_sphere_blocks.c
 tests_unit_count_sphere_blocks_v3_CFLAGS = $(AM_CFLAGS) -march=x86-64-v3
 tests_unit_count_sphere_blocks_v3_LDADD = $(UNIT_TRACE)
 endif
-check_PROGRAMS += $(count_block_programs)
+check_PROGRAMS += $(count_block_programs) tests/unit/count_kernels
+tests_unit_count_kernels_SOURCES = %D%/unit/count_kernels.c
+tests_unit_count_kernels_LDADD = librender.la $(UNIT_TRACE)
 check_PROGRAMS += tests/fuzz/fuzz_scene
 tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
 tests_fuzz_fuzz_scene_LDADD = libapi.la
@@ -190,6 +192,7 @@ test_scripts = \
   %D%/system/check_sampling.py \
   %D%/system/check_stability.py \
   %D%/system/check_study.py \
+  %D%/system/check_aarch64.py \
   %D%/system/check_disable_study.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
@@ -275,6 +278,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py
+	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_aarch64.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_disable_study.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_pairs.py 500 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"

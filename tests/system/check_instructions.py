@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The certified sphere test costs at most 1.6 times the instructions of the textbook's in the same loop, one by one and in
 vectors, and takes the way of double-word arithmetic in no ordinary scene; a scene without sky and fog runs nothing of either;
-and the error of a sampled picture costs at most 2 % of the sampling. Counted by callgrind, so that no clock decides.
+the kernel that is chosen for a scene executes what one does that was compiled with nothing but what the scene has; and the error of a sampled picture costs at most 2 % of the sampling. Counted by callgrind, so that no clock decides.
 SPDX-License-Identifier: MIT
 """
 import glob
@@ -44,6 +44,9 @@ MANY = ("#declare S = seed(7); light_source { <-8, 12, -10> rgb 1 }\n#for (I, 1,
 # Scene, samples a pixel: what is worked out for a pixel is paid once for each doubling of its samples.
 SAMPLED = {"one sphere": (SPHERE, 64), "300 spheres": (MANY, 16)}
 ESTIMATE_BAR = 1.02
+# Of tracing a scene by the kernel that is chosen for it, over a kernel compiled with nothing but what the scene has.
+ABSENT_BAR = 1.005
+KERNELS = PROGRAM.replace("count_sphere_tests", "count_kernels")
 
 
 def file_instructions(scene, function, folder, *options):
@@ -100,6 +103,25 @@ def judge_ordinary(tap, folder):
         tap.ok(count == 0, f"{os.path.basename(scene)}: {count} instructions in double words")
 
 
+def judge_absent(tap, folder):
+    """A line for each scene of count_kernels: what it has not costs nothing."""
+    count = int(subprocess.run([KERNELS], capture_output=True, text=True, check=True).stdout)
+    for number in range(count):
+        taken, said = {}, {}
+        for which in "all", "own":
+            command = [VALGRIND, "--tool=callgrind", f"--callgrind-out-file={folder}/out", "--toggle-collect=render_film",
+                       KERNELS, str(number), which]
+            run = subprocess.run(command, capture_output=True, text=True, check=False)
+            found = re.search(r"Collected : (\d+)", run.stderr)
+            taken[which], said[which] = int(found.group(1)) if found else 0, run.stdout.strip().partition(" ")
+        if not taken["all"] or not taken["own"]:
+            tap.skip("the kernels that are chosen", "callgrind does not run this program")
+            return
+        ratio = taken["all"] / taken["own"]
+        tap.ok(said["all"][0] == said["own"][0] and 1 / ABSENT_BAR <= ratio <= ABSENT_BAR,
+               f"{said['own'][2]}: the kernel `{said['all'][2]}` executes {100 * (ratio - 1):+.2f} % of the instructions of its own")
+
+
 def judge_estimate(tap, folder):
     """A line for each of SAMPLED: the instructions of sampling with and without its error."""
     for name, (text, samples) in SAMPLED.items():
@@ -123,6 +145,8 @@ def main():
                 judge_loop(tap, name, program, folder)
         judge_around(tap, folder)
         judge_ordinary(tap, folder)
+        if os.path.exists(KERNELS):
+            judge_absent(tap, folder)
         judge_estimate(tap, folder)
     return tap.done()
 
