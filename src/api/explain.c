@@ -255,6 +255,11 @@ static void write_absent(rt_session *session, const Run *whole)
             text_printf(out, "  %-22s%s\n", feature_rows[i].name, feature_rows[i].absent);
         }
     }
+    if (session->names_declared.unused > 0) {
+        text_printf(out, "  %-22s%llu of %llu are never used: no record is made of them, and no picture of theirs is read\n",
+                    "declared names", (unsigned long long)session->names_declared.unused,
+                    (unsigned long long)session->names_declared.declared);
+    }
     if (!needs_module(scene)) {
         text_printf(out, "  %-22s%s\n", "OpenImageIO", "no picture that is read has another format than PNG");
     }

@@ -183,6 +183,7 @@ static rt_status load(rt_session *session, Source *source, double start)
         .clock_on = session->clock_on,
         .world = session->world.scale > 0.0 ? &session->world : NULL,
         .no_literals = session->no_literals,
+        .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,
         .client = session,

@@ -57,6 +57,7 @@ struct rt_session {
     double seconds_left; // while rendering
     RenderStatistics statistics;
     const char *kernel;
+    EvalNames names_declared;
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds;
     atomic_bool cancel;
     TextBuffer dump;

@@ -186,6 +186,9 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
         ev.faulty = !objects_finish(&ev) || ev.faulty;
         lint_finish(&ev);
     }
+    if (options->declared != NULL) {
+        *options->declared = scope_count(&ev);
+    }
     fini(&ev);
     options->diags->frame = frame;
     return !ev.faulty && !ev.stop && options->diags->error_count == errors;

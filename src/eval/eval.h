@@ -41,6 +41,11 @@ typedef struct EvalWorld {
     Vec3 shift;
 } EvalWorld;
 
+// The global names that a scene declares, and those of them that nothing asks for.
+typedef struct EvalNames {
+    size_t declared, unused;
+} EvalNames;
+
 // What an evaluation is given. Pointers must stay valid during the call; nothing is owned.
 typedef struct EvalOptions {
     SourceMap *sources;
@@ -58,6 +63,7 @@ typedef struct EvalOptions {
     bool clock_on;             // a clock was given
     const EvalWorld *world;    // NULL: where it says
     bool no_literals;          // statements of nothing but numbers are parsed like all others
+    EvalNames *declared;       // set in the end; may be NULL
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console
     // does. What #warning and #error say is a diagnostic. May be NULL.

@@ -262,6 +262,9 @@ void scope_pop(Eval *ev);
 // What a name stands for, looking from the innermost level outwards, or NULL.
 Value *scope_find(const Eval *ev, Symbol name);
 
+// How many global names the scene has declared, and looked for nowhere.
+EvalNames scope_count(const Eval *ev);
+
 // #declare changes what the name stands for, or makes a global; #local makes or changes a name of the innermost level.
 bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span) RT_MUST_CHECK;
 

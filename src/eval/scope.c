@@ -22,6 +22,8 @@ struct Binding {
     Binding *next;     // in the same level
     Symbol name;       // SYMBOL_NONE after #undef
     uint32_t level;    // 0: global
+    bool is_given;     // by the scene, not before it
+    bool is_used;      // it was looked for since
 };
 
 typedef struct Level {
@@ -85,7 +87,24 @@ static Binding *find(const Eval *ev, Symbol name)
 Value *scope_find(const Eval *ev, Symbol name)
 {
     Binding *binding = find(ev, name);
-    return binding != NULL ? binding->variable : NULL;
+    if (binding == NULL) {
+        return NULL;
+    }
+    binding->is_used = true;
+    return binding->variable;
+}
+
+EvalNames scope_count(const Eval *ev)
+{
+    EvalNames names = {0};
+    for (size_t i = 0; ev->scope != NULL && i < ev->scope->innermost.count; i++) {
+        const Binding *binding = ev->scope->innermost.items[i];
+        if (binding != NULL && binding->level == 0 && binding->is_given) {
+            names.declared++;
+            names.unused += !binding->is_used;
+        }
+    }
+    return names;
 }
 
 ValueArray *scope_array(const Eval *ev, Symbol name)
@@ -128,7 +147,8 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
         eval_no_memory(ev, span);
         return NULL;
     }
-    *binding = (Binding){.name = name, .level = (uint32_t)level, .hidden = scope->innermost.items[name]};
+    *binding = (Binding){.name = name, .level = (uint32_t)level, .hidden = scope->innermost.items[name],
+                          .is_given = span.end > 0};
     binding->variable = &binding->own;
     if (level > 0) {
         binding->next = scope->levels.items[level - 1].locals;

@@ -175,6 +175,8 @@ def check_explain_scene(tap):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "scene.scn"), "w", encoding="utf-8") as file:
                 file.write(text)
+            with open(os.path.join(folder, "broken.png"), "w", encoding="ascii") as file:
+                file.write("no picture")
             done = subprocess.run([PROGRAM, "-W40", "-H30", "-t1", *words, "--explain", "scene.scn"], cwd=folder, check=False,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         return done.returncode, done.stdout.decode()
@@ -197,6 +199,12 @@ def check_explain_scene(tap):
     shadow = re.fullmatch(r"(\d+) rays; costs [0-9.]+ s and (\d+) rays in all", there["shadow rays"])
     tap.ok(shadow and shadow[1] == shadow[2], "without shadows all of their rays are gone", told)
     tap.ok(not set(there) & set(left), "nothing is both", told)
+    declared = "#declare A = 1; #declare B = texture { pigment { image_map { png \"broken.png\" } } } #macro M(C) C #end #declare D = M(A);"
+    status, told = explain(declared + scene % ("", "", ""))
+    tap.ok(status == 0 and part(told, "left out, and why")["declared names"].startswith("2 of 4 are never used"),
+           "names that nothing asks for", told)
+    tap.ok("declared names" not in explain(scene % ("", "", ""))[1], "where there are none, nothing is said of them")
+    tap.ok(explain(declared + scene % ("", "", "sphere { 3, 1 texture { B } }"))[0] != 0, "a broken picture that is used is a fault")
     tap.ok(explain("sphere { 0, -1 }")[0] == 1, "a faulty scene is not explained")
 
 
