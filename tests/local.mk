@@ -59,6 +59,7 @@ unit_programs = \
   tests/unit/test_image_values \
   tests/unit/test_render \
   tests/unit/test_render_sampler \
+  tests/unit/test_tiles \
   tests/sampling/test_sampling \
   tests/sampling/test_forward
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
@@ -141,6 +142,8 @@ tests_unit_test_trace_pixel_SOURCES = %D%/unit/test_trace_pixel.c %D%/unit/scene
 tests_unit_test_trace_pixel_LDADD = libapi.la
 tests_unit_test_render_sampler_SOURCES = %D%/unit/test_render_sampler.c
 tests_unit_test_render_sampler_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_tiles_SOURCES = %D%/unit/test_tiles.c $(trace_headers)
+tests_unit_test_tiles_LDADD = librender.la $(UNIT_TRACE)
 tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
 tests_sampling_test_sampling_LDADD = libapi.la
 tests_sampling_test_forward_SOURCES = %D%/sampling/test_forward.c %D%/sampling/scenes.h

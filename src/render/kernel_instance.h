@@ -8,31 +8,43 @@
 #include "render/camera.h"
 #include "render/kernels.h"
 #include "render/prepared.h"
-#include "render/shade.h"
+#include "render/shade_tile.h"
 
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
 
-// Returns the places at which the camera sees anything, a bit for each.
-RT_ALWAYS_INLINE uint64_t places_closest(const Prepared *p, unsigned features, const KernelPlaces *places, Ray *rays,
-                                         Hit *hits)
+// The rays of the camera; returns the places at which it sees anything, a bit for each.
+RT_ALWAYS_INLINE uint64_t places_rays(const Prepared *p, const KernelPlaces *places, Ray rays[TILE_RAYS])
 {
-    const PreparedCamera *camera = &p->camera;
-    if (camera->type == CAMERA_PERSPECTIVE && !places->lens) {
-        TileView view = {camera->location, camera->direction, camera->right, camera->up};
-        geometry_closest_view(p->geometry, features, &view, places->u, places->v, rays, hits);
-        return UINT64_MAX;
-    }
     uint64_t seen = 0;
     for (int i = 0; i < TILE_RAYS; i++) {
         if (places->lens) {
-            rays[i] = camera_lens_ray(camera, places->u[i], places->v[i], places->lens[i]);
+            rays[i] = camera_lens_ray(&p->camera, places->u[i], places->v[i], places->lens[i]);
             seen |= UINT64_C(1) << i;
             continue;
         }
-        seen |= (uint64_t)camera_ray(camera, places->u[i], places->v[i], &rays[i]) << i;
+        seen |= (uint64_t)camera_ray(&p->camera, places->u[i], places->v[i], &rays[i]) << i;
     }
-    geometry_closest_tile(p->geometry, features, rays, hits);
     return seen;
+}
+
+// The same with what they hit.
+RT_ALWAYS_INLINE uint64_t places_closest(const Prepared *p, unsigned features, const TileView *view,
+                                         const KernelPlaces *places, Ray rays[TILE_RAYS], Hit hits[TILE_RAYS])
+{
+    if (!view) {
+        uint64_t seen = places_rays(p, places, rays);
+        geometry_closest_tile(p->geometry, features, rays, hits);
+        return seen;
+    }
+    SphereTile tile;
+    TileHits found;
+    geometry_closest_view(p->geometry, features, view, places->u, places->v, &tile, &found);
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        SphereRay ray = sphere_tile_ray(&tile, i);
+        rays[i] = (Ray){ray.origin, ray.direction};
+        hits[i] = (Hit){found.t[i], found.shape[i], found.inside >> i & 1};
+    }
+    return UINT64_MAX;
 }
 
 RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const KernelPlaces *places,
@@ -40,8 +52,15 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const K
 {
     Ray rays[TILE_RAYS];
     Hit hits[TILE_RAYS];
+    const PreparedCamera *camera = &p->camera;
+    TileView view = {camera->location, camera->direction, camera->right, camera->up};
+    bool has_view = camera->type == CAMERA_PERSPECTIVE && !places->lens;
+    if (!(features & ~(unsigned)SHADE_TILE_FEATURES) && has_view) {
+        shade_tile(p, features, &view, places, wanted, light, statistics);
+        return;
+    }
     RenderStatistics counted = *statistics;
-    uint64_t seen = places_closest(p, features, places, rays, hits);
+    uint64_t seen = places_closest(p, features, has_view ? &view : NULL, places, rays, hits);
     for (uint64_t unseen = wanted & ~seen; unseen; unseen &= unseen - 1) {
         light[__builtin_ctzll(unseen)] = rgb_grey(0.0);
         counted.camera_rays++;

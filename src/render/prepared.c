@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "render/tile_light.h"
 #include "scene/range.h"
 
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
@@ -215,6 +216,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     prepared_inside(p, p->camera.location, &p->start);
     p->features = needed_features(p, scene);
     p->kernel = kernel_choose(p->features);
+    p->tile_lights = tile_lights_choose(geometry_isa_name(p->geometry));
     return p;
 }
 

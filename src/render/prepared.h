@@ -75,6 +75,7 @@ struct Prepared {
     uint64_t crossings_max; // no line meets more surfaces
     unsigned features; // TraceFeature and RenderFeature bits that the scene needs
     const Kernel *kernel;
+    const struct TileLights *tile_lights; // of the geometry's instruction set
 };
 
 // What a ray that starts at a point of prepared space is inside of, the outermost first.

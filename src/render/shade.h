@@ -62,6 +62,16 @@ RT_ALWAYS_INLINE Rgb shade_left_below(unsigned features, const ShadeMaterial *ma
                : rgb_grey(1.0);
 }
 
+// What a surface's mirror sends on.
+RT_ALWAYS_INLINE void shade_set_mirror(unsigned features, const ShadeMaterial *material, const ShadePoint *at,
+                                       ShadeOnward *onward)
+{
+    if (shade_mirror(features, material, at, &onward->reflectance)) {
+        onward->reflection_weight = shade_mirror_weight(features, material->finish, onward->reflectance);
+        onward->reflection_exponent = material->finish->reflection_exponent;
+    }
+}
+
 // The light of a surface of one material, and what it sends on.
 RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadePoint *at, ShadeOnward *onward,
                                  RenderStatistics *statistics)
@@ -69,10 +79,7 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
     const Material *plain = &p->materials[at->material];
     Rgbft pigment = material_pigment(plain);
     ShadeMaterial material = shade_material(p, features, pigment, plain->finish);
-    if (shade_mirror(features, &material, at, &onward->reflectance)) {
-        onward->reflection_weight = shade_mirror_weight(features, material.finish, onward->reflectance);
-        onward->reflection_exponent = material.finish->reflection_exponent;
-    }
+    shade_set_mirror(features, &material, at, onward);
     if (features & RENDER_TRANSPARENCY) {
         onward->through = rgb_scale(material.finish->refraction, texture_pigment_through(pigment));
         onward->conserves_energy = material.finish->conserves_energy;
@@ -123,6 +130,13 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
     return true;
 }
 
+// No ray waits, and no light has come.
+RT_ALWAYS_INLINE void pending_begin(Pending *pending)
+{
+    pending->count = pending->open = 0;
+    pending->sums[0] = rgb_grey(0.0);
+}
+
 // Adds a ray's light to the sum that is open.
 RT_ALWAYS_INLINE void pending_add(Pending *pending, const PendingRay *ray, Rgb light)
 {
@@ -163,10 +177,8 @@ typedef struct ShadeStep {
 
 RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, const PendingRay *first, Pending *pending)
 {
-    pending->count = 1;
-    pending->open = 0;
-    pending->rays[0] = *first;
-    pending->sums[0] = rgb_grey(0.0);
+    pending_begin(pending);
+    pending->rays[pending->count++] = *first;
     if (features & RENDER_INTERIORS) {
         if (p->camera.type != CAMERA_ORTHOGRAPHIC && p->camera.lens_radius == 0.0) {
             inside_copy(&pending->inside[0], &p->start);
@@ -240,17 +252,24 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
     }
 }
 
+// Traces the rays that wait; returns the sum of all light.
+RT_ALWAYS_INLINE Rgb shade_pending(const Prepared *p, unsigned features, Pending *pending, SampleStream *stream,
+                                   RenderStatistics *statistics)
+{
+    while (pending->count > 0) {
+        ShadeStep step;
+        shade_path_step(p, features, pending, stream, statistics, &step);
+    }
+    return pending->sums[0];
+}
+
 // The light that one camera ray brings back, where rays may go on.
 RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const PendingRay *first, SampleStream *stream,
                                 RenderStatistics *statistics)
 {
     Pending pending;
     shade_path_begin(p, features, first, &pending);
-    while (pending.count > 0) {
-        ShadeStep step;
-        shade_path_step(p, features, &pending, stream, statistics, &step);
-    }
-    return pending.sums[0];
+    return shade_pending(p, features, &pending, stream, statistics);
 }
 
 // The light that one camera ray brings back, which hits what `known` says.

@@ -13,33 +13,44 @@ typedef struct Single {
     atomic_bool has_no_memory;
 } Single;
 
-// The pixels of one beam; where it is cut off, its last ones are traced again.
+// Where the rays of a beam go through the picture; where it is cut off, its last ones are traced again.
+static uint64_t beam_places(const Film *film, Tile tile, KernelPlaces *places)
+{
+    double across[KERNEL_ROW], down[KERNEL_ROW];
+    uint64_t wanted = 0;
+    int columns = tile.right - tile.left < KERNEL_ROW ? tile.right - tile.left : KERNEL_ROW;
+    int rows = tile.bottom - tile.top < KERNEL_ROW ? tile.bottom - tile.top : KERNEL_ROW;
+    for (int i = 0; i < KERNEL_ROW; i++) {
+        across[i] = film_u(film, tile.left + (i < columns ? i : columns - 1), 0.0);
+        down[i] = film_v(film, tile.top + (i < rows ? i : rows - 1), 0.0);
+    }
+    for (int row = 0; row < KERNEL_ROW; row++) {
+        for (int i = 0; i < KERNEL_ROW; i++) {
+            places->u[row * KERNEL_ROW + i] = across[i];
+            places->v[row * KERNEL_ROW + i] = down[row];
+        }
+        wanted |= row < rows ? ((UINT64_C(1) << columns) - 1) << (row * KERNEL_ROW) : 0;
+    }
+    return wanted;
+}
+
+// The pixels of one beam.
 static void trace_beam(const Single *single, Tile tile, RenderStatistics *counted)
 {
     Film *film = single->film;
-    KernelPlaces places = {.lens = NULL};
+    KernelPlaces places;
     Rgb light[KERNEL_RAYS];
-    double across[KERNEL_ROW], down[KERNEL_ROW];
-    uint64_t wanted = 0;
-    for (int i = 0; i < KERNEL_ROW; i++) {
-        int x = tile.left + i < tile.right ? tile.left + i : tile.right - 1;
-        int y = tile.top + i < tile.bottom ? tile.top + i : tile.bottom - 1;
-        across[i] = film_u(film, x, 0.0);
-        down[i] = film_v(film, y, 0.0);
-    }
-    for (int i = 0; i < KERNEL_RAYS; i++) {
-        int x = tile.left + i % KERNEL_ROW, y = tile.top + i / KERNEL_ROW;
-        places.u[i] = across[i % KERNEL_ROW];
-        places.v[i] = down[i / KERNEL_ROW];
-        wanted |= (uint64_t)(x < tile.right && y < tile.bottom) << i;
-    }
+    places.lens = NULL;
+    uint64_t wanted = beam_places(film, tile, &places);
     single->prepared->kernel->trace(single->prepared, &places, NULL, wanted, light, counted);
-    for (; wanted; wanted &= wanted - 1) {
-        int i = __builtin_ctzll(wanted);
-        size_t pixel = (size_t)(tile.top + i / KERNEL_ROW) * (size_t)film->width + (size_t)(tile.left + i % KERNEL_ROW);
-        film->rgb[3 * pixel] = (float)light[i].red;
-        film->rgb[3 * pixel + 1] = (float)light[i].green;
-        film->rgb[3 * pixel + 2] = (float)light[i].blue;
+    for (int y = tile.top; y < tile.bottom && y < tile.top + KERNEL_ROW; y++) {
+        const Rgb *row = &light[(y - tile.top) * KERNEL_ROW];
+        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)tile.left)];
+        for (int i = 0; i < KERNEL_ROW && tile.left + i < tile.right; i++) {
+            pixel[3 * i] = (float)row[i].red;
+            pixel[3 * i + 1] = (float)row[i].green;
+            pixel[3 * i + 2] = (float)row[i].blue;
+        }
     }
 }
 

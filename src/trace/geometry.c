@@ -201,6 +201,11 @@ size_t geometry_bytes(const Geometry *geometry)
            geometry->plane_count * sizeof(PlaneEntry) + shapes_bytes(&geometry->shapes);
 }
 
+const char *geometry_isa_name(const Geometry *geometry)
+{
+    return geometry->kernels->name;
+}
+
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape)
 {
     return shape_kind(shape) == SHAPE_PART && geometry->shapes.solids[part_index(shape)].kind >= PART_DISC;

@@ -211,23 +211,48 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     return nearest.hit.shape != SHAPE_NONE;
 }
 
-// `tile` holds usable rays, the same as `rays`.
-RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, const SphereTile *tile, bool is_usable,
-                                         const Ray rays[TILE_RAYS], Hit hits[TILE_RAYS])
+// The only other shape is a plane, which nothing coincides with.
+RT_ALWAYS_INLINE bool query_has_one_plane(const Geometry *g, unsigned features)
 {
-    Nearest nearest[TILE_RAYS];
-    for (unsigned i = 0; i < TILE_RAYS; i++) {
-        nearest[i] = (Nearest){{(double)INFINITY, SHAPE_NONE, false}, 0, false, 0.0};
+    return !(features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) && (features & TRACE_PLANES) && g->plane_count == 1;
+}
+
+// Brings the hits of a tile up to date with all shapes but spheres.
+RT_ALWAYS_INLINE void query_tile_others(const Geometry *g, unsigned features, const SphereTile *tile, TileHits *hits)
+{
+    bool has_others = features & (TRACE_ELLIPSOIDS | TRACE_PARTS);
+    uint64_t open = has_others || ((features & TRACE_PLANES) && g->plane_count > 0) ? UINT64_MAX : 0;
+    if (query_has_one_plane(g, features)) {
+        open = g->kernels->plane_closest(&g->planes[0].shape, shape_id(SHAPE_PLANE, 0), tile, hits);
     }
-    bool is_done = is_usable && (features & TRACE_ANY_SPHERES) && g->kernels->closest_tile(&g->spheres, tile, nearest);
+    for (; open; open &= open - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(open);
+        bool is_met = hits->met >> i & 1;
+        uint32_t order = is_met ? g->spheres.info[shape_index(hits->shape[i])].order : 0;
+        Nearest nearest = {{hits->t[i], hits->shape[i], hits->inside >> i & 1}, order, false, 0.0};
+        SphereRay ray = sphere_tile_ray(tile, i);
+        query_others_closest(g, features, &ray, RAY_START_CAMERA, &nearest);
+        tile_hit_set(hits, i, &nearest.hit);
+    }
+}
+
+// What the rays of a tile, which may not be usable, meet of anything.
+RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, const SphereTile *tile, bool is_usable,
+                                         TileHits *hits)
+{
+    if (is_usable && (features & TRACE_ANY_SPHERES) && g->kernels->closest_tile(&g->spheres, tile, hits)) {
+        query_tile_others(g, features, tile, hits);
+        return;
+    }
+    hits->met = hits->inside = 0;
     for (unsigned i = 0; i < TILE_RAYS; i++) {
-        if (is_done) {
-            SphereRay ray = sphere_tile_ray(tile, i);
-            query_others_closest(g, features, &ray, RAY_START_CAMERA, &nearest[i]);
-            hits[i] = nearest[i].hit;
-        } else if (!geometry_closest(g, features, rays[i], RAY_START_CAMERA, (double)INFINITY, &hits[i])) {
-            hits[i].shape = SHAPE_NONE;
+        SphereRay ray = sphere_tile_ray(tile, i);
+        Hit hit = {(double)INFINITY, SHAPE_NONE, false};
+        if (!geometry_closest(g, features, (Ray){ray.origin, ray.direction}, RAY_START_CAMERA, (double)INFINITY,
+                              &hit)) {
+            hit.shape = SHAPE_NONE;
         }
+        tile_hit_set(hits, i, &hit);
     }
 }
 
@@ -237,45 +262,62 @@ RT_ALWAYS_INLINE void geometry_closest_tile(const Geometry *g, unsigned features
                                             Hit hits[TILE_RAYS])
 {
     SphereTile tile;
-    bool is_usable = true;
+    TileHits found;
+    bool is_usable = true, is_one_point = true;
     tile.origin = rays[0].origin;
     for (unsigned i = 0; i < TILE_RAYS; i++) {
         SphereRay ray = sphere_ray_make(rays[i].origin, rays[i].direction);
-        is_usable = is_usable && sphere_ray_is_usable(&ray) && vec3_equal(rays[i].origin, tile.origin);
+        is_usable = is_usable && sphere_ray_is_usable(&ray);
+        is_one_point = is_one_point && vec3_equal(rays[i].origin, tile.origin);
         sphere_tile_set(&tile, i, &ray);
     }
-    query_tile_closest(g, features, &tile, is_usable, rays, hits);
-}
-
-// The same for the rays of a view, which are put into `rays`: each is vec3_normalize of direction + (u right - v up).
-RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features, const TileView *view,
-                                            const double u[TILE_RAYS], const double v[TILE_RAYS], Ray rays[TILE_RAYS],
-                                            Hit hits[TILE_RAYS])
-{
-    SphereTile tile;
-    bool is_usable = g->kernels->view_tile(view, u, v, &tile);
-    for (unsigned i = 0; i < TILE_RAYS; i++) {
-        rays[i] = (Ray){tile.origin, {tile.direction[0][i], tile.direction[1][i], tile.direction[2][i]}};
+    if (is_one_point) {
+        query_tile_closest(g, features, &tile, is_usable, &found);
+        for (unsigned i = 0; i < TILE_RAYS; i++) {
+            hits[i] = (Hit){found.t[i], found.shape[i], found.inside >> i & 1};
+        }
+        return;
     }
-    query_tile_closest(g, features, &tile, is_usable, rays, hits);
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        if (!geometry_closest(g, features, rays[i], RAY_START_CAMERA, (double)INFINITY, &hits[i])) {
+            hits[i].shape = SHAPE_NONE;
+        }
+    }
 }
 
-// True when anything is met at 0 < t < t_max.
-RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max)
+// The same for the rays of a view, which are put into `tile`: each is vec3_normalize of direction + (u right - v up).
+RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features, const TileView *view,
+                                            const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile,
+                                            TileHits *hits)
+{
+    bool is_usable = g->kernels->view_tile(view, u, v, tile);
+    query_tile_closest(g, features, tile, is_usable, hits);
+}
+
+RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
+                                            double start_error, double t_max)
+{
+    bool is_beside = query_starts_beside(g, features, start, SHAPE_PLANE);
+    for (uint32_t i = 0; i < g->plane_count; i++) {
+        double t = query_plane_root(g, i, ray, start);
+        if (t > (is_beside ? query_plane_error(g, features, i, ray, t) + start_error : 0.0) && t < t_max) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// True when anything is met at 0 < t < t_max; `asks_spheres` when that may be a sphere.
+RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool asks_spheres, Ray ray, RayStart start,
+                                     double t_max)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
     double start_error = query_start_error(g, features, &sphere_ray, start);
-    if (features & TRACE_PLANES) {
-        bool is_beside = query_starts_beside(g, features, start, SHAPE_PLANE);
-        for (uint32_t i = 0; i < g->plane_count; i++) {
-            double t = query_plane_root(g, i, &sphere_ray, start);
-            if (t > (is_beside ? query_plane_error(g, features, i, &sphere_ray, t) + start_error : 0.0) && t < t_max) {
-                return true;
-            }
-        }
+    if ((features & TRACE_PLANES) && query_planes_occluded(g, features, &sphere_ray, start, start_error, t_max)) {
+        return true;
     }
     if (features & TRACE_ELLIPSOIDS) {
         bool is_beside = query_starts_beside(g, features, start, SHAPE_ELLIPSOID);
@@ -287,10 +329,43 @@ RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ra
             }
         }
     }
-    if ((features & TRACE_ANY_SPHERES) && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
+    if ((features & TRACE_ANY_SPHERES) && asks_spheres && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
         return true;
     }
     return (features & TRACE_PARTS) && shapes_occluded(&g->shapes, &ray, start, start_error, t_max);
+}
+
+// True when anything is met at 0 < t < t_max.
+RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max)
+{
+    return query_occluded(g, features, true, ray, start, t_max);
+}
+
+// The surfaces, of those asked for, that anything is before on their way to a point; `together` when that is the same
+// one. Surfaces are of spheres and planes. The same as geometry_occluded says of each.
+RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned features, const TileSurfaces *from,
+                                                     const SurfaceRays *rays, bool together, uint64_t asked)
+{
+    uint64_t occluded = 0, left = asked;
+    bool has_one_plane = query_has_one_plane(g, features);
+    if (has_one_plane) {
+        occluded = asked & g->kernels->plane_occluded(&g->planes[0].shape, shape_id(SHAPE_PLANE, 0), from, rays);
+        left &= ~occluded;
+    }
+    if (together) {
+        occluded |= g->kernels->occluded_surfaces(&g->spheres, from, rays, left, &left);
+    }
+    bool asks_planes = (features & TRACE_PLANES) && g->plane_count > 1;
+    uint64_t open = asks_planes ? asked & ~occluded : left;
+    for (; open; open &= open - 1) {
+        int i = __builtin_ctzll(open);
+        Vec3 direction = vec3(rays->towards[0][i], rays->towards[1][i], rays->towards[2][i]);
+        Ray ray = {tile_surface_point(from, i), direction};
+        RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), direction) < 0.0, HIDDEN_SHADOW};
+        bool asks_spheres = left >> i & 1;
+        occluded |= (uint64_t)query_occluded(g, features, asks_spheres, ray, start, rays->distance[i]) << i;
+    }
+    return occluded;
 }
 
 // Where the ray hit: the point put back onto the surface, its normal and its material.
@@ -316,6 +391,33 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
     Vec3 normal = sphere_normal(ray, &ball, hit.t);
     Vec3 point = vec3_add_scaled(ball.centre, sqrt(ball.radius_squared), normal);
     return (Surface){point, normal, g->spheres.info[index].material, g->spheres.info[index].order};
+}
+
+// The surfaces that a tile's rays of `wanted` have met, and their materials.
+RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned features, const SphereTile *tile,
+                                             const TileHits *hits, uint64_t wanted, TileSurfaces *surfaces,
+                                             MaterialIndex material[TILE_RAYS])
+{
+    surfaces->count = 0;
+    surfaces->inside = 0;
+    for (; wanted; wanted &= wanted - 1) {
+        unsigned ray = (unsigned)__builtin_ctzll(wanted);
+        surfaces->inside |= (hits->inside >> ray & 1) << surfaces->count;
+        surfaces->ray[surfaces->count++] = (uint8_t)ray;
+    }
+    uint64_t done = g->kernels->surfaces(&g->spheres, tile, hits, surfaces);
+    for (int i = 0; i < surfaces->count; i++) {
+        if (RT_LIKELY(done >> i & 1)) {
+            material[i] = g->spheres.info[shape_index(surfaces->shape[i])].material;
+            continue;
+        }
+        unsigned ray = surfaces->ray[i];
+        Hit hit = {hits->t[ray], hits->shape[ray], hits->inside >> ray & 1};
+        SphereRay own = sphere_tile_ray(tile, ray);
+        Surface surface = geometry_surface(g, features, (Ray){own.origin, own.direction}, hit);
+        material[i] = surface.material;
+        tile_surface_set(surfaces, i, surface.point, surface.normal);
+    }
 }
 
 #endif

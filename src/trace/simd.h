@@ -110,6 +110,21 @@ RT_ALWAYS_INLINE unsigned floats_le(Floats a, Floats b)
 #endif
 }
 
+// Bit i is set where a[i] = b, of as many as FLOATS.
+RT_ALWAYS_INLINE unsigned ints_equal(const uint32_t *a, uint32_t b)
+{
+#if defined(__AVX__)
+    FloatsMask equal = *(const FloatsMask *)a == (FloatsMask){0} + (int32_t)b;
+    return (unsigned)_mm256_movemask_ps((__m256)equal);
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < FLOATS; i++) {
+        bits |= (unsigned)(a[i] == b) << i;
+    }
+    return bits;
+#endif
+}
+
 // Bit i is set where a[i] >= b[i]; a NaN is not.
 RT_ALWAYS_INLINE unsigned doubles_ge(Doubles a, Doubles b)
 {
@@ -126,6 +141,12 @@ RT_ALWAYS_INLINE unsigned doubles_ge(Doubles a, Doubles b)
     }
     return bits;
 #endif
+}
+
+// Bit i is set where a[i] > b[i]; a NaN is not.
+RT_ALWAYS_INLINE unsigned doubles_gt(Doubles a, Doubles b)
+{
+    return doubles_ge(a, b) & ~doubles_ge(b, a);
 }
 
 RT_ALWAYS_INLINE Doubles doubles_sqrt(Doubles a)
@@ -182,6 +203,28 @@ RT_ALWAYS_INLINE double doubles_greatest(Doubles a)
 RT_ALWAYS_INLINE Doubles doubles_abs(Doubles a)
 {
     return (Doubles)((DoublesMask)a & INT64_MAX);
+}
+
+// a b - product, exactly, for product = a * b, when nothing over- or underflows.
+RT_ALWAYS_INLINE Doubles doubles_product_error(Doubles a, Doubles b, Doubles product)
+{
+#if defined(__AVX512F__)
+    return _mm512_fmsub_pd(a, b, product);
+#elif defined(__FMA__)
+    return _mm256_fmsub_pd(a, b, product);
+#else
+    const double split = 0x1.0000002p27; // see double_word.h
+    Doubles a_scaled = split * a, b_scaled = split * b;
+    Doubles a_upper = a_scaled - (a_scaled - a), b_upper = b_scaled - (b_scaled - b);
+    Doubles a_lower = a - a_upper, b_lower = b - b_upper;
+    return ((a_upper * b_upper - product) + a_upper * b_lower + a_lower * b_upper) + a_lower * b_lower;
+#endif
+}
+
+// a where the mask is set, else b.
+RT_ALWAYS_INLINE Doubles doubles_choose(DoublesMask mask, Doubles a, Doubles b)
+{
+    return (Doubles)((mask & (DoublesMask)a) | (~mask & (DoublesMask)b));
 }
 
 // a where x < 0 or NaN with its sign bit set, else b.

@@ -11,6 +11,7 @@
 #include "base/attributes.h"
 #include "scene/scene.h"
 #include "trace/bvh.h"
+#include "trace/plane.h"
 #include "trace/sphere.h"
 #include "trace/trace.h"
 
@@ -57,6 +58,31 @@ typedef struct SphereTile {
     double dual[3][TILE_RAYS], inverse_square[TILE_RAYS]; // as in SphereRay
 } SphereTile;
 
+// What the rays of a tile meet.
+typedef struct TileHits {
+    _Alignas(64) double t[TILE_RAYS]; // INFINITY where nothing is met
+    _Alignas(64) ShapeId shape[TILE_RAYS]; // SHAPE_NONE there
+    uint64_t met, inside;             // a bit for each ray: it meets something; from the inside
+} TileHits;
+
+// The surfaces that some rays of a tile have met, one after the other.
+typedef struct TileSurfaces {
+    int count;
+    uint8_t ray[TILE_RAYS]; // which of the tile's
+    uint64_t inside;        // a bit for each surface
+    _Alignas(64) ShapeId shape[TILE_RAYS];
+    // Of the ray, where it met the surface, and of length 1 out of the shape.
+    _Alignas(64) double direction[3][TILE_RAYS];
+    double point[3][TILE_RAYS], outward[3][TILE_RAYS];
+} TileSurfaces;
+
+// Rays from surfaces to one point.
+typedef struct SurfaceRays {
+    Vec3 end;
+    _Alignas(64) double towards[3][TILE_RAYS]; // of about unit length
+    double distance[TILE_RAYS];
+} SurfaceRays;
+
 // Rays of one point: towards direction + u right - v up.
 typedef struct TileView {
     Vec3 origin, direction, right, up;
@@ -69,9 +95,23 @@ typedef struct SphereKernels {
     bool (*is_supported)(void);
     void (*closest)(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest);
     bool (*occluded)(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max);
-    // The same as `closest` for each ray of a tile, with the loose spheres. False when the rays are too far apart, or
-    // their origin too far away, to be traced together; nothing is done then.
-    bool (*closest_tile)(const SphereTable *table, const SphereTile *tile, Nearest nearest[TILE_RAYS]);
+    // What each ray of a tile meets of all spheres. False when the rays are too far apart, or their origin too far away,
+    // to be traced together; `hits` mean nothing then.
+    bool (*closest_tile)(const SphereTable *table, const SphereTile *tile, TileHits *hits);
+    // Fills in point, normal, direction and shape of surfaces whose `count` >= 1 and `ray` are given, and what is after
+    // them up to a whole vector. Returns those that are spheres and done; the others' points and normals are open.
+    uint64_t (*surfaces)(const SphereTable *table, const SphereTile *tile, const TileHits *hits,
+                         TileSurfaces *surfaces);
+    // Of the surfaces `asked` for, those with a sphere, the loose ones too, before the ray's end, as `occluded` would say
+    // of each. What does not pay, or cannot be done, for some together is `left` to be asked one by one.
+    uint64_t (*occluded_surfaces)(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays,
+                                  uint64_t asked, uint64_t *left);
+    // Brings hits up to date with a plane that nothing coincides with. Returns the rays that meet it exactly where they
+    // meet something else; these are left as they are.
+    uint64_t (*plane_closest)(const PlaneShape *plane, ShapeId shape, const SphereTile *tile, TileHits *hits);
+    // The surfaces with that plane before the ray's end; never those of the plane itself.
+    uint64_t (*plane_occluded)(const PlaneShape *plane, ShapeId shape, const TileSurfaces *from,
+                               const SurfaceRays *rays);
     // The rays of a view at 64 places, with the bits that vec3_normalize and sphere_ray_make give. False when one of
     // them is not usable.
     bool (*view_tile)(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile);
@@ -104,6 +144,35 @@ RT_ALWAYS_INLINE SphereRay sphere_tile_ray(const SphereTile *tile, unsigned i)
                        {tile->direction[0][i], tile->direction[1][i], tile->direction[2][i]},
                        {tile->dual[0][i], tile->dual[1][i], tile->dual[2][i]},
                        tile->inverse_square[i]};
+}
+
+RT_ALWAYS_INLINE void tile_hit_set(TileHits *hits, unsigned i, const Hit *hit)
+{
+    uint64_t bit = UINT64_C(1) << i;
+    hits->t[i] = hit->t;
+    hits->shape[i] = hit->shape;
+    hits->met = (hits->met & ~bit) | (hit->shape != SHAPE_NONE ? bit : 0);
+    hits->inside = (hits->inside & ~bit) | (hit->inside ? bit : 0);
+}
+
+RT_ALWAYS_INLINE Vec3 tile_surface_point(const TileSurfaces *surfaces, int i)
+{
+    return vec3(surfaces->point[0][i], surfaces->point[1][i], surfaces->point[2][i]);
+}
+
+RT_ALWAYS_INLINE Vec3 tile_surface_outward(const TileSurfaces *surfaces, int i)
+{
+    return vec3(surfaces->outward[0][i], surfaces->outward[1][i], surfaces->outward[2][i]);
+}
+
+RT_ALWAYS_INLINE void tile_surface_set(TileSurfaces *surfaces, int i, Vec3 point, Vec3 outward)
+{
+    surfaces->point[0][i] = point.x;
+    surfaces->point[1][i] = point.y;
+    surfaces->point[2][i] = point.z;
+    surfaces->outward[0][i] = outward.x;
+    surfaces->outward[1][i] = outward.y;
+    surfaces->outward[2][i] = outward.z;
 }
 
 RT_ALWAYS_INLINE Ball sphere_table_ball(const SphereTable *table, uint32_t slot)

@@ -5,8 +5,11 @@
 //
 // SPDX-License-Identifier: MIT
 #include "trace/bvh_walk.h"
+#include "trace/plane_tile.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
+#include "trace/spheres_group.h"
+#include "trace/spheres_surface.h"
 #include "trace/spheres_tile.h"
 
 enum { HALVES = SPHERE_BLOCK / DOUBLES };
@@ -153,5 +156,14 @@ static bool is_supported(void)
 
 extern const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS);
 const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS) = {
-    TEXT_OF(SPHERE_KERNELS), is_supported, tree_closest, tree_occluded, tile_closest, view_tile,
+    .name = TEXT_OF(SPHERE_KERNELS),
+    .is_supported = is_supported,
+    .closest = tree_closest,
+    .occluded = tree_occluded,
+    .closest_tile = tile_closest,
+    .surfaces = surfaces_sphere,
+    .occluded_surfaces = surfaces_occluded,
+    .plane_closest = plane_closest,
+    .plane_occluded = plane_occluded,
+    .view_tile = view_tile,
 };

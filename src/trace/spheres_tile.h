@@ -3,35 +3,40 @@
 // The tile walks the tree once, as a beam. What its leaves hold is narrowed by cones: blocks to the spheres that the
 // tile's cone touches, those to the rows whose cones they touch, and only there rays are tested, a row at a time. Cones
 // carry a margin far above their rounding; the test of a ray is sphere_test's, operation by operation, so hits are
-// those of single rays.
+// those of single rays. Roots are refined at the end, some at once.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_TILE_H
 #define TRACE_SPHERES_TILE_H
 
 #include "trace/bvh_walk.h"
+#include "trace/cone_test.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
 
 enum { ROWS = TILE_RAYS / TILE_ROW };
 
-// Directions within `spread` of the axis: a sphere that one of them meets is no farther from the axis than
-// |centre - origin| spread + radius.
+// A tile on its way: its rays, cones around them, and what they have met so far.
 typedef struct TileBeam {
-    Vec3 axis;
-    double spread;
-    _Alignas(64) double row_axis[3][ROWS], row_spread[ROWS];
-    _Alignas(64) double limits[TILE_RAYS]; // nearest_limit of each ray
-    Vec3 least, greatest;     // components of the directions by size
-    bool has_signs;           // each component has one sign in all directions
+    const SphereTable *table;
+    const SphereTile *tile;
+    TileHits *hits;
+    uint64_t rough; // the rays whose roots are to be refined yet
+    RayCone cone;
+    bool has_rows; // whether the cones of the rows are known; many tiles meet nothing
+    _Alignas(64) double row_axis[3][ROWS];
+    _Alignas(64) double row_spread[ROWS];
 } TileBeam;
-
-// For the rounding of distances from an axis, which are differences of squares: their error is about 2^-25 |f|.
-static const double CONE_MARGIN = 0x1p-20;
 
 static Vec3 tile_direction(const SphereTile *tile, unsigned i)
 {
     return vec3(tile->direction[0][i], tile->direction[1][i], tile->direction[2][i]);
+}
+
+// A unit vector between two rays.
+static Vec3 tile_between(const SphereTile *tile, unsigned a, unsigned b)
+{
+    return vec3_normalize(vec3_add(tile_direction(tile, a), tile_direction(tile, b)));
 }
 
 static bool view_tile(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile)
@@ -65,82 +70,27 @@ static bool view_tile(const TileView *view, const double u[TILE_RAYS], const dou
     return doubles_least(least) > 0x1p-100 && doubles_greatest(greatest) < (double)INFINITY;
 }
 
-// How far the directions of some rays are from an axis.
-RT_ALWAYS_INLINE double cone_spread(const SphereTile *tile, unsigned begin, unsigned end, Vec3 axis)
+static void beam_set_rows(TileBeam *beam)
 {
-    Doubles greatest = doubles_splat(0.0);
-    for (unsigned i = begin; i < end; i += DOUBLES) {
-        Doubles x = doubles_load(&tile->direction[0][i]) - axis.x;
-        Doubles y = doubles_load(&tile->direction[1][i]) - axis.y;
-        Doubles z = doubles_load(&tile->direction[2][i]) - axis.z;
-        greatest = doubles_max(greatest, x * x + y * y + z * z);
-    }
-    return sqrt(doubles_greatest(greatest)) + CONE_MARGIN;
-}
-
-// The least and the greatest by size; false when signs differ.
-RT_ALWAYS_INLINE bool component_range(const double values[TILE_RAYS], double *least, double *greatest)
-{
-    Doubles low_values = doubles_load(values);
-    Doubles high_values = low_values;
-    for (int i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
-        low_values = doubles_min(low_values, doubles_load(&values[i]));
-        high_values = doubles_max(high_values, doubles_load(&values[i]));
-    }
-    double low = doubles_least(low_values);
-    double high = doubles_greatest(high_values);
-    bool is_negative = high < 0.0;
-    *least = is_negative ? high : low;
-    *greatest = is_negative ? low : high;
-    return low > 0.0 || is_negative;
-}
-
-static void beam_init(TileBeam *beam, const SphereTile *tile, const Nearest nearest[TILE_RAYS])
-{
-    enum { MIDDLE = TILE_RAYS / 2 - TILE_ROW / 2 };
-    beam->axis = vec3_normalize(vec3_add(tile_direction(tile, MIDDLE - 1), tile_direction(tile, MIDDLE + TILE_ROW)));
-    beam->spread = cone_spread(tile, 0, TILE_RAYS, beam->axis);
     for (unsigned row = 0; row < ROWS; row++) {
         unsigned begin = row * TILE_ROW;
-        Vec3 axis = vec3_normalize(
-            vec3_add(tile_direction(tile, begin + TILE_ROW / 2 - 1), tile_direction(tile, begin + TILE_ROW / 2)));
-        beam->row_spread[row] = cone_spread(tile, begin, begin + TILE_ROW, axis);
+        Vec3 axis = tile_between(beam->tile, begin + TILE_ROW / 2 - 1, begin + TILE_ROW / 2);
+        beam->row_spread[row] = cone_spread(beam->tile->direction, begin, begin + TILE_ROW, axis);
         beam->row_axis[0][row] = axis.x;
         beam->row_axis[1][row] = axis.y;
         beam->row_axis[2][row] = axis.z;
     }
-    for (int i = 0; i < TILE_RAYS; i++) {
-        beam->limits[i] = nearest_limit(nearest[i].hit.t);
-    }
-    bool x = component_range(tile->direction[0], &beam->least.x, &beam->greatest.x);
-    bool y = component_range(tile->direction[1], &beam->least.y, &beam->greatest.y);
-    bool z = component_range(tile->direction[2], &beam->least.z, &beam->greatest.z);
-    beam->has_signs = x && y && z;
-}
-
-// The spheres of a block that the tile's cone touches.
-static unsigned beam_spheres(const TileBeam *beam, const SphereTile *tile, const SphereBlock *block)
-{
-    unsigned touched = 0;
-    for (int i = 0; i < SPHERE_BLOCK; i += DOUBLES) {
-        Doubles fx = tile->origin.x - doubles_load(&block->x[i]);
-        Doubles fy = tile->origin.y - doubles_load(&block->y[i]);
-        Doubles fz = tile->origin.z - doubles_load(&block->z[i]);
-        Doubles along = fx * beam->axis.x + fy * beam->axis.y + fz * beam->axis.z;
-        Doubles f_squared = fx * fx + fy * fy + fz * fz;
-        Doubles radius_squared = doubles_load(&block->radius_squared[i]);
-        Doubles reach = doubles_sqrt(f_squared) * beam->spread + doubles_sqrt(radius_squared);
-        unsigned apart = doubles_ge(f_squared - along * along, reach * reach); // never where squares overflow
-        touched |= (doubles_ge(radius_squared, doubles_splat(0.0)) & ~apart) << i;
-    }
-    return touched;
+    beam->has_rows = true;
 }
 
 // The rows whose cones touch a sphere at f from the origin.
-static unsigned beam_rows(const TileBeam *beam, Vec3 f, double f_squared, double radius)
+static unsigned beam_rows(TileBeam *beam, Vec3 f, double f_squared, double radius)
 {
     double distance = sqrt(f_squared);
     unsigned apart = 0; // never where squares overflow
+    if (!beam->has_rows) {
+        beam_set_rows(beam);
+    }
     for (int i = 0; i < ROWS; i += DOUBLES) {
         Doubles along = f.x * doubles_load(&beam->row_axis[0][i]) + f.y * doubles_load(&beam->row_axis[1][i]) +
                         f.z * doubles_load(&beam->row_axis[2][i]);
@@ -153,16 +103,23 @@ static unsigned beam_rows(const TileBeam *beam, Vec3 f, double f_squared, double
 // What a sphere is to all rays of the tile.
 typedef struct TileSphere {
     Ball ball;
+    uint32_t slot;
     Vec3 f;
     double c, rounding, doubt;
 } TileSphere;
 
-// sphere_test for a row of rays. The rays that meet the sphere in time, or may.
-static unsigned row_test(const TileSphere *sphere, const SphereTile *tile, const TileBeam *beam, unsigned begin,
-                         double t[TILE_ROW], unsigned *doubtful)
+// What sphere_test says of a row of rays.
+typedef struct RowHits {
+    _Alignas(64) double t[TILE_ROW]; // rough roots
+    unsigned nearest;                // met, and so much nearer than what was met before that no root need be refined
+    unsigned other;                  // met about where something was met before, or doubtful
+    unsigned doubtful;
+} RowHits;
+
+static void row_test(const TileSphere *sphere, const TileBeam *beam, unsigned begin, RowHits *row)
 {
-    unsigned met = 0;
-    *doubtful = 0;
+    const SphereTile *tile = beam->tile;
+    row->nearest = row->other = row->doubtful = 0;
     for (unsigned i = 0; i < TILE_ROW; i += DOUBLES) {
         unsigned at = begin + i;
         Doubles dx = doubles_load(&tile->direction[0][at]);
@@ -183,93 +140,225 @@ static unsigned row_test(const TileSphere *sphere, const SphereTile *tile, const
         Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * inverse_square);
         Doubles near_side = fabs(sphere->c) * inverse_square / far_side;
         Doubles root = sphere->c > 0.0 ? near_side : doubles_if_negative(t_middle, near_side, far_side);
-        doubles_store(&t[i], root);
+        Doubles before = doubles_load(&beam->hits->t[at]);
+        doubles_store(&row->t[i], root);
         unsigned ahead = doubles_ge(t_middle, doubles_splat(0.0));
         possible &= sphere->c >= sphere->doubt ? ahead : ~0u;
-        unsigned certain = fabs(sphere->c) >= sphere->doubt
-                               ? doubles_ge(discriminant, doubles_splat(sphere->doubt))
-                               : 0;
-        met |= (possible & (~certain | doubles_ge(doubles_load(&beam->limits[at]), root))) << i;
-        *doubtful |= (possible & ~certain) << i;
+        unsigned certain = fabs(sphere->c) >= sphere->doubt ? doubles_ge(discriminant, doubles_splat(sphere->doubt))
+                                                            : 0;
+        // 1 - slack is exact, so this is nearest_offer_sphere's t < before - slack, which fails where t is infinite.
+        unsigned nearest = possible & certain & ~doubles_ge(root, before * (1.0 - SPHERE_ROOT_SLACK)) &
+                           ~doubles_ge(doubles_splat(0.0), root);
+        unsigned in_time = doubles_ge(before + SPHERE_ROOT_SLACK * before, root);
+        row->nearest |= nearest << i;
+        row->other |= (possible & ~nearest & (~certain | in_time)) << i;
+        row->doubtful |= (possible & ~certain) << i;
     }
-    return met;
+}
+
+// A hit that may not be the nearest of its ray.
+static void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, double t, bool is_doubtful)
+{
+    TileHits *hits = beam->hits;
+    uint64_t bit = UINT64_C(1) << i;
+    SphereRay ray = sphere_tile_ray(beam->tile, i);
+    ShapeId before = hits->shape[i];
+    Nearest nearest = {{hits->t[i], before, hits->inside & bit},
+                       before == SHAPE_NONE ? 0 : beam->table->info[shape_index(before)].order,
+                       beam->rough & bit,
+                       0.0};
+    bool inside = sphere->c < 0.0;
+    if (RT_UNLIKELY(is_doubtful)) {
+        t = sphere_exact(&ray, &sphere->ball, &inside);
+    }
+    nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_doubtful, &nearest);
+    tile_hit_set(hits, i, &nearest.hit);
+    beam->rough = (beam->rough & ~bit) | (nearest.is_rough ? bit : 0);
 }
 
 // One sphere against the rays of the tile whose rows it touches.
-static void tile_sphere(const SphereTable *table, const SphereTile *tile, TileBeam *beam, uint32_t slot,
-                        Nearest nearest[TILE_RAYS])
+static void beam_sphere(TileBeam *beam, uint32_t slot)
 {
-    TileSphere sphere = {.ball = sphere_table_ball(table, slot)};
-    sphere.f = vec3_sub(tile->origin, sphere.ball.centre);
+    TileSphere sphere = {.ball = sphere_table_ball(beam->table, slot), .slot = slot};
+    sphere.f = vec3_sub(beam->tile->origin, sphere.ball.centre);
     double f_squared = vec3_length_squared(sphere.f);
     double sum = f_squared + sphere.ball.radius_squared;
     sphere.c = f_squared - sphere.ball.radius_squared;
     sphere.rounding = -SPHERE_ROUNDING * sum;
     sphere.doubt = SPHERE_DOUBT * sum;
+    TileHits *hits = beam->hits;
+    ShapeId shape = shape_id(SHAPE_SPHERE, slot);
     unsigned rows = beam_rows(beam, sphere.f, f_squared, sqrt(sphere.ball.radius_squared));
     for (; rows; rows &= rows - 1) {
         unsigned begin = (unsigned)__builtin_ctz(rows) * TILE_ROW;
-        _Alignas(64) double t[TILE_ROW];
-        unsigned doubtful;
-        unsigned met = row_test(&sphere, tile, beam, begin, t, &doubtful);
-        for (; met; met &= met - 1) {
-            unsigned i = (unsigned)__builtin_ctz(met);
-            SphereRay ray = sphere_tile_ray(tile, begin + i);
-            bool inside = sphere.c < 0.0;
-            bool is_rough = !(doubtful >> i & 1);
-            if (RT_UNLIKELY(!is_rough)) {
-                t[i] = sphere_exact(&ray, &sphere.ball, &inside);
-            }
-            nearest_offer_sphere(table, &ray, slot, &sphere.ball, t[i], inside, is_rough, &nearest[begin + i]);
-            beam->limits[begin + i] = nearest_limit(nearest[begin + i].hit.t);
+        RowHits row;
+        row_test(&sphere, beam, begin, &row);
+        uint64_t nearest = (uint64_t)row.nearest << begin;
+        hits->inside = sphere.c < 0.0 ? hits->inside | nearest : hits->inside & ~nearest;
+        beam->rough |= nearest;
+        hits->met |= nearest;
+        for (; row.nearest; row.nearest &= row.nearest - 1) {
+            unsigned i = (unsigned)__builtin_ctz(row.nearest);
+            hits->t[begin + i] = row.t[i];
+            hits->shape[begin + i] = shape;
+        }
+        for (; row.other; row.other &= row.other - 1) {
+            unsigned i = (unsigned)__builtin_ctz(row.other);
+            beam_offer(beam, &sphere, begin + i, row.t[i], row.doubtful >> i & 1);
         }
     }
 }
 
+static void beam_block(TileBeam *beam, uint32_t block)
+{
+    unsigned touched = cone_spheres(&beam->cone, &beam->table->blocks[block]);
+    for (; touched; touched &= touched - 1) {
+        beam_sphere(beam, block * SPHERE_BLOCK + (unsigned)__builtin_ctz(touched));
+    }
+}
+
+// Up to where a root may yet be the nearest of some ray.
 static double beam_limit(const TileBeam *beam)
 {
-    Doubles limit = doubles_load(beam->limits);
+    Doubles last = doubles_load(beam->hits->t);
     for (int i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
-        limit = doubles_max(limit, doubles_load(&beam->limits[i]));
+        last = doubles_max(last, doubles_load(&beam->hits->t[i]));
     }
-    return doubles_greatest(limit);
+    return nearest_limit(doubles_greatest(last));
 }
 
-static bool tile_closest(const SphereTable *table, const SphereTile *tile, Nearest nearest[TILE_RAYS])
+typedef struct DoubleWords {
+    Doubles hi, lo;
+} DoubleWords;
+
+RT_ALWAYS_INLINE DoubleWords two_sums(Doubles a, Doubles b)
 {
-    TileBeam beam;
-    BvhWalk walk;
-    BvhChild leaf;
-    bool is_too_far = false;
-    beam_init(&beam, tile, nearest);
-    if (!(beam.spread < 0.5) || (table->bvh.nodes && !beam.has_signs)) {
-        return false;
+    Doubles sum = a + b;
+    Doubles b_part = sum - a;
+    Doubles a_part = sum - b_part;
+    return (DoubleWords){sum, (a - a_part) + (b - b_part)};
+}
+
+RT_ALWAYS_INLINE DoubleWords two_products(Doubles a, Doubles b)
+{
+    Doubles product = a * b;
+    return (DoubleWords){product, doubles_product_error(a, b, product)};
+}
+
+// sphere_refine for some rays at once, operation by operation; those of them for which it is certain.
+static unsigned tile_refine(const SphereTile *tile, const double ball[4][DOUBLES], unsigned at, double t[DOUBLES])
+{
+    const double o[3] = {tile->origin.x, tile->origin.y, tile->origin.z};
+    Doubles root = doubles_load(t);
+    Doubles f_squared = doubles_splat(0.0);
+    Doubles slope = doubles_splat(0.0);
+    Doubles low = doubles_splat(0.0);
+    DoubleWords square[3];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; i++) {
+        Doubles d = doubles_load(&tile->direction[i][at]);
+        DoubleWords f = two_sums(doubles_splat(o[i]), -doubles_load(ball[i]));
+        DoubleWords along = two_products(root, d);
+        DoubleWords p = two_sums(f.hi, along.hi);
+        square[i] = two_products(p.hi, p.hi);
+        low += square[i].lo + 2.0 * p.hi * (p.lo + (f.lo + along.lo));
+        slope += p.hi * d;
+        f_squared += f.hi * f.hi;
     }
-    bool walks = bvh_walk_start_beam(&walk, &table->bvh, tile->origin, beam.least, beam.greatest, &is_too_far);
-    if (is_too_far && table->bvh.nodes) {
-        return false;
-    }
-    for (uint32_t i = 0; i < table->loose_count; i++) {
-        tile_sphere(table, tile, &beam, i, nearest);
-    }
-    float limit = walks ? bvh_walk_limit(&walk, beam_limit(&beam)) : -1.0f;
-    while (walks && bvh_walk_next(&walk, limit, &leaf)) {
-        uint32_t block = leaf & ~BVH_LEAF;
-        unsigned touched = beam_spheres(&beam, tile, &table->blocks[block]);
-        if (!touched) {
+    Doubles radius_squared = doubles_load(ball[3]);
+    Doubles radius = doubles_sqrt(radius_squared);
+    DoubleWords r = two_products(radius, radius);
+    DoubleWords xy = two_sums(square[0].hi, square[1].hi);
+    DoubleWords xyz = two_sums(xy.hi, square[2].hi);
+    DoubleWords all = two_sums(xyz.hi, -r.hi);
+    Doubles residual = all.hi + (all.lo + (xyz.lo + (xy.lo + (low - r.lo))));
+    Doubles step = residual / (2.0 * slope);
+    Doubles reach = 2.0 * root * doubles_abs(slope);
+    Doubles sum = f_squared + radius_squared;
+    doubles_store(t, root - step);
+    return ~doubles_ge(sum, doubles_splat(0x1p900)) & ~doubles_ge(doubles_splat(0x1p-900), sum) &
+           doubles_ge(reach, 0x1p-46 * sum) &
+           doubles_ge(reach * doubles_load(&tile->inverse_square[at]), step * step * 0x1p56);
+}
+
+// Makes the roots right that are rough, a vector at a time.
+static void beam_settle(const TileBeam *beam)
+{
+    TileHits *hits = beam->hits;
+    for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
+        unsigned rough = (unsigned)(beam->rough >> at) & ((1u << DOUBLES) - 1);
+        if (!rough) {
             continue;
         }
-        for (; touched; touched &= touched - 1) {
-            tile_sphere(table, tile, &beam, block * SPHERE_BLOCK + (unsigned)__builtin_ctz(touched), nearest);
+        _Alignas(64) double ball[4][DOUBLES], t[DOUBLES];
+        unsigned any = (unsigned)__builtin_ctz(rough);
+        for (unsigned i = 0; i < DOUBLES; i++) {
+            unsigned from = at + (rough >> i & 1 ? i : any);
+            Ball own = sphere_table_ball(beam->table, shape_index(hits->shape[from]));
+            ball[0][i] = own.centre.x;
+            ball[1][i] = own.centre.y;
+            ball[2][i] = own.centre.z;
+            ball[3][i] = own.radius_squared;
+            t[i] = hits->t[from];
         }
-        limit = bvh_walk_limit(&walk, beam_limit(&beam));
+        unsigned certain = tile_refine(beam->tile, ball, at, t);
+        for (; rough; rough &= rough - 1) {
+            unsigned i = (unsigned)__builtin_ctz(rough);
+            if (RT_UNLIKELY(!(certain >> i & 1))) {
+                SphereRay ray = sphere_tile_ray(beam->tile, at + i);
+                Ball own = sphere_table_ball(beam->table, shape_index(hits->shape[at + i]));
+                bool inside;
+                t[i] = sphere_exact(&ray, &own, &inside);
+            }
+            hits->t[at + i] = t[i];
+        }
+    }
+}
+
+// The spheres of the tree. False when the tile cannot walk it.
+static bool beam_tree(TileBeam *beam)
+{
+    const Bvh *bvh = &beam->table->bvh;
+    BvhWalk walk;
+    BvhChild leaf;
+    Vec3 least, greatest;
+    bool is_too_far;
+    if (!direction_range(beam->tile->direction, TILE_RAYS, &least, &greatest)) {
+        return false;
+    }
+    if (!bvh_walk_start_beam(&walk, bvh, beam->tile->origin, least, greatest, &is_too_far)) {
+        return !is_too_far;
+    }
+    float limit = bvh_walk_limit(&walk, beam_limit(beam));
+    while (bvh_walk_next(&walk, limit, &leaf)) {
+        beam_block(beam, leaf & ~BVH_LEAF);
+        limit = bvh_walk_limit(&walk, beam_limit(beam));
+    }
+    return true;
+}
+
+static bool tile_closest(const SphereTable *table, const SphereTile *tile, TileHits *hits)
+{
+    enum { MIDDLE = TILE_RAYS / 2 - TILE_ROW / 2 };
+    TileBeam beam = {.table = table, .tile = tile, .hits = hits};
+    beam.cone.origin = tile->origin;
+    beam.cone.axis = tile_between(tile, MIDDLE - 1, MIDDLE + TILE_ROW);
+    beam.cone.spread = cone_spread(tile->direction, 0, TILE_RAYS, beam.cone.axis);
+    if (!(beam.cone.spread < 0.5)) {
+        return false;
     }
     for (unsigned i = 0; i < TILE_RAYS; i++) {
-        if (nearest[i].is_rough) {
-            SphereRay ray = sphere_tile_ray(tile, i);
-            nearest_settle(table, &ray, &nearest[i]);
-        }
+        hits->t[i] = (double)INFINITY;
+        hits->shape[i] = SHAPE_NONE;
     }
+    hits->met = hits->inside = 0;
+    if (table->loose_count > 0) {
+        beam_block(&beam, 0);
+    }
+    if (table->bvh.nodes && !beam_tree(&beam)) {
+        return false;
+    }
+    beam_settle(&beam);
     return true;
 }
 

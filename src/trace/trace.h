@@ -98,6 +98,9 @@ void geometry_free(Geometry *geometry);
 // The TraceFeature bits that this geometry needs.
 unsigned geometry_features(const Geometry *geometry);
 
+// The name of the instruction set that it is traced with.
+const char *geometry_isa_name(const Geometry *geometry);
+
 // True for a disc or triangle, which nothing is inside of.
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape);
 

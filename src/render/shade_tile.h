@@ -1,0 +1,119 @@
+// Light along the camera rays of a tile: the same as render/shade.h gives ray by ray, bit for bit, with the arithmetic
+// of the first surface done for some rays at once.
+//
+// For surfaces of one colour that let nothing through, and lights that are points or parallel; what goes on from a
+// mirror is traced ray by ray. Everything is always-inline and takes the kernel's features as a constant.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SHADE_TILE_H
+#define RENDER_SHADE_TILE_H
+
+#include "render/shade.h"
+#include "render/tile_light.h"
+
+// What a kernel may have for its tiles to be shaded so.
+enum {
+    SHADE_TILE_FEATURES = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
+                          RENDER_BRILLIANCE | RENDER_REFLECTION
+};
+
+// Materials, glow, and normals towards the viewer.
+RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, LightTile *tile, const MaterialIndex material[TILE_RAYS])
+{
+    const TileSurfaces *surfaces = &tile->surfaces;
+    for (int i = 0; i < surfaces->count; i++) {
+        const Material *own = &p->materials[material[i]];
+        const PreparedFinish *finish = &p->finishes[own->finish];
+        Rgb pigment = rgbft_rgb(material_pigment(own));
+        Rgb glow = rgb_mul(pigment, finish->glow);
+        const double colour[3] = {pigment.red, pigment.green, pigment.blue};
+        const double light[3] = {glow.red, glow.green, glow.blue};
+        double sign = surfaces->inside >> i & 1 ? -1.0 : 1.0;
+        tile->finish[i] = finish;
+        for (int k = 0; k < 3; k++) {
+            tile->pigment[k][i] = colour[k];
+            tile->light[k][i] = light[k];
+            tile->normal[k][i] = sign * surfaces->outward[k][i];
+        }
+    }
+}
+
+// What all lights add.
+RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, LightTile *tile,
+                                        RenderStatistics *statistics)
+{
+    for (size_t i = 0; i < p->light_count; i++) {
+        const PreparedLight *light = &p->lights[i];
+        uint64_t lit = p->tile_lights->aim(tile, light);
+        uint64_t asked = (features & RENDER_SHADOWS) && !light->shadowless ? lit & tile->before : 0;
+        if (asked) {
+            statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
+            lit &= ~geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, &tile->rays,
+                                               !light->parallel, asked);
+        }
+        p->tile_lights->add(tile, light, lit);
+    }
+}
+
+// Where a surface mirrors: what the ray brings back in all. `light` is the surface's own.
+RT_ALWAYS_INLINE Rgb shade_tile_mirror(const Prepared *p, unsigned features, const LightTile *tile, int i,
+                                       MaterialIndex material, Rgb light, RenderStatistics *statistics)
+{
+    const TileSurfaces *from = &tile->surfaces;
+    PendingRay first = {.ray = {p->camera.location, vec3(from->direction[0][i], from->direction[1][i],
+                                                         from->direction[2][i])},
+                        .start = RAY_START_CAMERA,
+                        .share = rgb_grey(1.0),
+                        .weight = 1.0,
+                        .level = 1};
+    ShadePoint at = {.point = tile_surface_point(from, i),
+                     .normal = vec3(tile->normal[0][i], tile->normal[1][i], tile->normal[2][i]),
+                     .outward = tile_surface_outward(from, i),
+                     .direction = first.ray.direction,
+                     .shape = from->shape[i],
+                     .material = material,
+                     .interior = RECORD_NONE,
+                     .ior_ratio = 1.0,
+                     .inside = from->inside >> i & 1};
+    ShadeMaterial own = shade_material(p, features, material_pigment(&p->materials[material]),
+                                       p->materials[material].finish);
+    ShadeOnward onward = {.through = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
+    shade_set_mirror(features, &own, &at, &onward);
+    Pending pending;
+    pending_begin(&pending);
+    pending_add(&pending, &first, light);
+    shade_go_on(p, features, &onward, &at, &first, NULL, NULL, &pending, statistics);
+    return shade_pending(p, features, &pending, NULL, statistics);
+}
+
+// The light of the rays of a view.
+RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
+                                 uint64_t wanted, Rgb *light, RenderStatistics *statistics)
+{
+    SphereTile rays;
+    TileHits hits;
+    geometry_closest_view(p->geometry, features, view, places->u, places->v, &rays, &hits);
+    Rgb background = rgb_add(rgb_grey(0.0), p->background);
+    for (int i = 0; i < TILE_RAYS; i++) {
+        light[i] = background;
+    }
+    statistics->camera_rays += (uint64_t)__builtin_popcountll(wanted);
+    uint64_t met = hits.met & wanted;
+    if (!met) {
+        return;
+    }
+    LightTile tile;
+    MaterialIndex material[TILE_RAYS];
+    geometry_tile_surfaces(p->geometry, features, &rays, &hits, met, &tile.surfaces, material);
+    shade_tile_begin(p, &tile, material);
+    shade_tile_lights(p, features, &tile, statistics);
+    for (int i = 0; i < tile.surfaces.count; i++) {
+        Rgb *out = &light[tile.surfaces.ray[i]];
+        *out = rgb_add(rgb_grey(0.0), rgb(tile.light[0][i], tile.light[1][i], tile.light[2][i]));
+        if ((features & RENDER_REFLECTION) && tile.finish[i]->reflects) {
+            *out = shade_tile_mirror(p, features, &tile, i, material[i], *out, statistics);
+        }
+    }
+}
+
+#endif

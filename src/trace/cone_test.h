@@ -1,0 +1,79 @@
+// Which spheres of a block a bundle of rays from one point may meet: part of spheres_kernel.c.
+//
+// The rays lie in a cone. A sphere that one of them meets is no farther from the cone's axis than |centre - origin|
+// spread + radius. Spreads carry a margin far above what rounding does, so that no sphere is lost.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_CONE_TEST_H
+#define TRACE_CONE_TEST_H
+
+#include "trace/simd.h"
+#include "trace/spheres.h"
+
+// Rays from `origin` whose directions, of unit length, are within `spread` of the axis.
+typedef struct RayCone {
+    Vec3 origin, axis;
+    double spread;
+} RayCone;
+
+// For the rounding of distances from an axis, which are differences of squares: their error is about 2^-25 |f|.
+static const double CONE_MARGIN = 0x1p-20;
+
+// How far some directions are from an axis; `begin` and `end` are multiples of a vector's width.
+RT_ALWAYS_INLINE double cone_spread(const double direction[3][TILE_RAYS], unsigned begin, unsigned end, Vec3 axis)
+{
+    Doubles greatest = doubles_splat(0.0);
+    for (unsigned i = begin; i < end; i += DOUBLES) {
+        Doubles x = doubles_load(&direction[0][i]) - axis.x;
+        Doubles y = doubles_load(&direction[1][i]) - axis.y;
+        Doubles z = doubles_load(&direction[2][i]) - axis.z;
+        greatest = doubles_max(greatest, x * x + y * y + z * z);
+    }
+    return sqrt(doubles_greatest(greatest)) + CONE_MARGIN;
+}
+
+// The spheres of a block that the cone touches, a bit for each.
+RT_ALWAYS_INLINE unsigned cone_spheres(const RayCone *cone, const SphereBlock *block)
+{
+    unsigned touched = 0;
+    for (int i = 0; i < SPHERE_BLOCK; i += DOUBLES) {
+        Doubles fx = cone->origin.x - doubles_load(&block->x[i]);
+        Doubles fy = cone->origin.y - doubles_load(&block->y[i]);
+        Doubles fz = cone->origin.z - doubles_load(&block->z[i]);
+        Doubles along = fx * cone->axis.x + fy * cone->axis.y + fz * cone->axis.z;
+        Doubles f_squared = fx * fx + fy * fy + fz * fz;
+        Doubles radius_squared = doubles_load(&block->radius_squared[i]);
+        Doubles reach = doubles_sqrt(f_squared) * cone->spread + doubles_sqrt(radius_squared);
+        unsigned apart = doubles_ge(f_squared - along * along, reach * reach); // never where squares overflow
+        touched |= (doubles_ge(radius_squared, doubles_splat(0.0)) & ~apart) << i;
+    }
+    return touched;
+}
+
+// Components by size of directions between two places, multiples of a vector's width; false when their signs differ.
+RT_ALWAYS_INLINE bool component_range(const double values[TILE_RAYS], unsigned end, double *least, double *greatest)
+{
+    Doubles low_values = doubles_load(values);
+    Doubles high_values = low_values;
+    for (unsigned i = DOUBLES; i < end; i += DOUBLES) {
+        low_values = doubles_min(low_values, doubles_load(&values[i]));
+        high_values = doubles_max(high_values, doubles_load(&values[i]));
+    }
+    double low = doubles_least(low_values);
+    double high = doubles_greatest(high_values);
+    bool is_negative = high < 0.0;
+    *least = is_negative ? high : low;
+    *greatest = is_negative ? low : high;
+    return low > 0.0 || is_negative;
+}
+
+// The same for all three; false when a component's signs differ.
+RT_ALWAYS_INLINE bool direction_range(const double direction[3][TILE_RAYS], unsigned end, Vec3 *least, Vec3 *greatest)
+{
+    bool x = component_range(direction[0], end, &least->x, &greatest->x);
+    bool y = component_range(direction[1], end, &least->y, &greatest->y);
+    bool z = component_range(direction[2], end, &least->z, &greatest->z);
+    return x && y && z;
+}
+
+#endif

@@ -1,0 +1,61 @@
+// A plane against the rays of a tile, and against those from its surfaces to a light: part of spheres_kernel.c.
+//
+// Operations and their order are those of plane_root.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_PLANE_TILE_H
+#define TRACE_PLANE_TILE_H
+
+#include "trace/plane.h"
+#include "trace/simd.h"
+#include "trace/spheres.h"
+
+static uint64_t plane_closest(const PlaneShape *plane, ShapeId shape, const SphereTile *tile, TileHits *hits)
+{
+    Vec3 n = plane->normal;
+    double away = plane->distance - vec3_dot(n, tile->origin);
+    uint64_t tied = 0;
+    for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
+        _Alignas(64) double t[DOUBLES];
+        Doubles along = n.x * doubles_load(&tile->direction[0][i]) + n.y * doubles_load(&tile->direction[1][i]) +
+                        n.z * doubles_load(&tile->direction[2][i]);
+        Doubles root = away / along;
+        Doubles before = doubles_load(&hits->t[i]);
+        unsigned ahead = doubles_gt(root, doubles_splat(0.0));
+        unsigned nearer = ahead & doubles_gt(before, root);
+        uint64_t met = (uint64_t)nearer << i, inside = (uint64_t)doubles_gt(along, doubles_splat(0.0)) << i;
+        tied |= (uint64_t)(ahead & doubles_ge(before, root) & doubles_ge(root, before)) << i;
+        hits->inside = (hits->inside & ~met) | (met & inside);
+        hits->met |= met;
+        doubles_store(t, root);
+        for (; nearer; nearer &= nearer - 1) {
+            unsigned k = (unsigned)__builtin_ctz(nearer);
+            hits->t[i + k] = t[k];
+            hits->shape[i + k] = shape;
+        }
+    }
+    return tied & hits->met;
+}
+
+static uint64_t plane_occluded(const PlaneShape *plane, ShapeId shape, const TileSurfaces *from,
+                               const SurfaceRays *rays)
+{
+    Vec3 n = plane->normal;
+    uint64_t occluded = 0, own = 0;
+    for (int i = 0; i < from->count; i += DOUBLES) {
+        Doubles height = n.x * doubles_load(&from->point[0][i]) + n.y * doubles_load(&from->point[1][i]) +
+                         n.z * doubles_load(&from->point[2][i]);
+        Doubles along = n.x * doubles_load(&rays->towards[0][i]) + n.y * doubles_load(&rays->towards[1][i]) +
+                        n.z * doubles_load(&rays->towards[2][i]);
+        Doubles root = (plane->distance - height) / along;
+        occluded |= (uint64_t)(doubles_gt(root, doubles_splat(0.0)) &
+                               doubles_gt(doubles_load(&rays->distance[i]), root))
+                    << i;
+    }
+    for (int i = 0; i < from->count; i += FLOATS) {
+        own |= (uint64_t)ints_equal(&from->shape[i], shape) << i;
+    }
+    return occluded & ~own;
+}
+
+#endif

@@ -1,0 +1,232 @@
+// Rays that all end at one point, which something may be in the way of: part of spheres_kernel.c.
+//
+// Seen from that point, a light, they are a beam through the tree, whose boxes begin with those next to the light. What
+// the leaves hold is narrowed by a cone around them, whose margin is far above what rounding does to the ends of rays.
+// What is left is tested against some rays at once, each from its own origin: sphere_test, operation by operation, so
+// the answers are those of single rays.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SPHERES_GROUP_H
+#define TRACE_SPHERES_GROUP_H
+
+#include "trace/bvh_walk.h"
+#include "trace/cone_test.h"
+#include "trace/simd.h"
+#include "trace/spheres.h"
+
+enum {
+    GROUP_LEAST = 3,  // fewer rays are traced one by one
+    GROUP_BLOCKS = 4, // for each ray; where a wide group meets more, its rays are traced one by one, too
+};
+
+// Rays from one shape; all arrays are filled up to a whole vector.
+typedef struct RayGroup {
+    Vec3 end;
+    Ball start; // equals none where they do not start on a sphere
+    unsigned count, whole;
+    _Alignas(64) double origin[3][TILE_RAYS];
+    _Alignas(64) double direction[3][TILE_RAYS]; // of about unit length, towards the end
+    _Alignas(64) double seen[3][TILE_RAYS];      // the same from the end
+    _Alignas(64) double distance[TILE_RAYS];
+    _Alignas(64) double inverse_square[TILE_RAYS]; // as in SphereRay
+} RayGroup;
+
+static SphereRay group_ray(const RayGroup *group, unsigned i)
+{
+    return sphere_ray_make(vec3(group->origin[0][i], group->origin[1][i], group->origin[2][i]),
+                           vec3(group->direction[0][i], group->direction[1][i], group->direction[2][i]));
+}
+
+// Those of a vector's rays that meet the sphere before they end.
+RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const Ball *ball, unsigned at)
+{
+    Doubles dx = doubles_load(&group->direction[0][at]);
+    Doubles dy = doubles_load(&group->direction[1][at]);
+    Doubles dz = doubles_load(&group->direction[2][at]);
+    Doubles fx = doubles_load(&group->origin[0][at]) - ball->centre.x;
+    Doubles fy = doubles_load(&group->origin[1][at]) - ball->centre.y;
+    Doubles fz = doubles_load(&group->origin[2][at]) - ball->centre.z;
+    Doubles inverse_square = doubles_load(&group->inverse_square[at]);
+    Doubles t_middle =
+        -(fx * (inverse_square * dx) + fy * (inverse_square * dy) + fz * (inverse_square * dz));
+    Doubles lx = fx + t_middle * dx;
+    Doubles ly = fy + t_middle * dy;
+    Doubles lz = fz + t_middle * dz;
+    Doubles discriminant = ball->radius_squared - (lx * lx + ly * ly + lz * lz);
+    Doubles f_squared = fx * fx + fy * fy + fz * fz;
+    Doubles sum = f_squared + ball->radius_squared;
+    unsigned possible = doubles_ge(discriminant, -SPHERE_ROUNDING * sum);
+    if (!possible) {
+        return 0;
+    }
+    Doubles c = f_squared - ball->radius_squared;
+    Doubles doubt = SPHERE_DOUBT * sum;
+    Doubles ends = doubles_load(&group->distance[at]);
+    Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * inverse_square);
+    Doubles near_side = doubles_abs(c) * inverse_square / far_side;
+    Doubles is_far = (Doubles)(~(DoublesMask)t_middle & (DoublesMask)c); // by its sign
+    Doubles root = doubles_if_negative(is_far, far_side, near_side);
+    possible &= doubles_ge(t_middle, doubles_splat(0.0)) | ~doubles_ge(c, doubt);
+    unsigned certain = doubles_ge(discriminant, doubt) & doubles_ge(doubles_abs(c), doubt);
+    unsigned before = ~doubles_ge(root, ends * (1.0 - SPHERE_ROOT_SLACK)); // as sphere_root_is_before says at once
+    unsigned met = possible & certain & before;
+    unsigned open = possible & ~met & (~certain | doubles_ge(ends + SPHERE_ROOT_SLACK * ends, root));
+    for (; RT_UNLIKELY(open); open &= open - 1) {
+        unsigned i = (unsigned)__builtin_ctz(open);
+        SphereRay ray = group_ray(group, at + i);
+        bool inside;
+        double end = group->distance[at + i];
+        double t = certain >> i & 1 ? sphere_refine(&ray, ball, root[i]) : sphere_exact(&ray, ball, &inside);
+        met |= (unsigned)(t < end && (t > 0.0 || certain >> i & 1)) << i;
+    }
+    return met;
+}
+
+// The rays of the group that a block's spheres are in the way of, with those that are known to be `occluded`.
+static uint64_t group_block(const SphereTable *table, const RayGroup *group, const RayCone *cone, uint32_t block,
+                            uint64_t occluded)
+{
+    unsigned touched = cone_spheres(cone, &table->blocks[block]);
+    for (; touched; touched &= touched - 1) {
+        Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + (unsigned)__builtin_ctz(touched));
+        if (ball_equal(&ball, &group->start)) {
+            continue;
+        }
+        for (unsigned at = 0; at < group->whole; at += DOUBLES) {
+            if (~occluded >> at & ((1u << DOUBLES) - 1)) {
+                occluded |= (uint64_t)group_test(group, &ball, at) << at;
+            }
+        }
+    }
+    return occluded;
+}
+
+// The spheres of the tree. False when the group cannot walk it, or had better not.
+static bool group_tree(const SphereTable *table, const RayGroup *group, const RayCone *cone, uint64_t *occluded)
+{
+    BvhWalk walk;
+    BvhChild leaf;
+    Vec3 least, greatest;
+    bool is_too_far;
+    if (!direction_range(group->seen, group->whole, &least, &greatest)) {
+        return false;
+    }
+    if (!bvh_walk_start_beam(&walk, &table->bvh, group->end, least, greatest, &is_too_far)) {
+        return !is_too_far;
+    }
+    Doubles farthest = doubles_load(group->distance);
+    for (unsigned i = DOUBLES; i < group->whole; i += DOUBLES) {
+        farthest = doubles_max(farthest, doubles_load(&group->distance[i]));
+    }
+    float limit = bvh_walk_limit(&walk, doubles_greatest(farthest));
+    unsigned blocks = GROUP_BLOCKS * group->count;
+    while (~*occluded && bvh_walk_next(&walk, limit, &leaf)) {
+        if (blocks-- == 0) {
+            return false;
+        }
+        *occluded = group_block(table, group, cone, leaf & ~BVH_LEAF, *occluded);
+    }
+    return true;
+}
+
+// Those of the group that something is before; false when they cannot be traced together.
+static bool group_occluded(const SphereTable *table, const RayGroup *group, uint64_t *occluded)
+{
+    unsigned middle = group->count / 2, last = group->count - 1;
+    RayCone cone = {.origin = group->end};
+    cone.axis = vec3_normalize(vec3(group->seen[0][0] + group->seen[0][middle] + group->seen[0][last],
+                                    group->seen[1][0] + group->seen[1][middle] + group->seen[1][last],
+                                    group->seen[2][0] + group->seen[2][middle] + group->seen[2][last]));
+    cone.spread = cone_spread(group->seen, 0, group->whole, cone.axis);
+    if (!(cone.spread < 0.5)) {
+        return false;
+    }
+    uint64_t none = ~(~UINT64_C(0) >> (TILE_RAYS - group->count));
+    *occluded = table->loose_count > 0 ? group_block(table, group, &cone, 0, none) : none;
+    if (table->bvh.nodes && ~*occluded && !group_tree(table, group, &cone, occluded)) {
+        return false;
+    }
+    *occluded &= ~none;
+    return true;
+}
+
+// The rays of some surfaces, which share a shape; false when one of them is not usable.
+static bool group_gather(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays, uint64_t members,
+                         RayGroup *group)
+{
+    ShapeId shape = from->shape[__builtin_ctzll(members)];
+    group->end = rays->end;
+    group->start = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
+                                                     : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
+    unsigned count = 0, last = 0;
+    for (; members || count % DOUBLES != 0; members &= members - 1, count++) {
+        last = members ? (unsigned)__builtin_ctzll(members) : last;
+        group->count = members ? count + 1 : group->count;
+        for (int axis = 0; axis < 3; axis++) {
+            group->origin[axis][count] = from->point[axis][last];
+            group->direction[axis][count] = rays->towards[axis][last];
+        }
+        group->distance[count] = rays->distance[last];
+    }
+    group->whole = count;
+    unsigned usable = ~0u;
+    for (unsigned i = 0; i < count; i += DOUBLES) {
+        Doubles square = doubles_splat(0.0);
+        for (int axis = 0; axis < 3; axis++) {
+            Doubles d = doubles_load(&group->direction[axis][i]);
+            doubles_store(&group->seen[axis][i], -d);
+            square += d * d;
+        }
+        Doubles inverse_square = 1.0 / square;
+        doubles_store(&group->inverse_square[i], inverse_square);
+        usable &= doubles_gt(inverse_square, doubles_splat(0x1p-100)) &
+                  doubles_gt(doubles_splat((double)INFINITY), inverse_square);
+    }
+    return usable == (1u << DOUBLES) - 1;
+}
+
+// The surfaces that have the shape of one of them, a bit for each.
+static uint64_t surfaces_alike(const TileSurfaces *from, ShapeId shape)
+{
+    uint64_t alike = 0;
+    for (int i = 0; i < from->count; i += FLOATS) {
+        alike |= (uint64_t)ints_equal(&from->shape[i], shape) << i;
+    }
+    return alike;
+}
+
+// Those that leave their shape inward, if only by rounding.
+static uint64_t surfaces_inward(const TileSurfaces *from, const SurfaceRays *rays)
+{
+    uint64_t inward = 0;
+    for (int i = 0; i < from->count; i += DOUBLES) {
+        Doubles along = doubles_load(&from->outward[0][i]) * doubles_load(&rays->towards[0][i]) +
+                        doubles_load(&from->outward[1][i]) * doubles_load(&rays->towards[1][i]) +
+                        doubles_load(&from->outward[2][i]) * doubles_load(&rays->towards[2][i]);
+        inward |= (uint64_t)doubles_gt(doubles_splat(0.0), along) << i;
+    }
+    return inward;
+}
+
+static uint64_t surfaces_occluded(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays,
+                                  uint64_t asked, uint64_t *left)
+{
+    RayGroup group;
+    uint64_t all = 0;
+    *left = asked & surfaces_inward(from, rays);
+    for (uint64_t rest = asked & ~*left; rest;) {
+        uint64_t members = rest & surfaces_alike(from, from->shape[__builtin_ctzll(rest)]), occluded;
+        rest &= ~members;
+        if (__builtin_popcountll(members) < GROUP_LEAST || !group_gather(table, from, rays, members, &group) ||
+            !group_occluded(table, &group, &occluded)) {
+            *left |= members;
+            continue;
+        }
+        for (; members; members &= members - 1, occluded >>= 1) {
+            all |= (occluded & 1) << __builtin_ctzll(members);
+        }
+    }
+    return all;
+}
+
+#endif

@@ -1,0 +1,68 @@
+// Points and normals of what a tile's rays have met, some at once: part of spheres_kernel.c.
+//
+// Operations and their order are those of geometry_surface for spheres, so the bits are the same.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SPHERES_SURFACE_H
+#define TRACE_SPHERES_SURFACE_H
+
+#include "trace/simd.h"
+#include "trace/spheres.h"
+
+static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile, const TileHits *hits,
+                                TileSurfaces *surfaces)
+{
+    _Alignas(64) double centre[3][TILE_RAYS];
+    _Alignas(64) double radius_squared[TILE_RAYS];
+    _Alignas(64) double t[TILE_RAYS];
+    unsigned count = (unsigned)surfaces->count;
+    for (unsigned i = 0; i < count; i++) {
+        unsigned ray = surfaces->ray[i];
+        ShapeId shape = hits->shape[ray];
+        surfaces->shape[i] = shape;
+        surfaces->direction[0][i] = tile->direction[0][ray];
+        surfaces->direction[1][i] = tile->direction[1][ray];
+        surfaces->direction[2][i] = tile->direction[2][ray];
+        t[i] = hits->t[ray];
+        Ball ball = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
+                                                      : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
+        centre[0][i] = ball.centre.x;
+        centre[1][i] = ball.centre.y;
+        centre[2][i] = ball.centre.z;
+        radius_squared[i] = ball.radius_squared;
+    }
+    // The last vector is filled up, so that every place holds a number.
+    for (unsigned i = count; i % DOUBLES != 0; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            surfaces->direction[axis][i] = surfaces->direction[axis][count - 1];
+            centre[axis][i] = centre[axis][count - 1];
+        }
+        radius_squared[i] = radius_squared[count - 1];
+        t[i] = t[count - 1];
+    }
+    const double origin[3] = {tile->origin.x, tile->origin.y, tile->origin.z};
+    uint64_t done = 0;
+    for (unsigned i = 0; i < count; i += DOUBLES) {
+        Doubles offset[3], own[3];
+        Doubles square = doubles_load(&radius_squared[i]);
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; axis++) {
+            own[axis] = doubles_load(&centre[axis][i]);
+            offset[axis] =
+                (origin[axis] - own[axis]) + doubles_load(&t[i]) * doubles_load(&surfaces->direction[axis][i]);
+        }
+        Doubles length_squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+        done |= (uint64_t)doubles_ge(0x1p-20 * square, doubles_abs(length_squared - square)) << i;
+        Doubles shrink = 1.0 / doubles_sqrt(length_squared);
+        Doubles radius = doubles_sqrt(square);
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; axis++) {
+            Doubles normal = shrink * offset[axis];
+            doubles_store(&surfaces->outward[axis][i], normal);
+            doubles_store(&surfaces->point[axis][i], own[axis] + radius * normal);
+        }
+    }
+    return done;
+}
+
+#endif

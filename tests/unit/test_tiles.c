@@ -1,0 +1,256 @@
+// Rays by the tile: surfaces, shadows and light are those of single rays, bit for bit, with any instruction set.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/prepared.h"
+#include "render/tile_light.h"
+#include "unit/random.h"
+#include "unit/tap.h"
+#include "unit/trace_scenes.h"
+
+// ---- geometry
+
+static void tile_of(Random *random, Vec3 eye, Vec3 towards, double step, SphereTile *tile)
+{
+    Vec3 across = random_perpendicular(random, towards), down = vec3_cross(towards, across);
+    tile->origin = eye;
+    for (int i = 0; i < TILE_RAYS; i++) {
+        Vec3 at = vec3_add_scaled(towards, step * (i % TILE_ROW - 3.5), across);
+        Vec3 direction = vec3_normalize(vec3_add_scaled(at, step * (i / TILE_ROW - 3.5), down));
+        SphereRay ray = sphere_ray_make(eye, direction);
+        sphere_tile_set(tile, (unsigned)i, &ray);
+    }
+}
+
+// The surfaces that differ from those of single rays.
+static int surfaces_differing(const Geometry *g, const SphereTile *tile, const TileHits *hits,
+                              const TileSurfaces *surfaces, const MaterialIndex *material)
+{
+    int different = 0;
+    for (int i = 0; i < surfaces->count; i++) {
+        unsigned ray = surfaces->ray[i];
+        SphereRay own = sphere_tile_ray(tile, ray);
+        Hit hit = {hits->t[ray], hits->shape[ray], hits->inside >> ray & 1};
+        Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, (Ray){own.origin, own.direction}, hit);
+        Vec3 point = tile_surface_point(surfaces, i), outward = tile_surface_outward(surfaces, i);
+        different += memcmp(&point, &surface.point, sizeof point) != 0 ||
+                     memcmp(&outward, &surface.normal, sizeof outward) != 0 || surface.material != material[i] ||
+                     surfaces->shape[i] != hit.shape || (surfaces->inside >> i & 1) != hit.inside;
+    }
+    return different;
+}
+
+typedef struct Shadows {
+    int different, dark, lit, together;
+} Shadows;
+
+static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, uint64_t asked,
+                        Shadows *found)
+{
+    SurfaceRays rays = {.end = light};
+    for (int i = 0; i < from->count; i++) {
+        Vec3 offset = vec3_sub(light, tile_surface_point(from, i));
+        rays.distance[i] = vec3_length(offset);
+        Vec3 towards = vec3_scale(1.0 / rays.distance[i], offset);
+        rays.towards[0][i] = towards.x;
+        rays.towards[1][i] = towards.y;
+        rays.towards[2][i] = towards.z;
+    }
+    asked &= ~UINT64_C(0) >> (TILE_RAYS - from->count);
+    uint64_t occluded = geometry_occluded_surfaces(g, features, from, &rays, true, asked);
+    uint64_t left;
+    g->kernels->occluded_surfaces(&g->spheres, from, &rays, asked, &left);
+    found->different += (occluded & ~asked) != 0;
+    found->together += __builtin_popcountll(asked & ~left);
+    for (; asked; asked &= asked - 1) {
+        int i = __builtin_ctzll(asked);
+        Vec3 direction = {rays.towards[0][i], rays.towards[1][i], rays.towards[2][i]};
+        RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), direction) < 0.0, HIDDEN_SHADOW};
+        bool is_dark =
+            geometry_occluded(g, features, (Ray){tile_surface_point(from, i), direction}, start, rays.distance[i]);
+        found->different += is_dark != (occluded >> i & 1);
+        found->dark += is_dark;
+        found->lit += !is_dark;
+    }
+}
+
+// A light anywhere: among the spheres, near a surface, or far away.
+static Vec3 light_place(Random *random, const TraceFamily *family, const TileSurfaces *surfaces)
+{
+    uint64_t bits = random_bits(random);
+    Vec3 middle = bits & 1 ? family->middle : tile_surface_point(surfaces, 0);
+    double size = family->size * pow(10.0, bits & 2 ? random_between(random, -6, 0) : random_between(random, 0, 9));
+    return vec3_add(middle, random_point(random, size));
+}
+
+static void test_geometry(uint64_t seed, size_t number, int count, int planes)
+{
+    const TraceFamily *family = &families[number];
+    Random random = {seed + number};
+    Scene scene;
+    scene_init(&scene);
+    family->make(&scene, &random, count);
+    for (int i = 0; i < planes; i++) {
+        add_plane(&scene, random_direction(&random), random_between(&random, -1, 1) * family->size);
+    }
+    Geometry *g = prepare(&scene, 0);
+    unsigned features = geometry_features(g);
+    int surfaces_different = 0, met = 0;
+    Shadows shadows = {0};
+    for (int turn = 0; turn < 200; turn++) {
+        SphereTile tile;
+        Vec3 eye = vec3_add(family->middle, random_point(&random, 2 * family->size));
+        Vec3 at = scene.spheres.items[random_bits(&random) % scene.spheres.count].centre;
+        tile_of(&random, eye, vec3_normalize(vec3_sub(at, eye)), pow(10, random_between(&random, -6, -1)), &tile);
+        uint64_t asked = random_bits(&random) | random_bits(&random), light_seed = random_bits(&random);
+        for (size_t isa = 0; geometry_isa(isa); isa++) {
+            TileHits hits;
+            TileSurfaces surfaces;
+            MaterialIndex material[TILE_RAYS];
+            g->kernels = sphere_kernels_choose(geometry_isa(isa));
+            query_tile_closest(g, features, &tile, true, &hits);
+            met += __builtin_popcountll(hits.met);
+            if (hits.met & asked) {
+                Random same = {light_seed};
+                geometry_tile_surfaces(g, features, &tile, &hits, hits.met & asked, &surfaces, material);
+                surfaces_different += surfaces_differing(g, &tile, &hits, &surfaces, material);
+                shadows_try(g, features, &surfaces, light_place(&same, family, &surfaces), asked, &shadows);
+            }
+        }
+    }
+    tap_ok(surfaces_different == 0 && met > 1000, "%s, %d, %d planes: surfaces are those of single rays (%d of %d not)",
+           family->name, count, planes, surfaces_different, met);
+    tap_ok(shadows.different == 0 && shadows.dark + shadows.lit > 500,
+           "%s, %d, %d planes: shadows too (%d of %d dark and %d lit differ; %d traced together)", family->name, count,
+           planes, shadows.different, shadows.dark, shadows.lit, shadows.together);
+    geometry_free(g);
+    scene_fini(&scene);
+}
+
+// ---- light
+
+static double one_of(Random *random, const double *values, size_t count)
+{
+    return values[random_bits(random) % count];
+}
+
+static Finish random_finish(Random *random)
+{
+    static const double amounts[] = {0, 0, 0.3, 1.2}, exponents[] = {1, 1, 2, 40, 0.5, 7.25, 5000}, levels[] = {0, 0.1};
+    double glow = one_of(random, levels, 2), mirror = random_bits(random) % 3 ? 0.0 : 0.4;
+    return (Finish){.ambient = {glow, 0.1, glow},
+                    .diffuse = one_of(random, amounts, 4),
+                    .diffuse_back = one_of(random, amounts, 4),
+                    .brilliance = one_of(random, exponents, 6),
+                    .phong = one_of(random, amounts, 4),
+                    .phong_size = one_of(random, exponents, 7),
+                    .specular = one_of(random, amounts, 4),
+                    .roughness = 1.0 / one_of(random, exponents, 7),
+                    .metallic = one_of(random, amounts, 4),
+                    .reflection_min = {mirror, 0.5 * mirror, mirror},
+                    .reflection_max = {mirror, mirror, mirror},
+                    .reflection_falloff = 1.0,
+                    .reflection_exponent = 1.0,
+                    .refraction = 1.0};
+}
+
+static void random_light(Random *random, Scene *scene)
+{
+    Light light = {.type = random_bits(random) % 4 ? LIGHT_POINT : LIGHT_PARALLEL,
+                   .shadowless = random_bits(random) % 5 == 0,
+                   .position = random_point(random, random_bits(random) % 2 ? 5 : 40),
+                   .point_at = {0, 0, 0},
+                   .colour = {0.9, random_between(random, -0.2, 1), 0.7}};
+    if (!scene_add_light(scene, &light)) {
+        abort();
+    }
+}
+
+// Spheres of few finishes, some of them touching the eye's surroundings, lights, planes.
+static void random_scene(Random *random, Scene *scene)
+{
+    Finish finishes[4];
+    int count = random_bits(random) % 2 ? 6 : 60;
+    scene_init(scene);
+    for (int i = 0; i < 4; i++) {
+        finishes[i] = random_finish(random);
+    }
+    for (int i = 0; i < count; i++) {
+        MaterialIndex material;
+        Rgbft pigment = {random_between(random, -0.1, 1), 0.5, random_between(random, 0, 1), 0, 0};
+        bool is_added = scene_add_material(scene, pigment, &finishes[random_bits(random) % 4], &material);
+        Vec3 place = random_point(random, 5);
+        if (!is_added || (i % 9 == 8 ? !scene_add_plane(scene, random_direction(random), -6, material, 0)
+                                     : !scene_add_sphere(scene, place, random_between(random, 0.2, 2), material, 0))) {
+            abort();
+        }
+    }
+    for (uint64_t i = random_bits(random) % 4; i-- > 0;) {
+        random_light(random, scene);
+    }
+    scene->camera = (Camera){.type = CAMERA_PERSPECTIVE,
+                             .location = {0.0, 0.0, -9.0},
+                             .direction = {0.0, 0.0, 1.0},
+                             .right = {1.33, 0.0, 0.0},
+                             .up = {0.0, 1.0, 0.0}};
+    scene->has_camera = true;
+    scene->background = (Rgbft){0.1, 0.2, 0.3, 0.0, 0.0};
+}
+
+static Film picture(const Scene *scene, const char *isa, unsigned features, RenderStatistics *statistics)
+{
+    Film film;
+    SamplingError error;
+    Prepared *prepared = prepared_new(scene, &(GeometryOptions){.threads = 1, .isa = isa});
+    RenderOptions options = {.threads = 1};
+    if (!prepared || !film_init(&film, 61, 43)) {
+        abort();
+    }
+    prepared->kernel = kernel_choose(features | prepared->features);
+    if (render_film(prepared, &options, &film, statistics, &error) != RENDER_OK) {
+        abort();
+    }
+    prepared_free(prepared);
+    return film;
+}
+
+// A kernel that has lights of all kinds shades ray by ray.
+static void test_light(uint64_t first)
+{
+    int different = 0, pictures = 0;
+    uint64_t shadow_rays = 0, reflected_rays = 0;
+    for (uint64_t seed = first; seed < first + 60; seed++) {
+        Random random = {seed};
+        Scene scene;
+        RenderStatistics single, tiled;
+        random_scene(&random, &scene);
+        Film expected = picture(&scene, NULL, RENDER_LIGHTS, &single);
+        for (size_t isa = 0; geometry_isa(isa); isa++, pictures++) {
+            Film film = picture(&scene, geometry_isa(isa), 0, &tiled);
+            size_t bytes = 3 * sizeof(float) * (size_t)film.width * (size_t)film.height;
+            different += memcmp(film.rgb, expected.rgb, bytes) != 0 || memcmp(&single, &tiled, sizeof single) != 0;
+            film_fini(&film);
+        }
+        shadow_rays += single.shadow_rays;
+        reflected_rays += single.reflected_rays;
+        film_fini(&expected);
+        scene_fini(&scene);
+    }
+    tap_ok(different == 0 && shadow_rays > 50000 && reflected_rays > 5000,
+           "light by tiles is light by rays: %d of %d pictures differ (%llu shadow rays, %llu mirrored)", different,
+           pictures, (unsigned long long)shadow_rays, (unsigned long long)reflected_rays);
+}
+
+int main(void)
+{
+    uint64_t seed = random_seed(NULL);
+    for (size_t family = 0; family < RT_COUNT_OF(families); family++) {
+        test_geometry(seed, family, 8, (int)family % 3);
+        test_geometry(seed, family, 3000, (int)(family + 1) % 3);
+    }
+    test_light(seed);
+    return tap_done();
+}
