@@ -56,7 +56,7 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const K
     TileView view = {camera->location, camera->direction, camera->right, camera->up};
     bool has_view = camera->type == CAMERA_PERSPECTIVE && !places->lens;
     if (!(features & ~(unsigned)SHADE_TILE_FEATURES) && has_view) {
-        shade_tile(p, features, &view, places, wanted, light, statistics);
+        shade_tile(p, features, &view, places, streams, wanted, light, statistics);
         return;
     }
     RenderStatistics counted = *statistics;
@@ -77,7 +77,7 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const K
 // What a kernel may contain: geometry in four steps, shading in four. The kernels are the useful pairs.
 #define GEOMETRY_FEW TRACE_SPHERES
 #define GEOMETRY_FEW_PLANES (TRACE_SPHERES | TRACE_PLANES)
-#define GEOMETRY_MANY (TRACE_SPHERE_BVH | TRACE_PLANES)
+#define GEOMETRY_MANY (TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES)
 #define GEOMETRY_ANY TRACE_ALL_FEATURES
 #define SHADING_PLAIN 0
 #define SHADING_SHADOWS (RENDER_SHADOWS | RENDER_HIGHLIGHTS)

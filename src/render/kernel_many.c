@@ -16,6 +16,7 @@
     X(many_shadows, "tree+planes+shadows", GEOMETRY_MANY, SHADING_SHADOWS)                                             \
     X(many_mirrors, "tree+planes+shadows+mirrors", GEOMETRY_MANY, SHADING_MIRRORS)                                     \
     X(many_any, "tree+planes+shadows+mirrors+transparency", GEOMETRY_MANY, SHADING_ANY)                                \
+    X(many_mirror_lights, "tree+planes+shadows+mirrors+lights", GEOMETRY_MANY, SHADING_MIRRORS | RENDER_LIGHTS)        \
     X(many_lights, "tree+planes+lights", GEOMETRY_MANY, SHADING_ANY | RENDER_LIGHTS)
 
 DEFINE_KERNELS(kernels_many, KERNELS)

@@ -65,6 +65,13 @@ static PreparedCamera prepare_camera(const Camera *camera, int exponent)
     return out;
 }
 
+// How far from the middle a row of lights reaches, in lengths of its axis: POV-Ray's disc is a little aside, and jitter
+// moves a light by half a step.
+static double area_reach(const LightArea *area, int size)
+{
+    return (size > 1 ? 0.5 : 0.0) + (size > 1 && area->jitter ? 0.5 / (size - 1) : 0.0) + 0x1p-9;
+}
+
 static PreparedLight prepare_light(const Light *light, int exponent)
 {
     PreparedLight out = {
@@ -88,6 +95,8 @@ static PreparedLight prepare_light(const Light *light, int exponent)
     out.falloff = is_spot ? cos(light->falloff * radians_per_degree) : ldexp(light->falloff, -exponent);
     out.area.axis1 = vec3_ldexp(light->area.axis1, -exponent);
     out.area.axis2 = vec3_ldexp(light->area.axis2, -exponent);
+    out.area_radius = area_reach(&out.area, out.area.size1) * vec3_length(out.area.axis1) +
+                      area_reach(&out.area, out.area.size2) * vec3_length(out.area.axis2);
     return out;
 }
 

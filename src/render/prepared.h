@@ -38,6 +38,7 @@ typedef struct PreparedLight {
     double tightness;
     double fade_distance, fade_power; // 0: no fading
     LightArea area;
+    double area_radius; // no place of the area is farther from its middle
     uint64_t number; // among the scene's lights, for `jitter`
 } PreparedLight;
 

@@ -18,6 +18,8 @@ typedef struct LightTile {
     // Of the light that was aimed last: unit vectors to it and how far it is; N·L.
     SurfaceRays rays;
     _Alignas(64) double cosine[TILE_RAYS];
+    // Of lights that are not plain: how strong they are there, and the share of an area that is seen from there.
+    double strength[TILE_RAYS], share[TILE_RAYS];
     uint64_t before; // those on whose side of a parallel light's plane something may throw a shadow
     _Alignas(64) double light[3][TILE_RAYS]; // the sum so far, of linear light
 } LightTile;

@@ -30,6 +30,7 @@ static uint64_t tile_aim(LightTile *tile, const PreparedLight *light)
     const double ahead[3] = {light->towards.x, light->towards.y, light->towards.z};
     uint64_t before = 0, front = 0, behind = 0;
     tile->rays.end = light->position;
+    tile->rays.aside = 0.0;
     for (int i = 0; i < surfaces->count; i += DOUBLES) {
         Doubles offset[3], towards[3];
         for (int axis = 0; axis < 3; axis++) {
@@ -186,7 +187,11 @@ static void tile_add_finish(LightTile *tile, const PreparedLight *light, const P
                 sum = doubles_choose(front, sum + spot, sum);
             }
             Doubles before = doubles_load(&tile->light[k][i]);
-            Doubles after = before + (Doubles)(reached & (DoublesMask)(sum * colour[k]));
+            Doubles arriving = doubles_splat(colour[k]);
+            if (!light->is_plain) {
+                arriving = doubles_load(&tile->strength[i]) * arriving * doubles_load(&tile->share[i]);
+            }
+            Doubles after = before + (Doubles)(reached & (DoublesMask)(sum * arriving));
             doubles_store(&tile->light[k][i], doubles_choose(mine, after, before));
         }
     }

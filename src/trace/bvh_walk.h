@@ -139,10 +139,10 @@ RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin,
 }
 
 // The same for all rays from one origin whose directions have components between `least` and `greatest`, least and
-// greatest by size and of the same signs. False when there are no such leaves, or when the origin is too far away for
-// boxes in float (then ask ray by ray).
-RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 origin, Vec3 least, Vec3 greatest,
-                                          bool *is_too_far)
+// greatest by size and of the same signs, and for all that is no farther than `aside` from one of them. False when there
+// are no such leaves, or when the origin is too far away for boxes in float (then ask ray by ray).
+RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 origin, double aside, Vec3 least,
+                                          Vec3 greatest, bool *is_too_far)
 {
     Axes o, near_inverse, far_inverse;
     Axes far_direction = {least.x, least.y, least.z, 1.0};
@@ -150,14 +150,15 @@ RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 or
     bvh_walk_point(bvh, origin, &o);
     axes_invert(near_direction, &near_inverse);
     axes_invert(far_direction, &far_inverse);
-    double reach = axes_sum_abs(o) + bvh->half.x + bvh->half.y + bvh->half.z;
+    double outset = aside * bvh->scale;
+    double reach = axes_sum_abs(o) + bvh->half.x + bvh->half.y + bvh->half.z + outset;
     *is_too_far = !(reach < 4096.0);
     if (*is_too_far || !bvh->nodes) {
         return false;
     }
     walk->skipped = 0.0;
-    bvh_walk_set(walk, bvh, o, (32.0 * (DBL_EPSILON / 2) + 0x1p-22) * reach, (AxesMask)near_direction & INT64_MIN,
-                 near_inverse, far_inverse);
+    bvh_walk_set(walk, bvh, o, (32.0 * (DBL_EPSILON / 2) + 0x1p-22) * reach + outset,
+                 (AxesMask)near_direction & INT64_MIN, near_inverse, far_inverse);
     return true;
 }
 

@@ -76,9 +76,10 @@ typedef struct TileSurfaces {
     double point[3][TILE_RAYS], outward[3][TILE_RAYS];
 } TileSurfaces;
 
-// Rays from surfaces to one point.
+// Rays from surfaces to a point, or to places no farther than `aside` from it.
 typedef struct SurfaceRays {
     Vec3 end;
+    double aside;
     _Alignas(64) double towards[3][TILE_RAYS]; // of about unit length
     double distance[TILE_RAYS];
 } SurfaceRays;

@@ -1,7 +1,8 @@
-// Rays that all end at one point, which something may be in the way of: part of spheres_kernel.c.
+// Rays that all end at or about one point, which something may be in the way of: part of spheres_kernel.c.
 //
-// Seen from that point, a light, they are a beam through the tree, whose boxes begin with those next to the light. What
-// the leaves hold is narrowed by a cone around them, whose margin is far above what rounding does to the ends of rays.
+// Seen from that point, a light, they are a beam through the tree, whose boxes begin with those next to the light. Rays
+// that end beside it are never farther from that beam than their ends. What the leaves hold is narrowed by a cone, whose
+// margin is far above what rounding does to the ends of rays.
 // What is left is tested against some rays at once, each from its own origin: sphere_test, operation by operation, so
 // the answers are those of single rays.
 //
@@ -22,11 +23,12 @@ enum {
 // Rays from one shape; all arrays are filled up to a whole vector.
 typedef struct RayGroup {
     Vec3 end;
+    double aside, farthest; // of the rays' ends from there; of their starts
     Ball start; // equals none where they do not start on a sphere
     unsigned count, whole;
     _Alignas(64) double origin[3][TILE_RAYS];
     _Alignas(64) double direction[3][TILE_RAYS]; // of about unit length, towards the end
-    _Alignas(64) double seen[3][TILE_RAYS];      // the same from the end
+    _Alignas(64) double seen[3][TILE_RAYS];      // of about unit length, from the end to their starts
     _Alignas(64) double distance[TILE_RAYS];
     _Alignas(64) double inverse_square[TILE_RAYS]; // as in SphereRay
 } RayGroup;
@@ -111,14 +113,10 @@ static bool group_tree(const SphereTable *table, const RayGroup *group, const Ra
     if (!direction_range(group->seen, group->whole, &least, &greatest)) {
         return false;
     }
-    if (!bvh_walk_start_beam(&walk, &table->bvh, group->end, least, greatest, &is_too_far)) {
+    if (!bvh_walk_start_beam(&walk, &table->bvh, group->end, group->aside, least, greatest, &is_too_far)) {
         return !is_too_far;
     }
-    Doubles farthest = doubles_load(group->distance);
-    for (unsigned i = DOUBLES; i < group->whole; i += DOUBLES) {
-        farthest = doubles_max(farthest, doubles_load(&group->distance[i]));
-    }
-    float limit = bvh_walk_limit(&walk, doubles_greatest(farthest));
+    float limit = bvh_walk_limit(&walk, group->farthest);
     unsigned blocks = GROUP_BLOCKS * group->count;
     while (~*occluded && bvh_walk_next(&walk, limit, &leaf)) {
         if (blocks-- == 0) {
@@ -133,14 +131,11 @@ static bool group_tree(const SphereTable *table, const RayGroup *group, const Ra
 static bool group_occluded(const SphereTable *table, const RayGroup *group, uint64_t *occluded)
 {
     unsigned middle = group->count / 2, last = group->count - 1;
-    RayCone cone = {.origin = group->end};
+    RayCone cone = {.origin = group->end, .aside = group->aside};
     cone.axis = vec3_normalize(vec3(group->seen[0][0] + group->seen[0][middle] + group->seen[0][last],
                                     group->seen[1][0] + group->seen[1][middle] + group->seen[1][last],
                                     group->seen[2][0] + group->seen[2][middle] + group->seen[2][last]));
     cone.spread = cone_spread(group->seen, 0, group->whole, cone.axis);
-    if (!(cone.spread < 0.5)) {
-        return false;
-    }
     uint64_t none = ~(~UINT64_C(0) >> (TILE_RAYS - group->count));
     *occluded = table->loose_count > 0 ? group_block(table, group, &cone, 0, none) : none;
     if (table->bvh.nodes && ~*occluded && !group_tree(table, group, &cone, occluded)) {
@@ -150,12 +145,41 @@ static bool group_occluded(const SphereTable *table, const RayGroup *group, uint
     return true;
 }
 
+// What depends on directions alone; false when one of them is not usable.
+static bool group_look(RayGroup *group)
+{
+    const double end[3] = {group->end.x, group->end.y, group->end.z};
+    unsigned usable = ~0u;
+    Doubles farthest = doubles_splat(0.0);
+    for (unsigned i = 0; i < group->whole; i += DOUBLES) {
+        Doubles square = doubles_splat(0.0), away[3], away_squared = doubles_splat(0.0);
+        for (int axis = 0; axis < 3; axis++) {
+            Doubles d = doubles_load(&group->direction[axis][i]);
+            square += d * d;
+            away[axis] = doubles_load(&group->origin[axis][i]) - end[axis];
+            away_squared += away[axis] * away[axis];
+        }
+        Doubles inverse_square = 1.0 / square, distance = doubles_sqrt(away_squared), shrink = 1.0 / distance;
+        for (int axis = 0; axis < 3; axis++) {
+            doubles_store(&group->seen[axis][i], shrink * away[axis]);
+        }
+        doubles_store(&group->inverse_square[i], inverse_square);
+        usable &= doubles_gt(inverse_square, doubles_splat(0x1p-100)) &
+                  doubles_gt(doubles_splat((double)INFINITY), inverse_square) &
+                  doubles_gt(distance, doubles_splat(0x1p-480)) & doubles_gt(doubles_splat(0x1p480), distance);
+        farthest = doubles_max(distance, farthest);
+    }
+    group->farthest = doubles_greatest(farthest);
+    return usable == (1u << DOUBLES) - 1;
+}
+
 // The rays of some surfaces, which share a shape; false when one of them is not usable.
 static bool group_gather(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays, uint64_t members,
                          RayGroup *group)
 {
     ShapeId shape = from->shape[__builtin_ctzll(members)];
     group->end = rays->end;
+    group->aside = rays->aside;
     group->start = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
                                                      : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
     unsigned count = 0, last = 0;
@@ -169,20 +193,7 @@ static bool group_gather(const SphereTable *table, const TileSurfaces *from, con
         group->distance[count] = rays->distance[last];
     }
     group->whole = count;
-    unsigned usable = ~0u;
-    for (unsigned i = 0; i < count; i += DOUBLES) {
-        Doubles square = doubles_splat(0.0);
-        for (int axis = 0; axis < 3; axis++) {
-            Doubles d = doubles_load(&group->direction[axis][i]);
-            doubles_store(&group->seen[axis][i], -d);
-            square += d * d;
-        }
-        Doubles inverse_square = 1.0 / square;
-        doubles_store(&group->inverse_square[i], inverse_square);
-        usable &= doubles_gt(inverse_square, doubles_splat(0x1p-100)) &
-                  doubles_gt(doubles_splat((double)INFINITY), inverse_square);
-    }
-    return usable == (1u << DOUBLES) - 1;
+    return group_look(group);
 }
 
 // The surfaces that have the shape of one of them, a bit for each.

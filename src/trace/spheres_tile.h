@@ -326,7 +326,7 @@ static bool beam_tree(TileBeam *beam)
     if (!direction_range(beam->tile->direction, TILE_RAYS, &least, &greatest)) {
         return false;
     }
-    if (!bvh_walk_start_beam(&walk, bvh, beam->tile->origin, least, greatest, &is_too_far)) {
+    if (!bvh_walk_start_beam(&walk, bvh, beam->tile->origin, 0.0, least, greatest, &is_too_far)) {
         return !is_too_far;
     }
     float limit = bvh_walk_limit(&walk, beam_limit(beam));

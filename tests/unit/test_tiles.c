@@ -47,12 +47,13 @@ typedef struct Shadows {
     int different, dark, lit, together;
 } Shadows;
 
-static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, uint64_t asked,
-                        Shadows *found)
+static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, double aside,
+                        uint64_t asked, Random *random, Shadows *found)
 {
-    SurfaceRays rays = {.end = light};
+    SurfaceRays rays = {.end = light, .aside = aside};
     for (int i = 0; i < from->count; i++) {
-        Vec3 offset = vec3_sub(light, tile_surface_point(from, i));
+        Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), random_direction(random));
+        Vec3 offset = vec3_sub(aside > 0.0 ? end : light, tile_surface_point(from, i));
         rays.distance[i] = vec3_length(offset);
         Vec3 towards = vec3_scale(1.0 / rays.distance[i], offset);
         rays.towards[0][i] = towards.x;
@@ -117,7 +118,9 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
                 Random same = {light_seed};
                 geometry_tile_surfaces(g, features, &tile, &hits, hits.met & asked, &surfaces, material);
                 surfaces_different += surfaces_differing(g, &tile, &hits, &surfaces, material);
-                shadows_try(g, features, &surfaces, light_place(&same, family, &surfaces), asked, &shadows);
+                Vec3 light = light_place(&same, family, &surfaces);
+                double aside = turn % 2 ? family->size * pow(10.0, random_between(&same, -3, 0)) : 0.0;
+                shadows_try(g, features, &surfaces, light, aside, asked, &same, &shadows);
             }
         }
     }
@@ -157,20 +160,43 @@ static Finish random_finish(Random *random)
                     .refraction = 1.0};
 }
 
-static void random_light(Random *random, Scene *scene)
+// kinds > 1: of any kind, else points and parallel ones.
+static void random_light(Random *random, int kinds, Scene *scene)
 {
     Light light = {.type = random_bits(random) % 4 ? LIGHT_POINT : LIGHT_PARALLEL,
                    .shadowless = random_bits(random) % 5 == 0,
                    .position = random_point(random, random_bits(random) % 2 ? 5 : 40),
                    .point_at = {0, 0, 0},
                    .colour = {0.9, random_between(random, -0.2, 1), 0.7}};
+    uint64_t kind = random_bits(random);
+    if (kinds > 1 && kind % 4 == 0) {
+        light.type = kind & 16 ? LIGHT_SPOT : LIGHT_CYLINDER;
+        light.radius = light.type == LIGHT_SPOT ? 10 : 2;
+        light.falloff = light.type == LIGHT_SPOT ? 25 : 5;
+        light.tightness = kind & 32 ? 3.5 : 0;
+    }
+    if (kinds > 1 && kind % 3 == 0) {
+        light.fade_distance = 6;
+        light.fade_power = kind & 64 ? 2 : 1.5;
+    }
+    if (kinds > 1 && kind % 2 == 0) {
+        double size = random_between(random, 0, 6);
+        light.area = (LightArea){.axis1 = vec3_scale(size, random_direction(random)),
+                                 .axis2 = vec3_scale(size, random_direction(random)),
+                                 .size1 = kind & 128 ? 5 : 2,
+                                 .size2 = kind & 256 ? 3 : 1,
+                                 .adaptive = 1,
+                                 .circular = kind & 512,
+                                 .jitter = kind & 1024,
+                                 .is_adaptive = kind & 2048};
+    }
     if (!scene_add_light(scene, &light)) {
         abort();
     }
 }
 
 // Spheres of few finishes, some of them touching the eye's surroundings, lights, planes.
-static void random_scene(Random *random, Scene *scene)
+static void random_scene(Random *random, int kinds, Scene *scene)
 {
     Finish finishes[4];
     int count = random_bits(random) % 2 ? 6 : 60;
@@ -189,7 +215,7 @@ static void random_scene(Random *random, Scene *scene)
         }
     }
     for (uint64_t i = random_bits(random) % 4; i-- > 0;) {
-        random_light(random, scene);
+        random_light(random, kinds, scene);
     }
     scene->camera = (Camera){.type = CAMERA_PERSPECTIVE,
                              .location = {0.0, 0.0, -9.0},
@@ -200,13 +226,14 @@ static void random_scene(Random *random, Scene *scene)
     scene->background = (Rgbft){0.1, 0.2, 0.3, 0.0, 0.0};
 }
 
-static Film picture(const Scene *scene, const char *isa, unsigned features, RenderStatistics *statistics)
+static Film picture(const Scene *scene, const char *isa, unsigned features, const SamplingOptions *sampling,
+                    RenderStatistics *statistics)
 {
     Film film;
     SamplingError error;
     Prepared *prepared = prepared_new(scene, &(GeometryOptions){.threads = 1, .isa = isa});
-    RenderOptions options = {.threads = 1};
-    if (!prepared || !film_init(&film, 61, 43)) {
+    RenderOptions options = {.threads = 1, .sampling = sampling};
+    if (!prepared || !film_init(&film, 45, 31)) {
         abort();
     }
     prepared->kernel = kernel_choose(features | prepared->features);
@@ -217,8 +244,8 @@ static Film picture(const Scene *scene, const char *isa, unsigned features, Rend
     return film;
 }
 
-// A kernel that has lights of all kinds shades ray by ray.
-static void test_light(uint64_t first)
+// A kernel that has textures shades ray by ray.
+static void test_light(uint64_t first, int kinds, const SamplingOptions *sampling)
 {
     int different = 0, pictures = 0;
     uint64_t shadow_rays = 0, reflected_rays = 0;
@@ -226,10 +253,10 @@ static void test_light(uint64_t first)
         Random random = {seed};
         Scene scene;
         RenderStatistics single, tiled;
-        random_scene(&random, &scene);
-        Film expected = picture(&scene, NULL, RENDER_LIGHTS, &single);
+        random_scene(&random, kinds, &scene);
+        Film expected = picture(&scene, NULL, RENDER_TEXTURES, sampling, &single);
         for (size_t isa = 0; geometry_isa(isa); isa++, pictures++) {
-            Film film = picture(&scene, geometry_isa(isa), 0, &tiled);
+            Film film = picture(&scene, geometry_isa(isa), 0, sampling, &tiled);
             size_t bytes = 3 * sizeof(float) * (size_t)film.width * (size_t)film.height;
             different += memcmp(film.rgb, expected.rgb, bytes) != 0 || memcmp(&single, &tiled, sizeof single) != 0;
             film_fini(&film);
@@ -239,9 +266,10 @@ static void test_light(uint64_t first)
         film_fini(&expected);
         scene_fini(&scene);
     }
-    tap_ok(different == 0 && shadow_rays > 50000 && reflected_rays > 5000,
-           "light by tiles is light by rays: %d of %d pictures differ (%llu shadow rays, %llu mirrored)", different,
-           pictures, (unsigned long long)shadow_rays, (unsigned long long)reflected_rays);
+    tap_ok(different == 0 && shadow_rays > 30000 && reflected_rays > 3000,
+           "light by tiles is light by rays, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored)",
+           kinds > 1 ? "any lights" : "point lights", sampling ? "sampled" : "one ray a pixel", different, pictures,
+           (unsigned long long)shadow_rays, (unsigned long long)reflected_rays);
 }
 
 int main(void)
@@ -251,6 +279,10 @@ int main(void)
         test_geometry(seed, family, 8, (int)family % 3);
         test_geometry(seed, family, 3000, (int)(family + 1) % 3);
     }
-    test_light(seed);
+    SamplingOptions sampling = {.seed = seed, .samples = 5};
+    test_light(seed, 1, NULL);
+    test_light(seed, 2, NULL);
+    test_light(seed, 1, &sampling);
+    test_light(seed, 2, &sampling);
     return tap_done();
 }
