@@ -1,8 +1,8 @@
 // The spheres of a Geometry: in blocks of eight, as the vector kernels want them, and the nearest of them to a ray.
 //
-// A slot is a place in a block; slot / 8 is the block. Loose spheres, in the first block, are tested one by one here,
-// inline; those of the tree by SphereKernels, of which there is one set for each instruction set. All give the same
-// bits.
+// A slot is a place in a block; slot / 8 is the block. One or two spheres, in the first block, are tested one by one
+// here, inline; more, and those of the tree, by SphereKernels, of which there is one set for each instruction set. All
+// give the same bits.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_H
@@ -89,14 +89,14 @@ typedef struct TileView {
     Vec3 origin, direction, right, up;
 } TileView;
 
-// Brings `nearest` up to date with the spheres of the tree; tells whether one is met at 0 < t < t_max. Spheres equal to
-// `start` are passed over.
+// Brings `nearest` up to date with all spheres, and settles it; tells whether one is met at 0 < t < t_max. Spheres equal
+// to `start` are passed over.
 typedef struct SphereKernels {
     const char *name;
     bool (*is_supported)(void);
     void (*closest)(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest);
     bool (*occluded)(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max);
-    // What each ray of a tile meets of all spheres. False when the rays are too far apart, or their origin too far away,
+    // What each ray of a tile meets. False when the rays are too far apart, or their origin too far away,
     // to be traced together; `hits` mean nothing then.
     bool (*closest_tile)(const SphereTable *table, const SphereTile *tile, TileHits *hits);
     // Fills in point, normal, direction and shape of surfaces whose `count` >= 1 and `ray` are given, and what is after

@@ -1,4 +1,4 @@
-// Rays against the tree of spheres: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+// Rays against the spheres: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
 //
 // A leaf is a block of eight spheres, tested at once in doubles. Operations and their order are those of sphere_test,
 // so that verdicts and roots are the same bits in vectors of any width.
@@ -67,75 +67,95 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
     return hits->met != 0;
 }
 
-static void tree_closest(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest)
+// Brings `nearest` up to date with a block.
+RT_ALWAYS_INLINE void block_closest(const SphereTable *table, uint32_t block, const SphereRay *ray, const Ball *start,
+                                    double limit, Nearest *nearest)
+{
+    BlockHits hits;
+    if (!block_test(&table->blocks[block], ray, limit, &hits)) {
+        return;
+    }
+    do {
+        unsigned at = (unsigned)__builtin_ctz(hits.met);
+        hits.met &= hits.met - 1;
+        uint32_t slot = block * SPHERE_BLOCK + at;
+        Ball ball = sphere_table_ball(table, slot);
+        bool inside = hits.inside >> at & 1;
+        double t = hits.t[at];
+        bool is_rough = !(hits.doubtful >> at & 1);
+        if (ball_equal(&ball, start)) {
+            continue;
+        }
+        if (RT_UNLIKELY(!is_rough)) {
+            t = sphere_exact(ray, &ball, &inside);
+        }
+        nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, nearest);
+    } while (hits.met);
+}
+
+RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, const SphereRay *ray, const Ball *start,
+                                     double limit, double t_max)
+{
+    BlockHits hits;
+    if (!block_test(&table->blocks[block], ray, limit, &hits)) {
+        return false;
+    }
+    do {
+        unsigned at = (unsigned)__builtin_ctz(hits.met);
+        hits.met &= hits.met - 1;
+        Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + at);
+        bool inside;
+        if (ball_equal(&ball, start)) {
+            continue;
+        }
+        if (RT_UNLIKELY(hits.doubtful >> at & 1)) {
+            double t = sphere_exact(ray, &ball, &inside);
+            if (t > 0.0 && t < t_max) {
+                return true;
+            }
+        } else if (sphere_root_is_before(ray, &ball, hits.t[at], t_max)) {
+            return true;
+        }
+    } while (hits.met);
+    return false;
+}
+
+static void spheres_closest(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest)
 {
     BvhWalk walk;
     BvhChild leaf;
-    if (!bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
-        return;
-    }
     double limit = nearest_limit(nearest->hit.t);
-    float tree_limit = bvh_walk_limit(&walk, limit);
-    while (bvh_walk_next(&walk, tree_limit, &leaf)) {
-        uint32_t block = leaf & ~BVH_LEAF;
-        BlockHits hits;
-        if (!block_test(&table->blocks[block], ray, limit, &hits)) {
-            continue;
-        }
-        do {
-            unsigned at = (unsigned)__builtin_ctz(hits.met);
-            hits.met &= hits.met - 1;
-            uint32_t slot = block * SPHERE_BLOCK + at;
-            Ball ball = sphere_table_ball(table, slot);
-            bool inside = hits.inside >> at & 1;
-            double t = hits.t[at];
-            bool is_rough = !(hits.doubtful >> at & 1);
-            if (ball_equal(&ball, start)) {
-                continue;
-            }
-            if (RT_UNLIKELY(!is_rough)) {
-                t = sphere_exact(ray, &ball, &inside);
-            }
-            nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, nearest);
-        } while (hits.met);
+    if (table->loose_count > 0) {
+        block_closest(table, 0, ray, start, limit, nearest);
         limit = nearest_limit(nearest->hit.t);
-        tree_limit = bvh_walk_limit(&walk, limit);
+    }
+    if (table->bvh.nodes && bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
+        float tree_limit = bvh_walk_limit(&walk, limit);
+        while (bvh_walk_next(&walk, tree_limit, &leaf)) {
+            block_closest(table, leaf & ~BVH_LEAF, ray, start, limit, nearest);
+            limit = nearest_limit(nearest->hit.t);
+            tree_limit = bvh_walk_limit(&walk, limit);
+        }
     }
     nearest_settle(table, ray, nearest); // here, where the processor may have a fused multiply-add
 }
 
-static bool tree_occluded(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max)
+static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max)
 {
     BvhWalk walk;
     BvhChild leaf;
-    if (!bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
+    double limit = nearest_limit(t_max);
+    if (table->loose_count > 0 && block_occludes(table, 0, ray, start, limit, t_max)) {
+        return true;
+    }
+    if (!table->bvh.nodes || !bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
         return false;
     }
-    double limit = nearest_limit(t_max);
     float tree_limit = bvh_walk_limit(&walk, limit);
     while (bvh_walk_next(&walk, tree_limit, &leaf)) {
-        uint32_t block = leaf & ~BVH_LEAF;
-        BlockHits hits;
-        if (!block_test(&table->blocks[block], ray, limit, &hits)) {
-            continue;
+        if (block_occludes(table, leaf & ~BVH_LEAF, ray, start, limit, t_max)) {
+            return true;
         }
-        do {
-            unsigned at = (unsigned)__builtin_ctz(hits.met);
-            hits.met &= hits.met - 1;
-            Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + at);
-            bool inside;
-            if (ball_equal(&ball, start)) {
-                continue;
-            }
-            if (RT_UNLIKELY(hits.doubtful >> at & 1)) {
-                double t = sphere_exact(ray, &ball, &inside);
-                if (t > 0.0 && t < t_max) {
-                    return true;
-                }
-            } else if (sphere_root_is_before(ray, &ball, hits.t[at], t_max)) {
-                return true;
-            }
-        } while (hits.met);
     }
     return false;
 }
@@ -158,8 +178,8 @@ extern const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS);
 const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS) = {
     .name = TEXT_OF(SPHERE_KERNELS),
     .is_supported = is_supported,
-    .closest = tree_closest,
-    .occluded = tree_occluded,
+    .closest = spheres_closest,
+    .occluded = spheres_occluded,
     .closest_tile = tile_closest,
     .surfaces = surfaces_sphere,
     .occluded_surfaces = surfaces_occluded,
