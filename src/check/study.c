@@ -23,7 +23,7 @@ enum {
     DEEPER = 64,
     LONG_SECONDS = 15,
     REFERENCE_SECONDS = 3, // of a rung of the reference kernels
-    PHOTONS_LEAST = 400, // for each sample of the greatest number
+    PHOTONS_LEAST = 400,   // for each sample of the greatest number
     PHOTONS_TIMES = 100,
 };
 
@@ -187,9 +187,8 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
              samples *= methods[i].sampling.adaptive != 0 ? 2 : 4) {
             rt_sampling sampling = methods[i].sampling;
             sampling.samples = samples;
-            if (*settings->interrupted != 0 ||
-                !rtlang_point(study, settings, reference, &sampling, RT_PRECISION_DOUBLE,
-                              &method->points[method->count])) {
+            if (*settings->interrupted != 0 || !rtlang_point(study, settings, reference, &sampling, RT_PRECISION_DOUBLE,
+                                                             &method->points[method->count])) {
                 return false;
             }
             method->count++;

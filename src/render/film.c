@@ -32,8 +32,8 @@ void film_fini(Film *film)
 
 uint64_t film_bytes(int width, int height, bool is_sampled)
 {
-    uint64_t chosen = sizeof(uint16_t); // a bucket for each pixel, in sampling.c
+    uint64_t chosen = sizeof(uint16_t) + 3 * sizeof(float); // a bucket and a corner for each pixel, in sampling.c
     uint64_t pixel = 3 * sizeof(float) + (is_sampled ? sizeof(PixelRecord) + chosen : 0);
-    uint64_t rows = is_sampled ? 4 * sizeof(double) : 0; // of sampling_near.c
+    uint64_t rows = is_sampled ? 4 * sizeof(double) + 3 * sizeof(float) : 0; // of sampling_near.c; the last corners
     return (uint64_t)width * ((uint64_t)height * pixel + rows);
 }

@@ -41,6 +41,7 @@ typedef struct PixelRecord {
     float outer;    // the two halves of all samples
     float inner;    // the mean over the halves of each: of its own halves
     float fresh;    // the halves of the half that was taken last
+    float spread;   // the samples themselves, from their mean
 } PixelRecord;
 
 // A picture in the scene's working space, or a part of one: rows from the top, pixels from the left, red green blue

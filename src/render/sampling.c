@@ -9,7 +9,7 @@
 
 #include "render/tiles.h"
 
-enum { ALIKE_SAMPLES = 4 }; // of every pixel, before some get more than others, where middles are no pilot
+enum { ALIKE_SAMPLES = 4 }; // of every pixel, before some get more than others, where corners say little
 
 typedef struct Sampling {
     const Prepared *prepared;
@@ -21,6 +21,7 @@ typedef struct Sampling {
     Round round;
     Estimate estimate;
     Choice choice;
+    float *corners;        // owned by the caller; NULL: there is no such pilot
     double start;          // by the clock
     double sample_seconds; // of a sample, as the last round had it
     double round_samples;  // of this round
@@ -52,8 +53,8 @@ static void forward_progress(void *client, double done)
 static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
 {
     const Sampling *s = client;
-    if (s->round.is_middles) {
-        round_trace_middles(&s->round, tile, counted);
+    if (s->round.is_corners) {
+        round_trace_corners(&s->round, tile, counted);
     } else {
         round_trace(&s->round, tile, counted);
     }
@@ -77,7 +78,9 @@ static void find_bias(Sampling *s)
 static bool trace_round(Sampling *s)
 {
     double start = clock_seconds();
-    TileWork work = {s, s->film->width, s->film->height, trace_tile, s->options->progress ? forward_progress : NULL};
+    int more = s->round.is_corners ? 1 : 0; // there are more corners than pixels
+    TileWork work = {s, s->film->width + more, s->film->height + more, trace_tile,
+                     s->options->progress ? forward_progress : NULL};
     bool is_whole = tiles_run(&work, s->options, s->statistics);
     if (is_whole) {
         s->sample_seconds = (clock_seconds() - start) / s->round_samples;
@@ -109,7 +112,7 @@ static double predict(const Sampling *s)
         all = fmin(all, (double)s->estimate.samples + left / s->sample_seconds);
     }
     if (wanted->target_error > 0.0 && s->choice.power > 0.0) {
-        double samples = choice_predict(&s->choice, &s->estimate, s->error, wanted->target_error);
+        double samples = choice_predict(&s->choice, &s->estimate, &s->round, s->error, wanted->target_error);
         all = samples > 0.0 ? fmin(all, samples) : all;
     }
     return isfinite(all) ? all : 0.0;
@@ -168,19 +171,27 @@ static bool run_alike(Sampling *s, uint32_t all)
     return true;
 }
 
-// One ray through the middle of each pixel, and some pixels that tell what that is worth. False when it was cancelled.
+// One ray through each corner, and some pixels that tell what that is worth. False when it was cancelled.
 static bool run_pilot(Sampling *s)
 {
     Round *round = &s->round;
-    *round = (Round){.prepared = round->prepared, .sampling = round->sampling, .film = round->film,
-                     .filter = round->filter, .count = 1, .has_middles = true, .is_middles = true, .is_pilot = true};
-    s->round_samples = pixel_count(s);
+    *round = (Round){.prepared = round->prepared,
+                     .sampling = round->sampling,
+                     .film = round->film,
+                     .filter = round->filter,
+                     .draws_more = round->draws_more,
+                     .corners = s->corners,
+                     .count = 1,
+                     .has_corners = true,
+                     .is_corners = true,
+                     .is_pilot = true};
+    s->round_samples = s->estimate.corners = (s->film->width + 1.0) * (s->film->height + 1.0);
     s->all_samples = predict(s);
-    if (!run_round(s)) {
+    if (!trace_round(s)) {
         return false;
     }
-    pilot_sort(s->film, s->wanted->seed, s->choice.of_pixel, s->choice.memory);
-    round->is_middles = false;
+    pilot_sort(round, s->choice.of_pixel, s->choice.memory);
+    round->is_corners = false;
     round->count = 0;
     round->buckets = s->choice.of_pixel;
     round->least_bucket = PILOT_PROBE;
@@ -213,36 +224,70 @@ static void run_adaptive(Sampling *s)
     }
 }
 
+static bool draws_more(const Prepared *prepared)
+{
+    bool has_area = false;
+    for (size_t i = 0; i < prepared->light_count; i++) {
+        has_area = has_area || prepared->lights[i].area.size1 > 0;
+    }
+    return has_area || prepared->camera.lens_radius > 0.0;
+}
+
+static void sampling_free(Sampling *s)
+{
+    if (s) {
+        free(s->choice.of_pixel);
+        free(s->choice.memory);
+        free(s->corners);
+        free(s);
+    }
+}
+
+// NULL when out of memory. The film keeps its records.
+static Sampling *sampling_new(const SamplingOptions *wanted, Film *film)
+{
+    size_t width = (size_t)film->width, height = (size_t)film->height;
+    bool has_pilot = wanted->is_adaptive && wanted->filter == FILTER_BOX;
+    Sampling *s = calloc(1, sizeof *s);
+    film->records = calloc(width * height, sizeof *film->records);
+    if (s && wanted->is_adaptive) {
+        s->choice.of_pixel = calloc(width * height, sizeof *s->choice.of_pixel);
+        s->choice.memory = calloc(width, NEAR_ROWS * sizeof *s->choice.memory);
+    }
+    if (s && has_pilot) {
+        s->corners = calloc((width + 1) * (height + 1), 3 * sizeof *s->corners);
+    }
+    bool is_whole = s && film->records && (!has_pilot || s->corners) &&
+                    (!wanted->is_adaptive || (s->choice.of_pixel && s->choice.memory));
+    if (!is_whole) {
+        sampling_free(s);
+        return NULL;
+    }
+    return s;
+}
+
 RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options, Film *film,
                           RenderStatistics *statistics, SamplingError *error)
 {
     const SamplingOptions *wanted = options->sampling;
     size_t pixels = (size_t)film->width * (size_t)film->height;
-    Sampling *s = calloc(1, sizeof *s);
-    uint16_t *buckets = wanted->is_adaptive ? calloc(pixels, sizeof *buckets) : NULL;
-    double *memory = wanted->is_adaptive ? calloc((size_t)film->width, NEAR_ROWS * sizeof *memory) : NULL;
-    film->records = calloc(pixels, sizeof *film->records);
-    if (!s || !film->records || (wanted->is_adaptive && (!buckets || !memory))) {
-        free(s);
-        free(buckets);
-        free(memory);
+    uint32_t alike = wanted->is_adaptive ? ALIKE_SAMPLES : (uint32_t)wanted->samples;
+    Sampling *s = sampling_new(wanted, film);
+    if (!s) {
         return RENDER_NO_MEMORY;
     }
-    *s = (Sampling){.prepared = prepared,
-                    .options = options,
-                    .wanted = wanted,
-                    .film = film,
-                    .statistics = statistics,
-                    .error = error,
-                    .start = clock_seconds(),
-                    .choice = {.of_pixel = buckets, .memory = memory}};
-    s->round = (Round){.prepared = prepared, .sampling = wanted, .film = film};
+    s->prepared = prepared;
+    s->options = options;
+    s->wanted = wanted;
+    s->film = film;
+    s->statistics = statistics;
+    s->error = error;
+    s->start = clock_seconds();
+    s->round = (Round){.prepared = prepared, .sampling = wanted, .film = film, .draws_more = draws_more(prepared)};
     filter_init(&s->round.filter, wanted->filter);
-    bool has_pilot = wanted->is_adaptive && wanted->filter == FILTER_BOX;
-    uint32_t alike = wanted->is_adaptive ? ALIKE_SAMPLES : (uint32_t)wanted->samples;
-    if (has_pilot && !run_pilot(s)) {
+    if (s->corners && !run_pilot(s)) {
         error->end = SAMPLING_INTERRUPTED;
-    } else if ((has_pilot || run_alike(s, alike)) && wanted->is_adaptive) {
+    } else if ((s->corners || run_alike(s, alike)) && wanted->is_adaptive) {
         run_adaptive(s);
     }
     bool is_whole = error->end != SAMPLING_INTERRUPTED;
@@ -251,8 +296,6 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
             error->samples = 0.0; // no picture
         }
     }
-    free(s);
-    free(buckets);
-    free(memory);
+    sampling_free(s);
     return is_whole ? RENDER_OK : RENDER_CANCELLED;
 }

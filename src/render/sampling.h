@@ -24,9 +24,11 @@ typedef struct Round {
     const uint16_t *buckets; // by priority, of each pixel; NULL: all pixels take part
     uint16_t least_bucket;   // of those that take part
     uint32_t count;          // how many samples they shall have; 0: twice as many as they have
-    bool has_middles;        // a pixel's only sample is the ray through its middle: what goes on from there starts anew
-    bool is_middles;         // these rays
-    bool is_pilot;           // pixels that start are to say how good their middles were
+    float *corners;          // of the picture's pixels, rows of width + 1 colours; NULL: not kept any more
+    bool has_corners;        // a pixel with one sample has the mean of its corners: what goes on from there starts anew
+    bool draws_more;         // than the place in the pixel: for area lights or a lens
+    bool is_corners;         // these rays
+    bool is_pilot;           // pixels that start are to say how good their corners were
 } Round;
 
 enum { START_SAMPLES = 4 };
@@ -34,7 +36,7 @@ enum { START_SAMPLES = 4 };
 // Whether a pixel that has so many samples starts anew.
 static inline bool round_starts(const Round *round, uint32_t count)
 {
-    return round->has_middles && count == 1 && round->count == 0;
+    return round->has_corners && count == 1 && round->count == 0;
 }
 
 static inline bool round_has(const Round *round, size_t pixel)
@@ -45,8 +47,8 @@ static inline bool round_has(const Round *round, size_t pixel)
 // The samples that a pixel gets in a round.
 uint32_t round_samples(const Round *round, size_t pixel);
 
-// Traces the rays through the middles of a tile's pixels.
-void round_trace_middles(const Round *round, Tile tile, RenderStatistics *counted);
+// Traces the rays through the corners of pixels: a tile of the picture that these make.
+void round_trace_corners(const Round *round, Tile tile, RenderStatistics *counted);
 
 // Traces the samples of a tile's pixels.
 void round_trace(const Round *round, Tile tile, RenderStatistics *counted);
@@ -66,7 +68,8 @@ typedef struct Estimate {
     LevelSums levels[LEVELS];
     double ratio[LEVELS]; // by which variance is taken to fall when samples are doubled
     uint64_t samples;
-    // Of pixels that have their middle only, by sort: the sum of what they are taken to be off by, and its relative
+    double corners; // rays through them, which are in no pixel's count
+    // Of pixels that have their corners only, by sort: the sum of what they are taken to be off by, and its relative
     // variance.
     double sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
 } Estimate;
@@ -104,12 +107,12 @@ void near_take(Near *near, int y);
 
 // ---- sampling_pilot.c: what one ray a pixel is worth
 
-// Pixels have the ray through their middle, and are sorted by how much it differs from what its neighbours let expect.
+// Makes pixels from their corners, and sorts them by how much these differ from what those around let expect.
 // Of each square of pixels one is chosen by chance: those have buckets from PILOT_PROBE on, the others below.
 enum { PILOT_PROBE = 0x8000 };
-void pilot_sort(const Film *film, uint64_t seed, uint16_t *buckets, double *memory);
+void pilot_sort(const Round *round, uint16_t *buckets, double *memory);
 
-// When the chosen ones have started: what they differ from their middles by is taken for what those of their sort are
+// When the chosen ones have started: what they differ from their corners by is taken for what those of their sort are
 // off by.
 void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
 
@@ -118,19 +121,20 @@ void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
 // Pixels in classes of like priority, four for a factor of two: exponent and two bits of a float.
 enum { BUCKETS = 1020 };
 typedef struct Choice {
-    uint16_t *of_pixel;    // width * height; owned by the caller
-    double *memory;        // NEAR_ROWS * width; owned by the caller
-    double cost[BUCKETS], middle_cost[BUCKETS]; // samples that pixels get next; those that have their middle only
-    double middle_priority; // of such a pixel, over what it is off by
-    double spent;          // samples of the next round
-    double power;          // p: variances fall as n^-p
-    uint16_t least_bucket; // of the next round
+    uint16_t *of_pixel;                         // width * height; owned by the caller
+    double *memory;                             // NEAR_ROWS * width; owned by the caller
+    double cost[BUCKETS], corner_cost[BUCKETS]; // samples that pixels get next; those that have their corners only
+    double corner_priority;                     // of such a pixel, over what it is off by
+    double spent;                               // samples of the next round
+    double power;                               // p: variances fall as n^-p
+    uint16_t least_bucket;                      // of the next round
 } Choice;
 
 // Sorts all pixels and chooses the next round's.
 void choice_make(Choice *choice, const Estimate *estimate, const Round *round);
 
 // Samples in all that it takes to bring `high` to the target, predicted; 0 when it cannot be told.
-double choice_predict(const Choice *choice, const Estimate *estimate, const SamplingError *error, double target);
+double choice_predict(const Choice *choice, const Estimate *estimate, const Round *round, const SamplingError *error,
+                      double target);
 
 #endif

@@ -10,7 +10,8 @@
 
 #include "render/sampling.h"
 
-enum { BUCKET_FINE = 4, BUCKET_SHIFT = 21 }; // buckets for a factor of two; bits of a float below a bucket's
+enum { BUCKET_FINE = 4, BUCKET_SHIFT = 21 };    // buckets for a factor of two; bits of a float below a bucket's
+enum { SPREAD_SHIFT = 23, SPREAD_SORTS = 256 }; // by exponent
 
 // A round takes about this share of all samples taken before it: what a run may spend too much.
 static const double ROUND_SHARE = 0.25;
@@ -18,12 +19,15 @@ static const double ROUND_SHARE = 0.25;
 // Where nothing has been seen, something may be: of the mean of all pixels.
 static const double PRIORITY_FLOOR = 1e-3;
 
+// For how many pixels' own constants the mean of those counts that have a like spread.
+static const double SORT_COUNT = 2.0;
+
 // As many samples as the neighbours of a pixel count for.
 static const double NEIGHBOURS_COUNT = 8.0;
 
-// What is predicted is taken between what was seen, which is told with caution, and what hard edges mostly have; the
-// interval gets narrower on the way, to this power of its width now. Measured.
-static const double USUAL_POWER = 1.4, WIDTH_POWER = 0.7;
+// What is predicted is taken between what was seen, which is told with caution, and what hard edges mostly have, or
+// points of more dimensions; the interval gets narrower on the way, to this power of its width now. Measured.
+static const double USUAL_POWER = 1.5, INDEPENDENT_POWER = 1.0, WIDTH_POWER = 0.7;
 
 static double mean_log_ratio(const Estimate *estimate)
 {
@@ -38,13 +42,19 @@ static double mean_log_ratio(const Estimate *estimate)
 // The middle of a bucket.
 static double bucket_priority(int bucket)
 {
-    union { uint32_t bits; float value; } number = {.bits = (uint32_t)bucket << BUCKET_SHIFT | 1u << (BUCKET_SHIFT - 1)};
+    union {
+        uint32_t bits;
+        float value;
+    } number = {.bits = (uint32_t)bucket << BUCKET_SHIFT | 1u << (BUCKET_SHIFT - 1)};
     return (double)number.value;
 }
 
 static inline uint16_t bucket_of(double priority)
 {
-    union { float value; uint32_t bits; } number = {.value = (float)priority};
+    union {
+        float value;
+        uint32_t bits;
+    } number = {.value = (float)priority};
     uint32_t bucket = number.bits >> BUCKET_SHIFT;
     return (uint16_t)(bucket < BUCKETS ? bucket : BUCKETS - 1);
 }
@@ -53,7 +63,43 @@ static inline uint16_t bucket_of(double priority)
 typedef struct Constants {
     double to_constant[LEVELS], to_priority[LEVELS]; // by level: counts are powers of two
     double floor;
+    double of_sort[SPREAD_SORTS]; // the mean constant of pixels with such a spread
 } Constants;
+
+static inline int spread_sort(float spread)
+{
+    union {
+        float value;
+        uint32_t bits;
+    } number = {.value = spread};
+    return (int)(number.bits >> SPREAD_SHIFT);
+}
+
+static void sorts_init(Constants *constants, const Film *film)
+{
+    double sums[SPREAD_SORTS] = {0.0}, counts[SPREAD_SORTS] = {0.0};
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    for (size_t i = 0; i < pixels; i++) {
+        const PixelRecord *record = &film->records[i];
+        if (record->count > 1) {
+            int sort = spread_sort(record->spread);
+            sums[sort] += record->inner * constants->to_constant[estimate_level(record->count)];
+            counts[sort]++;
+        }
+    }
+    for (int i = 0; i < SPREAD_SORTS; i++) {
+        constants->of_sort[i] = counts[i] > 0.0 ? sums[i] / counts[i] : 0.0;
+    }
+}
+
+static double constant_of(const Constants *constants, const PixelRecord *record)
+{
+    double own = record->inner * constants->to_constant[estimate_level(record->count)];
+    if (record->count == 1) {
+        return own;
+    }
+    return (SORT_COUNT * constants->of_sort[spread_sort(record->spread)] + own) / (SORT_COUNT + 1.0);
+}
 
 static void constants_init(Constants *constants, const Estimate *estimate, double pixels, double power)
 {
@@ -75,14 +121,14 @@ static void choose_row(Choice *choice, const Constants *constants, const Round *
         size_t pixel = begin + (size_t)x;
         const PixelRecord *record = &round->film->records[pixel];
         int level = estimate_level(record->count);
-        double count = record->count, own = record->inner * constants->to_constant[level];
+        double count = record->count, own = constant_of(constants, record);
         double constant = (NEIGHBOURS_COUNT * near[x] + count * own) / (NEIGHBOURS_COUNT + count);
         constant = constant > constants->floor ? constant : constants->floor;
         bool is_full = record->count > UINT32_MAX / 4;
         uint16_t bucket = is_full ? 0 : bucket_of(constant * constants->to_priority[level]);
         choice->of_pixel[pixel] = bucket;
         if (round_starts(round, record->count)) {
-            choice->middle_cost[bucket] += START_SAMPLES;
+            choice->corner_cost[bucket] += START_SAMPLES;
         } else {
             choice->cost[bucket] += count;
         }
@@ -91,7 +137,7 @@ static void choose_row(Choice *choice, const Constants *constants, const Round *
 
 static double choice_cost(const Choice *choice, int bucket)
 {
-    return choice->cost[bucket] + choice->middle_cost[bucket];
+    return choice->cost[bucket] + choice->corner_cost[bucket];
 }
 
 void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
@@ -101,21 +147,22 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
     double spent = 0.0;
     choice->power = mean_log_ratio(estimate);
     constants_init(&constants, estimate, (double)film->width * film->height, choice->power);
-    choice->middle_priority = 1.0;
-    if (round->has_middles) {
-        // Of a middle that is followed by START_SAMPLES, as of samples that are doubled.
+    sorts_init(&constants, film);
+    choice->corner_priority = 1.0;
+    if (round->has_corners) {
+        // Of corners that are followed by START_SAMPLES, as of samples that are doubled.
         double left = exp2(-choice->power);
-        choice->middle_priority = (1.0 - left * left) / (START_SAMPLES * (1.0 - left));
-        constants.to_priority[0] = choice->middle_priority;
+        choice->corner_priority = (1.0 - left * left) / (START_SAMPLES * (1.0 - left));
+        constants.to_priority[0] = choice->corner_priority;
     }
     for (int i = 0; i < BUCKETS; i++) {
-        choice->cost[i] = choice->middle_cost[i] = 0.0;
+        choice->cost[i] = choice->corner_cost[i] = 0.0;
     }
     Near near = near_begin(choice->memory, film->width, film->height);
     for (int y = 0; y <= film->height; y++) {
         const PixelRecord *record = &film->records[(size_t)y * (size_t)film->width];
         for (int x = 0; y < film->height && x < film->width; x++) {
-            near.values[x] = record[x].inner * constants.to_constant[estimate_level(record[x].count)];
+            near.values[x] = constant_of(&constants, &record[x]);
         }
         near_give(&near, y);
         if (y > 0) {
@@ -124,7 +171,8 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
         }
     }
     int least = BUCKETS;
-    while (least > 1 && (spent == 0.0 || spent + choice_cost(choice, least - 1) <= ROUND_SHARE * (double)estimate->samples)) {
+    while (least > 1 &&
+           (spent == 0.0 || spent + choice_cost(choice, least - 1) <= ROUND_SHARE * (double)estimate->samples)) {
         spent += choice_cost(choice, --least);
     }
     choice->least_bucket = (uint16_t)least;
@@ -160,23 +208,25 @@ static double play_bucket(Play *from, Play *to, int bucket, int fall, double tim
     return cost;
 }
 
-double choice_predict(const Choice *choice, const Estimate *estimate, const SamplingError *error, double target)
+double choice_predict(const Choice *choice, const Estimate *estimate, const Round *round, const SamplingError *error,
+                      double target)
 {
-    Play middles, others;
-    double samples = (double)estimate->samples, power = 0.5 * (choice->power + USUAL_POWER);
-    // Of middles, priority is the error times this, for each sample that they start with.
-    double middle_scale = 1.0 / (START_SAMPLES * choice->middle_priority);
-    double known = play_begin(&middles, choice->middle_cost, middle_scale);
+    Play corners, others;
+    double samples = (double)estimate->samples, usual = round->draws_more ? INDEPENDENT_POWER : USUAL_POWER;
+    double power = 0.5 * (choice->power + usual);
+    // Of corners, priority is the error times this, for each sample that they start with.
+    double corner_scale = 1.0 / (START_SAMPLES * choice->corner_priority);
+    double known = play_begin(&corners, choice->corner_cost, corner_scale);
     known += play_begin(&others, choice->cost, 1.0);
     // In units of what is known now.
     double high = error->rmse * pow(error->high / error->rmse, WIDTH_POWER);
     double goal = known * (target / high) * (target / high), share = exp2(-power);
     int fall = (int)lround(BUCKET_FINE * (power + 1.0));
-    int middle_fall = (int)lround(BUCKET_FINE * (2.0 * (power + 1.0) + log2(choice->middle_priority)));
-    for (int least = BUCKETS - 1; middles.known + others.known > goal && least > 2 * fall; least--) {
-        samples += play_bucket(&middles, &others, least, middle_fall, 1.0, share * share);
+    int corner_fall = (int)lround(BUCKET_FINE * (2.0 * (power + 1.0) + log2(choice->corner_priority)));
+    for (int least = BUCKETS - 1; corners.known + others.known > goal && least > 2 * fall; least--) {
+        samples += play_bucket(&corners, &others, least, corner_fall, 1.0, share * share);
         samples += play_bucket(&others, &others, least, fall, 2.0, share);
     }
-    bool is_enough = middles.known + others.known <= goal;
+    bool is_enough = corners.known + others.known <= goal;
     return is_enough ? samples * (1.0 + 0.5 * ROUND_SHARE) : 0.0; // the last round goes beyond
 }

@@ -1,9 +1,10 @@
 // What a picture of one ray a pixel is worth, where, from a few pixels that get more.
 //
-// A ray through the middle of a pixel is off by little where light is even, and by much where an edge goes through.
-// Pixels are sorted by how far they are from a straight line between their neighbours, near and pooled. In each square
-// of pixels one, chosen by chance, starts with samples of its own; how far those are from the middles tells what each
-// sort is off by in the mean, without regard to why. docs/sampling.md, "Adaptive sampling".
+// Turns the light at the corners of pixels into pixels: by parabolas through the corners, which are off by little where
+// light is even, and by much where an edge goes through. Pixels are sorted by how much more their corners differ than
+// those around. In each square of pixels one, chosen by chance, starts with samples of its own; how far those are from
+// what the corners gave tells what each sort is off by in the mean, without regard to why. docs/sampling.md, "Adaptive
+// sampling".
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -16,32 +17,73 @@ enum {
     PROBES_LEAST = 12, // of a sort, or of sorts that are taken together
 };
 
-// The square of how far the pixels of a row are from the mean of the two beside them, or of those above and below,
-// whichever is more.
-static void bends(const Film *film, int y, double *squares)
+// Four places in a row, of which the two in the middle are corners of a pixel; where the first or the last is beyond
+// the picture, it is NULL.
+typedef struct Side {
+    float bend; // what the mean along it is over that of its ends, where light is even: by a parabola
+    float jump; // by how much its ends differ more than those of the sides before and after
+} Side;
+
+static inline float least(float a, float b)
 {
-    const size_t step = 3 * (size_t)film->width;
-    const float *row = &film->rgb[(size_t)y * step];
-    bool has_rows = y > 0 && y < film->height - 1;
+    return a < b ? a : b;
+}
+
+static inline float most(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static inline Side side_make(const float *before, const float *first, const float *second, const float *after)
+{
+    float own = *second - *first;
+    float next = after ? *after - *second : 0.0f, last = before ? *first - *before : next;
+    next = after ? next : last;
+    float a = last - own, b = own - next;
+    float bend = a > 0.0f ? most(least(a, b), 0.0f) : least(most(a, b), 0.0f);
+    float middle = most(least(last, own), least(most(last, own), next));
+    return (Side){bend / 12.0f, own - middle};
+}
+
+// A pixel from its corners, and the square of its jumps.
+static inline float pixel_make(const Film *film, const float *corner, int x, int y, float value[3])
+{
+    const ptrdiff_t across = 3, down = 3 * ((ptrdiff_t)film->width + 1);
+    bool left = x > 0, right = x<film->width - 1, above = y> 0, below = y < film->height - 1;
+    float jumps = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        const float *a = corner + i, *b = a + across, *c = a + down, *d = c + across;
+        Side sides[4] = {side_make(left ? a - across : NULL, a, b, right ? b + across : NULL),
+                         side_make(left ? c - across : NULL, c, d, right ? d + across : NULL),
+                         side_make(above ? a - down : NULL, a, c, below ? c + down : NULL),
+                         side_make(above ? b - down : NULL, b, d, below ? d + down : NULL)};
+        value[i] = 0.25f * (*a + *b + *c + *d);
+        for (int j = 0; j < 4; j++) {
+            value[i] += 0.5f * sides[j].bend;
+            jumps += sides[j].jump * sides[j].jump;
+        }
+    }
+    return jumps;
+}
+
+static void row_make(const Round *round, int y)
+{
+    const Film *film = round->film;
+    size_t begin = (size_t)y * (size_t)film->width;
     for (int x = 0; x < film->width; x++) {
-        const float *middle = row + 3 * (size_t)x;
-        float across = 0.0f, down = 0.0f;
-        for (int i = 0; i < 3 && x > 0 && x < film->width - 1; i++) {
-            float apart = middle[i] - 0.5f * (middle[i - 3] + middle[i + 3]);
-            across += apart * apart;
-        }
-        for (int i = 0; i < 3 && has_rows; i++) {
-            float apart = middle[i] - 0.5f * (*(middle + i - step) + *(middle + i + step));
-            down += apart * apart;
-        }
-        squares[x] = (double)(across > down ? across : down);
+        const float *corner = &round->corners[3 * (begin + (size_t)y + (size_t)x)];
+        float jumps = pixel_make(film, corner, x, y, &film->rgb[3 * (begin + (size_t)x)]);
+        film->records[begin + (size_t)x] = (PixelRecord){.count = 1, .inner = jumps};
     }
 }
 
 // By its exponent.
 static inline uint16_t sort_of(float square)
 {
-    union { float value; uint32_t bits; } number = {.value = square};
+    union {
+        float value;
+        uint32_t bits;
+    } number = {.value = square};
     int sort = ((int)(number.bits >> 23) - 127) / 2 + SORT_MIDDLE;
     return (uint16_t)(sort < 0 ? 0 : sort >= PILOT_SORTS ? PILOT_SORTS - 1 : sort);
 }
@@ -61,27 +103,34 @@ static void probes_choose(const Film *film, uint64_t seed, uint16_t *buckets)
     }
 }
 
-void pilot_sort(const Film *film, uint64_t seed, uint16_t *buckets, double *memory)
+void pilot_sort(const Round *round, uint16_t *buckets, double *memory)
 {
+    const double of_near = 1.0 / 64.0;
+    const Film *film = round->film;
     Near near = near_begin(memory, film->width, film->height);
     for (int y = 0; y <= film->height; y++) {
+        size_t begin = (size_t)y * (size_t)film->width;
         if (y < film->height) {
-            bends(film, y, near.values);
+            row_make(round, y);
+        }
+        for (int x = 0; y < film->height && x < film->width; x++) {
+            near.values[x] = (double)film->records[begin + (size_t)x].inner;
         }
         near_give(&near, y);
         if (y > 0) {
             near_take(&near, y - 1);
+            begin -= (size_t)film->width;
             for (int x = 0; x < film->width; x++) {
-                uint16_t sort = sort_of((float)near.values[x]);
-                buckets[(size_t)(y - 1) * (size_t)film->width + (size_t)x] = sort;
+                size_t pixel = begin + (size_t)x;
+                buckets[pixel] = sort_of(film->records[pixel].inner + (float)(of_near * near.values[x]));
             }
         }
     }
-    probes_choose(film, seed, buckets);
+    probes_choose(film, round->sampling->seed, buckets);
 }
 
-// What the probes of a sort were off by: the square of the distance of the middle from the mean of the samples, less
-// what the latter are off by themselves, at the most.
+// What the probes of a sort were off by: the square of the distance of what the corners gave from the mean of the
+// samples, less what the latter are off by themselves, at the most.
 typedef struct Sort {
     double count, sum, squares;
 } Sort;

@@ -9,12 +9,13 @@
 
 enum { TILE_PIXELS = TILE_SIZE * TILE_SIZE };
 
-// So that rays through middles draw other numbers than the samples of their pixel.
-static const uint32_t MIDDLE_SEED = UINT32_C(0x9e3779b9);
+// So that rays through corners draw other numbers than the samples of their pixel.
+static const uint32_t CORNER_SEED = UINT32_C(0x9e3779b9);
 
 // Sums over the halves of a pixel's new samples; over their quarters where the pixel starts.
 typedef struct Parts {
     Rgb sum[START_SAMPLES];
+    Rgb squares; // over all
 } Parts;
 
 // Samples on their way through the kernel.
@@ -23,7 +24,7 @@ typedef struct Batch {
     Vec3 lens[KERNEL_RAYS];
     SampleStream streams[KERNEL_RAYS];
     double weights[KERNEL_RAYS];
-    Rgb *sums[KERNEL_RAYS];
+    Rgb *sums[KERNEL_RAYS], *squares[KERNEL_RAYS];
     Rgb light[KERNEL_RAYS];
     int count;
     bool draws; // whether anything but the place in the pixel is drawn from the streams
@@ -34,6 +35,7 @@ typedef struct Chosen {
     int x, y;
     size_t index;
     uint32_t count; // samples that it gets
+    bool starts;    // anew
 } Chosen;
 
 uint32_t round_samples(const Round *round, size_t pixel)
@@ -74,15 +76,20 @@ static void batch_flush(const Round *round, Batch *batch, RenderStatistics *coun
     uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
     batch_trace(round, batch, wanted, counted);
     for (int i = 0; i < batch->count; i++) {
-        *batch->sums[i] = rgb_add_scaled(*batch->sums[i], batch->weights[i], batch->light[i]);
+        Rgb light = rgb_scale(batch->weights[i], batch->light[i]);
+        *batch->sums[i] = rgb_add(*batch->sums[i], light);
+        if (round->sampling->is_adaptive) {
+            *batch->squares[i] = rgb_add(*batch->squares[i], rgb_mul(light, light));
+        }
     }
     batch->count = 0;
 }
 
-// Some samples of a pixel, for one sum, or for a sum each; there is room for them. `stream` is that of the first.
-static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, const SampleStream *stream,
-                      uint32_t count, Rgb *sum, bool has_sums)
+// Some samples of a pixel; there is room for them. `stream` is that of the first, which is `begin` among the new ones.
+static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, const SampleStream *stream, uint32_t begin,
+                      uint32_t count, Parts *parts)
 {
+    uint32_t half = (pixel->count + 1) / 2;
     const Film *film = round->film;
     SamplePoint places[KERNEL_RAYS];
     bool is_box = round->filter.kind == FILTER_BOX;
@@ -94,7 +101,8 @@ static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, con
         batch->places.u[i] = film_u(film, pixel->x, at.x);
         batch->places.v[i] = film_v(film, pixel->y, at.y);
         batch->weights[i] = at.weight;
-        batch->sums[i] = has_sums ? sum + j : sum;
+        batch->sums[i] = &parts->sum[pixel->starts ? begin + j : begin + j >= half];
+        batch->squares[i] = &parts->squares;
         if (!batch->draws) {
             continue;
         }
@@ -115,20 +123,15 @@ static uint32_t pixel_seed(const Round *round, int x, int y)
 
 static void pixel_add(const Round *round, Batch *batch, const Chosen *pixel, Parts *parts, RenderStatistics *counted)
 {
-    uint32_t had = round->film->records[pixel->index].count, count = pixel->count;
-    bool starts = round_starts(round, had);
-    uint32_t before = starts ? 0 : had;
-    SampleStream stream = {
-        .kind = round->sampling->sampler,
-        .seed = pixel_seed(round, pixel->x, pixel->y),
-        .first = before,
-        .count = count};
+    uint32_t before = pixel->starts ? 0 : round->film->records[pixel->index].count, count = pixel->count;
+    SampleStream stream = {.kind = round->sampling->sampler,
+                           .seed = pixel_seed(round, pixel->x, pixel->y),
+                           .first = before,
+                           .count = count};
     for (uint32_t i = 0; i < count;) {
-        uint32_t half = (count + 1) / 2, room = (uint32_t)(KERNEL_RAYS - batch->count);
-        uint32_t part = starts ? i : i >= half, end = !starts && i < half ? half : count;
-        uint32_t some = end - i < room ? end - i : room;
+        uint32_t room = (uint32_t)(KERNEL_RAYS - batch->count), some = count - i < room ? count - i : room;
         stream.index = before + i;
-        batch_add(round, batch, pixel, &stream, some, &parts->sum[part], starts);
+        batch_add(round, batch, pixel, &stream, i, some, parts);
         if (batch->count == KERNEL_RAYS) {
             batch_flush(round, batch, counted);
         }
@@ -136,12 +139,17 @@ static void pixel_add(const Round *round, Batch *batch, const Chosen *pixel, Par
     }
 }
 
-// Of two sets of samples, `a` and `b` in number: see PixelRecord. The slope is that of linear light at the pixel.
-static inline float square_apart(Rgb difference, Rgb slope, double a, double b)
+// What goes from the difference of two sets of samples, `a` and `b` in number, to its square in a PixelRecord.
+static inline double apart_factor(double a, double b)
 {
-    double red = difference.red * slope.red, green = difference.green * slope.green;
-    double blue = difference.blue * slope.blue;
-    return (float)(a * b / (3.0 * (a + b) * (a + b)) * (red * red + green * green + blue * blue));
+    return a * b / (3.0 * (a + b) * (a + b));
+}
+
+// The slope is that of linear light at the pixel; NULL: 1.
+static inline float square_apart(Rgb difference, const Rgb *slope, double factor)
+{
+    Rgb d = slope ? rgb_mul(difference, *slope) : difference;
+    return (float)(factor * (d.red * d.red + d.green * d.green + d.blue * d.blue));
 }
 
 static void value_put(float *value, Rgb light)
@@ -151,56 +159,111 @@ static void value_put(float *value, Rgb light)
     value[2] = (float)light.blue;
 }
 
-// A pixel that had the ray through its middle only, which is left out of its mean. How far the two are apart is kept
-// for sampling_pilot.c.
+// The spread of new samples.
+static inline double spread_of(const Parts *parts, Rgb mean, const Rgb *slope, double count)
+{
+    Rgb square = rgb_add_scaled(rgb_scale(1.0 / count, parts->squares), -1.0, rgb_mul(mean, mean));
+    Rgb own = slope ? rgb_mul(square, rgb_mul(*slope, *slope)) : square;
+    double sum = own.red + own.green + own.blue;
+    return sum > 0.0 ? sum / 3.0 : 0.0;
+}
+
+// The slope at a pixel, kept in `place`; NULL where there is none.
+static inline const Rgb *slope_at(const Round *round, const float *value, Rgb *place)
+{
+    const Settings *settings = &round->prepared->scene->settings;
+    if (!linear_is_needed(settings)) {
+        return NULL;
+    }
+    *place = linear_slope(settings, value);
+    return place;
+}
+
+// A pixel that had its corners only, which are left out of its mean. How far the two are apart is kept for
+// sampling_pilot.c.
 static void pixel_start(const Round *round, size_t pixel, const Parts *parts)
 {
     PixelRecord *record = &round->film->records[pixel];
     float *value = &round->film->rgb[3 * pixel];
     const Rgb *sum = parts->sum;
-    Rgb middle = rgb(value[0], value[1], value[2]);
+    const double alike = apart_factor(1.0, 1.0);
+    Rgb before = rgb(value[0], value[1], value[2]), place;
     Rgb halves[2] = {rgb_scale(0.5, rgb_add(sum[0], sum[1])), rgb_scale(0.5, rgb_add(sum[2], sum[3]))};
     Rgb mean = rgb_scale(0.5, rgb_add(halves[0], halves[1]));
     value_put(value, mean);
-    Rgb slope = linear_slope(&round->prepared->scene->settings, value);
-    float first = square_apart(rgb_add_scaled(sum[0], -1.0, sum[1]), slope, 1.0, 1.0);
-    float second = square_apart(rgb_add_scaled(sum[2], -1.0, sum[3]), slope, 1.0, 1.0);
-    *record = (PixelRecord){
-        .count = START_SAMPLES,
-        .outer = square_apart(rgb_add_scaled(halves[0], -1.0, halves[1]), slope, 2.0, 2.0),
-        .inner = 0.5f * (first + second),
-        .fresh = round->is_pilot ? 4.0f * square_apart(rgb_add_scaled(middle, -1.0, mean), slope, 1.0, 1.0) : second};
+    const Rgb *slope = slope_at(round, value, &place);
+    float first = square_apart(rgb_add_scaled(sum[0], -1.0, sum[1]), slope, alike);
+    float second = square_apart(rgb_add_scaled(sum[2], -1.0, sum[3]), slope, alike);
+    float off = square_apart(rgb_add_scaled(before, -1.0, mean), slope, 1.0 / 3.0);
+    *record = (PixelRecord){.count = START_SAMPLES,
+                            .outer = square_apart(rgb_add_scaled(halves[0], -1.0, halves[1]), slope, alike),
+                            .inner = 0.5f * (first + second),
+                            .fresh = round->is_pilot ? off : second,
+                            .spread = (float)spread_of(parts, mean, slope, START_SAMPLES)};
 }
 
-static void pixel_finish(const Round *round, size_t pixel, uint32_t count, const Parts *parts)
+// What goes for all pixels that get so many samples.
+typedef struct Shares {
+    uint32_t before, count;
+    double of_new, of_old, of_mean; // of a sum of samples, of the old mean and of the new one
+    double first, second;           // of the sums of halves
+    double fresh, outer;            // apart_factor
+} Shares;
+
+static void shares_set(Shares *shares, uint32_t had, uint32_t count)
+{
+    double first = (count + 1) / 2, second = count / 2, before = had, now = before + count;
+    *shares = (Shares){.before = had,
+                       .count = count,
+                       .of_new = 1.0 / count,
+                       .of_old = before / now,
+                       .of_mean = count / now,
+                       .first = 1.0 / first,
+                       .second = second > 0.0 ? 1.0 / second : 0.0,
+                       .fresh = apart_factor(first, second),
+                       .outer = apart_factor(before, count)};
+}
+
+// What the samples of a pixel say of its error; `old` and `mean` are the means of those that it had and of the new.
+static inline void pixel_judge(const Round *round, const Shares *shares, size_t pixel, const Parts *parts, Rgb old,
+                               Rgb mean)
 {
     PixelRecord *record = &round->film->records[pixel];
+    Rgb place;
+    const Rgb *slope = slope_at(round, &round->film->rgb[3 * pixel], &place);
+    Rgb apart = rgb_add_scaled(rgb_scale(shares->first, parts->sum[0]), -shares->second, parts->sum[1]);
+    float fresh = square_apart(apart, slope, shares->fresh), outer = fresh, inner = 0.0f;
+    if (shares->before > 0) {
+        inner = 0.5f * (record->outer + fresh);
+        outer = square_apart(rgb_add_scaled(old, -1.0, mean), slope, shares->outer);
+    }
+    if (round->sampling->is_adaptive) {
+        double spread = spread_of(parts, mean, slope, shares->count);
+        record->spread = (float)(shares->of_old * record->spread + shares->of_mean * spread) + outer;
+    }
+    record->fresh = fresh;
+    record->inner = inner;
+    record->outer = outer;
+}
+
+static inline void pixel_finish(const Round *round, Shares *shares, const Chosen *chosen, const Parts *parts)
+{
+    size_t pixel = chosen->index;
+    PixelRecord *record = &round->film->records[pixel];
     float *value = &round->film->rgb[3 * pixel];
-    double first = (count + 1) / 2, second = count / 2, before = record->count, now = before + count;
-    if (round_starts(round, record->count)) {
+    if (chosen->starts) {
         pixel_start(round, pixel, parts);
         return;
     }
-    Rgb mean = rgb_scale(1.0 / count, rgb_add(parts->sum[0], parts->sum[1]));
+    if (shares->before != record->count || shares->count != chosen->count) {
+        shares_set(shares, record->count, chosen->count);
+    }
+    Rgb mean = rgb_scale(shares->of_new, rgb_add(parts->sum[0], parts->sum[1]));
     Rgb old = rgb(value[0], value[1], value[2]);
-    Rgb all = rgb_add(rgb_scale(before / now, old), rgb_scale(count / now, mean));
-    value_put(value, all);
-    record->count += count;
-    if (round->sampling->has_no_estimate) {
-        return;
-    }
-    Rgb slope = linear_slope(&round->prepared->scene->settings, value);
-    record->fresh = 0.0f;
-    if (second > 0.0) {
-        Rgb apart = rgb_add_scaled(rgb_scale(1.0 / first, parts->sum[0]), -1.0 / second, parts->sum[1]);
-        record->fresh = square_apart(apart, slope, first, second);
-    }
-    if (before > 0.0) {
-        record->inner = 0.5f * (record->outer + record->fresh);
-        record->outer = square_apart(rgb_add_scaled(old, -1.0, mean), slope, before, count);
-    } else {
-        record->inner = 0.0f;
-        record->outer = record->fresh;
+    value_put(value, rgb_add(rgb_scale(shares->of_old, old), rgb_scale(shares->of_mean, mean)));
+    record->count += chosen->count;
+    if (!round->sampling->has_no_estimate) {
+        pixel_judge(round, shares, pixel, parts, old, mean);
     }
 }
 
@@ -212,7 +275,8 @@ static Chosen *block_choose(const Round *round, Tile block, Chosen *chosen)
         for (int x = block.left; x < block.right; x++) {
             uint32_t count = round_samples(round, begin + (size_t)x);
             if (count > 0) {
-                *chosen++ = (Chosen){x, y, begin + (size_t)x, count};
+                uint32_t had = round->film->records[begin + (size_t)x].count;
+                *chosen++ = (Chosen){x, y, begin + (size_t)x, count, round_starts(round, had)};
             }
         }
     }
@@ -223,6 +287,7 @@ void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
 {
     Chosen chosen[TILE_PIXELS], *end = chosen;
     Parts parts[TILE_PIXELS];
+    Shares shares = {0};
     Batch batch;
     batch_init(&batch, round->prepared);
     // Blocks of pixels, so that rays of one call stay near each other.
@@ -235,30 +300,28 @@ void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
     }
     for (const Chosen *pixel = chosen; pixel < end; pixel++) {
         Parts *sums = &parts[pixel - chosen];
-        *sums = (Parts){{rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0)}};
+        *sums = (Parts){.squares = rgb_grey(0.0)};
         pixel_add(round, &batch, pixel, sums, counted);
     }
     batch_flush(round, &batch, counted);
     for (const Chosen *pixel = chosen; pixel < end; pixel++) {
-        pixel_finish(round, pixel->index, pixel->count, &parts[pixel - chosen]);
+        pixel_finish(round, &shares, pixel, &parts[pixel - chosen]);
     }
 }
 
-// The middles of a block of pixels; where it is cut off, its last ones are traced again.
-static void block_middles(const Round *round, Tile block, Batch *batch, RenderStatistics *counted)
+// The corners of a block; where it is cut off, its last ones are traced again.
+static void block_corners(const Round *round, Tile block, Batch *batch, RenderStatistics *counted)
 {
     const Film *film = round->film;
     for (int i = 0; i < KERNEL_RAYS; i++) {
         int x = block.left + i % KERNEL_ROW, y = block.top + i / KERNEL_ROW;
         x = x < block.right ? x : block.right - 1;
         y = y < block.bottom ? y : block.bottom - 1;
-        batch->places.u[i] = film_u(film, x, 0.0);
-        batch->places.v[i] = film_v(film, y, 0.0);
+        batch->places.u[i] = film_u(film, x, -0.5);
+        batch->places.v[i] = film_v(film, y, -0.5);
         if (batch->draws) {
-            batch->streams[i] = (SampleStream){.kind = round->sampling->sampler,
-                                               .seed = pixel_seed(round, x, y) ^ MIDDLE_SEED,
-                                               .count = 1,
-                                               .pair = 1};
+            batch->streams[i] = (SampleStream){
+                .kind = round->sampling->sampler, .seed = pixel_seed(round, x, y) ^ CORNER_SEED, .count = 1, .pair = 1};
         }
         if (batch->places.lens) {
             batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&batch->streams[i]));
@@ -272,13 +335,11 @@ static void block_middles(const Round *round, Tile block, Batch *batch, RenderSt
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
         size_t y = (size_t)(block.top + i / KERNEL_ROW), x = (size_t)(block.left + i % KERNEL_ROW);
-        size_t pixel = y * (size_t)film->width + x;
-        value_put(&film->rgb[3 * pixel], batch->light[i]);
-        film->records[pixel] = (PixelRecord){.count = 1};
+        value_put(&round->corners[3 * (y * ((size_t)film->width + 1) + x)], batch->light[i]);
     }
 }
 
-void round_trace_middles(const Round *round, Tile tile, RenderStatistics *counted)
+void round_trace_corners(const Round *round, Tile tile, RenderStatistics *counted)
 {
     Batch batch;
     batch_init(&batch, round->prepared);
@@ -286,7 +347,7 @@ void round_trace_middles(const Round *round, Tile tile, RenderStatistics *counte
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
             Tile block = {left, top, left + KERNEL_ROW < tile.right ? left + KERNEL_ROW : tile.right,
                           top + KERNEL_ROW < tile.bottom ? top + KERNEL_ROW : tile.bottom};
-            block_middles(round, block, &batch, counted);
+            block_corners(round, block, &batch, counted);
         }
     }
 }

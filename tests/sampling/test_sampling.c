@@ -120,8 +120,8 @@ static void test_even(void)
         picture_free(picture);
     }
     double share = sqrt(square) / picture_rmse(four, reference);
-    tap_ok(samples < 3.0 && share < 0.5, "even light: %.2f samples a pixel have %.2f of the error of four alike", samples,
-           share);
+    tap_ok(samples < 3.0 && share < 0.5, "even light: %.2f samples a pixel have %.2f of the error of four alike",
+           samples, share);
     tap_ok(held >= 8, "even light: the interval holds the error in %d of %d runs", held, SEEDS);
     picture_free(reference);
     picture_free(four);
