@@ -24,6 +24,7 @@ typedef struct TileBeam {
     uint64_t rough; // the rays whose roots are to be refined yet
     RayCone cone;
     bool has_rows; // whether the cones of the rows are known; many tiles meet nothing
+    bool has_news; // hits came nearer since the limit was taken
     _Alignas(64) double row_axis[3][ROWS];
     _Alignas(64) double row_spread[ROWS];
 } TileBeam;
@@ -173,6 +174,7 @@ static void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, dou
     }
     nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_doubtful, &nearest);
     tile_hit_set(hits, i, &nearest.hit);
+    beam->has_news = true;
     beam->rough = (beam->rough & ~bit) | (nearest.is_rough ? bit : 0);
 }
 
@@ -196,6 +198,7 @@ static void beam_sphere(TileBeam *beam, uint32_t slot)
         uint64_t nearest = (uint64_t)row.nearest << begin;
         hits->inside = sphere.c < 0.0 ? hits->inside | nearest : hits->inside & ~nearest;
         beam->rough |= nearest;
+        beam->has_news |= nearest != 0;
         hits->met |= nearest;
         for (; row.nearest; row.nearest &= row.nearest - 1) {
             unsigned i = (unsigned)__builtin_ctz(row.nearest);
@@ -331,8 +334,11 @@ static bool beam_tree(TileBeam *beam)
     }
     float limit = bvh_walk_limit(&walk, beam_limit(beam));
     while (bvh_walk_next(&walk, limit, &leaf)) {
+        beam->has_news = false;
         beam_block(beam, leaf & ~BVH_LEAF);
-        limit = bvh_walk_limit(&walk, beam_limit(beam));
+        if (beam->has_news) {
+            limit = bvh_walk_limit(&walk, beam_limit(beam));
+        }
     }
     return true;
 }
@@ -340,8 +346,14 @@ static bool beam_tree(TileBeam *beam)
 static bool tile_closest(const SphereTable *table, const SphereTile *tile, TileHits *hits)
 {
     enum { MIDDLE = TILE_RAYS / 2 - TILE_ROW / 2 };
-    TileBeam beam = {.table = table, .tile = tile, .hits = hits};
+    TileBeam beam; // not cleared as a whole: rows are set when they are asked for
+    beam.table = table;
+    beam.tile = tile;
+    beam.hits = hits;
+    beam.rough = 0;
+    beam.has_rows = beam.has_news = false;
     beam.cone.origin = tile->origin;
+    beam.cone.aside = 0.0;
     beam.cone.axis = tile_between(tile, MIDDLE - 1, MIDDLE + TILE_ROW);
     beam.cone.spread = cone_spread(tile->direction, 0, TILE_RAYS, beam.cone.axis);
     if (!(beam.cone.spread < 0.5)) {
