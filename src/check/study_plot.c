@@ -5,7 +5,10 @@
 
 #include "check/study_print.h"
 
-enum { WIDTH = 860, HEIGHT = 520, LEFT = 70, RIGHT = 220, TOP = 20, BOTTOM = 50 };
+enum { WIDTH = 920, HEIGHT = 520, LEFT = 70, RIGHT = 280, TOP = 20, BOTTOM = 50 };
+
+// Where the list of methods begins, beside the slopes of the guides.
+enum { LIST = WIDTH - RIGHT + 40 };
 
 typedef struct Scale {
     double low_x, high_x, low_y, high_y; // decimal logarithms
@@ -123,8 +126,7 @@ static void print_guide(FILE *out, const Study *study, const Scale *scale, doubl
         reach = scale->low_y;
     }
     print_line(out, place_x(scale, first->seconds), place_y(scale, first->rmse), place_x(scale, end),
-               place_y(scale, pow(10.0, reach)),
-               "stroke: currentColor; stroke-opacity: 0.5; stroke-dasharray: 3 4");
+               place_y(scale, pow(10.0, reach)), "stroke: currentColor; stroke-opacity: 0.5; stroke-dasharray: 3 4");
     fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" fill-opacity=\"0.7\">%g</text>\n", place_x(scale, end) + 3,
             place_y(scale, pow(10.0, reach)) - 3, slope);
 }
@@ -134,8 +136,8 @@ static void print_method(FILE *out, const Study *study, const Scale *scale, int 
     const StudyMethod *method = &study->methods[number];
     const char *dash = looks[method->kind].dash, *mark = looks[method->kind].mark, *colour = colour_of(study, number);
 
-    fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\" points=\"",
-            colour, dash);
+    fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\" points=\"", colour,
+            dash);
     for (int i = 0; i < method->count; i++) {
         if (is_shown(&method->points[i])) {
             fprintf(out, "%.1f,%.1f ", place_x(scale, method->points[i].seconds),
@@ -156,9 +158,9 @@ static void print_method(FILE *out, const Study *study, const Scale *scale, int 
     int y = TOP + 14 + 20 * number;
     char style[96];
     snprintf(style, sizeof style, "stroke: %s; stroke-width: 2; stroke-dasharray: %s", colour, dash);
-    print_line(out, WIDTH - RIGHT + 16, y - 4, WIDTH - RIGHT + 40, y - 4, style);
-    fprintf(out, "<path d=\"M%d,%d %s\" style=\"fill: %s; stroke: none\"/>\n", WIDTH - RIGHT + 28, y - 4, mark, colour);
-    fprintf(out, "<text x=\"%d\" y=\"%d\">%s%s</text>\n", WIDTH - RIGHT + 46, y, method->name,
+    print_line(out, LIST, y - 4, LIST + 24, y - 4, style);
+    fprintf(out, "<path d=\"M%d,%d %s\" style=\"fill: %s; stroke: none\"/>\n", LIST + 12, y - 4, mark, colour);
+    fprintf(out, "<text x=\"%d\" y=\"%d\">%s%s</text>\n", LIST + 30, y, method->name,
             method->is_biased ? " (biased)" : "");
 }
 

@@ -107,6 +107,11 @@ def test_writings(printed, methods):
     texts = ["".join(text.itertext()) for text in plot.iter("{http://www.w3.org/2000/svg}text")]
     tap.ok(all(name in texts for name in methods) and "-0.5" in texts and "-0.75" in texts and
            "the reference's own error" in texts, "the plot names its methods, guides and floor", texts)
+    width = float(plot.get("viewBox").split()[2])
+    places = {"".join(text.itertext()): float(text.get("x")) for text in plot.iter("{http://www.w3.org/2000/svg}text") if text.get("x")}
+    longest = len("POV-Ray +AM2 +A0.03 (biased)")
+    tap.ok(all(places["-0.5"] + 26 <= places[name] - 30 and places[name] + 7 * longest <= width for name in methods),
+           "and has room for the longest name, beside the guides' slopes", (places, width))
     with open("report/index.html", encoding="utf-8") as file:
         page = file.read()
     tap.ok(page.count("<svg class=\"plot\"") == 1 and all(name in page for name in methods) and "http://" not in
