@@ -58,7 +58,14 @@ typedef struct Block {
 
 // literal.c: notes of the object that is watched whether it is a sphere with nothing but a centre, a radius and a
 // texture.
+bool object_is_plain_sphere(const Eval *ev, SchemaKind kind, const Blueprint *record);
 void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record);
+
+// repeat.c: what is to be done with a statement that is a sphere; what a watched one gave; and placing one that is known:
+// false: nothing was done.
+RepeatStep repeat_step(Eval *ev, const AstNode *sphere) RT_MUST_CHECK;
+void repeat_learn(Eval *ev, const AstNode *sphere, bool is_plain_object);
+bool repeat_place(Eval *ev, const AstNode *sphere, bool *is_fine) RT_MUST_CHECK;
 
 // block.c
 

@@ -11,6 +11,7 @@
 //   files.c      finding and opening files          datafile.c  #fopen, #read and #fclose
 //   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
 //   literal.c    spheres that are read without a tree
+//   repeat.c     spheres that loops and macros place again and again
 //   lint.c       what is suspicious in the text
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
 //   misfit.c     what is said of items that do not fit into a block
@@ -36,6 +37,7 @@
 #include "math/noise.h"
 #include "math/colour.h"
 #include "math/vec3.h"
+#include "scene/scene.h"
 #include "scene/schema.h"
 
 // ---- values
@@ -125,6 +127,22 @@ typedef struct LiteralWatch {
     bool is_watching, is_plain;
 } LiteralWatch;
 
+// A sphere that is placed again and again (repeat.c).
+typedef struct Repeat {
+    const AstNode *node;
+    uint64_t begin, state; // where it stands; of LiteralWatch
+    const AstNode *centre, *radius, *colour; // its expressions; `colour` may be NULL
+    size_t spheres, shapes, messages;        // before it was watched
+    Material material;                       // but for the colour
+    bool is_tried, is_known;
+} Repeat;
+enum { REPEATS = 32, REPEAT_STREAMS = 16 };
+typedef enum RepeatStep {
+    REPEAT_NONE,  // to be evaluated like any other
+    REPEAT_WATCH, // so, too; then repeat_learn is to be called
+    REPEAT_KNOWN, // repeat_place can do it
+} RepeatStep;
+
 typedef struct Eval {
     EvalOptions options;
     Scene *scene;
@@ -156,6 +174,7 @@ typedef struct Eval {
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     LiteralWatch literal;
+    Repeat repeats[REPEATS];
     bool is_value_ended; // the last value of a macro's text has the semicolon behind it
     bool has_stray;      // at the top level, reported: the values after it are not reported as well
     bool faulty;         // something was reported, if only before

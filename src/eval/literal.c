@@ -36,13 +36,18 @@ static void watch(void *client, const GrammarLiteral *literal)
     };
 }
 
-void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record)
+bool object_is_plain_sphere(const Eval *ev, SchemaKind kind, const Blueprint *record)
 {
     const ObjectPart *part = &record->part;
     const TextureBlueprint *texture = part->texture ? part->texture : ev->objects->defaults;
-    ev->literal.is_plain = kind == KIND_SPHERE && transform_is_identity(&part->transform) &&
+    return kind == KIND_SPHERE && transform_is_identity(&part->transform) &&
                            !part->is_inverse && !part->no_shadow && !part->no_image && !part->no_reflection &&
                            !part->interior && !part->clips && !part->bounds && texture->ior == 0.0;
+}
+
+void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record)
+{
+    ev->literal.is_plain = object_is_plain_sphere(ev, kind, record);
 }
 
 // The colour that the text says is the colour that the sphere has.

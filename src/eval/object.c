@@ -211,16 +211,25 @@ bool eval_place(Eval *ev, const AstNode *item)
     if (!object_is_statement(kind)) {
         return eval_fault(ev, DIAG_E0256, item->span, "expected an object or a directive here");
     }
+    RepeatStep step = kind == KIND_SPHERE && !ev->options.no_literals ? repeat_step(ev, item) : REPEAT_NONE;
+    bool is_fine;
+    if (step == REPEAT_KNOWN && repeat_place(ev, item, &is_fine)) {
+        return is_fine;
+    }
     ArenaMark mark = arena_mark(&ev->scratch);
     Arena *arena = kind == KIND_SKY_SPHERE ? &ev->program : &ev->scratch; // a sky is kept until the end
     Blueprint record;
     SchemaKind is;
     block_defaults(ev, kind, &record);
-    bool is_fine = block_read(ev, item, kind, arena, &record, &is);
+    is_fine = block_read(ev, item, kind, arena, &record, &is);
+    bool is_plain = is_fine && step == REPEAT_WATCH && object_is_plain_sphere(ev, is, &record);
     if (is_fine && ev->literal.is_watching && item->span.begin == ev->literal.literal.span.begin) {
         literal_note(ev, is, &record);
     }
     is_fine = is_fine && place_record(ev, item, is, &record);
+    if (step == REPEAT_WATCH) {
+        repeat_learn(ev, item, is_fine && is_plain);
+    }
     arena_rewind(&ev->scratch, mark);
     return is_fine;
 }
