@@ -7,6 +7,7 @@ The scene's dump, every message with its place, and the exit code must be the sa
 import concurrent.futures
 import os
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -86,14 +87,29 @@ class Text:
                          "#if (A) sphere { <0, 0, 0>, 1 } #end", "#declare T = texture { pigment { rgb 1 } }", "}\n", "#end", "5",
                          "#for (I, 1, 3) sphere { I*x, 1 } #end", "/* " + "x" * 300 + " */", "sphere { <1, 2, 3", "#local A = 2;")
 
+    def expression(self, number):
+        return self.pick(number, "rand(S)", "I", "I*0.5 + 1", "-I", "V.x", "max(I, 2)", "1/(I + 1)", "2*rand(S) - 1", "vlength(V)",
+                         *([] if self.is_sane else ["1/(I - 2)", "V", "A", "M()", "Red", "I*1e200*1e200", "N"]))
+
+    def loop(self, odd):
+        """Spheres that a loop or a macro places again and again."""
+        body = "\n".join(self.sphere(odd) for _ in range(self.dice.randrange(1, 4)))
+        body = re.sub(r"(?<=[<,\s{])-?\d+\.\d+(?=[,>])", lambda found: self.expression(found[0]), body)
+        body = re.sub(r"(?<={)<[^<>]*>(?=,)", lambda found: self.pick(found[0], found[0], "V", "I*x + V", "rand(S)*y"), body)
+        return self.pick(f"#for (I, 1, 5) {body} #end", f"#declare I = 0; #while (I < 4) {body} #declare I = I + 1; #end",
+                         f"#macro B(I) {body} #end B(1) B(2) B(3) B(rand(S)) B(5)",
+                         f"#for (I, 1, 6) {body} #if (I = 4) #default {{ finish {{ ambient 0.3 }} }} #end #end",
+                         f"#for (I, 1, 5) {body} #declare V = <I, 1, rand(S)>; #end")
+
     def write(self):
         odd = self.pick(0.0, 0.05, 0.05, 0.4)
         text = self.pick("0" if self.is_sane else "", "#declare A = 1; #declare Red = rgb x; #declare Shiny = finish { phong 1 }\n"
                              "#declare T = texture { pigment { rgb 1 } } #macro M() scale 2 #end\n")
+        text += "#declare S = seed(5); #declare V = <1, 2, 3>;\n"
         if self.dice.random() < 0.05:  # statements across the end of the scanner's block
             text += "// " + "-" * (SCANNER_BLOCK - len(text) - self.dice.randrange(600)) + "\n"
         for _ in range(self.dice.randrange(1, 60)):
-            text += (self.other() if self.dice.random() < odd else self.sphere(odd)) + self.pick("\n", "\n", " ", "", "\r\n\n")
+            text += (self.other() if self.dice.random() < odd else self.loop(odd) if self.dice.random() < 0.05 else self.sphere(odd)) + self.pick("\n", "\n", " ", "", "\r\n\n")
         return text
 
 
