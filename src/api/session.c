@@ -239,18 +239,21 @@ void session_film_to_linear(const Settings *settings, Film *film)
 }
 
 // What the tree takes for a shape, and the prepared forms of the records as a multiple of these: bounds that hold for
-// a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910).
+// a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910). Plain spheres and their
+// materials have no other form than that in the tree.
 enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
 static rt_budget budget_of(const rt_session *session)
 {
-    uint64_t scene = scene_bytes(&session->scene), pictures = scene_picture_bytes(&session->scene);
+    const Scene *records = &session->scene;
+    uint64_t scene = scene_bytes(records), pictures = scene_picture_bytes(records);
+    uint64_t plain = records->spheres.capacity * sizeof(Sphere) + records->materials.capacity * sizeof(Material);
     uint64_t objects = session->scene.shape_count;
     int width = session_film_width(session), height = session_film_height(session);
     return (rt_budget){
         .objects = objects,
         .scene = scene,
-        .prepared = (scene - pictures) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
+        .prepared = (scene - pictures - plain) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
         .picture = film_bytes(width, height, session_is_sampled(session)) +
                    (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
         .limit = session->limits.memory_bytes,
