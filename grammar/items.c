@@ -367,7 +367,8 @@ static bool copy(GrammarState *state, const Form *form, const Found *found)
             put_number(found, part->gap - 1u, node, &nodes[form->count + part->gap - 1u]);
         } else {
             node->a = moved(node->a, form, nodes);
-            node->span = (Span){found->piece_at[part->begin_piece] + part->begin, found->piece_at[part->end_piece] + part->end};
+            node->span.begin = found->piece_at[part->begin_piece] + part->begin;
+            node->span.end = found->piece_at[part->end_piece] + part->end;
             node->depth = depths[i] + 1;
         }
         unsigned *above = part->parent > 0 ? &depths[part->parent - 1] : &state->list.depth;

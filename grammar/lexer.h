@@ -146,8 +146,8 @@ void grammar_literals_forget(GrammarState *state);
 
 // The next token, if it can be read at once from the scanner's buffer (quick.c).
 bool grammar_scan_quick(GrammarState *state, Token *token);
-// The same for the buffer, which ends with a zero: returns where reading goes on, and moves `offset` there; NULL: nothing
-// was read.
+// The same for the buffer, which ends with a zero: returns where reading goes on, and moves `offset` there; NULL:
+// nothing was read.
 const char *grammar_quick_read(GrammarState *state, const char *at, const char *end, Token *token);
 // The current token was refused: it becomes the mark that it begins with, and the scanner goes back to what follows.
 void grammar_scan_apart(GrammarState *state);
@@ -155,8 +155,8 @@ GrammarQuick *grammar_quick_new(void) RT_MUST_CHECK; // NULL when out of memory
 void grammar_quick_free(GrammarQuick *quick);
 // The items between braces have been parsed: their nodes.
 void grammar_learn_items(GrammarState *state, Span braces, AstList list);
-// The same, for what quick.c owns; and items after the previous token, a word, that are like some that were learnt: their
-// nodes into `list`, and where reading goes on; NULL: there are none, or they are perhaps learnt now.
+// The same, for what quick.c owns; and items after the previous token, a word, that are like some that were learnt:
+// their nodes into `list`, and where reading goes on; NULL: there are none, or they are perhaps learnt now.
 GrammarItems *grammar_items_new(void) RT_MUST_CHECK; // NULL when out of memory
 void grammar_items_free(GrammarItems *items);
 void grammar_items_learn(GrammarItems *items, const GrammarState *state, Span braces, AstList list);

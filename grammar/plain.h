@@ -85,11 +85,11 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
     static const struct {
         uint64_t integer;
         double real;
-    } tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6}, {10000000, 1e7}, {100000000, 1e8},
-              {1000000000, 1e9}, {10000000000, 1e10}, {100000000000, 1e11}, {1000000000000, 1e12},
+    } tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6},
+              {10000000, 1e7}, {100000000, 1e8}, {1000000000, 1e9}, {10000000000, 1e10}, {100000000000, 1e11}, {1000000000000, 1e12},
               {10000000000000, 1e13}, {100000000000000, 1e14}};
     enum { DIGITS_FEW = 8, DIGITS_EXACT = 15, AHEAD = 32 };
-    // An integer of up to 15 digits is a double, and so is the power of ten that divides it: the quotient is rounded once.
+    // An integer of up to 15 digits is a double, and so is the power of ten that divides it: one rounding.
     if (RT_LIKELY(end - at >= AHEAD && plain_is_digit(*at))) {
         const char *point = at + 1;
         uint64_t chunk, whole = (uint64_t)(*at - '0');
@@ -100,7 +100,8 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
         unsigned count = plain_count_digits(chunk);
         const char *after = point + 1 + count;
         if (RT_LIKELY(*point == '.' && count - 1 < DIGITS_FEW - 1 && !plain_goes_on(*after))) {
-            *number = sign * ((double)(whole * tens[count].integer + plain_join_digits(chunk, count)) / tens[count].real);
+            whole = whole * tens[count].integer + plain_join_digits(chunk, count);
+            *number = sign * ((double)whole / tens[count].real);
             return after;
         }
         if (*point == '.' && count == DIGITS_FEW) {
@@ -109,7 +110,8 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
             unsigned more = plain_count_digits(next), fraction = count + more;
             if (more > 0 && (size_t)(point - at) + fraction <= DIGITS_EXACT && !plain_goes_on(after[more])) {
                 whole = whole * tens[count].integer + plain_join_digits(chunk, count);
-                *number = sign * ((double)(whole * tens[more].integer + plain_join_digits(next, more)) / tens[fraction].real);
+                whole = whole * tens[more].integer + plain_join_digits(next, more);
+                *number = sign * ((double)whole / tens[fraction].real);
                 return after + more;
             }
         }

@@ -219,7 +219,9 @@ const char *grammar_quick_read(GrammarState *state, const char *at, const char *
         token->kind = TOKEN_NUMBER;
         after = plain_read_number(begin, end, &token->number);
     } else {
-        after = c == '<' ? read_vector(state, begin, end, token) : c == '{' ? read_items(state, begin, end, token) : NULL;
+        after = c == '<'   ? read_vector(state, begin, end, token)
+                : c == '{' ? read_items(state, begin, end, token)
+                           : NULL;
         after = after != NULL ? after : read_mark(c, begin, token);
     }
     if (after == NULL || after >= end) {

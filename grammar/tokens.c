@@ -472,7 +472,8 @@ static bool read_quick(GrammarState *state)
     if (!may_be_quick || !grammar_scan_quick(state, &state->current)) {
         return false;
     }
-    state->last_read = state->current.kind == TOKEN_VECTOR ? '>' : state->current.kind == TOKEN_ITEMS ? '}' : state->current.kind;
+    int kind = state->current.kind;
+    state->last_read = kind == TOKEN_VECTOR ? '>' : kind == TOKEN_ITEMS ? '}' : kind;
     return true;
 }
 

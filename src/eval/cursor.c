@@ -210,7 +210,8 @@ const AstNode *cursor_advance(Cursor *cursor)
             end_of_frame(cursor);
             continue;
         }
-        if (RT_LIKELY((item->kind == AST_WORD || item->kind == AST_NUMBER || item->kind == AST_BLOCK) && !cursor->at_call)) {
+        bool is_plain = item->kind == AST_WORD || item->kind == AST_NUMBER || item->kind == AST_BLOCK;
+        if (RT_LIKELY(is_plain && !cursor->at_call)) {
             cursor->after_value = item->kind == AST_NUMBER;
             cursor->item = item;
             return item;
