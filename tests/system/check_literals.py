@@ -114,7 +114,7 @@ class Text:
 
 
 def read(folder, name, *options):
-    done = subprocess.run([os.environ["RTLANG"], "-Wall", "--dump=scene", *options, name], cwd=folder, check=False,
+    done = subprocess.run([os.environ["RTLANG"], "-Wall", "--dump=scene", "--max-steps=2000", *options, name], cwd=folder, check=False,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     return done.returncode, done.stdout, done.stderr
 
