@@ -200,6 +200,7 @@ test_scripts = \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
   %D%/povray/check_blur.sh \
+  %D%/povray/check_alpha.py \
   %D%/povray/check_antialias.py \
   %D%/povray/check_pairs.py \
   %D%/povray/check_includes.py \

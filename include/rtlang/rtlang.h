@@ -197,6 +197,11 @@ typedef struct rt_antialias {
 /* RT_FAULT_USAGE for a number out of range. */
 RT_API rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias);
 
+/* Whether pictures tell, beside their light, how much each pixel shows of what is behind the scene: of the clear part of
+ * its background, or of all of it in scenes of before version 3.7. 0, the default: the background is light like all
+ * else. RT_FAULT_USAGE from rt_render with another precision than double or a forward method. */
+RT_API void rt_set_alpha(rt_session *session, int on);
+
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets,
@@ -247,7 +252,7 @@ typedef struct rt_output {
 } rt_output;
 
 /* Whether a picture of this size fits the memory limit and could be written to this path, asked before a long run.
- * RT_FAULT_USAGE for an error channel in another format than EXR. */
+ * RT_FAULT_USAGE for an error channel in another format than EXR, and for alpha in one that has none. */
 RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output);
 /* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. RT_FAULT_USAGE
  * for the channel of an error that is not known. */
@@ -257,6 +262,10 @@ RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output
  * green, blue) from the top row, in linear light, not clamped; of a scene that says nothing of gamma (docs/language.md,
  * "Gamma"), the values as they are stored in the file. Valid until the session is freed; NULL before rt_render. */
 RT_API const float *rt_pixels(const rt_session *session, int *width, int *height);
+
+/* With rt_set_alpha: width * height numbers, the share of what is behind the scene: 1 - alpha. It is not in the light of
+ * rt_pixels, which so is multiplied with alpha. NULL otherwise and before rt_render. */
+RT_API const float *rt_transparency(const rt_session *session);
 
 /* The memory of a scene that is loaded, in bytes. */
 typedef struct rt_budget {

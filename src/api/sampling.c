@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "api/session.h"
+#include "render/linear.h"
 
 void rt_get_error(const rt_session *session, rt_error *error)
 {
@@ -68,6 +69,35 @@ bool session_picture_with_error(const rt_session *session, Image *image)
             image->values[4 * i + c] = film->rgb[3 * i + c];
         }
         image->values[4 * i + 3] = (float)render_pixel_error(film, &session->error, i);
+    }
+    return true;
+}
+
+// Light that was multiplied with alpha in the scene's working space, as it was before.
+static float straight(const Settings *settings, float light, double alpha)
+{
+    if (!(alpha > 0.0)) {
+        return 0.0f;
+    }
+    return linear_is_needed(settings)
+               ? (float)linear_value(settings, linear_inverse(settings, fmax((double)light, 0.0)) / alpha)
+               : (float)((double)light / alpha);
+}
+
+bool session_picture_with_alpha(const rt_session *session, bool is_multiplied, Image *image)
+{
+    const Film *film = &session->film;
+    if (!image_init(image, film->width, film->height, 4)) {
+        return false;
+    }
+    size_t count = (size_t)film->width * (size_t)film->height;
+    for (size_t i = 0; i < count; i++) {
+        double alpha = 1.0 - (double)film->clear[i];
+        for (size_t c = 0; c < 3; c++) {
+            float light = film->rgb[3 * i + c];
+            image->values[4 * i + c] = is_multiplied ? light : straight(&session->scene.settings, light, alpha);
+        }
+        image->values[4 * i + 3] = (float)alpha;
     }
     return true;
 }

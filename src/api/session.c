@@ -254,7 +254,7 @@ static rt_budget budget_of(const rt_session *session)
         .objects = objects,
         .scene = scene,
         .prepared = (scene - pictures - plain) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
-        .picture = film_bytes(width, height, session_is_sampled(session)) +
+        .picture = film_bytes(width, height, session_is_sampled(session), session->has_alpha) +
                    (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
         .limit = session->limits.memory_bytes,
     };
@@ -360,10 +360,15 @@ static rt_status render_scene(rt_session *session, int threads)
     }
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     Film *film = &session->film;
-    if (!prepared || !film_init(film, session_film_width(session), session_film_height(session))) {
+    if (!prepared || !film_init(film, session_film_width(session), session_film_height(session)) ||
+        (session->has_alpha && !film_want_clear(film))) {
+        film_fini(film);
         prepared_free(prepared);
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
         return session_status(session, false);
+    }
+    if (session->has_alpha) {
+        prepared_want_alpha(prepared);
     }
     if (session->crop.width) {
         film_put(film, session->crop.left, session->crop.top, session->width, session->height);
@@ -413,6 +418,14 @@ static rt_status session_ways_fit(rt_session *session)
                          "leave out `--precision`, `--samples` and goals, and say how many `--photons`");
     }
     bool is_plain = !is_precise && session->method == RT_METHOD_BACKWARD;
+    if (session->has_alpha && session->sampling.is_adaptive) {
+        return rt_report(session, "E0703", "adaptive sampling does not tell what is behind the scene",
+                         "leave out `--alpha`, or give `--samples` without `--adaptive` and goals");
+    }
+    if (session->has_alpha && !is_plain) {
+        return rt_report(session, "E0703", "only the ordinary kernels tell what is behind the scene",
+                         "leave out `--alpha`, or `--precision` and `--method`");
+    }
     if (session->antialias.method != 0 && (session_is_sampled(session) || !is_plain || session->crop.width)) {
         return rt_report(session, "E0703",
                          "`--antialias` is for whole pictures of the ordinary kernels without sampling",
@@ -475,9 +488,10 @@ rt_status session_image_fault(rt_session *session, ImageStatus status, const cha
     return session_status(session, false);
 }
 
-static bool is_output(const char *path, const rt_output *output)
+static bool is_output(const rt_session *session, const char *path, const rt_output *output)
 {
     return (!output->error_channel || image_path_names_channels(path)) &&
+           (!session->has_alpha || (image_path_has_alpha(path) && !output->error_channel)) &&
            (output->depth == RT_DEPTH_AUTO || output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 ||
             output->depth == RT_DEPTH_FLOAT) &&
            output->file_gamma >= 0.0 && isfinite(output->file_gamma);
@@ -496,7 +510,7 @@ static ImageDepth output_depth(const rt_output *output, const char *path)
 rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
 {
     ImageError error = {""};
-    if (!is_output(path, output)) {
+    if (!is_output(session, path, output)) {
         return RT_FAULT_USAGE;
     }
     if (!session_memory_suffices(session)) {
@@ -507,17 +521,22 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
 {
-    if (!session->rendered || !is_output(path, output) || (output->error_channel && !session->error.is_known)) {
+    if (!session->rendered || !is_output(session, path, output) || (output->error_channel && !session->error.is_known)) {
         return RT_FAULT_USAGE;
     }
     double start = session_clock();
     ImageError error = {""};
-    Image with_error = {0}, image = {session->film.width, session->film.height, 3, session->film.rgb};
+    Image with_fourth = {0}, image = {session->film.width, session->film.height, 3, session->film.rgb};
     if (output->error_channel) {
-        if (!session_picture_with_error(session, &with_error)) {
+        if (!session_picture_with_error(session, &with_fourth)) {
             return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
         }
-        image = with_error;
+        image = with_fourth;
+    } else if (session->has_alpha) {
+        if (!session_picture_with_alpha(session, image_path_names_channels(path), &with_fourth)) {
+            return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
+        }
+        image = with_fourth;
     }
     SessionNotes notes;
     session_make_notes(session, &notes);
@@ -532,9 +551,14 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
         .fourth = output->error_channel ? "error" : NULL,
     };
     ImageStatus status = image_write(&image, &encoding, path, &error);
-    image_fini(&with_error);
+    image_fini(&with_fourth);
     session->write_seconds = session_clock() - start;
     return session_image_fault(session, status, path, &error);
+}
+
+const float *rt_transparency(const rt_session *session)
+{
+    return session->rendered ? session->film.clear : NULL;
 }
 
 const float *rt_pixels(const rt_session *session, int *width, int *height)

@@ -53,6 +53,7 @@ struct rt_session {
     uint64_t photons; // of the forward methods
     ForwardCounts photon_counts;
     AntialiasOptions antialias; // method 0: none
+    bool has_alpha;             // pictures have that channel
     SamplingError error;
     double seconds_left; // while rendering
     RenderStatistics statistics;
@@ -77,6 +78,10 @@ void session_make_notes(const rt_session *session, SessionNotes *notes);
 
 // The picture with each pixel's error as a fourth channel; released with image_fini. False when out of memory.
 bool session_picture_with_error(const rt_session *session, Image *image) RT_MUST_CHECK;
+
+// The picture with alpha as a fourth channel, its colours multiplied with it or not; released with image_fini. False when
+// out of memory.
+bool session_picture_with_alpha(const rt_session *session, bool is_multiplied, Image *image) RT_MUST_CHECK;
 
 // Hands new diagnostics to the client.
 void session_deliver(rt_session *session);

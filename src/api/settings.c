@@ -206,6 +206,11 @@ rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias)
     return RT_OK;
 }
 
+void rt_set_alpha(rt_session *session, int on)
+{
+    session->has_alpha = on != 0;
+}
+
 rt_status rt_set_world(rt_session *session, double scale, const double shift[3])
 {
     Vec3 by = vec3(shift[0], shift[1], shift[2]);

@@ -291,6 +291,7 @@ static void print_error(const rt_session *session, const Options *options)
 
 static rt_status set_sampling(rt_session *session, const Options *options)
 {
+    rt_set_alpha(session, options->has_alpha);
     rt_status status = rt_set_antialias(session, &options->antialias);
     if (status || rt_set_sampling(session, &options->sampling) == RT_OK) {
         return status;
@@ -308,9 +309,14 @@ static rt_status set_sampling(rt_session *session, const Options *options)
 static rt_status check_output(rt_session *session, const Options *options, const char *output)
 {
     rt_status status = rt_check_output(session, output, &options->encoding);
-    return status == RT_FAULT_USAGE && options->encoding.error_channel
-               ? fail_usage(session, "`--error-channel` wants a picture in EXR")
-               : status;
+    if (status != RT_FAULT_USAGE) {
+        return status;
+    }
+    return options->has_alpha && options->encoding.error_channel
+               ? fail_usage(session, "a picture has `--alpha` or `--error-channel`, not both")
+           : options->has_alpha              ? fail_usage(session, "`--alpha` wants a picture in PNG or EXR")
+           : options->encoding.error_channel ? fail_usage(session, "`--error-channel` wants a picture in EXR")
+                                             : status;
 }
 
 // Writes what there is to write, and tells of it.

@@ -317,6 +317,13 @@ static bool apply_error_channel(Options *options, const char *argument, const ch
     return true;
 }
 
+static bool apply_alpha(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->has_alpha = true;
+    return true;
+}
+
 static bool apply_quiet(Options *options, const char *argument, const char **expected)
 {
     (void)argument, (void)expected;
@@ -481,6 +488,9 @@ static const OptionRow rows[] = {
     {0, "antialias-threshold", "X", apply_antialias_threshold,
      "by how much red, green and blue must differ together (default 0.3)"},
     {0, "antialias-gamma", "G", apply_antialias_gamma, "compare colours after their 1/G-th power (default 2.5)"},
+    {0, "alpha", NULL, apply_alpha,
+     "with a channel that tells where what is behind the scene is seen, as POV-Ray's `+UA`:\n"
+     "no background, or its transmit and filter; the picture must be PNG or EXR"},
     {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
     {0, "error-channel", NULL, apply_error_channel,
      "write it as a fourth channel `error` of the picture, which must be EXR"},

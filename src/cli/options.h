@@ -44,6 +44,7 @@ typedef struct Options {
     rt_method method;
     uint64_t photons;
     rt_antialias antialias;
+    bool has_alpha;
     const char *error_map; // where the error of each pixel is written; NULL: nowhere
     const char **include_paths; // owned list
     int include_path_count;

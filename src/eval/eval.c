@@ -153,11 +153,17 @@ bool eval_knows_37(const Eval *ev)
 }
 
 // A scene that names no gamma is linear when a #version says that it knows 3.7, and is not converted at all otherwise,
-// as in POV-Ray.
+// as in POV-Ray. One without #version is drawn as of before 3.7, too. In old scenes all of the background is behind the
+// scene, whatever it says.
 static void settle_version(const Eval *ev)
 {
     Settings *settings = &ev->scene->settings;
-    settings->version = ev->version;
+    Rgbft *background = &ev->scene->background;
+    settings->version = ev->version_given ? ev->version : SCENE_VERSION_UNSAID;
+    if (!eval_knows_37(ev)) {
+        double opaque = 1.0 - background->transmit;
+        *background = (Rgbft){opaque * background->red, opaque * background->green, opaque * background->blue, 0.0, 0.0};
+    }
     if (settings->gamma_model == GAMMA_NONE && eval_knows_37(ev)) {
         settings->gamma_model = GAMMA_LINEAR;
         settings->assumed_gamma = 1.0;

@@ -116,14 +116,31 @@ bool light_look_action(Block *block, const SchemaProperty *property, const AstNo
                        block->ev->options.limits->ast_depth);
 }
 
+// A light that turns is a disc, whatever was said. Its axes may be made equal only when all transforms are known.
+static void check_oriented(Block *block, LightArea *area)
+{
+    if (!area->circular) {
+        eval_warn(block->ev, DIAG_W0349, block->node->span, "`orient` makes this light `circular`");
+        area->circular = true;
+    }
+    if (!numbers_equal(vec3_length(area->axis2) / vec3_length(area->axis1), 1.0)) {
+        eval_warn(block->ev, DIAG_W0349, block->node->span,
+                  "with `orient` both axes get the length of the first of `area_light`, %g", vec3_length(area->axis1));
+    }
+}
+
 // POV-Ray refuses a circular light of one row.
 bool light_close(Block *block)
 {
-    const LightArea *area = &block->record->light.area;
+    LightArea *area = &block->record->light.area;
     bool is_line = area->size1 < 2 || area->size2 < 2;
-    return !area->circular || !is_line ||
+    if (area->is_oriented && !is_line) {
+        check_oriented(block, area);
+    }
+    return !(area->circular || area->is_oriented) || !is_line ||
            block_fault(block, DIAG_E0294, block->node->span,
-                       "`circular` needs an `area_light` of at least two rows and two columns");
+                       "`%s` needs an `area_light` of at least two rows and two columns",
+                       area->circular ? "circular" : "orient");
 }
 
 void light_transform(LightBlueprint *light, const Transform *transform)
@@ -165,6 +182,10 @@ bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer)
         .area = moved.area,
         .span = light->part.span,
     };
+    double side = vec3_length(record.area.axis2);
+    if (record.area.is_oriented && side > 0.0) {
+        record.area.axis2 = vec3_scale(vec3_length(record.area.axis1) / side, record.area.axis2);
+    }
     if (!vec3_is_finite(record.position) || !vec3_is_finite(record.point_at) ||
         !vec3_is_finite(record.area.axis1) || !vec3_is_finite(record.area.axis2)) {
         return eval_fault(ev, DIAG_E0340, light->part.span, "the light leaves the range of numbers");

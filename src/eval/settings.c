@@ -47,7 +47,11 @@ bool settings_gamma_action(Block *block, const SchemaProperty *property, const A
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)
 {
     if (kind == KIND_BACKGROUND) {
+        // Nothing of it was clear before version 3.7. Measured.
+        bool is_clear = eval_knows_37(ev);
         ev->scene->background = record->background.colour;
+        ev->scene->background.filter = is_clear ? record->background.colour.filter : 0.0;
+        ev->scene->background.transmit = is_clear ? record->background.colour.transmit : 0.0;
         return true;
     }
     Settings *settings = &ev->scene->settings;

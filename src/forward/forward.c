@@ -45,6 +45,9 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
         if (light->parallel || light->shadowless) {
             return "lights whose rays are parallel, or that are `shadowless`";
         }
+        if (light->area.is_oriented) {
+            return "area lights with `orient`, which are turned otherwise for each point";
+        }
     }
     for (size_t i = 0; i < prepared->finish_count; i++) {
         if (prepared->finishes[i].diffuse_back > 0.0) {

@@ -209,7 +209,7 @@ void photon_trace(const Prepared *prepared, Photon *photon, PhotonFilm *film)
     SamplePoint chance = sample_next(&stream), place = sample_next(&stream);
     if (light->area.size1 > 0) {
         // The model's shadows come from all of the area, angles and cones from its middle: the latter are in the light.
-        origin = vec3_add(origin, light_area_sample(light, place));
+        origin = vec3_add(origin, light_area_sample(light, origin, place));
         least = -1.0;
     }
     Ray ray = {origin, cap_direction(chance, axis, least)};

@@ -111,6 +111,14 @@ bool image_path_names_channels(const char *path)
     return path_ends_with(path, open_exr, RT_COUNT_OF(open_exr));
 }
 
+bool image_path_has_alpha(const char *path)
+{
+    static const char *const straight[] = {"png"};
+
+    return path_is_stdout(path) || path_ends_with(path, straight, RT_COUNT_OF(straight)) ||
+           image_path_names_channels(path);
+}
+
 ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *error)
 {
     char ending[ENDING_MAX + 1];

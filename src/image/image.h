@@ -73,6 +73,10 @@ ImageDepth image_path_depth(const char *path);
 // Whether the format that a path's ending names holds channels of any name: EXR.
 bool image_path_names_channels(const char *path);
 
+// Whether pictures with alpha can be written to a path: PNG, which has colours as they are, and EXR, which has them
+// multiplied with alpha.
+bool image_path_has_alpha(const char *path);
+
 // Writes a picture. Values are clamped to 0..1 for 8 and 16 bit; for float they are written linear and unclamped.
 ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path,
                         ImageError *error) RT_MUST_CHECK;

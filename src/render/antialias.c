@@ -11,11 +11,25 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "render/alpha.h"
 #include "render/linear.h"
 #include "render/prepared.h"
 #include "render/tiles.h"
 
 enum { EDGE = TILE_SIZE + 1, GRID_MOST = 256 };
+
+// Light, and the share of what is behind the scene; or both as they are compared.
+typedef struct Seen {
+    Rgb light;
+    double clear;
+} Seen;
+
+static Seen seen_add_scaled(Seen a, double share, Seen b)
+{
+    return (Seen){rgb_add_scaled(a.light, share, b.light), a.clear + share * b.clear};
+}
+
+static const Seen seen_nothing = {{0.0, 0.0, 0.0}, 0.0};
 
 // ---- rays in batches
 
@@ -23,13 +37,14 @@ typedef struct Batch {
     const Prepared *prepared;
     RenderStatistics *counted;
     KernelPlaces places;
-    Rgb *targets[KERNEL_RAYS]; // to which the light is added
+    Seen *targets[KERNEL_RAYS]; // to which they are added
     int count;
 } Batch;
 
 static void batch_flush(Batch *batch)
 {
     Rgb light[KERNEL_RAYS];
+    double clear[KERNEL_RAYS] = {0.0};
     uint64_t wanted = batch->count == KERNEL_RAYS ? UINT64_MAX : (UINT64_C(1) << batch->count) - 1;
     if (batch->count == 0) {
         return;
@@ -38,15 +53,15 @@ static void batch_flush(Batch *batch)
         batch->places.u[i] = batch->places.u[batch->count - 1];
         batch->places.v[i] = batch->places.v[batch->count - 1];
     }
-    batch->prepared->kernel->trace(batch->prepared, &batch->places, NULL, wanted, light, batch->counted);
+    alpha_trace(batch->prepared, &batch->places, NULL, wanted, light, clear, batch->counted);
     for (int i = 0; i < batch->count; i++) {
-        *batch->targets[i] = rgb_add(*batch->targets[i], light[i]);
+        *batch->targets[i] = seen_add_scaled(*batch->targets[i], 1.0, (Seen){light[i], clear[i]});
     }
     batch->count = 0;
 }
 
 // A ray through a point of the picture in pixels, (0, 0) being its upper left corner.
-static void batch_add(Batch *batch, const Film *film, double x, double y, Rgb *target)
+static void batch_add(Batch *batch, const Film *film, double x, double y, Seen *target)
 {
     batch->places.u[batch->count] = x / film->width - 0.5;
     batch->places.v[batch->count] = y / film->height - 0.5;
@@ -56,35 +71,42 @@ static void batch_add(Batch *batch, const Film *film, double x, double y, Rgb *t
     }
 }
 
-static void film_set(Film *film, int x, int y, Rgb light)
+static void film_set(Film *film, int x, int y, Seen seen)
 {
-    float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)x)];
-    pixel[0] = (float)light.red;
-    pixel[1] = (float)light.green;
-    pixel[2] = (float)light.blue;
+    size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
+    float *rgb = &film->rgb[3 * pixel];
+    rgb[0] = (float)seen.light.red;
+    rgb[1] = (float)seen.light.green;
+    rgb[2] = (float)seen.light.blue;
+    if (film->clear) {
+        film->clear[pixel] = (float)seen.clear;
+    }
 }
 
 // ---- colours compared
 
-// As it is compared: in linear light after a power, so that what is darker counts for more.
-static Rgb seen_as(const Batch *batch, const AntialiasOptions *options, Rgb light)
+// As it is compared: in linear light after a power, so that what is darker counts for more; the share as it is.
+static Seen seen_as(const Batch *batch, const AntialiasOptions *options, Seen seen)
 {
+    Rgb light = seen.light;
     const Settings *settings = &batch->prepared->scene->settings;
     double power = 1.0 / options->gamma;
-    return rgb(pow(linear_value(settings, light.red), power), pow(linear_value(settings, light.green), power),
-               pow(linear_value(settings, light.blue), power));
+    return (Seen){rgb(pow(linear_value(settings, light.red), power), pow(linear_value(settings, light.green), power),
+                      pow(linear_value(settings, light.blue), power)),
+                  seen.clear};
 }
 
-static bool differ(const AntialiasOptions *options, Rgb one, Rgb other)
+static bool differ(const AntialiasOptions *options, Seen one, Seen other)
 {
-    return fabs(one.red - other.red) + fabs(one.green - other.green) + fabs(one.blue - other.blue) >=
+    Rgb a = one.light, b = other.light;
+    return fabs(a.red - b.red) + fabs(a.green - b.green) + fabs(a.blue - b.blue) + fabs(one.clear - other.clear) >=
            options->threshold;
 }
 
 // ---- method 1: pixels that differ from a neighbour
 
 typedef struct Spot {
-    Rgb centre, mean, centre_seen, mean_seen;
+    Seen centre, mean, centre_seen, mean_seen;
     bool is_known;    // the mean
     bool is_averaged; // the pixel is its mean
 } Spot;
@@ -102,7 +124,7 @@ static void trace_centres(Spots *spots, Batch *batch)
     for (int y = spots->tile.top - 1; y < spots->tile.bottom; y++) {
         for (int x = spots->tile.left - 1; x < spots->tile.right; x++) {
             Spot *spot = &spots->spots[y - spots->tile.top + 1][x - spots->tile.left + 1];
-            *spot = (Spot){.centre = rgb_grey(0.0)};
+            *spot = (Spot){.centre = seen_nothing};
             batch_add(batch, spots->film, x + 0.5, y + 0.5, &spot->centre);
         }
     }
@@ -165,7 +187,7 @@ static bool trace_means(Spots *spots, Batch *batch)
     }
     batch_flush(batch);
     for (int i = 0; i < count; i++) {
-        asked[i]->mean = rgb_scale(1.0 / (n * n + 1), asked[i]->mean);
+        asked[i]->mean = seen_add_scaled(seen_nothing, 1.0 / (n * n + 1), asked[i]->mean);
         asked[i]->mean_seen = seen_as(batch, spots->options, asked[i]->mean);
         asked[i]->is_known = true;
     }
@@ -201,7 +223,7 @@ static bool tile_by_neighbours(const AntialiasOptions *options, Tile tile, Film 
 typedef enum PointState { POINT_UNKNOWN, POINT_WANTED, POINT_KNOWN } PointState;
 
 typedef struct Point {
-    Rgb light, seen;
+    Seen light, seen;
     PointState state;
 } Point;
 
@@ -226,7 +248,7 @@ static void trace_points(const Grid *grid, Batch *batch)
         for (int i = 0; i < rows * grid->row; i++) {
             Point *point = &grid->points[i];
             if (point->state == POINT_WANTED && pass == 0) {
-                point->light = rgb_grey(0.0);
+                point->light = seen_nothing;
                 batch_add(batch, grid->film, grid->pixels.left + (double)(i % grid->row) / grid->steps,
                           grid->pixels.top + (double)(i / grid->row) / grid->steps, &point->light);
             } else if (point->state == POINT_WANTED) {
@@ -251,26 +273,26 @@ static bool corners_differ(const Grid *grid, Point *const corners[static 4])
 }
 
 // The mean over a square, or false, and what it still needs is wanted. As deep as the options say.
-static bool square_mean(const Grid *grid, int x, int y, int size, Rgb *mean)
+static bool square_mean(const Grid *grid, int x, int y, int size, Seen *mean)
 {
     Point *corners[] = {grid_at(grid, x, y), grid_at(grid, x + size, y), grid_at(grid, x, y + size),
                         grid_at(grid, x + size, y + size)};
     bool is_known = true;
-    *mean = rgb_grey(0.0);
+    *mean = seen_nothing;
     for (int i = 0; i < 4; i++) {
         corners[i]->state = corners[i]->state == POINT_UNKNOWN ? POINT_WANTED : corners[i]->state;
         is_known = is_known && corners[i]->state == POINT_KNOWN;
-        *mean = rgb_add_scaled(*mean, 0.25, corners[i]->light);
+        *mean = seen_add_scaled(*mean, 0.25, corners[i]->light);
     }
     if (!is_known || size == 1 || !corners_differ(grid, corners)) {
         return is_known;
     }
-    *mean = rgb_grey(0.0);
+    *mean = seen_nothing;
     for (int i = 0; i < 4; i++) {
-        Rgb part;
+        Seen part;
         int half = size / 2;
         is_known = square_mean(grid, x + i % 2 * half, y + i / 2 * half, half, &part) && is_known;
-        *mean = rgb_add_scaled(*mean, 0.25, part);
+        *mean = seen_add_scaled(*mean, 0.25, part);
     }
     return is_known;
 }
@@ -283,7 +305,7 @@ static void pixels_by_corners(const Grid *grid, Batch *batch)
         is_done = true;
         for (int y = pixels->top; y < pixels->bottom; y++) {
             for (int x = pixels->left; x < pixels->right; x++) {
-                Rgb mean;
+                Seen mean;
                 bool is_known = square_mean(grid, (x - pixels->left) * grid->steps, (y - pixels->top) * grid->steps,
                                             grid->steps, &mean);
                 film_set(grid->film, x, y, mean);

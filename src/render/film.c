@@ -15,6 +15,12 @@ bool film_init(Film *film, int width, int height)
     return film->rgb != NULL;
 }
 
+bool film_want_clear(Film *film)
+{
+    film->clear = calloc((size_t)film->width * (size_t)film->height, sizeof(float));
+    return film->clear != NULL;
+}
+
 void film_put(Film *film, int left, int top, int whole_width, int whole_height)
 {
     film->left = left;
@@ -27,13 +33,14 @@ void film_fini(Film *film)
 {
     free(film->rgb);
     free(film->records);
+    free(film->clear);
     *film = (Film){0};
 }
 
-uint64_t film_bytes(int width, int height, bool is_sampled)
+uint64_t film_bytes(int width, int height, bool is_sampled, bool has_clear)
 {
     uint64_t chosen = sizeof(uint16_t) + 3 * sizeof(float); // a bucket and a corner for each pixel, in sampling.c
-    uint64_t pixel = 3 * sizeof(float) + (is_sampled ? sizeof(PixelRecord) + chosen : 0);
+    uint64_t pixel = 3 * sizeof(float) + (is_sampled ? sizeof(PixelRecord) + chosen : 0) + (has_clear ? sizeof(float) : 0);
     uint64_t rows = is_sampled ? 4 * sizeof(double) + 3 * sizeof(float) : 0; // of sampling_near.c; the last corners
     return (uint64_t)width * ((uint64_t)height * pixel + rows);
 }

@@ -89,10 +89,23 @@ RT_ALWAYS_INLINE uint64_t light_key(const PreparedLight *light, Vec3 point, int 
     return key;
 }
 
+// The axes of an area that faces a point: one lies across z, or across y where the point is nearly along z. Measured.
+RT_ALWAYS_INLINE void light_area_face(const PreparedLight *light, Vec3 point, Vec3 *axis1, Vec3 *axis2)
+{
+    Vec3 away = vec3_normalize(vec3_sub(point, light->position));
+    bool is_along = 1.0 - fabs(away.z) < 0.01;
+    Vec3 across = vec3_normalize(vec3_cross(vec3(0.0, is_along ? 1.0 : 0.0, is_along ? 0.0 : 1.0), away));
+    double length = vec3_length(light->area.axis1);
+    *axis1 = vec3_scale(length, across);
+    *axis2 = vec3_scale(length, vec3_cross(across, away));
+}
+
 // A place of an area from its middle; u and v along its axes, from -1/2 to 1/2. The square is turned into a disc by
 // moving each light along its ray from the middle until it has the distance that the side of its square has.
-RT_ALWAYS_INLINE Vec3 light_area_place(const LightArea *area, double u, double v)
+RT_ALWAYS_INLINE Vec3 light_area_place(const PreparedLight *light, Vec3 point, double u, double v)
 {
+    const LightArea *area = &light->area;
+    Vec3 axis1 = area->axis1, axis2 = area->axis2;
     const double aside = 0.001; // of the square's side: POV-Ray's disc is not quite in the middle; measured
     if (area->circular) {
         u += aside;
@@ -104,7 +117,10 @@ RT_ALWAYS_INLINE Vec3 light_area_place(const LightArea *area, double u, double v
         u *= shrink;
         v *= shrink;
     }
-    return vec3_add(vec3_scale(u, area->axis1), vec3_scale(v, area->axis2));
+    if (area->is_oriented) {
+        light_area_face(light, point, &axis1, &axis2);
+    }
+    return vec3_add(vec3_scale(u, axis1), vec3_scale(v, axis2));
 }
 
 // Where light (i, j) of an area stands.
@@ -118,7 +134,7 @@ RT_ALWAYS_INLINE Vec3 light_area_offset(const PreparedLight *light, Vec3 point, 
         u += area->size1 > 1 ? light_random(key) / (area->size1 - 1) : 0.0;
         v += area->size2 > 1 ? light_random(~key) / (area->size2 - 1) : 0.0;
     }
-    return light_area_place(area, u, v);
+    return light_area_place(light, point, u, v);
 }
 
 // One of a row's lights, each as often as it counts in the whole grid, which is halved until no light is between its
@@ -139,11 +155,11 @@ RT_ALWAYS_INLINE double light_row_sample(int size, bool jitter, double at)
     return (low + (jitter ? at - 0.5 : 0.0)) / (size - 1) - 0.5;
 }
 
-// One of an area's lights by chance; what it lets see is in the mean what the grid, not adaptive, lets see.
-RT_ALWAYS_INLINE Vec3 light_area_sample(const PreparedLight *light, SamplePoint at)
+// One of an area's lights by chance, for a point; what it lets see is in the mean what the grid, not adaptive, lets see.
+RT_ALWAYS_INLINE Vec3 light_area_sample(const PreparedLight *light, Vec3 point, SamplePoint at)
 {
     const LightArea *area = &light->area;
-    return light_area_place(area, light_row_sample(area->size1, area->jitter, at.x),
+    return light_area_place(light, point, light_row_sample(area->size1, area->jitter, at.x),
                             light_row_sample(area->size2, area->jitter, at.y));
 }
 

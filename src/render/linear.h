@@ -22,6 +22,14 @@ static inline double linear_value(const Settings *settings, double value)
     return settings->gamma_model == GAMMA_SRGB ? rgb_srgb_decode(value) : pow(value, settings->assumed_gamma);
 }
 
+// Back again, for light that is not below 0.
+static inline double linear_inverse(const Settings *settings, double light)
+{
+    return settings->gamma_model == GAMMA_SRGB    ? rgb_srgb_encode(light)
+           : settings->gamma_model == GAMMA_POWER ? pow(light, 1.0 / settings->assumed_gamma)
+                                                  : light;
+}
+
 // How fast linear light changes with the values of a pixel.
 static inline Rgb linear_slope(const Settings *settings, const float value[3])
 {

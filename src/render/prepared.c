@@ -218,6 +218,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     }
     p->camera = prepare_camera(&scene->camera, exponent);
     p->background = rgb_scale(1.0 - scene->background.transmit, rgbft_rgb(scene->background));
+    p->is_old = scene->settings.version < 3.7;
     p->max_trace_level = scene->settings.max_trace_level;
     p->adc_bailout = scene->settings.adc_bailout;
     p->crossings_max = 2 * ((uint64_t)scene->shape_count + scene->parts.count);
@@ -227,6 +228,12 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->kernel = kernel_choose(p->features);
     p->tile_lights = tile_lights_choose(geometry_isa_name(p->geometry));
     return p;
+}
+
+void prepared_want_alpha(Prepared *prepared)
+{
+    prepared->has_alpha = true;
+    prepared->background = rgbft_rgb(prepared->scene->background);
 }
 
 void prepared_free(Prepared *prepared)

@@ -60,7 +60,9 @@ typedef struct PreparedFinish {
 struct Prepared {
     Geometry *geometry;
     PreparedCamera camera;
-    Rgb background;
+    Rgb background; // with has_alpha as mirrors see it
+    bool has_alpha; // pictures tell what is behind the scene (render/alpha.h)
+    bool is_old;    // the scene's version is below 3.7
     PreparedLight *lights;
     size_t light_count;
     const Material *materials; // the scene's

@@ -26,6 +26,8 @@ typedef struct Prepared Prepared;
 // is prepared and traced. NULL when out of memory.
 Prepared *prepared_new(const Scene *scene, const GeometryOptions *options) RT_MUST_CHECK;
 void prepared_free(Prepared *prepared);
+// Films get their `clear` from here on.
+void prepared_want_alpha(Prepared *prepared);
 
 // Name of the kernel that was chosen, for example "spheres+shadows".
 const char *prepared_kernel_name(const Prepared *prepared);
@@ -50,10 +52,12 @@ typedef struct Film {
     int width, height;
     int left, top, whole_width, whole_height; // where it lies in the whole picture, and how large that is
     float *rgb;                               // width * height * 3; owned
+    float *clear; // width * height: the share of what is behind the scene, which is not in rgb; NULL: not told; owned
     PixelRecord *records;                     // width * height, after sampling; else NULL; owned
 } Film;
 
 bool film_init(Film *film, int width, int height) RT_MUST_CHECK; // false when out of memory; cleared to 0
+bool film_want_clear(Film *film) RT_MUST_CHECK; // gives it that plane; false when out of memory
 void film_fini(Film *film);
 
 // Makes the film a part of a greater picture; it is the same pixels then as there. The part lies within.
@@ -71,7 +75,7 @@ static inline double film_v(const Film *film, int y, double aside)
 }
 
 // The bytes of a film and of what is needed beside it.
-uint64_t film_bytes(int width, int height, bool is_sampled);
+uint64_t film_bytes(int width, int height, bool is_sampled, bool has_clear);
 
 typedef struct RenderStatistics {
     uint64_t camera_rays, shadow_rays, reflected_rays, transmitted_rays;

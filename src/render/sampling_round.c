@@ -2,6 +2,7 @@
 // halves say goes into the pixels' records.
 //
 // SPDX-License-Identifier: MIT
+#include "render/alpha.h"
 #include "render/camera.h"
 #include "render/linear.h"
 #include "render/sampling.h"
@@ -16,6 +17,7 @@ static const uint32_t CORNER_SEED = UINT32_C(0x9e3779b9);
 typedef struct Parts {
     Rgb sum[START_SAMPLES];
     Rgb squares; // over all
+    double clear; // the same of the shares of what is behind the scene; with has_alpha
 } Parts;
 
 // Samples on their way through the kernel.
@@ -25,7 +27,9 @@ typedef struct Batch {
     SampleStream streams[KERNEL_RAYS];
     double weights[KERNEL_RAYS];
     Rgb *sums[KERNEL_RAYS], *squares[KERNEL_RAYS];
+    double *clears[KERNEL_RAYS];
     Rgb light[KERNEL_RAYS];
+    double clear[KERNEL_RAYS];
     int count;
     bool draws; // whether anything but the place in the pixel is drawn from the streams
 } Batch;
@@ -58,7 +62,7 @@ static void batch_init(Batch *batch, const Prepared *p)
 static void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted)
 {
     const Prepared *p = round->prepared;
-    p->kernel->trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, counted);
+    alpha_trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, batch->clear, counted);
 }
 
 static void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
@@ -82,6 +86,9 @@ static void batch_flush(const Round *round, Batch *batch, RenderStatistics *coun
             *batch->squares[i] = rgb_add(*batch->squares[i], rgb_mul(light, light));
         }
     }
+    for (int i = 0; round->prepared->has_alpha && i < batch->count; i++) {
+        *batch->clears[i] += batch->weights[i] * batch->clear[i];
+    }
     batch->count = 0;
 }
 
@@ -103,6 +110,7 @@ static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, con
         batch->weights[i] = at.weight;
         batch->sums[i] = &parts->sum[pixel->starts ? begin + j : begin + j >= half];
         batch->squares[i] = &parts->squares;
+        batch->clears[i] = &parts->clear;
         if (!batch->draws) {
             continue;
         }
@@ -157,6 +165,12 @@ static void value_put(float *value, Rgb light)
     value[0] = (float)light.red;
     value[1] = (float)light.green;
     value[2] = (float)light.blue;
+}
+
+// The mean of the shares with those that were there before, if any.
+static void clear_put(float *clear, double before, uint32_t count, const Parts *parts)
+{
+    *clear = (float)fmin(fmax((before * (double)*clear + parts->clear) / (before + count), 0.0), 1.0);
 }
 
 // The spread of new samples.
@@ -251,6 +265,9 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
     size_t pixel = chosen->index;
     PixelRecord *record = &round->film->records[pixel];
     float *value = &round->film->rgb[3 * pixel];
+    if (round->film->clear) {
+        clear_put(&round->film->clear[pixel], chosen->starts ? 0.0 : record->count, chosen->count, parts);
+    }
     if (chosen->starts) {
         pixel_start(round, pixel, parts);
         return;

@@ -31,7 +31,8 @@ typedef struct ShadePoint {
     SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
 } ShadePoint;
 
-// What a surface is made of at a point. "Opaque share" is 1 - filter - transmit.
+// What a surface is made of at a point. "Opaque share" is 1 - filter - transmit, and in old scenes
+// 1 less the greatest share of any colour that goes through.
 typedef struct ShadeMaterial {
     Rgb pigment;
     Rgb opaque; // opaque share × pigment
@@ -43,7 +44,7 @@ RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned featur
     Rgb colour = rgbft_rgb(pigment);
     ShadeMaterial out = {colour, colour, &p->finishes[finish]};
     if (features & RENDER_TRANSPARENCY) {
-        out.opaque = rgb_scale(1.0 - pigment.filter - pigment.transmit, colour);
+        out.opaque = rgb_scale(texture_pigment_opaque(p->is_old, pigment), colour);
     }
     return out;
 }
@@ -159,7 +160,7 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
 RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
                                 const PreparedLight *light, RenderStatistics *statistics)
 {
-    return at->stream ? shade_area_one(p, features, at, light, light_area_sample(light, sample_next(at->stream)),
+    return at->stream ? shade_area_one(p, features, at, light, light_area_sample(light, at->point, sample_next(at->stream)),
                                        statistics)
                       : shade_area_grid(p, features, at, light, statistics);
 }

@@ -75,8 +75,9 @@ RT_ALWAYS_INLINE void shade_tile_places(const LightTile *tile, const PreparedLig
     rays->aside = light->area_radius;
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
-        Vec3 aside = light_area_sample(light, sample_next(&streams[tile->surfaces.ray[i]]));
-        Vec3 offset = vec3_sub(vec3_add(light->position, aside), tile_surface_point(&tile->surfaces, i));
+        Vec3 point = tile_surface_point(&tile->surfaces, i);
+        Vec3 aside = light_area_sample(light, point, sample_next(&streams[tile->surfaces.ray[i]]));
+        Vec3 offset = vec3_sub(vec3_add(light->position, aside), point);
         rays->distance[i] = vec3_length(offset);
         Vec3 towards = vec3_scale(1.0 / rays->distance[i], offset);
         rays->towards[0][i] = towards.x;

@@ -1,6 +1,7 @@
 // One ray through the middle of each pixel, and the choice between that, anti-aliasing and sampling.
 //
 // SPDX-License-Identifier: MIT
+#include "render/alpha.h"
 #include "render/antialias.h"
 #include "render/prepared.h"
 #include "render/sampling.h"
@@ -40,9 +41,10 @@ static void trace_beam(const Single *single, Tile tile, RenderStatistics *counte
     Film *film = single->film;
     KernelPlaces places;
     Rgb light[KERNEL_RAYS];
+    double clear[KERNEL_RAYS];
     places.lens = NULL;
     uint64_t wanted = beam_places(film, tile, &places);
-    single->prepared->kernel->trace(single->prepared, &places, NULL, wanted, light, counted);
+    alpha_trace(single->prepared, &places, NULL, wanted, light, clear, counted);
     for (int y = tile.top; y < tile.bottom && y < tile.top + KERNEL_ROW; y++) {
         const Rgb *row = &light[(y - tile.top) * KERNEL_ROW];
         float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)tile.left)];
@@ -50,6 +52,10 @@ static void trace_beam(const Single *single, Tile tile, RenderStatistics *counte
             pixel[3 * i] = (float)row[i].red;
             pixel[3 * i + 1] = (float)row[i].green;
             pixel[3 * i + 2] = (float)row[i].blue;
+            if (film->clear) {
+                size_t at = (size_t)y * (size_t)film->width + (size_t)(tile.left + i);
+                film->clear[at] = (float)clear[(y - tile.top) * KERNEL_ROW + i];
+            }
         }
     }
 }

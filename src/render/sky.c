@@ -7,19 +7,28 @@
 
 static const double half_pi = 1.57079632679489661923;
 
-// Before version 3.7 light came through all filters or through all clear shares, and only the background's was
-// coloured.
-static bool is_old(const Scene *scene)
+static Rgb layer_through(Rgbft layer)
 {
-    return scene->settings.version < 3.7;
+    return rgb_add(rgb_scale(layer.filter, rgbft_rgb(layer)), rgb_grey(layer.transmit));
 }
 
+Rgb sky_through(const Prepared *p, Vec3 direction)
+{
+    Rgb through = rgb_grey(1.0);
+    for (size_t i = 0; i < p->scene->sky.count; i++) {
+        through = rgb_mul(through, layer_through(texture_pigment(&p->textures, &p->scene->sky.items[i], direction)));
+    }
+    return through;
+}
+
+// Before version 3.7 light came through all filters or through all clear shares, and only the background's was
+// coloured.
 Rgb sky_light(const Prepared *p, Vec3 direction)
 {
     Rgb light = rgb_grey(0.0);
     Rgb above = rgb_grey(1.0), filtered = rgb_grey(1.0);
     double filtering = 1.0, clear = 1.0;
-    bool old = is_old(p->scene);
+    bool old = p->is_old;
     if (p->scene->sky.count == 0) {
         return p->background;
     }
@@ -29,7 +38,7 @@ Rgb sky_light(const Prepared *p, Vec3 direction)
         Rgb own = rgb_mul(rgb_scale(opaque, rgbft_rgb(layer)), p->scene->sky_emission);
         Rgb filter = rgb_scale(layer.filter, rgbft_rgb(layer));
         light = rgb_add(light, rgb_mul(old ? rgb_grey(i ? filtering + clear : 1.0) : above, own));
-        above = rgb_mul(above, rgb_add(filter, rgb_grey(layer.transmit)));
+        above = rgb_mul(above, layer_through(layer));
         filtered = rgb_mul(filtered, filter);
         filtering *= layer.filter;
         clear *= layer.transmit;

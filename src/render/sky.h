@@ -15,6 +15,9 @@
 // length.
 Rgb sky_light(const Prepared *p, Vec3 direction);
 
+// What the layers let through of the background, in scenes of version 3.7.
+Rgb sky_through(const Prepared *p, Vec3 direction);
+
 // Fog on a way: what light from its end is multiplied with, and the light of the fog.
 typedef struct FogShare {
     Rgb through, own;

@@ -119,6 +119,12 @@ static Real real_highlights(const PreparedFinish *finish, RealVec direction, Rea
     return sum;
 }
 
+static Real real_opaque(const RealScene *s, Rgbft pigment)
+{
+    Real filtered = (Real)pigment.filter * (Real)(s->p->is_old ? rgb_max(rgbft_rgb(pigment)) : 1.0);
+    return 1 - filtered - (Real)pigment.transmit;
+}
+
 // `normal` is turned to where the ray comes from.
 static RealRgb real_light(const RealScene *s, const PreparedLight *light, const PreparedFinish *finish, Rgbft pigment,
                           const RealHit *at, RealVec normal, RealVec direction, RenderStatistics *statistics)
@@ -139,7 +145,7 @@ static RealRgb real_light(const RealScene *s, const PreparedLight *light, const 
         }
         arriving = real_rgb_mul(arriving, share);
     }
-    Real opaque = 1 - (Real)pigment.filter - (Real)pigment.transmit;
+    Real opaque = real_opaque(s, pigment);
     Real falloff = real_power(REAL_FABS(cosine), finish->brilliance);
     RealRgb sum = real_rgb_scale(falloff * (Real)(back ? finish->diffuse_back : finish->diffuse) * opaque, colour);
     if (finish->shines && front && !light->shadowless) {
@@ -304,7 +310,7 @@ static RealRgb real_trace(const RealScene *s, RealWay way, Inside *inside, Rende
         }
         real_surface(s, &way.ray, &j.at);
         real_join(s, &way, inside, &j);
-        Real opaque = 1 - (Real)j.pigment.filter - (Real)j.pigment.transmit;
+        Real opaque = real_opaque(s, j.pigment);
         RealRgb light = real_rgb_scale(opaque, real_rgb_mul(real_rgb(rgbft_rgb(j.pigment)), real_rgb(j.finish->glow)));
         for (size_t i = 0; i < s->p->light_count; i++) {
             RealRgb one = real_light(s, &s->p->lights[i], j.finish, j.pigment, &j.at, j.normal, way.ray.d, statistics);

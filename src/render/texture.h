@@ -51,6 +51,13 @@ static inline Rgb texture_pigment_through(Rgbft pigment)
     return rgb_add(rgb_scale(pigment.filter, rgbft_rgb(pigment)), rgb_grey(pigment.transmit));
 }
 
+// What it keeps: its "opaque share". Before version 3.7 that was what the colour that comes through best leaves.
+static inline double texture_pigment_opaque(bool is_old, Rgbft pigment)
+{
+    double filtered = is_old ? pigment.filter * rgb_max(rgbft_rgb(pigment)) : pigment.filter;
+    return 1.0 - filtered - pigment.transmit;
+}
+
 // One of the surfaces that are seen at a point.
 typedef struct TextureLayer {
     Rgbft pigment;

@@ -43,10 +43,10 @@ void dump_number(TextBuffer *out, const char *before, double number)
     text_append_double(out, number);
 }
 
-// A scene without #version and assumed_gamma has no gamma model; one that names its version below 3.7 likewise.
+// A scene without assumed_gamma has no gamma model, unless it names the version 3.7.
 static void dump_settings(const Settings *settings, TextBuffer *out)
 {
-    if (settings->gamma_model != GAMMA_NONE || settings->version != 3.7) {
+    if (settings->gamma_model != GAMMA_NONE || settings->version != SCENE_VERSION_UNSAID) {
         dump_number(out, "#version ", settings->version);
         text_append(out, ";\n");
     }
@@ -107,6 +107,7 @@ static void dump_area(const LightArea *area, TextBuffer *out)
         text_printf(out, " adaptive %d", area->adaptive);
     }
     text_append(out, area->circular ? " circular" : "");
+    text_append(out, area->is_oriented ? " orient" : "");
     text_append(out, area->jitter ? " jitter" : "");
 }
 

@@ -25,6 +25,7 @@ void scene_init(Scene *scene)
 {
     *scene = (Scene){
         .sky_emission = {1.0, 1.0, 1.0},
+        .background = {0.0, 0.0, 0.0, 0.0, 1.0}, // none
         .camera =
             {
                 .type = CAMERA_PERSPECTIVE,
@@ -39,7 +40,7 @@ void scene_init(Scene *scene)
                 .ambient_light = {1.0, 1.0, 1.0},
                 .max_trace_level = 5,
                 .adc_bailout = 1.0 / 255.0,
-                .version = 3.7,
+                .version = SCENE_VERSION_UNSAID,
             },
     };
 }

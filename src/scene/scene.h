@@ -55,6 +55,7 @@ typedef struct LightArea {
     int size1, size2; // 0, 0: no area light
     int adaptive; // how often it is halved before parts whose corners look alike are taken as a whole
     bool circular, jitter, is_adaptive;
+    bool is_oriented; // it faces the point that is lit: circular, axes of one length, which alone counts
 } LightArea;
 
 typedef struct Light {
@@ -315,6 +316,8 @@ typedef enum GammaModel {
     GAMMA_NONE,   // an old file that says nothing: values are written as they are
 } GammaModel;
 
+#define SCENE_VERSION_UNSAID 3.62 // of a scene without #version: drawn as those of before 3.7 are
+
 typedef struct Settings {
     GammaModel gamma_model;
     double assumed_gamma; // GAMMA_POWER only, else 1
@@ -322,7 +325,7 @@ typedef struct Settings {
     int max_trace_level; // >= 1
     double adc_bailout;
     int noise_generator; // 1 to 3, 0: that of the version
-    double version; // the language version in force at the end, 3.7 if none was given
+    double version; // the language version in force at the end, SCENE_VERSION_UNSAID if none was given
 } Settings;
 
 typedef struct Scene {

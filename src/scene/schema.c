@@ -173,6 +173,8 @@ static const SchemaProperty light_properties[] = {
     {"area_light", TYPE_ACTION, ACTION_AREA_LIGHT,
      .doc = "two vectors, two numbers: so many rows of so many lights, for soft shadows"},
     {"circular", TYPE_FLAG, AT(LightBlueprint, area.circular), .doc = "the lights of `area_light` lie in a disc"},
+    {"orient", TYPE_FLAG, AT(LightBlueprint, area.is_oriented),
+     .doc = "the disc of a `circular` light faces each point that it lights; its axes then tell only lengths"},
     {"jitter", TYPE_FLAG, AT(LightBlueprint, area.jitter), .doc = "each of them is moved at random"},
     {"adaptive", TYPE_INTEGER, AT(LightBlueprint, area.adaptive), GIVEN(LightBlueprint, area.is_adaptive),
      .range = {RANGE_FAULT, false, 0.0, 20.0},

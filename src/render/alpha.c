@@ -1,0 +1,116 @@
+// What is behind the scene, seen along camera rays: see alpha.h. Takes the kernels' own steps with all features on, in a
+// scene without lights, and follows only what goes through.
+//
+// SPDX-License-Identifier: MIT
+#include "render/alpha.h"
+
+#include "render/camera.h"
+#include "render/shade.h"
+
+enum { FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES };
+
+// A ray's share of light, by colour, and the one number that counts for alpha: a product of greys.
+typedef struct Through {
+    Rgb colour;
+    double grey;
+} Through;
+
+typedef struct Behind {
+    Rgb light;
+    double clear;
+} Behind;
+
+static double share_of(double part, double whole)
+{
+    return whole != 0.0 ? part / whole : 0.0;
+}
+
+// What a ray that meets nothing sees of the clear part of what lies around the scene. Before version 3.7 all of it was
+// clear.
+static void meet_nothing(const Prepared *p, Vec3 direction, const Through *through, Behind *behind)
+{
+    if (p->is_old) {
+        behind->light = rgb_add(behind->light, rgb_mul(through->colour, sky_light(p, direction)));
+        behind->clear += through->grey;
+        return;
+    }
+    Rgbft background = p->scene->background;
+    Rgb sky = sky_through(p, direction), colour = rgbft_rgb(background);
+    Rgb light = rgb_mul(rgb_scale(background.filter + background.transmit, colour), rgb_mul(sky, through->colour));
+    behind->light = rgb_add(behind->light, light);
+    behind->clear += through->grey * rgb_luminance(rgb_mul(sky, texture_pigment_through(background)));
+}
+
+// Of the rays that a step put on the list, keeps those that go through. Their shares are as if the step's ray had one of
+// 1 before the fog on its way. Fog, the shape left behind and the surface count each by its own grey.
+static void keep_through(const Prepared *p, const ShadeStep *step, Pending *pending, int place, const Through *before,
+                         Through *through)
+{
+    int kept = place;
+    Rgb fog = step->ray.share;
+    Rgb fade = step->at.leaves ? shade_faded(p, step->at.interior, step->at.way) : rgb_grey(1.0);
+    Rgb way = rgb_mul(fog, fade);
+    double grey = before->grey * rgb_luminance(fog) * rgb_luminance(fade);
+    for (int i = place; i < pending->count; i++) {
+        PendingRay *ray = &pending->rays[i];
+        if (ray->closes || ray->opens || ray->start.use == HIDDEN_MIRROR) {
+            continue;
+        }
+        Rgb surface = rgb(share_of(ray->share.red, way.red), share_of(ray->share.green, way.green),
+                          share_of(ray->share.blue, way.blue));
+        through[kept].colour = rgb_mul(before->colour, ray->share);
+        through[kept].grey = grey * rgb_luminance(surface);
+        ray->share = rgb_grey(1.0);
+        if (kept != i) {
+            pending->rays[kept] = *ray;
+            inside_copy(&pending->inside[kept], &pending->inside[i]);
+        }
+        kept++;
+    }
+    pending->count = kept;
+}
+
+static Behind follow(const Prepared *dark, Ray ray)
+{
+    Behind behind = {rgb_grey(0.0), 0.0};
+    Through through[PENDING_MAX];
+    Pending pending;
+    RenderStatistics unused = {0};
+    PendingRay first = {
+        .ray = ray, .start = RAY_START_CAMERA, .share = rgb_grey(1.0), .weight = 1.0, .level = 1, .known = NULL};
+    shade_path_begin(dark, FEATURES, &first, &pending);
+    through[0] = (Through){rgb_grey(1.0), 1.0};
+    while (pending.count > 0) {
+        ShadeStep step;
+        int place = pending.count - 1;
+        Through before = through[place];
+        shade_path_step(dark, FEATURES, &pending, NULL, &unused, &step);
+        if (step.is_hit) {
+            keep_through(dark, &step, &pending, place, &before, through);
+        } else {
+            Rgb fog = step.ray.share;
+            Through rest = {rgb_mul(before.colour, fog), before.grey * rgb_luminance(fog)};
+            meet_nothing(dark, step.ray.ray.direction, &rest, &behind);
+        }
+    }
+    return behind;
+}
+
+void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Rgb *light, double *clear)
+{
+    Prepared dark = *p;
+    dark.light_count = 0;
+    for (; wanted; wanted &= wanted - 1) {
+        int i = __builtin_ctzll(wanted);
+        Ray ray;
+        bool is_seen = true;
+        if (places->lens) {
+            ray = camera_lens_ray(&p->camera, places->u[i], places->v[i], places->lens[i]);
+        } else {
+            is_seen = camera_ray(&p->camera, places->u[i], places->v[i], &ray);
+        }
+        Behind behind = is_seen ? follow(&dark, ray) : (Behind){rgb_grey(0.0), 1.0};
+        light[i] = rgb_add_scaled(light[i], -1.0, behind.light);
+        clear[i] = fmin(fmax(behind.clear, 0.0), 1.0);
+    }
+}
