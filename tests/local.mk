@@ -202,6 +202,7 @@ test_scripts = \
   %D%/povray/check_blur.sh \
   %D%/povray/check_alpha.py \
   %D%/povray/check_antialias.py \
+  %D%/povray/check_jitter.py \
   %D%/povray/check_pairs.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \

@@ -115,7 +115,9 @@ static void on_progress(void *client, double done)
     }
 }
 
-static rt_status rtlang_steps(rt_session *session, const Check *check, const char *scene, const char *output)
+// `shift`: where the scene is put; NULL: where it is.
+static rt_status rtlang_steps(rt_session *session, const Check *check, const char *scene, const double *shift,
+                              const char *output)
 {
     static const rt_output linear_16 = {.depth = RT_DEPTH_16, .file_gamma = 1.0};
     const Options *options = check->options;
@@ -126,6 +128,9 @@ static rt_status rtlang_steps(rt_session *session, const Check *check, const cha
     }
     if (status == RT_OK && options->clock_given) {
         status = rt_set_clock(session, options->clock);
+    }
+    if (status == RT_OK && shift != NULL) {
+        status = rt_set_world(session, 1.0, shift);
     }
     if (status == RT_OK) {
         status = rt_load_file(session, scene);
@@ -153,7 +158,7 @@ static bool rtlang_run(const Check *check, const char *output, Outcome *outcome)
 
     run.session = rt_session_new(&callbacks);
     if (run.session != NULL) {
-        status = rtlang_steps(run.session, check, outcome->scene, output);
+        status = rtlang_steps(run.session, check, outcome->scene, NULL, output);
     }
     outcome->rtlang_seconds = clock_seconds() - start;
     if (status == RT_OK) {
@@ -233,6 +238,60 @@ static void pictures_compare(const Options *options, const Image *ours, const Im
     }
 }
 
+// Of the pixels that are beyond the threshold and not yet marked, marks those in which a picture at `path` differs from
+// ours by more than that; returns how many.
+static uint64_t doubts_mark(const Check *check, const Image *ours, const Image *theirs, const char *path,
+                            bool *marked)
+{
+    double threshold = threshold_between_steps(check->options->threshold);
+    Outcome unused = {0};
+    Image other = {0};
+    uint64_t count = 0;
+
+    if (picture_read(check->options, path, &other, &unused)) {
+        for (size_t i = 0; i < (size_t)ours->width * (size_t)ours->height; i++) {
+            if (!marked[i] && image_pixel_difference(ours, theirs, i) > threshold &&
+                image_pixel_difference(ours, &other, i) > threshold) {
+                marked[i] = true;
+                count++;
+            }
+        }
+    }
+    image_fini(&other);
+    return count;
+}
+
+// A picture of the scene put elsewhere is the same but for rounding.
+static bool moved_run(const Check *check, const char *scene, int number, const char *output)
+{
+    static const rt_callbacks silent = {0};
+    double step = 1.0 + 0.1 * number, shift[3] = {0.6180339887 * step, -0.7548776662 * step, 0.5698402910 * step};
+    rt_session *session = rt_session_new(&silent);
+    bool fine = session != NULL && rtlang_steps(session, check, scene, shift, output) == RT_OK;
+
+    rt_session_free(session);
+    return fine;
+}
+
+// Takes pixels out of the judgement that rounding decides, which is not the same in two programs.
+static void doubts_find(const Check *check, const Image *ours, const Image *theirs, Outcome *outcome)
+{
+    char scratch[PATH_MAX + 16];
+    bool *marked = calloc((size_t)ours->width * (size_t)ours->height, sizeof *marked);
+
+    snprintf(scratch, sizeof scratch, "%s/again.png", check->folder);
+    for (int i = 0; marked != NULL && i < check->options->doubts && interrupted == 0; i++) {
+        if (moved_run(check, outcome->scene, i, scratch)) {
+            outcome->decided_by_rounding += doubts_mark(check, ours, theirs, scratch, marked);
+        }
+    }
+    unlink(scratch);
+    free(marked);
+    const ImageDifference *difference = &outcome->difference;
+    uint64_t left = difference->pixels_beyond[BEYOND_THRESHOLD] - outcome->decided_by_rounding;
+    outcome->agrees = (double)left <= check->options->ties * (double)difference->pixels;
+}
+
 // False when the report cannot be written.
 static bool scene_check(const Check *check, int number, Outcome *outcome)
 {
@@ -247,6 +306,9 @@ static bool scene_check(const Check *check, int number, Outcome *outcome)
                picture_read(check->options, files.rtlang, &ours, outcome) &&
                picture_read(check->options, files.povray, &theirs, outcome)) {
         pictures_compare(check->options, &ours, &theirs, outcome);
+        if (outcome->compared && !outcome->agrees && check->options->doubts > 0) {
+            doubts_find(check, &ours, &theirs, outcome);
+        }
     }
     if (check->report != NULL && interrupted == 0) {
         fine = scenes_report_add(check->report, outcome, &ours, &theirs);

@@ -134,6 +134,11 @@ static bool apply_seed(Options *options, const char *argument)
     return parse_integer(argument, 0, 1000000000, &options->seed);
 }
 
+static bool apply_doubts(Options *options, const char *argument)
+{
+    return parse_integer(argument, 1, 1000, &options->doubts);
+}
+
 static bool apply_json(Options *options, const char *argument)
 {
     (void)argument;
@@ -161,6 +166,8 @@ static const OptionRow rows[] = {
      "greatest difference of a pixel that counts as equal (default 2/65535)"},
     {0, "ties", "SHARE", apply_ties, "a number or a quotient of two",
      "share of the pixels that may differ by more (default 0.0001)"},
+    {0, "doubts", "N", apply_doubts, "a whole number from 1 to 1000",
+     "draw what differs N more times, put elsewhere: pixels that only rounding decides do not count"},
     {0, "povray", "PROGRAM", apply_povray, "a program", "POV-Ray's program (default povray)"},
     {'I', "include-path", "FOLDER", apply_include_path, "a folder", "also look here for #include; may repeat"},
     {'j', "threads", "N", apply_threads, "a whole number from 1 to 512",

@@ -14,6 +14,7 @@ typedef struct Options {
     int threads;      // for both renderers; 0: as many as the machine has
     double threshold; // of a channel's difference, in linear light
     double ties;      // the share of pixels that may differ by more
+    int doubts;       // how often a scene is drawn elsewhere, to find pixels that rounding decides
     const char *povray;
     const char *keep; // folder for the pictures and POV-Ray's messages; NULL: they are thrown away
     const char *report; // folder for the page; NULL: none is written

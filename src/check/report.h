@@ -5,6 +5,7 @@
 #define CHECK_REPORT_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "image/image.h"
@@ -18,6 +19,7 @@ typedef struct Outcome {
     const char *scene;
     bool compared; // both pictures were made and read
     bool agrees;
+    uint64_t decided_by_rounding; // pixels beyond the threshold that are other where the scene is put elsewhere
     ImageDifference difference;
     double flip;
     double rtlang_seconds, povray_seconds; // whole run of a renderer, from text to file

@@ -191,10 +191,11 @@ LIGHT = {
     "moved": "light_source { 0, {rgb} translate <5, 5, -6> rotate {-30~30}*y }",
     "area": "light_source { <{3~5}, {4~6}, -6>, rgb 1 area_light {0.5~2}*x, {0.5~2}*z, 3, 3 }",
     "area circular": "light_source { <{3~5}, {4~6}, -6>, rgb 1 area_light {0.5~2}*x, {0.5~2}*z, 4, 4 circular }",
+    "area turned": "light_source { <{3~5}, {4~6}, -6>, rgb 1 area_light {0.5~2}*x, y, 4, 4 orient }",
     "area adaptive": "light_source { <{3~5}, {4~6}, -6>, rgb 1 area_light {0.5~2}*x, {0.5~2}*z, 5, 5 adaptive 1 }",
 }
 # POV-Ray forgives a shadow the last 1e-3 of its way: docs/language.md, "Where rtlang differs", measured there at up to 4e-3.
-FORGIVING = {"area", "area circular", "area adaptive"}
+FORGIVING = {"area", "area circular", "area turned", "area adaptive"}
 SETTINGS = {
     "plain": "assumed_gamma 1",
     "gamma": "assumed_gamma {1.8~2.4}",

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Area lights with `jitter` beside POV-Ray's, as samples of one distribution: each column of a picture of a half shadow whose edge is
+upright has rows that are equal but for chance, so the means of both programs' columns are compared by a z-test.
+
+The same test rejects a light without jitter, so it can tell. Prints TAP.
+SPDX-License-Identifier: MIT
+"""
+import os
+import statistics
+import sys
+import tempfile
+
+TOP = os.environ.get("top_srcdir", ".")
+sys.path.insert(0, os.path.join(TOP, "tests", "system"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True
+import pictures  # noqa: E402
+from tap import Tap  # noqa: E402
+
+WIDTH, HEIGHT = 48, 256
+POVRAY_HEIGHT = 32  # its blocks of 32 by 32 pixels have the same random numbers, so that more rows would say nothing new
+SCENE = """#version 3.7; global_settings { assumed_gamma 1 }
+camera { orthographic location -4*z right 3*x up y direction z }
+light_source { -10*z, 1 area_light 2*x, 2*y, 4, 4 %s }
+box { <0, -50, -5>, <50, 50, -4.9> no_image }
+plane { -z, 0 pigment { rgb 1 } finish { ambient 0 diffuse 0.9 } }
+"""
+LIGHTS = {"plain": "jitter", "circular": "circular jitter", "adaptive": "adaptive 0 jitter", "turned": "circular orient jitter"}
+# Of 48 columns and four lights none is beyond 5 by chance but once in 9000 runs; the mean of the squares of 48 normal numbers
+# is above 2 once in 20000.
+GREATEST, MEAN_SQUARE = 5.0, 2.0
+
+
+def columns(path):
+    """[(mean, variance of the mean)] of the columns, in shares of light."""
+    width, height, values = pictures.read_png(path)
+    found = []
+    for x in range(width):
+        column = [values[3 * (y * width + x)] / 65535 for y in range(height)]
+        found.append((statistics.fmean(column), statistics.variance(column) / height))
+    return found
+
+
+def scores(one, other):
+    """z of each column in which anything is left to chance."""
+    return [(a - b) / (va + vb) ** 0.5 for (a, va), (b, vb) in zip(one, other) if vb * POVRAY_HEIGHT > 1e-4]
+
+
+def render(program, text, folder, height=HEIGHT):
+    scene, picture = os.path.join(folder, "scene.pov"), os.path.join(folder, "picture.png")
+    with open(scene, "w", encoding="ascii") as out:
+        out.write(text)
+    program(scene, picture, [], WIDTH, height)
+    return columns(picture)
+
+
+def is_like(found):
+    return max(map(abs, found)) <= GREATEST and statistics.fmean(z * z for z in found) <= MEAN_SQUARE
+
+
+def words(found):
+    return (f"{len(found)} columns, greatest |z| {max(map(abs, found)):.2f}, "
+            f"mean z² {statistics.fmean(z * z for z in found):.2f}")
+
+
+def main():
+    tap = Tap()
+    if not pictures.povray():
+        tap.skip("jitter", "no povray here")
+        return tap.done()
+    with tempfile.TemporaryDirectory() as folder:
+        for name, light in LIGHTS.items():
+            ours = render(pictures.render_rtlang, SCENE % light, folder)
+            theirs = render(pictures.render_povray, SCENE % light, folder, POVRAY_HEIGHT)
+            found = scores(ours, theirs)
+            tap.ok(len(found) >= 12 and is_like(found), f"{name}: {words(found)}", found)
+            spread = sum(v for _, v in ours) * HEIGHT / (sum(v for _, v in theirs) * POVRAY_HEIGHT)
+            tap.ok(0.8 < spread < 1.25, f"{name}: the variances of rtlang's columns are {spread:.3f} times POV-Ray's")
+            still = scores(render(pictures.render_rtlang, SCENE % light.replace("jitter", ""), folder), theirs)
+            tap.ok(not is_like(still), f"{name}: without jitter it is told apart: {words(still)}")
+    return tap.done()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
