@@ -12,64 +12,54 @@
 
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
 
-// The rays of the camera; returns the places at which it sees anything, a bit for each.
-RT_ALWAYS_INLINE uint64_t places_rays(const Prepared *p, const KernelPlaces *places, Ray rays[TILE_RAYS])
+// The rays of a view, ray by ray but for what they hit.
+RT_ALWAYS_INLINE void trace_view(const Prepared *p, unsigned features, ShadePath path, const TileView *view,
+                                 const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
+                                 RenderStatistics *statistics)
 {
-    uint64_t seen = 0;
-    for (int i = 0; i < TILE_RAYS; i++) {
-        if (places->lens) {
-            rays[i] = camera_lens_ray(&p->camera, places->u[i], places->v[i], places->lens[i]);
-            seen |= UINT64_C(1) << i;
-            continue;
-        }
-        seen |= (uint64_t)camera_ray(&p->camera, places->u[i], places->v[i], &rays[i]) << i;
-    }
-    return seen;
-}
-
-// The same with what they hit.
-RT_ALWAYS_INLINE uint64_t places_closest(const Prepared *p, unsigned features, const TileView *view,
-                                         const KernelPlaces *places, Ray rays[TILE_RAYS], Hit hits[TILE_RAYS])
-{
-    if (!view) {
-        uint64_t seen = places_rays(p, places, rays);
-        geometry_closest_tile(p->geometry, features, rays, hits);
-        return seen;
-    }
     SphereTile tile;
     TileHits found;
     geometry_closest_view(p->geometry, features, view, places->u, places->v, &tile, &found);
-    for (unsigned i = 0; i < TILE_RAYS; i++) {
+    for (; wanted; wanted &= wanted - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(wanted);
         SphereRay ray = sphere_tile_ray(&tile, i);
-        rays[i] = (Ray){ray.origin, ray.direction};
-        hits[i] = (Hit){found.t[i], found.shape[i], found.inside >> i & 1};
+        Hit hit = {found.t[i], found.shape[i], found.inside >> i & 1};
+        light[i] = shade_ray(p, features, path, (Ray){ray.origin, ray.direction}, &hit, streams ? &streams[i] : NULL,
+                             statistics);
     }
-    return UINT64_MAX;
 }
 
-RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const KernelPlaces *places,
+// Rays of other cameras, each by itself.
+RT_ALWAYS_INLINE void trace_single(const Prepared *p, unsigned features, ShadePath path, const KernelPlaces *places,
                                    SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
 {
-    Ray rays[TILE_RAYS];
-    Hit hits[TILE_RAYS];
-    const PreparedCamera *camera = &p->camera;
-    TileView view = {camera->location, camera->direction, camera->right, camera->up};
-    bool has_view = camera->type == CAMERA_PERSPECTIVE && !places->lens;
-    if (!(features & ~(unsigned)SHADE_TILE_FEATURES) && has_view) {
-        shade_tile(p, features, &view, places, streams, wanted, light, statistics);
-        return;
-    }
-    RenderStatistics counted = *statistics;
-    uint64_t seen = places_closest(p, features, has_view ? &view : NULL, places, rays, hits);
-    for (uint64_t unseen = wanted & ~seen; unseen; unseen &= unseen - 1) {
-        light[__builtin_ctzll(unseen)] = rgb_grey(0.0);
-        counted.camera_rays++;
-    }
-    wanted &= seen;
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
-        light[i] = shade_ray(p, features, rays[i], &hits[i], streams ? &streams[i] : NULL, &counted);
-        counted.camera_rays++;
+        Ray ray;
+        bool is_seen = true;
+        if (places->lens) {
+            ray = camera_lens_ray(&p->camera, places->u[i], places->v[i], places->lens[i]);
+        } else {
+            is_seen = camera_ray(&p->camera, places->u[i], places->v[i], &ray);
+        }
+        light[i] = is_seen ? shade_ray(p, features, path, ray, NULL, streams ? &streams[i] : NULL, statistics)
+                           : rgb_grey(0.0);
+    }
+}
+
+RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePath path, const KernelPlaces *places,
+                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
+{
+    const PreparedCamera *camera = &p->camera;
+    TileView view = {camera->location, camera->direction, camera->right, camera->up};
+    RenderStatistics counted = *statistics;
+    counted.camera_rays += (uint64_t)__builtin_popcountll(wanted);
+    if (camera->type != CAMERA_PERSPECTIVE || places->lens) {
+        trace_single(p, features, path, places, streams, wanted, light, &counted);
+    } else if (features & ~(unsigned)SHADE_TILE_FEATURES) {
+        trace_view(p, features, path, &view, places, streams, wanted, light, &counted);
+    } else {
+        shade_tile(p, features, path, &view, places, streams, wanted, light, &counted);
     }
     *statistics = counted;
 }
@@ -85,10 +75,16 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, const K
 #define SHADING_ANY (SHADING_MIRRORS | RENDER_TRANSPARENCY)
 
 #define DEFINE_KERNEL(name, text, geometry, shading)                                                                   \
+    static __attribute__((noinline)) Rgb path_##name(const Prepared *p, Pending *pending, SampleStream *stream,        \
+                                                     RenderStatistics *statistics)                                     \
+    {                                                                                                                  \
+        return shade_pending(p, (unsigned)(geometry) | (unsigned)(shading), pending, stream, statistics);              \
+    }                                                                                                                  \
     static void trace_##name(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,    \
                              Rgb *light, RenderStatistics *statistics)                                                 \
     {                                                                                                                  \
-        trace_places(p, (unsigned)(geometry) | (unsigned)(shading), places, streams, wanted, light, statistics);       \
+        trace_places(p, (unsigned)(geometry) | (unsigned)(shading), path_##name, places, streams, wanted, light,       \
+                     statistics);                                                                                      \
     }
 #define LIST_KERNEL(name, text, geometry, shading) {text, (unsigned)(geometry) | (unsigned)(shading), trace_##name},
 

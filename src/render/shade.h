@@ -263,18 +263,12 @@ RT_ALWAYS_INLINE Rgb shade_pending(const Prepared *p, unsigned features, Pending
     return pending->sums[0];
 }
 
-// The light that one camera ray brings back, where rays may go on.
-RT_ALWAYS_INLINE Rgb shade_path(const Prepared *p, unsigned features, const PendingRay *first, SampleStream *stream,
-                                RenderStatistics *statistics)
-{
-    Pending pending;
-    shade_path_begin(p, features, first, &pending);
-    return shade_pending(p, features, &pending, stream, statistics);
-}
+// A kernel's shade_pending, not inline, so that it is compiled once.
+typedef Rgb (*ShadePath)(const Prepared *p, Pending *pending, SampleStream *stream, RenderStatistics *statistics);
 
-// The light that one camera ray brings back, which hits what `known` says.
-RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, const Hit *known, SampleStream *stream,
-                               RenderStatistics *statistics)
+// The light that one camera ray brings back, which hits what `known` says, or, where that is NULL, what it meets.
+RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, ShadePath path, Ray ray, const Hit *known,
+                               SampleStream *stream, RenderStatistics *statistics)
 {
     PendingRay first = {.ray = ray,
                         .start = RAY_START_CAMERA,
@@ -283,7 +277,9 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, Ray ray, co
                         .level = 1,
                         .known = known};
     if (features & (RENDER_REFLECTION | RENDER_TRANSPARENCY)) {
-        return shade_path(p, features, &first, stream, statistics);
+        Pending pending;
+        shade_path_begin(p, features, &first, &pending);
+        return path(p, &pending, stream, statistics);
     }
     ShadePoint at;
     ShadeOnward onward;

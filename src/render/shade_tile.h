@@ -130,8 +130,8 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Li
 }
 
 // Where a surface mirrors: what the ray brings back in all. `light` is the surface's own.
-RT_ALWAYS_INLINE Rgb shade_tile_mirror(const Prepared *p, unsigned features, const ShadePoint *at, Rgb light,
-                                       SampleStream *stream, RenderStatistics *statistics)
+RT_ALWAYS_INLINE Rgb shade_tile_mirror(const Prepared *p, unsigned features, ShadePath path, const ShadePoint *at,
+                                       Rgb light, SampleStream *stream, RenderStatistics *statistics)
 {
     PendingRay first = {.ray = {p->camera.location, at->direction},
                         .start = RAY_START_CAMERA,
@@ -146,12 +146,12 @@ RT_ALWAYS_INLINE Rgb shade_tile_mirror(const Prepared *p, unsigned features, con
     pending_begin(&pending);
     pending_add(&pending, &first, light);
     shade_go_on(p, features, &onward, at, &first, NULL, NULL, &pending, statistics);
-    return shade_pending(p, features, &pending, stream, statistics);
+    return path(p, &pending, stream, statistics);
 }
 
 // The light of the rays of a view.
-RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
-                                 SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
+RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, ShadePath path, const TileView *view,
+                                 const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
 {
     SphereTile rays;
     TileHits hits;
@@ -160,7 +160,6 @@ RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const Til
     for (int i = 0; i < TILE_RAYS; i++) {
         light[i] = background;
     }
-    statistics->camera_rays += (uint64_t)__builtin_popcountll(wanted);
     uint64_t met = hits.met & wanted;
     if (!met) {
         return;
@@ -176,7 +175,7 @@ RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const Til
         if ((features & RENDER_REFLECTION) && tile.finish[i]->reflects) {
             SampleStream *stream = (features & RENDER_LIGHTS) && streams ? &streams[tile.surfaces.ray[i]] : NULL;
             ShadePoint at = shade_tile_point(&tile, i, material[i], stream);
-            *out = shade_tile_mirror(p, features, &at, *out, stream, statistics);
+            *out = shade_tile_mirror(p, features, path, &at, *out, stream, statistics);
         }
     }
 }
