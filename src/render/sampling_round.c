@@ -219,16 +219,18 @@ static void pixel_start(const Round *round, size_t pixel, const Parts *parts)
 // What goes for all pixels that get so many samples.
 typedef struct Shares {
     uint32_t before, count;
+    bool is_linear;                 // slope_at is NULL
     double of_new, of_old, of_mean; // of a sum of samples, of the old mean and of the new one
     double first, second;           // of the sums of halves
     double fresh, outer;            // apart_factor
 } Shares;
 
-static void shares_set(Shares *shares, uint32_t had, uint32_t count)
+static void shares_set(const Round *round, Shares *shares, uint32_t had, uint32_t count)
 {
     double first = (count + 1) / 2, second = count / 2, before = had, now = before + count;
     *shares = (Shares){.before = had,
                        .count = count,
+                       .is_linear = !linear_is_needed(&round->prepared->scene->settings),
                        .of_new = 1.0 / count,
                        .of_old = before / now,
                        .of_mean = count / now,
@@ -244,7 +246,7 @@ static inline void pixel_judge(const Round *round, const Shares *shares, size_t 
 {
     PixelRecord *record = &round->film->records[pixel];
     Rgb place;
-    const Rgb *slope = slope_at(round, &round->film->rgb[3 * pixel], &place);
+    const Rgb *slope = shares->is_linear ? NULL : slope_at(round, &round->film->rgb[3 * pixel], &place);
     Rgb apart = rgb_add_scaled(rgb_scale(shares->first, parts->sum[0]), -shares->second, parts->sum[1]);
     float fresh = square_apart(apart, slope, shares->fresh), outer = fresh, inner = 0.0f;
     if (shares->before > 0) {
@@ -273,7 +275,7 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
         return;
     }
     if (shares->before != record->count || shares->count != chosen->count) {
-        shares_set(shares, record->count, chosen->count);
+        shares_set(round, shares, record->count, chosen->count);
     }
     Rgb mean = rgb_scale(shares->of_new, rgb_add(parts->sum[0], parts->sum[1]));
     Rgb old = rgb(value[0], value[1], value[2]);

@@ -43,6 +43,8 @@ MANY = ("#declare S = seed(7); light_source { <-8, 12, -10> rgb 1 }\n#for (I, 1,
         " rand(S) * 8 + 4>, 0.1 + 0.25 * rand(S) pigment { rgb <rand(S), rand(S), rand(S)> } } #end\n")
 # Scene, samples a pixel: what is worked out for a pixel is paid once for each doubling of its samples.
 SAMPLED = {"one sphere": (SPHERE, 64), "300 spheres": (MANY, 16)}
+# Large enough that what is worked out once a round does not count for what a pixel costs.
+SAMPLED_SIZE = ("-W48", "-H36")
 ESTIMATE_BAR = 1.02
 # Of tracing a scene by the kernel that is chosen for it, over a kernel compiled with nothing but what the scene has.
 ABSENT_BAR = 1.005
@@ -125,7 +127,7 @@ def judge_absent(tap, folder):
 def judge_estimate(tap, folder):
     """A line for each of SAMPLED: the instructions of sampling with and without its error."""
     for name, (text, samples) in SAMPLED.items():
-        told, untold = (scene_instructions(text, "sampling_run", folder, f"--samples={samples}", *more)
+        told, untold = (scene_instructions(text, "sampling_run", folder, *SAMPLED_SIZE, f"--samples={samples}", *more)
                         for more in ((), ("--no-estimate",)))
         if not told or not untold:
             tap.skip(f"the error of {name}", "callgrind does not run rtlang")
