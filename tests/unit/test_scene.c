@@ -58,6 +58,7 @@ static void test_order_and_dump(void)
     tap_ok(build_scene(&scene) && scene.shape_count == 4 && scene.spheres.items[1].order == 3 &&
                scene.planes.items[0].order == 1 && scene.ellipsoids.items[0].order == 2,
            "shapes are numbered in the order of declaration over all kinds");
+    scene.settings.version = 3.7;
     scene.settings.gamma_model = GAMMA_POWER;
     scene.settings.assumed_gamma = 2.2;
     scene_dump(&scene, &out);
@@ -83,7 +84,7 @@ static void test_gamma_dump(void)
         double gamma, version;
         const char *begins;
     } cases[] = {
-        {GAMMA_NONE, 1.0, 3.7, "global_settings {\n  ambient_light"},
+        {GAMMA_NONE, 1.0, SCENE_VERSION_UNSAID, "global_settings {\n  ambient_light"},
         {GAMMA_NONE, 1.0, 3.5, "#version 3.5;\nglobal_settings {\n  ambient_light"},
         {GAMMA_LINEAR, 1.0, 3.7, "#version 3.7;\nglobal_settings {\n  assumed_gamma 1\n"},
         {GAMMA_SRGB, 1.0, 3.1, "#version 3.1;\nglobal_settings {\n  assumed_gamma srgb\n"},
