@@ -199,8 +199,10 @@ test_scripts = \
   %D%/system/check_disable_study.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
+  %D%/povray/check_apart.py \
   %D%/povray/check_blur.sh \
   %D%/povray/check_alpha.py \
+  %D%/povray/check_alpha_samples.py \
   %D%/povray/check_antialias.py \
   %D%/povray/check_jitter.py \
   %D%/povray/check_pairs.py \
@@ -267,11 +269,15 @@ EXTRA_DIST += \
   %D%/povray
 
 # Rewrite what the tests hold as expected; look at the difference before it is committed.
-.PHONY: update-golden update-docs
+.PHONY: update-golden update-docs update-measured
 update-golden: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_golden.py
 update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_diagnostics$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py
+# What docs/language.md tells of differences from POV-Ray, which must be there.
+update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_apart.py --update
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_antialias.py --update
 
 # What takes too long for every day.
 .PHONY: check-long

@@ -99,6 +99,7 @@ void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
         record->settings.adc_bailout = settings->adc_bailout;
         record->settings.max_trace_level = settings->max_trace_level;
         record->settings.noise_generator = settings->noise_generator;
+        record->settings.number_of_waves = settings->number_of_waves;
         break;
     default: break;
     }
@@ -120,12 +121,12 @@ static bool check_range(Block *block, const SchemaProperty *property, double *nu
     }
     double end = is_low ? range->low : range->high;
     const char *relation = is_low ? range->low_is_open ? "greater than" : "at least" : "at most";
-    if (range->policy == RANGE_FAULT) {
+    if (range->policy == RANGE_FAULT || (range->policy == RANGE_RAISE && !is_low)) {
         return block_fault(block, DIAG_E0341, span, "`%s` must be %s %g, not %g", property->word, relation, end,
                            *number);
     }
     eval_warn(block->ev, DIAG_W0341, span, "`%s` should be %s %g, not %g", property->word, relation, end, *number);
-    *number = range->policy == RANGE_CLAMP ? end : *number;
+    *number = range->policy == RANGE_WARN ? *number : end;
     return true;
 }
 

@@ -59,5 +59,6 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)
     settings->adc_bailout = record->settings.adc_bailout;
     settings->max_trace_level = record->settings.max_trace_level;
     settings->noise_generator = record->settings.noise_generator;
+    settings->number_of_waves = record->settings.number_of_waves;
     return true;
 }

@@ -6,6 +6,9 @@
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
 
+#include <stddef.h>
+#include <string.h>
+
 // ---- sky_sphere
 
 bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNode *item)
@@ -63,17 +66,19 @@ bool objects_finish(Eval *ev)
 
 // ---- fog
 
+// Each of these words makes POV-Ray's fog turbulent, whatever its value, unless turb_depth is 0 in the end. Measured.
 bool fog_turbulence_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    static const SchemaProperty vector = {"turbulence", TYPE_VECTOR, ACTION_NONE,
-                                          .at = offsetof(FogBlueprint, turbulence)};
-    (void)property;
-    if (!block_value(block, &vector, item->span)) {
+    bool is_vector = strcmp(property->word, "turbulence") == 0;
+    SchemaProperty value = {.word = property->word, .type = is_vector ? TYPE_VECTOR : TYPE_NUMBER};
+    value.at = is_vector ? offsetof(FogBlueprint, turbulence) : offsetof(FogBlueprint, turbulence_detail);
+    FogBlueprint *fog = &block->record->fog;
+    if (!block_value(block, &value, item->span)) {
         return false;
     }
-    if (!vec3_equal(block->record->fog.turbulence, vec3(0.0, 0.0, 0.0)) && !block->has_unsupported) {
-        block->has_unsupported = true;
-        block_unsupported(block->ev, "turbulence", item->span, KIND_FOG);
+    if (!fog->turbulent_word) {
+        fog->turbulent_word = property->word;
+        fog->turbulent_span = item->span;
     }
     return true;
 }
@@ -82,6 +87,11 @@ bool fog_close(Block *block)
 {
     const FogBlueprint *fog = &block->record->fog;
     Span span = block->node->span;
+    if (fog->turbulent_word && fog->turb_depth != 0.0 && !block->has_unsupported) {
+        block->has_unsupported = true;
+        block_unsupported(block->ev, fog->turbulent_word, fog->turbulent_span, KIND_FOG);
+        return true;
+    }
     if (fog->type != 2 || fog->distance == 0.0) {
         return true;
     }

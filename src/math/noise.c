@@ -123,9 +123,6 @@ void noise_init(Noise *noise)
         noise->gradients[i] = next_gradient(&state);
     }
     shuffle_order(noise->order, &state);
-    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
-        noise->wave_sources[i] = vec3_normalize(noise_vector(noise, vec3(i, 0.0, 0.0)));
-    }
 }
 
 NoiseGenerator noise_generator(double number)
@@ -304,10 +301,16 @@ Vec3 noise_vector_sum(const Noise *noise, const Octaves *octaves, Vec3 p)
 
 // ---- waves
 
-double noise_wave_frequency(unsigned i)
+// Frequencies are numbers of 15 bits that follow one another in the random sequence from 1, after 7168 others.
+void noise_wave_sources(const Noise *noise, unsigned count, WaveSource *sources)
 {
-    // Ten numbers that follow one another in POV-Ray's random sequence.
-    static const uint16_t numbers[NOISE_WAVE_SOURCES] = {29789, 31130, 13866, 22914, 22255,
-                                                         32159, 25328, 12801, 7198,  5194};
-    return numbers[i] / 32767.0 + 0.01;
+    enum { NUMBERS_BEFORE = 7168, GREATEST = 0x7fff };
+    uint32_t state = 1;
+    for (unsigned i = 0; i < NUMBERS_BEFORE; i++) {
+        next_random(&state);
+    }
+    for (unsigned i = 0; i < count; i++) {
+        sources[i].place = vec3_normalize(noise_vector(noise, vec3(i, 0.0, 0.0)));
+        sources[i].frequency = (next_random(&state) & GREATEST) / (double)GREATEST + 0.01;
+    }
 }

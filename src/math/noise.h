@@ -15,7 +15,6 @@
 enum {
     NOISE_CELLS = 4096,      // period of the first two generators, of the shuffled numbers below it
     NOISE_GRADIENTS = 2048,  // period of the third
-    NOISE_WAVE_SOURCES = 10,
     NOISE_SITES = NOISE_CELLS + 2,
 };
 
@@ -30,7 +29,6 @@ typedef struct Noise {
     uint16_t order[NOISE_GRADIENTS];
     Vec3 gradients[NOISE_GRADIENTS]; // of unit length
     double sites[NOISE_SITES]; // from 0 to 1, see noise_site
-    Vec3 wave_sources[NOISE_WAVE_SOURCES]; // of `ripples` and `waves`, at distance 1 from the origin
 } Noise;
 
 void noise_init(Noise *noise);
@@ -63,7 +61,13 @@ double noise_sum(const Noise *noise, NoiseGenerator generator, const Octaves *oc
 // A sum of noise_vector.
 Vec3 noise_vector_sum(const Noise *noise, const Octaves *octaves, Vec3 p);
 
-// Waves per unit length from a source of `waves`.
-double noise_wave_frequency(unsigned i);
+// Where waves of `ripples` and `waves` come from.
+typedef struct WaveSource {
+    Vec3 place;       // at distance 1 from the origin
+    double frequency; // of `waves`: waves per unit length, from 0.01 to 1.01
+} WaveSource;
+
+// The first `count` sources of an endless list.
+void noise_wave_sources(const Noise *noise, unsigned count, WaveSource *sources);
 
 #endif

@@ -41,12 +41,12 @@ static Vec3 wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 static Vec3 waves_of(const Pattern *pattern, const NoiseSource *source, Vec3 p, bool has_frequencies)
 {
     Vec3 sum = vec3(0.0, 0.0, 0.0);
-    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
-        Vec3 offset = vec3_sub(p, source->noise->wave_sources[i]);
-        double way = vec3_length(offset), frequency = has_frequencies ? noise_wave_frequency(i) : 1.0;
+    for (unsigned i = 0; i < source->wave_count; i++) {
+        Vec3 offset = vec3_sub(p, source->waves[i].place);
+        double way = vec3_length(offset), frequency = has_frequencies ? source->waves[i].frequency : 1.0;
         if (way > 0.0) {
             double height = sin(two_pi * (way * pattern->frequency * frequency + pattern->phase)) / frequency;
-            sum = vec3_add_scaled(sum, height / (NOISE_WAVE_SOURCES * way), offset);
+            sum = vec3_add_scaled(sum, height / (source->wave_count * way), offset);
         }
     }
     return sum;

@@ -200,6 +200,11 @@ bool pattern_needs_noise(const Pattern *pattern)
     return pattern_info((PatternType)pattern->type)->uses_noise || vec3_max_abs(pattern->turbulence) > 0.0;
 }
 
+bool pattern_needs_waves(const Pattern *pattern)
+{
+    return pattern->type == PATTERN_RIPPLES || pattern->type == PATTERN_WAVES;
+}
+
 // Turbulence moves a point last, in the pattern's own space, wherever it was said.
 Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {

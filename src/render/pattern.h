@@ -13,11 +13,15 @@
 
 // Whether a pattern's value depends on noise.
 bool pattern_needs_noise(const Pattern *pattern);
+// Whether it needs sources of waves, too.
+bool pattern_needs_waves(const Pattern *pattern);
 
 // What a scene's patterns take their noise from.
 typedef struct NoiseSource {
     const Noise *noise;       // NULL when no pattern of the scene needs noise
     NoiseGenerator generator; // of patterns that say nothing else
+    const WaveSource *waves;  // NULL when no pattern of the scene has waves
+    unsigned wave_count;
 } NoiseSource;
 
 // The point at which a pattern is looked at: moved, if it has turbulence that is no part of its formula.

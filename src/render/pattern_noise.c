@@ -88,21 +88,21 @@ double pattern_dents(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 double pattern_ripples(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     double sum = 0.0;
-    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
-        double way = vec3_length(vec3_sub(p, source->noise->wave_sources[i]));
+    for (unsigned i = 0; i < source->wave_count; i++) {
+        double way = vec3_length(vec3_sub(p, source->waves[i].place));
         sum += sine_wave(way * pattern->frequency + pattern->phase);
     }
-    return sum / NOISE_WAVE_SOURCES;
+    return sum / source->wave_count;
 }
 
 double pattern_waves(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     double sum = 0.0;
-    for (unsigned i = 0; i < NOISE_WAVE_SOURCES; i++) {
-        double way = vec3_length(vec3_sub(p, source->noise->wave_sources[i])), frequency = noise_wave_frequency(i);
+    for (unsigned i = 0; i < source->wave_count; i++) {
+        double way = vec3_length(vec3_sub(p, source->waves[i].place)), frequency = source->waves[i].frequency;
         sum += sin(two_pi * (way * pattern->frequency * frequency + pattern->phase)) / frequency;
     }
-    return 0.5 + 0.2 * sum / NOISE_WAVE_SOURCES;
+    return 0.5 + 0.2 * sum / source->wave_count;
 }
 
 Vec3 pattern_turbulent(const Pattern *pattern, const NoiseSource *source, Vec3 p)

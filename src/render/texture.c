@@ -17,29 +17,45 @@ static Transform way_back(const Transform *to_world)
     return transform_invert(to_world, &back) ? back : transform_identity(); // the evaluator saw that there is one
 }
 
-static bool needs_noise(const Scene *scene)
+static bool any_pattern(const Scene *scene, bool (*holds)(const Pattern *pattern))
 {
     for (size_t i = 0; i < scene->patterns.count; i++) {
-        if (pattern_needs_noise(&scene->patterns.items[i].pattern)) {
+        if (holds(&scene->patterns.items[i].pattern)) {
             return true;
         }
     }
     for (size_t i = 0; i < scene->textures.count; i++) {
-        if (pattern_needs_noise(&scene->textures.items[i].pattern)) {
+        if (holds(&scene->textures.items[i].pattern)) {
             return true;
         }
     }
     for (size_t i = 0; i < scene->normals.count; i++) {
-        if (pattern_needs_noise(&scene->normals.items[i].pattern)) {
+        if (holds(&scene->normals.items[i].pattern)) {
             return true;
         }
     }
     return false;
 }
 
+static bool find_waves(TextureTable *table, const Scene *scene)
+{
+    unsigned count = (unsigned)scene->settings.number_of_waves;
+    if (!any_pattern(scene, pattern_needs_waves)) {
+        return true;
+    }
+    table->waves = malloc(count * sizeof *table->waves);
+    if (!table->waves) {
+        return false;
+    }
+    noise_wave_sources(table->noise, count, table->waves);
+    table->source.waves = table->waves;
+    table->source.wave_count = count;
+    return true;
+}
+
 static bool find_noise(TextureTable *table, const Scene *scene)
 {
-    if (!needs_noise(scene)) {
+    if (!any_pattern(scene, pattern_needs_noise)) {
         return true;
     }
     NoiseGenerator usual = scene->settings.version < 3.5 ? NOISE_ORIGINAL : NOISE_CORRECTED;
@@ -49,8 +65,8 @@ static bool find_noise(TextureTable *table, const Scene *scene)
         return false;
     }
     noise_init(table->noise);
-    table->source = (NoiseSource){table->noise, said != 0 ? noise_generator(said) : usual};
-    return true;
+    table->source = (NoiseSource){.noise = table->noise, .generator = said != 0 ? noise_generator(said) : usual};
+    return find_waves(table, scene);
 }
 
 bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
@@ -80,6 +96,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
 void texture_table_fini(TextureTable *table)
 {
     free(table->noise);
+    free(table->waves);
     free(table->to_pattern);
     free(table->texture_to_pattern);
     free(table->normal_to_pattern);

@@ -20,6 +20,7 @@ typedef struct TextureTable {
     const Scene *scene;
     double scale;                  // from prepared lengths to the scene's, a power of two
     Noise *noise;                  // NULL when no pattern needs it
+    WaveSource *waves;             // likewise
     NoiseSource source;
     Transform *to_pattern;         // for each of the scene's patterns
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern

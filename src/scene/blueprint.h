@@ -233,8 +233,11 @@ typedef struct FogBlueprint {
     double distance, offset, alt;
     Vec3 up;
     Rgbft colour;
-    double ignored; // what says how turbulence would look
     Vec3 turbulence;
+    double turbulence_detail; // its lambda, omega or octaves
+    double turb_depth;
+    const char *turbulent_word; // the first that makes it turbulent, or NULL, and where it stands
+    Span turbulent_span;
 } FogBlueprint;
 
 typedef struct SettingsBlueprint {
@@ -242,6 +245,7 @@ typedef struct SettingsBlueprint {
     double adc_bailout;
     int max_trace_level;
     int noise_generator;
+    int number_of_waves;
     double ignored; // settings that change no picture here
 } SettingsBlueprint;
 

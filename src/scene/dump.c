@@ -65,6 +65,9 @@ static void dump_settings(const Settings *settings, TextBuffer *out)
     if (settings->noise_generator != 0) {
         text_printf(out, "\n  noise_generator %d", settings->noise_generator);
     }
+    if (settings->number_of_waves != SETTINGS_WAVES) {
+        text_printf(out, "\n  number_of_waves %d", settings->number_of_waves);
+    }
     dump_number(out, "\n  adc_bailout ", settings->adc_bailout);
     text_append(out, "\n}\n");
 }

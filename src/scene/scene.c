@@ -39,6 +39,7 @@ void scene_init(Scene *scene)
                 .assumed_gamma = 1.0,
                 .ambient_light = {1.0, 1.0, 1.0},
                 .max_trace_level = 5,
+                .number_of_waves = SETTINGS_WAVES,
                 .adc_bailout = 1.0 / 255.0,
                 .version = SCENE_VERSION_UNSAID,
             },

@@ -318,6 +318,11 @@ typedef enum GammaModel {
 
 #define SCENE_VERSION_UNSAID 3.62 // of a scene without #version: drawn as those of before 3.7 are
 
+enum {
+    SETTINGS_WAVES = 10,            // number_of_waves of a scene that says nothing of it
+    SETTINGS_WAVES_MAX = 1000 * 1000, // 32 MB of them
+};
+
 typedef struct Settings {
     GammaModel gamma_model;
     double assumed_gamma; // GAMMA_POWER only, else 1
@@ -325,6 +330,7 @@ typedef struct Settings {
     int max_trace_level; // >= 1
     double adc_bailout;
     int noise_generator; // 1 to 3, 0: that of the version
+    int number_of_waves; // of the patterns `ripples` and `waves`, >= 1
     double version; // the language version in force at the end, SCENE_VERSION_UNSAID if none was given
 } Settings;
 

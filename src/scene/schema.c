@@ -54,7 +54,7 @@ static const SchemaProperty pattern_modifiers[] = {
     {"wood", TYPE_ACTION, ACTION_PATTERN, .doc = "rings around z, made uneven by `turbulence`"},
     {"wrinkles", TYPE_ACTION, ACTION_PATTERN, .doc = "ten octaves of noise"},
     {"dents", TYPE_ACTION, ACTION_PATTERN, .doc = "the cube of noise"},
-    {"ripples", TYPE_ACTION, ACTION_PATTERN, .doc = "waves from ten points near the origin"},
+    {"ripples", TYPE_ACTION, ACTION_PATTERN, .doc = "waves from `number_of_waves` points near the origin"},
     {"waves", TYPE_ACTION, ACTION_PATTERN, .doc = "the same, each of another length"},
     {"cells", TYPE_ACTION, ACTION_PATTERN, .doc = "unit cubes, each with a value of its own"},
     {"crackle", TYPE_ACTION, ACTION_PATTERN, .doc = "cells around one point in each unit cube"},
@@ -74,7 +74,7 @@ static const SchemaProperty pattern_modifiers[] = {
     {"lambda", TYPE_NUMBER, PATTERN_AT(lambda), .doc = "of turbulence: how much finer each octave is"},
     {"omega", TYPE_NUMBER, PATTERN_AT(omega), .doc = "of turbulence: how much weaker each octave is"},
     {"agate_turb", TYPE_NUMBER, PATTERN_AT(agate_turb), .doc = "of `agate`: how uneven its bands are"},
-    {"noise_generator", TYPE_INTEGER, PATTERN_AT(generator), .range = {RANGE_CLAMP, false, 0.0, 3.0},
+    {"noise_generator", TYPE_INTEGER, PATTERN_AT(generator), .range = {RANGE_FAULT, false, 0.0, 3.0},
      .doc = "1, 2 or 3; 0 is that of the scene"},
     {"frequency", TYPE_NUMBER, PATTERN_AT(frequency), .doc = "how often the map is run through"},
     {"phase", TYPE_NUMBER, PATTERN_AT(phase), .doc = "where in the map it begins"},
@@ -305,14 +305,15 @@ static const SchemaProperty fog_properties[] = {
     {"fog_alt", TYPE_NUMBER, AT(FogBlueprint, alt),
      .doc = "type 2: how far above that it is half as dense; more than 0"},
     {"up", TYPE_VECTOR, AT(FogBlueprint, up), .doc = "type 2: the direction of height, of any length but 0"},
-    {"turbulence", TYPE_ACTION, ACTION_TURBULENCE, .doc = "only 0 is supported"},
-    {"turb_depth", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
-    {"omega", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
-    {"lambda", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
-    {"octaves", TYPE_NUMBER, AT(FogBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"turb_depth", TYPE_NUMBER, AT(FogBlueprint, turb_depth),
+     .doc = "how much turbulence makes the fog uneven, 0.5; 0 is all that goes with one of the next four"},
+    {"turbulence", TYPE_ACTION, ACTION_TURBULENCE, .doc = "makes the fog turbulent, 0 too: only with `turb_depth 0`"},
+    {"omega", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
+    {"lambda", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
+    {"octaves", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
 };
 
-static const FogBlueprint fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}};
+static const FogBlueprint fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5};
 
 static const SchemaProperty settings_properties[] = {
     {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
@@ -320,10 +321,12 @@ static const SchemaProperty settings_properties[] = {
     {"ambient_light", TYPE_RGB, AT(SettingsBlueprint, ambient_light), .doc = "multiplies every `ambient`"},
     {"max_trace_level", TYPE_INTEGER, AT(SettingsBlueprint, max_trace_level), .range = {RANGE_CLAMP, false, 1.0, 256.0},
      .doc = "generations of mirrored rays, the camera's included"},
-    {"adc_bailout", TYPE_NUMBER, AT(SettingsBlueprint, adc_bailout), .doc = "rays that weigh less are not followed"},
-    {"noise_generator", TYPE_INTEGER, AT(SettingsBlueprint, noise_generator), .range = {RANGE_CLAMP, false, 0.0, 3.0},
-     .doc = "of all patterns that say nothing else: 1, 2 or 3; 0 is 2, or 1 before version 3.5"},
-    {"number_of_waves", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"adc_bailout", TYPE_NUMBER, AT(SettingsBlueprint, adc_bailout), .range = {RANGE_FAULT, false, -INFINITY, 1.0},
+     .doc = "rays that weigh less are not followed; those of the camera weigh 1"},
+    {"noise_generator", TYPE_INTEGER, AT(SettingsBlueprint, noise_generator), .range = {RANGE_FAULT, false, 1.0, 3.0},
+     .doc = "of all patterns that say nothing else: 1, 2 or 3; unless said 2, or 1 before version 3.5"},
+    {"number_of_waves", TYPE_INTEGER, AT(SettingsBlueprint, number_of_waves),
+     .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of `ripples` and `waves`: points they come from"},
     {"max_intersections", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
     {"mm_per_unit", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
 };
@@ -332,6 +335,7 @@ static const SettingsBlueprint settings_defaults = {
     .ambient_light = GREY(1.0),
     .adc_bailout = 1.0 / 255.0,
     .max_trace_level = 5,
+    .number_of_waves = SETTINGS_WAVES,
 };
 
 static const SchemaProperty texture_properties[] = {

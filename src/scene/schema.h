@@ -112,6 +112,7 @@ typedef enum SchemaPolicy {
     RANGE_FAULT, // outside is an error
     RANGE_WARN,  // outside is told and used
     RANGE_CLAMP, // outside is told and the nearest end is used
+    RANGE_RAISE, // below is told and the low end is used, above is an error
 } SchemaPolicy;
 
 typedef struct SchemaRange {

@@ -82,14 +82,18 @@ static void write_default(TextBuffer *out, const SchemaBlock *kind, const Schema
 static void write_range(TextBuffer *out, const SchemaRange *range)
 {
     static const char *const policies[] = {
-        [RANGE_ANY] = "", [RANGE_FAULT] = "error", [RANGE_WARN] = "warning", [RANGE_CLAMP] = "warning, nearest"};
+        [RANGE_ANY] = "", [RANGE_FAULT] = "error", [RANGE_WARN] = "warning", [RANGE_CLAMP] = "warning, nearest",
+        [RANGE_RAISE] = "below: warning, nearest; above: error"};
     if (range->policy == RANGE_ANY) {
         return;
     }
-    text_append(out, range->low_is_open ? "> " : ">= ");
-    text_append_double(out, range->low);
+    bool has_low = isfinite(range->low);
+    if (has_low) {
+        text_append(out, range->low_is_open ? "> " : ">= ");
+        text_append_double(out, range->low);
+    }
     if (isfinite(range->high)) {
-        text_append(out, ", <= ");
+        text_append(out, has_low ? ", <= " : "<= ");
         text_append_double(out, range->high);
     }
     text_printf(out, " (else %s)", policies[range->policy]);

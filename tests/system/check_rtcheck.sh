@@ -1,7 +1,7 @@
 #!/bin/sh
-# rtcheck's judgement, messages and exit codes, with stand-ins for POV-Ray. $RTCHECK names the program. Prints TAP.
+# rtcheck's judgement, messages and exit codes, with stand-ins for POV-Ray. $RTCHECK and $RTLANG name the programs. Prints TAP.
 # SPDX-License-Identifier: MIT
-: "${RTCHECK:?}"
+: "${RTCHECK:?}" "${RTLANG:?}"
 work=$(mktemp -d) || exit 99
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/a folder" "$work/include" "$work/tmp" && cd "$work/a folder" || exit 99
@@ -38,6 +38,9 @@ stand_in fails 'echo the reason is here >&2; exit 7'
 stand_in lazy 'echo nothing to do >&2'
 stand_in here 'test -f "./a scene.scn" && for a; do echo "$a" >&2; done; exit 1'
 stand_in cut 'head -c 100 "$ours" > "$output"'
+# One that has white where rtlang has black.
+stand_in exchanged 'sed "s/rgb 1, rgb 0/rgb 0, rgb 1/" doubt.scn > ../exchanged.scn
+"$RTLANG" -q -W 16 -H 8 --depth=16 --file-gamma=1 -o "$output" ../exchanged.scn'
 
 # expect NAME STATUS PATTERN ARGUMENT...: runs rtcheck; its output must match the pattern of case.
 expect() {
@@ -100,6 +103,33 @@ range 'a shape that looks too small' "*\", ${outside}a shape whose size over its
     'sphere { 2e5*z, 1 }'
 printf '%s\n' "$scene" | sed 's/-3\*z/-.03*z/; s/0, 1 /0, .02 /' > range.scn
 expect 'a scene too small' 0 "*\", ${outside}nothing farther than 0.05: ok\"" -W 16 -H 8 --povray "$work/same" range.scn
+# A plane in which faces of the checker's cubes lie: rounding alone says on which side each of the 128
+# pixels is, and eight of them are on the same side wherever the scene is put.
+doubt() {
+    cat > doubt.scn <<EOF
+#version 3.7; global_settings { assumed_gamma 1 }
+camera { orthographic location -5*z look_at 0 right 16*x up 8*y } light_source { <4,5,-6> rgb 1 }
+plane { z, 0 pigment { checker rgb 1, rgb 0 translate $1*z } finish { ambient 1 diffuse 0 } rotate <0, 30, 0> }
+$2
+EOF
+}
+doubt 0
+expect 'pixels that rounding decides differ' 1 '*"beyond 128 "*"x): FAIL"' -W 16 -H 8 --povray "$work/exchanged" doubt.scn
+expect 'and are told from others' 0 '*"beyond 128 "*", 120 by rounding, "*"x): ok"' \
+    -W 16 -H 8 --doubts 30 --ties 8/128 --povray "$work/exchanged" doubt.scn
+expect 'in JSON' 0 '*"\"agrees\": true, "*"\"beyond\": 128, "*"\"by_rounding\": 120"*' \
+    --json -W 16 -H 8 --doubts 30 --ties 8/128 --povray "$work/exchanged" doubt.scn
+doubt 0.5
+expect 'pixels that rounding does not decide count' 1 '*"beyond 128 "*"255 128, rtlang "*"x): FAIL"' \
+    -W 16 -H 8 --doubts 5 --povray "$work/exchanged" doubt.scn
+doubt 0 'box { <-3,-2,-2>, <2,1,-1> pigment { checker rgb 1, rgb 0 translate 0.25 } finish { ambient 1 diffuse 0 } }'
+expect 'beside those that it does' 1 '*"beyond 128 "*", 105 by rounding, "*"x): FAIL"' \
+    -W 16 -H 8 --doubts 30 --povray "$work/exchanged" doubt.scn
+expect 'unless so few may' 0 '*", 105 by rounding, "*"x): ok"' \
+    -W 16 -H 8 --doubts 30 --ties 23/128 --povray "$work/exchanged" doubt.scn
+expect 'of equal pictures nothing is doubtful' 0 '*"beyond 0 "*"255 0, rtlang "*"x): ok"' \
+    -W 16 -H 8 --doubts 5 --povray "$work/same" doubt.scn
+expect 'no number of doubts' 2 '*"--doubts wants a whole number from 1 to 1000"*' --doubts 0 'a scene.scn'
 expect 'help' 0 '"Usage: rtcheck "*' --help
 cd / || exit 99
 expect 'POV-Ray runs in the folder of the scene, with these switches' 1 \
