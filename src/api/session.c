@@ -238,59 +238,6 @@ void session_film_to_linear(const Settings *settings, Film *film)
     }
 }
 
-// What the tree takes for a shape, and the prepared forms of the records as a multiple of these: bounds that hold for
-// a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910). Plain spheres and their
-// materials have no other form than that in the tree.
-enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
-
-static rt_budget budget_of(const rt_session *session)
-{
-    const Scene *records = &session->scene;
-    uint64_t scene = scene_bytes(records), pictures = scene_picture_bytes(records);
-    uint64_t plain = records->spheres.capacity * sizeof(Sphere) + records->materials.capacity * sizeof(Material);
-    uint64_t objects = session->scene.shape_count;
-    int width = session_film_width(session), height = session_film_height(session);
-    return (rt_budget){
-        .objects = objects,
-        .scene = scene,
-        .prepared = (scene - pictures - plain) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
-        .picture = film_bytes(width, height, session_is_sampled(session), session->has_alpha) +
-                   (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
-        .limit = session->limits.memory_bytes,
-    };
-}
-
-rt_status rt_get_budget(const rt_session *session, rt_budget *budget)
-{
-    if (!session->loaded) {
-        return RT_FAULT_USAGE;
-    }
-    *budget = budget_of(session);
-    return RT_OK;
-}
-
-bool session_memory_suffices(rt_session *session)
-{
-    rt_budget budget = budget_of(session);
-    char needed[LIMITS_BYTES_TEXT], limit[LIMITS_BYTES_TEXT];
-    if (budget.picture + budget.scene + budget.prepared <= budget.limit) {
-        return true;
-    }
-    limits_bytes_text(budget.limit, limit);
-    bool is_film = budget.picture > budget.scene + budget.prepared;
-    limits_bytes_text(is_film ? budget.picture : budget.scene + budget.prepared, needed);
-    bool kept = is_film ? diag_report(&session->diags, DIAG_E0608, SPAN_NONE,
-                                      "a picture of %d x %d pixels needs %s of memory, and the limit is %s",
-                                      session_film_width(session), session_film_height(session), needed, limit)
-                        : diag_report(&session->diags, DIAG_E0607, SPAN_NONE,
-                                      "preparing %llu shapes needs %s of memory, and the limit is %s",
-                                      (unsigned long long)budget.objects, needed, limit);
-    if (kept) {
-        diag_suggest(&session->diags, "`--max-memory` allows more");
-    }
-    return false;
-}
-
 // Takes the kernel of the chosen precision, if it can trace the scene; reports when not.
 static bool take_precision(rt_session *session, Prepared *prepared)
 {
