@@ -25,4 +25,10 @@ __attribute__((unused)) static uint64_t random_seed(const char *text)
     return seed;
 }
 
+// Evenly from 0 to bound - 1, but for the rest of a division.
+__attribute__((unused)) static unsigned random_below(Random *random, unsigned bound)
+{
+    return (unsigned)((random_bits(random) >> 33) % bound);
+}
+
 #endif

@@ -6,20 +6,8 @@
 #include <string.h>
 
 #include "grammar/grammar.h"
-#include "tap.h"
-
-typedef struct Random {
-    uint64_t state;
-} Random;
-
-// xorshift64* (S. Vigna, "An experimental exploration of Marsaglia's xorshift generators, scrambled", 2016).
-static unsigned below(Random *random, unsigned bound)
-{
-    random->state ^= random->state >> 12;
-    random->state ^= random->state << 25;
-    random->state ^= random->state >> 27;
-    return (unsigned)((random->state * 2685821657736338717u >> 33) % bound);
-}
+#include "unit/random.h"
+#include "unit/tap.h"
 
 // What one way gives: each item as a digest of its tree, then the messages.
 typedef struct Outcome {
@@ -122,23 +110,23 @@ static const char *const marks[] = {
 
 static void add(TextBuffer *out, Random *random, const char *const *table, size_t count)
 {
-    text_append(out, table[below(random, (unsigned)count)]);
+    text_append(out, table[random_below(random, (unsigned)count)]);
 }
 
 #define ADD(table) add(out, random, table, RT_COUNT_OF(table))
 
 static void add_vector(TextBuffer *out, Random *random, unsigned mischief)
 {
-    unsigned count = mischief > 0 ? 1 + below(random, 6) : 2 + below(random, 4);
+    unsigned count = mischief > 0 ? 1 + random_below(random, 6) : 2 + random_below(random, 4);
     text_append(out, "<");
     for (unsigned i = 0; i < count; i++) {
-        text_append(out, i == 0 ? "" : mischief > 0 && below(random, 9) == 0 ? " " : ",");
+        text_append(out, i == 0 ? "" : mischief > 0 && random_below(random, 9) == 0 ? " " : ",");
         ADD(blanks);
-        text_append(out, below(random, 3) == 0 ? "-" : "");
+        text_append(out, random_below(random, 3) == 0 ? "-" : "");
         add(out, random, numbers, mischief > 0 ? RT_COUNT_OF(numbers) : 8);
         ADD(blanks);
     }
-    text_append(out, mischief > 0 && below(random, 12) == 0 ? "" : ">");
+    text_append(out, mischief > 0 && random_below(random, 12) == 0 ? "" : ">");
 }
 
 // Blocks of a few forms, whose numbers, signs and blanks differ; `@` is a number, `~` a blank or none.
@@ -157,9 +145,9 @@ static void add_form(TextBuffer *out, Random *random)
         "matrix {~<@,@,@,\n@,@,@,~@,@,@,@,@,@>~}",
     };
     static const char *const plain[] = {" ", "", "", "  ", "\n", "\t"};
-    for (const char *at = forms[below(random, RT_COUNT_OF(forms))]; *at != '\0'; at++) {
+    for (const char *at = forms[random_below(random, RT_COUNT_OF(forms))]; *at != '\0'; at++) {
         if (*at == '@') {
-            text_append(out, below(random, 3) == 0 ? "-" : below(random, 20) == 0 ? "- " : "");
+            text_append(out, random_below(random, 3) == 0 ? "-" : random_below(random, 20) == 0 ? "- " : "");
             add(out, random, numbers, 10);
         } else if (*at == '~') {
             add(out, random, plain, RT_COUNT_OF(plain));
@@ -171,7 +159,7 @@ static void add_form(TextBuffer *out, Random *random)
 
 static void add_piece(TextBuffer *out, Random *random, unsigned mischief)
 {
-    switch (below(random, mischief > 0 ? 12 : 9)) {
+    switch (random_below(random, mischief > 0 ? 12 : 9)) {
     case 0:
         text_append(out, "sphere {");
         add_vector(out, random, mischief);
@@ -221,7 +209,7 @@ static void make_text(TextBuffer *out, Random *random, unsigned pieces, unsigned
 {
     text_clear(out);
     for (unsigned i = 0; i < pieces; i++) {
-        add_piece(out, random, mischief > 0 ? below(random, mischief) == 0 : 0);
+        add_piece(out, random, mischief > 0 ? random_below(random, mischief) == 0 : 0);
     }
 }
 

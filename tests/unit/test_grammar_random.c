@@ -6,20 +6,8 @@
 #include <string.h>
 
 #include "grammar/grammar.h"
-#include "tap.h"
-
-typedef struct Random {
-    uint64_t state;
-} Random;
-
-// xorshift64* (S. Vigna, "An experimental exploration of Marsaglia's xorshift generators, scrambled", 2016).
-static unsigned below(Random *random, unsigned bound)
-{
-    random->state ^= random->state >> 12;
-    random->state ^= random->state << 25;
-    random->state ^= random->state >> 27;
-    return (unsigned)((random->state * 2685821657736338717u >> 33) % bound);
-}
+#include "unit/random.h"
+#include "unit/tap.h"
 
 typedef struct Bench {
     InternTable *names;
@@ -91,7 +79,7 @@ static AstList one(AstNode *node)
 static Symbol make_symbol(Bench *bench)
 {
     static const char *const names[] = {"A", "b1", "_", "Red", "e5", "image_width"};
-    const char *name = names[below(&bench->random, RT_COUNT_OF(names))];
+    const char *name = names[random_below(&bench->random, RT_COUNT_OF(names))];
     return intern_text(bench->names, name, strlen(name));
 }
 
@@ -103,15 +91,15 @@ static AstNode *make_name(Bench *bench)
 static AstNode *make_word(Bench *bench)
 {
     static const Word words[] = {W_ambient, W_rgb, W_color, W_texture, W_no_shadow, W_filter};
-    return make(bench, AST_WORD, AST_OP_NONE, words[below(&bench->random, RT_COUNT_OF(words))], NULL, NULL, NULL);
+    return make(bench, AST_WORD, AST_OP_NONE, words[random_below(&bench->random, RT_COUNT_OF(words))], NULL, NULL, NULL);
 }
 
 static AstNode *make_string(Bench *bench)
 {
     char text[8];
-    size_t length = below(&bench->random, sizeof text);
+    size_t length = random_below(&bench->random, sizeof text);
     for (size_t i = 0; i < length; i++) {
-        text[i] = (char)below(&bench->random, 256);
+        text[i] = (char)random_below(&bench->random, 256);
     }
     return make(bench, AST_STRING, AST_OP_NONE, intern_text(bench->names, text, length), NULL, NULL, NULL);
 }
@@ -119,13 +107,13 @@ static AstNode *make_string(Bench *bench)
 static AstNode *make_number(Bench *bench)
 {
     static const double numbers[] = {0, 1, 0.1, 1e300, 5e-324, 123456789, 1.0 / 3, 2.5e-7};
-    return ast_number(&bench->builder, numbers[below(&bench->random, RT_COUNT_OF(numbers))], SPAN_NONE);
+    return ast_number(&bench->builder, numbers[random_below(&bench->random, RT_COUNT_OF(numbers))], SPAN_NONE);
 }
 
 static AstList make_values(Bench *bench, unsigned depth, unsigned least, unsigned more)
 {
     AstList list = {0};
-    for (unsigned count = least + below(&bench->random, more); count > 0; count--) {
+    for (unsigned count = least + random_below(&bench->random, more); count > 0; count--) {
         list = ast_append(list, make_value(bench, depth));
     }
     return list;
@@ -134,7 +122,7 @@ static AstList make_values(Bench *bench, unsigned depth, unsigned least, unsigne
 static AstList make_expressions(Bench *bench, unsigned depth, unsigned least, unsigned more)
 {
     AstList list = {0};
-    for (unsigned count = least + below(&bench->random, more); count > 0; count--) {
+    for (unsigned count = least + random_below(&bench->random, more); count > 0; count--) {
         list = ast_append(list, make_expression(bench, depth));
     }
     return list;
@@ -143,13 +131,13 @@ static AstList make_expressions(Bench *bench, unsigned depth, unsigned least, un
 static AstNode *make_target(Bench *bench, unsigned depth)
 {
     AstNode *name = make_name(bench);
-    return below(&bench->random, 2) ? name
+    return random_below(&bench->random, 2) ? name
                                     : make(bench, AST_INDEX, AST_OP_NONE, 0, name, make_expression(bench, depth), NULL);
 }
 
 static AstNode *make_inline(Bench *bench, unsigned depth)
 {
-    AstNode *directive = below(&bench->random, 2)
+    AstNode *directive = random_below(&bench->random, 2)
                              ? make_if(bench, depth)
                              : make(bench, AST_INCLUDE, AST_OP_NONE, 0, make_name(bench), NULL, NULL);
     return make(bench, AST_INLINE, AST_OP_NONE, 0, directive, NULL, NULL);
@@ -159,20 +147,20 @@ static AstNode *make_operation(Bench *bench, unsigned depth)
 {
     static const AstOp unaries[] = {AST_OP_NEG, AST_OP_PLUS, AST_OP_NOT};
     AstNode *a = make_expression(bench, depth), *b = make_expression(bench, depth);
-    switch (below(&bench->random, 4)) {
+    switch (random_below(&bench->random, 4)) {
     case 0:
-        return make(bench, AST_UNARY, unaries[below(&bench->random, 3)], 0, a, NULL, NULL);
+        return make(bench, AST_UNARY, unaries[random_below(&bench->random, 3)], 0, a, NULL, NULL);
     case 1:
         return make(bench, AST_CONDITIONAL, AST_OP_CONDITIONAL, 0, a, b, make_expression(bench, depth));
     default:
-        return make(bench, AST_BINARY, (AstOp)(AST_OP_OR + below(&bench->random, AST_OP_DIV - AST_OP_OR + 1)), 0, a, b,
+        return make(bench, AST_BINARY, (AstOp)(AST_OP_OR + random_below(&bench->random, AST_OP_DIV - AST_OP_OR + 1)), 0, a, b,
                     NULL);
     }
 }
 
 static AstNode *make_expression(Bench *bench, unsigned depth)
 {
-    switch (depth == 0 ? below(&bench->random, 4) : below(&bench->random, 13)) {
+    switch (depth == 0 ? random_below(&bench->random, 4) : random_below(&bench->random, 13)) {
     case 0:
         return make_number(bench);
     case 1:
@@ -194,7 +182,7 @@ static AstNode *make_expression(Bench *bench, unsigned depth)
         return make(bench, AST_INDEX, AST_OP_NONE, 0, make_target(bench, depth - 1), make_expression(bench, depth - 1),
                     NULL);
     case 8:
-        return make(bench, AST_MEMBER, AST_OP_NONE, below(&bench->random, 2) ? W_x : W_filter,
+        return make(bench, AST_MEMBER, AST_OP_NONE, random_below(&bench->random, 2) ? W_x : W_filter,
                     make_expression(bench, depth - 1), NULL, NULL);
     case 9:
         return make_inline(bench, depth - 1);
@@ -206,14 +194,14 @@ static AstNode *make_expression(Bench *bench, unsigned depth)
 static AstNode *make_block(Bench *bench, unsigned depth)
 {
     static const Word words[] = {W_sphere, W_texture, W_union};
-    return make_list(bench, AST_BLOCK, AST_OP_NONE, words[below(&bench->random, 3)], make_items(bench, depth, false),
+    return make_list(bench, AST_BLOCK, AST_OP_NONE, words[random_below(&bench->random, 3)], make_items(bench, depth, false),
                      (AstList){0}, (AstList){0});
 }
 
 static AstNode *make_sequence(Bench *bench, unsigned depth)
 {
     AstList list = {0};
-    for (unsigned count = 1 + below(&bench->random, 3); count > 0; count--) {
+    for (unsigned count = 1 + random_below(&bench->random, 3); count > 0; count--) {
         list = ast_append(list, make(bench, AST_WORD, AST_OP_NONE, W_rgb, NULL, NULL, NULL));
         list = ast_append(list, make_expression(bench, depth));
     }
@@ -230,7 +218,7 @@ static AstNode *make_array(Bench *bench, unsigned depth)
 static AstNode *make_function(Bench *bench, unsigned depth)
 {
     AstList parameters = {0};
-    for (unsigned count = below(&bench->random, 3); count > 0; count--) {
+    for (unsigned count = random_below(&bench->random, 3); count > 0; count--) {
         parameters = ast_append(parameters, make_name(bench));
     }
     return make_list(bench, AST_FUNCTION, AST_OP_NONE, 0, parameters, one(make_expression(bench, depth)), (AstList){0});
@@ -238,7 +226,7 @@ static AstNode *make_function(Bench *bench, unsigned depth)
 
 static AstNode *make_value(Bench *bench, unsigned depth)
 {
-    switch (depth == 0 ? 9 : below(&bench->random, 10)) {
+    switch (depth == 0 ? 9 : random_below(&bench->random, 10)) {
     case 0:
         return make_block(bench, depth - 1);
     case 1:
@@ -255,9 +243,9 @@ static AstNode *make_value(Bench *bench, unsigned depth)
 static AstNode *make_if(Bench *bench, unsigned depth)
 {
     AstList rest =
-        below(&bench->random, 3) == 0 && depth > 0 ? one(make_if(bench, depth - 1)) : make_items(bench, depth, true);
+        random_below(&bench->random, 3) == 0 && depth > 0 ? one(make_if(bench, depth - 1)) : make_items(bench, depth, true);
     AstList body = make_items(bench, depth, true);
-    switch (below(&bench->random, 3)) {
+    switch (random_below(&bench->random, 3)) {
     case 0:
         return make_list(bench, AST_IF, AST_OP_NONE, 0, one(make_expression(bench, depth)), body, rest);
     case 1:
@@ -278,9 +266,9 @@ static AstNode *make_if(Bench *bench, unsigned depth)
 static AstNode *make_directive(Bench *bench, unsigned depth)
 {
     AstNode *name = make_name(bench);
-    switch (below(&bench->random, 14)) {
+    switch (random_below(&bench->random, 14)) {
     case 0:
-        return make(bench, AST_DECLARE, below(&bench->random, 2) ? AST_OP_DECLARE : AST_OP_LOCAL, 0,
+        return make(bench, AST_DECLARE, random_below(&bench->random, 2) ? AST_OP_DECLARE : AST_OP_LOCAL, 0,
                     make_target(bench, depth), make_value(bench, depth), NULL);
     case 1:
         return make_list(bench, AST_WHILE, AST_OP_NONE, 0, one(make_expression(bench, depth)),
@@ -294,7 +282,7 @@ static AstNode *make_directive(Bench *bench, unsigned depth)
     case 4:
         return make(bench, AST_INCLUDE, AST_OP_NONE, 0, name, NULL, NULL);
     case 5:
-        return make(bench, AST_MESSAGE, (AstOp)(AST_OP_DEBUG + below(&bench->random, 5)), 0,
+        return make(bench, AST_MESSAGE, (AstOp)(AST_OP_DEBUG + random_below(&bench->random, 5)), 0,
                     make_expression(bench, depth), NULL, NULL);
     case 6:
         return make_list(bench, AST_DEFAULT, AST_OP_NONE, 0, make_items(bench, depth, false), (AstList){0},
@@ -318,7 +306,7 @@ static AstNode *make_directive(Bench *bench, unsigned depth)
 
 static AstNode *make_item(Bench *bench, unsigned depth)
 {
-    switch (depth == 0 ? below(&bench->random, 5) : below(&bench->random, 11)) {
+    switch (depth == 0 ? random_below(&bench->random, 5) : random_below(&bench->random, 11)) {
     case 0:
     case 1:
         return make_word(bench);
@@ -342,12 +330,12 @@ static AstNode *make_item(Bench *bench, unsigned depth)
 static AstList make_items(Bench *bench, unsigned depth, bool is_body)
 {
     AstList list = {0};
-    for (unsigned count = below(&bench->random, 4); count > 0; count--) {
+    for (unsigned count = random_below(&bench->random, 4); count > 0; count--) {
         AstNode *item = make_item(bench, depth);
-        bool comma = below(&bench->random, 4) == 0 && (list.count > 0 || is_body);
+        bool comma = random_below(&bench->random, 4) == 0 && (list.count > 0 || is_body);
         list = comma ? ast_append_after_comma(list, item) : ast_append(list, item);
     }
-    return is_body && below(&bench->random, 4) == 0 ? ast_flag_last(list, AST_BEFORE_COMMA) : list;
+    return is_body && random_below(&bench->random, 4) == 0 ? ast_flag_last(list, AST_BEFORE_COMMA) : list;
 }
 
 static bool check_round(uint64_t seed)
@@ -431,7 +419,7 @@ static void test_garbage(void)
     for (unsigned turn = 0; turn < 500 && good; turn++) {
         char bytes[300];
         for (size_t i = 0; i < sizeof bytes; i++) {
-            bytes[i] = (char)(turn % 2 ? below(&random, 256) : 32 + below(&random, 95));
+            bytes[i] = (char)(turn % 2 ? random_below(&random, 256) : 32 + random_below(&random, 95));
         }
         good = survives(bytes, sizeof bytes);
     }
@@ -453,8 +441,8 @@ static void test_soup(void)
     for (unsigned turn = 0; turn < 5000 && good; turn++) {
         char text[600];
         size_t length = 0;
-        for (unsigned i = below(&random, 40); i > 0; i--) {
-            const char *piece = pieces[below(&random, RT_COUNT_OF(pieces))];
+        for (unsigned i = random_below(&random, 40); i > 0; i--) {
+            const char *piece = pieces[random_below(&random, RT_COUNT_OF(pieces))];
             length += (size_t)snprintf(text + length, sizeof text - length, "%s ", piece);
         }
         good = survives(text, length);
