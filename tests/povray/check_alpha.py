@@ -8,11 +8,9 @@ SPDX-License-Identifier: MIT
 import concurrent.futures
 import os
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 
 TOP = os.environ.get("top_srcdir", ".")
 sys.path.insert(0, os.path.join(TOP, "tests", "system"))
@@ -59,26 +57,9 @@ GAMMAS = {"3.7": "#version 3.7; global_settings { assumed_gamma 1 }\n", "gamma 2
 
 def read_rgba(path):
     """The values of a 16-bit PNG with alpha, from the top row."""
-    with open(path, "rb") as file:
-        data = file.read()
-    at, packed = 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", data[at + 8:at + 18])
-        elif kind == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += 12 + length
-    if (width, height, depth, colour) != (WIDTH, HEIGHT, 16, 6):
-        raise ValueError(f"{path}: {width}x{height}, depth {depth}, colour type {colour}")
-    raw, size = zlib.decompress(packed), 8 * width
-    above, values = bytearray(size), []
-    for y in range(height):
-        row = bytearray(raw[y * (size + 1) + 1:(y + 1) * (size + 1)])
-        if raw[y * (size + 1)]:
-            pictures.unfilter(raw[y * (size + 1)], row, above, 8)
-        values.extend(struct.unpack(f">{4 * width}H", row))
-        above = row
+    width, height, values = pictures.read_png(path, 4, (16,))
+    if (width, height) != (WIDTH, HEIGHT):
+        raise ValueError(f"{path}: {width}x{height}")
     return values
 
 

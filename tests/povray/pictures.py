@@ -44,8 +44,8 @@ def unfilter(kind, row, above, step):
         row[i] = (row[i] + guess) & 255
 
 
-def read_png(path):
-    """(width, height, values): the RGB values of an 8- or 16-bit PNG without interlacing, from the top row."""
+def read_png(path, channels=3, depths=(8, 16)):
+    """(width, height, values): those of a PNG without interlacing, from the top row; channels: 1 grey, 3 RGB, 4 RGB and alpha."""
     data = open(path, "rb").read()
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError(f"{path} is no PNG file")
@@ -57,10 +57,10 @@ def read_png(path):
         elif kind == b"IDAT":
             packed += data[at + 8:at + 8 + length]
         at += 12 + length
-    if colour != 2 or interlace or depth not in (8, 16):
+    if colour != {1: 0, 3: 2, 4: 6}[channels] or interlace or depth not in depths:
         raise ValueError(f"{path}: colour type {colour}, depth {depth}, interlace {interlace}")
     raw = zlib.decompress(packed)
-    step = 3 * depth // 8
+    step = channels * depth // 8
     size = width * step
     above, values = bytearray(size), []
     for y in range(height):
@@ -68,7 +68,7 @@ def read_png(path):
         row = bytearray(raw[start + 1:start + 1 + size])
         if raw[start]:
             unfilter(raw[start], row, above, step)
-        values.extend(row if depth == 8 else struct.unpack(f">{3 * width}H", row))
+        values.extend(row if depth == 8 else struct.unpack(f">{channels * width}H", row))
         above = row
     return width, height, values
 

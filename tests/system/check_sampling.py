@@ -14,11 +14,10 @@ import subprocess
 import sys
 import tempfile
 import time
-import zlib
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.environ.get("top_srcdir", "."), "tests", "povray"))
-from pictures import read_png, unfilter
+from pictures import read_png
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from exr import read_exr
 from tap import Tap
@@ -83,25 +82,7 @@ def notes(name):
 
 def grey_16(name):
     """The values of a grey PNG file of 16 bits, from 0 to 1."""
-    data, at, packed = read(name), 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", data[at + 8:at + 18])
-        elif kind == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += 12 + length
-    if (depth, colour) != (16, 0):
-        raise ValueError(f"{name}: depth {depth}, colour type {colour}")
-    rows, above, values = zlib.decompress(packed), bytearray(2 * width), []
-    for y in range(height):
-        start = y * (2 * width + 1)
-        row = bytearray(rows[start + 1:start + 2 * width + 1])
-        if rows[start]:
-            unfilter(rows[start], row, above, 2)
-        values += [code / 65535 for code in struct.unpack(f">{width}H", row)]
-        above = row
-    return values
+    return [code / 65535 for code in read_png(name, 1, (16,))[2]]
 
 
 def notes_of(scene, *options):
