@@ -79,16 +79,6 @@ void grammar_items_free(GrammarItems *items)
 
 // ---- taking a text apart
 
-static bool is_in_word(char c)
-{
-    return plain_goes_on(c) && c != '.';
-}
-
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\n' || c == '\t' || c == '\r';
-}
-
 // The class of a word of the language; WORD_IDENTIFIER for those that no form has.
 static WordClass class_of(const GrammarState *state, const char *word, size_t length)
 {
@@ -101,11 +91,11 @@ static void end_piece(Form *form, const char *text, size_t end, char last, WordC
 {
     Piece *piece = &form->pieces[form->gaps];
     size_t length = end - piece->begin;
-    while (length > 0 && is_blank(text[piece->begin + length - 1])) {
+    while (length > 0 && plain_is_blank(text[piece->begin + length - 1])) {
         length--;
     }
     piece->length = (unsigned short)length;
-    piece->needs_blank = length > 0 && is_in_word(last);
+    piece->needs_blank = length > 0 && plain_is_in_word(last);
     piece->takes_sign = length > 0 && (piece->needs_blank ? class == WORD_PLAIN || class == WORD_COLOUR
                                                           : last == ',' || last == '{' || last == '<');
 }
@@ -139,7 +129,7 @@ static size_t take_apart(const GrammarState *state, Form *form, const char *text
             continue;
         }
         if (plain_is_letter(*at)) {
-            while (is_in_word(*at)) {
+            while (plain_is_in_word(*at)) {
                 at++;
             }
             class = class_of(state, begin, (size_t)(at - begin));
@@ -152,7 +142,7 @@ static size_t take_apart(const GrammarState *state, Form *form, const char *text
         if (*at == '\0' || strchr("{}<>, \n\t\r", *at) == NULL) {
             return 0;
         }
-        last = is_blank(*at) ? last : *at;
+        last = plain_is_blank(*at) ? last : *at;
         depth += (*at == '{') - (unsigned)(*at == '}');
         at++;
         if (depth == 0) {

@@ -16,9 +16,14 @@
 
 enum { PLAIN_NUMBER_LONGEST = 250 }; // a longer one is left to the scanner
 
+static inline bool plain_is_blank(char c)
+{
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
 static inline const char *plain_skip_blanks(const char *at)
 {
-    while (*at == ' ' || *at == '\n' || *at == '\t' || *at == '\r') {
+    while (plain_is_blank(*at)) {
         at++;
     }
     return at;
@@ -41,6 +46,11 @@ static inline bool plain_goes_on(char c)
         ['0' ... '9'] = true, ['A' ... 'Z'] = true, ['a' ... 'z'] = true, ['_'] = true, ['.'] = true,
     };
     return table[(unsigned char)c];
+}
+
+static inline bool plain_is_in_word(char c)
+{
+    return plain_goes_on(c) && c != '.';
 }
 
 // How many digits eight bytes of text begin with: a byte holds a digit when its high half is 3 and adding 6 to the low

@@ -58,11 +58,6 @@ void grammar_learn_items(GrammarState *state, Span braces, AstList list)
 
 // ---- words
 
-static bool is_in_word(char c)
-{
-    return plain_goes_on(c) && c != '.';
-}
-
 static const char *read_word(GrammarState *state, const char *at, Token *token)
 {
     static const uint64_t masks[] = {0,
@@ -75,7 +70,7 @@ static const char *read_word(GrammarState *state, const char *at, Token *token)
                                      UINT64_C(0xffffffffffffff),
                                      UINT64_MAX};
     const char *after = at + 1;
-    while (is_in_word(*after)) {
+    while (plain_is_in_word(*after)) {
         after++;
     }
     size_t length = (size_t)(after - at);

@@ -228,7 +228,7 @@ bool eval_place(Eval *ev, const AstNode *item)
     }
     is_fine = is_fine && place_record(ev, item, is, &record);
     if (step == REPEAT_WATCH) {
-        repeat_learn(ev, item, is_fine && is_plain);
+        repeat_learn(ev, item, is_plain);
     }
     arena_rewind(&ev->scratch, mark);
     return is_fine;

@@ -2,8 +2,8 @@
 //
 // A statement `sphere { CENTRE, RADIUS pigment { rgb COLOUR } finish { … } }` in which all but these is fixed is
 // evaluated like any other twice; when the second time gave one plain sphere and no message, the next ones differ in
-// centre, radius and colour only. A value that is not of the usual kind takes all back, random numbers too, and the statement goes the
-// usual way: so there is one meaning only. Knows nothing of text.
+// centre, radius and colour only. A value that is not of the usual kind takes all back, random numbers too, and the
+// statement goes the usual way: so there is one meaning only. Knows nothing of text.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

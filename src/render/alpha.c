@@ -103,12 +103,7 @@ void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, 
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
         Ray ray;
-        bool is_seen = true;
-        if (places->lens) {
-            ray = camera_lens_ray(&p->camera, places->u[i], places->v[i], places->lens[i]);
-        } else {
-            is_seen = camera_ray(&p->camera, places->u[i], places->v[i], &ray);
-        }
+        bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
         Behind behind = is_seen ? follow(&dark, ray) : (Behind){rgb_grey(0.0), 1.0};
         light[i] = rgb_add_scaled(light[i], -1.0, behind.light);
         clear[i] = fmin(fmax(behind.clear, 0.0), 1.0);

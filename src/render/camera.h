@@ -57,4 +57,14 @@ static inline Ray camera_lens_ray(const PreparedCamera *camera, double u, double
     return (Ray){lens, vec3_normalize(vec3_sub(ahead, vec3_sub(lens, camera->location)))};
 }
 
+// The ray of the i-th of some places; as camera_ray.
+RT_ALWAYS_INLINE bool camera_place_ray(const PreparedCamera *camera, const KernelPlaces *places, int i, Ray *ray)
+{
+    if (places->lens) {
+        *ray = camera_lens_ray(camera, places->u[i], places->v[i], places->lens[i]);
+        return true;
+    }
+    return camera_ray(camera, places->u[i], places->v[i], ray);
+}
+
 #endif

@@ -36,12 +36,7 @@ RT_ALWAYS_INLINE void trace_single(const Prepared *p, unsigned features, ShadePa
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
         Ray ray;
-        bool is_seen = true;
-        if (places->lens) {
-            ray = camera_lens_ray(&p->camera, places->u[i], places->v[i], places->lens[i]);
-        } else {
-            is_seen = camera_ray(&p->camera, places->u[i], places->v[i], &ray);
-        }
+        bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
         light[i] = is_seen ? shade_ray(p, features, path, ray, NULL, streams ? &streams[i] : NULL, statistics)
                            : rgb_grey(0.0);
     }

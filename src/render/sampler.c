@@ -51,21 +51,33 @@ static inline uint32_t reverse_bits(uint32_t x)
     return (x >> 1 & UINT32_C(0x55555555)) | (x & UINT32_C(0x55555555)) << 1;
 }
 
-// A permutation in which each bit depends on those below it only: Laine and Karras, with Burley's constants.
-static inline uint32_t permute_upward(uint32_t x, uint32_t seed)
-{
-    x += seed;
-    x ^= x * UINT32_C(0x6c50b47c);
-    x ^= x * UINT32_C(0xb82f1e52);
-    x ^= x * UINT32_C(0xc7afe638);
-    return x ^ x * UINT32_C(0x8d22f6e6);
-}
+// A permutation in which each bit depends on those below it only: Laine and Karras, with Burley's constants. Of one
+// word, or of each of some.
+#define PERMUTE_UPWARD(x, seed)                                                                                        \
+    do {                                                                                                               \
+        (x) += (seed);                                                                                                 \
+        (x) ^= (x) * UINT32_C(0x6c50b47c);                                                                             \
+        (x) ^= (x) * UINT32_C(0xb82f1e52);                                                                             \
+        (x) ^= (x) * UINT32_C(0xc7afe638);                                                                             \
+        (x) ^= (x) * UINT32_C(0x8d22f6e6);                                                                             \
+    } while (0)
+
+// The other product of matrices that Sobol's numbers need; see sobol_reversed.
+#define PASCAL_TRIANGLE(x)                                                                                             \
+    do {                                                                                                               \
+        (x) ^= (x) >> 16;                                                                                              \
+        (x) ^= (x) >> 8 & UINT32_C(0x00ff00ff);                                                                        \
+        (x) ^= (x) >> 4 & UINT32_C(0x0f0f0f0f);                                                                        \
+        (x) ^= (x) >> 2 & UINT32_C(0x33333333);                                                                        \
+        (x) ^= (x) >> 1 & UINT32_C(0x55555555);                                                                        \
+    } while (0)
 
 // Owen's scrambling of a fraction of 2^32 whose bits are given in reverse: each bit is flipped by chance that depends
 // on the bits above it.
 static inline uint32_t owen_scramble_reversed(uint32_t reversed, uint32_t seed)
 {
-    return reverse_bits(permute_upward(reversed, seed));
+    PERMUTE_UPWARD(reversed, seed);
+    return reverse_bits(reversed);
 }
 
 // ---- Sobol
@@ -77,11 +89,7 @@ static inline uint32_t sobol_reversed(uint32_t index, unsigned dimension)
 {
     uint32_t x = index;
     if (dimension == 1) {
-        x ^= x >> 16;
-        x ^= x >> 8 & UINT32_C(0x00ff00ff);
-        x ^= x >> 4 & UINT32_C(0x0f0f0f0f);
-        x ^= x >> 2 & UINT32_C(0x33333333);
-        x ^= x >> 1 & UINT32_C(0x55555555);
+        PASCAL_TRIANGLE(x);
     }
     return x;
 }
@@ -212,20 +220,8 @@ static inline Words words_reverse_bits(Words x)
 
 static inline Words words_scramble_reversed(Words x, uint32_t seed)
 {
-    x += seed;
-    x ^= x * UINT32_C(0x6c50b47c);
-    x ^= x * UINT32_C(0xb82f1e52);
-    x ^= x * UINT32_C(0xc7afe638);
-    return words_reverse_bits(x ^ x * UINT32_C(0x8d22f6e6));
-}
-
-static inline Words words_second(Words x)
-{
-    x ^= x >> 16;
-    x ^= x >> 8 & UINT32_C(0x00ff00ff);
-    x ^= x >> 4 & UINT32_C(0x0f0f0f0f);
-    x ^= x >> 2 & UINT32_C(0x33333333);
-    return x ^ (x >> 1 & UINT32_C(0x55555555));
+    PERMUTE_UPWARD(x, seed);
+    return words_reverse_bits(x);
 }
 
 static void sobol_places(const SampleStream *stream, uint32_t count, SamplePoint *places)
@@ -236,7 +232,8 @@ static void sobol_places(const SampleStream *stream, uint32_t count, SamplePoint
         Words index = {i, i + 1, i + 2, i + 3};
         Words shuffled = words_scramble_reversed(words_reverse_bits(index + stream->index), order);
         Words x = words_scramble_reversed(shuffled, seeds[0]);
-        Words y = words_scramble_reversed(words_second(shuffled), seeds[1]);
+        PASCAL_TRIANGLE(shuffled);
+        Words y = words_scramble_reversed(shuffled, seeds[1]);
         for (uint32_t j = 0; j < WORDS && i + j < count; j++) {
             places[i + j] = (SamplePoint){unit(x[j]), unit(y[j])};
         }

@@ -312,9 +312,7 @@ void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
     // Blocks of pixels, so that rays of one call stay near each other.
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
-            Tile block = {left, top, left + KERNEL_ROW < tile.right ? left + KERNEL_ROW : tile.right,
-                          top + KERNEL_ROW < tile.bottom ? top + KERNEL_ROW : tile.bottom};
-            end = block_choose(round, block, end);
+            end = block_choose(round, tile_block(tile, left, top), end);
         }
     }
     for (const Chosen *pixel = chosen; pixel < end; pixel++) {
@@ -332,23 +330,16 @@ void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
 static void block_corners(const Round *round, Tile block, Batch *batch, RenderStatistics *counted)
 {
     const Film *film = round->film;
-    for (int i = 0; i < KERNEL_RAYS; i++) {
+    uint64_t wanted = block_places(film, block, -0.5, &batch->places);
+    for (int i = 0; batch->draws && i < KERNEL_RAYS; i++) {
         int x = block.left + i % KERNEL_ROW, y = block.top + i / KERNEL_ROW;
         x = x < block.right ? x : block.right - 1;
         y = y < block.bottom ? y : block.bottom - 1;
-        batch->places.u[i] = film_u(film, x, -0.5);
-        batch->places.v[i] = film_v(film, y, -0.5);
-        if (batch->draws) {
-            batch->streams[i] = (SampleStream){
-                .kind = round->sampling->sampler, .seed = pixel_seed(round, x, y) ^ CORNER_SEED, .count = 1, .pair = 1};
-        }
+        batch->streams[i] = (SampleStream){
+            .kind = round->sampling->sampler, .seed = pixel_seed(round, x, y) ^ CORNER_SEED, .count = 1, .pair = 1};
         if (batch->places.lens) {
             batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&batch->streams[i]));
         }
-    }
-    uint64_t wanted = 0;
-    for (int row = 0; row < block.bottom - block.top; row++) {
-        wanted |= (UINT64_C(0xff) >> (KERNEL_ROW - (block.right - block.left))) << (row * KERNEL_ROW);
     }
     batch_trace(round, batch, wanted, counted);
     for (; wanted; wanted &= wanted - 1) {
@@ -364,9 +355,7 @@ void round_trace_corners(const Round *round, Tile tile, RenderStatistics *counte
     batch_init(&batch, round->prepared);
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
-            Tile block = {left, top, left + KERNEL_ROW < tile.right ? left + KERNEL_ROW : tile.right,
-                          top + KERNEL_ROW < tile.bottom ? top + KERNEL_ROW : tile.bottom};
-            block_corners(round, block, &batch, counted);
+            block_corners(round, tile_block(tile, left, top), &batch, counted);
         }
     }
 }

@@ -14,47 +14,25 @@ typedef struct Single {
     atomic_bool has_no_memory;
 } Single;
 
-// Where the rays of a beam go through the picture; where it is cut off, its last ones are traced again.
-static uint64_t beam_places(const Film *film, Tile tile, KernelPlaces *places)
-{
-    double across[KERNEL_ROW], down[KERNEL_ROW];
-    uint64_t wanted = 0;
-    int columns = tile.right - tile.left < KERNEL_ROW ? tile.right - tile.left : KERNEL_ROW;
-    int rows = tile.bottom - tile.top < KERNEL_ROW ? tile.bottom - tile.top : KERNEL_ROW;
-    for (int i = 0; i < KERNEL_ROW; i++) {
-        across[i] = film_u(film, tile.left + (i < columns ? i : columns - 1), 0.0);
-        down[i] = film_v(film, tile.top + (i < rows ? i : rows - 1), 0.0);
-    }
-    for (int row = 0; row < KERNEL_ROW; row++) {
-        for (int i = 0; i < KERNEL_ROW; i++) {
-            places->u[row * KERNEL_ROW + i] = across[i];
-            places->v[row * KERNEL_ROW + i] = down[row];
-        }
-        wanted |= row < rows ? ((UINT64_C(1) << columns) - 1) << (row * KERNEL_ROW) : 0;
-    }
-    return wanted;
-}
-
-// The pixels of one beam.
-static void trace_beam(const Single *single, Tile tile, RenderStatistics *counted)
+static void trace_block(const Single *single, Tile block, RenderStatistics *counted)
 {
     Film *film = single->film;
     KernelPlaces places;
     Rgb light[KERNEL_RAYS];
     double clear[KERNEL_RAYS];
     places.lens = NULL;
-    uint64_t wanted = beam_places(film, tile, &places);
+    uint64_t wanted = block_places(film, block, 0.0, &places);
     alpha_trace(single->prepared, &places, NULL, wanted, light, clear, counted);
-    for (int y = tile.top; y < tile.bottom && y < tile.top + KERNEL_ROW; y++) {
-        const Rgb *row = &light[(y - tile.top) * KERNEL_ROW];
-        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)tile.left)];
-        for (int i = 0; i < KERNEL_ROW && tile.left + i < tile.right; i++) {
+    for (int y = block.top; y < block.bottom; y++) {
+        const Rgb *row = &light[(y - block.top) * KERNEL_ROW];
+        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)block.left)];
+        for (int i = 0; block.left + i < block.right; i++) {
             pixel[3 * i] = (float)row[i].red;
             pixel[3 * i + 1] = (float)row[i].green;
             pixel[3 * i + 2] = (float)row[i].blue;
             if (film->clear) {
-                size_t at = (size_t)y * (size_t)film->width + (size_t)(tile.left + i);
-                film->clear[at] = (float)clear[(y - tile.top) * KERNEL_ROW + i];
+                size_t at = (size_t)y * (size_t)film->width + (size_t)(block.left + i);
+                film->clear[at] = (float)clear[(y - block.top) * KERNEL_ROW + i];
             }
         }
     }
@@ -71,7 +49,7 @@ static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
     }
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
-            trace_beam(single, (Tile){left, top, tile.right, tile.bottom}, counted);
+            trace_block(single, tile_block(tile, left, top), counted);
         }
     }
 }

@@ -21,6 +21,25 @@ typedef struct Run {
     RenderStatistics statistics;
 } Run;
 
+uint64_t block_places(const Film *film, Tile block, double aside, KernelPlaces *places)
+{
+    double across[KERNEL_ROW], down[KERNEL_ROW];
+    uint64_t own = 0;
+    int columns = block.right - block.left, rows = block.bottom - block.top;
+    for (int i = 0; i < KERNEL_ROW; i++) {
+        across[i] = film_u(film, block.left + (i < columns ? i : columns - 1), aside);
+        down[i] = film_v(film, block.top + (i < rows ? i : rows - 1), aside);
+    }
+    for (int row = 0; row < KERNEL_ROW; row++) {
+        for (int i = 0; i < KERNEL_ROW; i++) {
+            places->u[row * KERNEL_ROW + i] = across[i];
+            places->v[row * KERNEL_ROW + i] = down[row];
+        }
+        own |= row < rows ? ((UINT64_C(1) << columns) - 1) << (row * KERNEL_ROW) : 0;
+    }
+    return own;
+}
+
 static Tile tile_at(const Run *run, int index)
 {
     int left = index % run->columns * TILE_SIZE, top = index / run->columns * TILE_SIZE;

@@ -17,6 +17,17 @@ typedef struct TileWork {
     void (*progress)(void *client, double done);                       // 0 to 1; by one thread at a time; may be NULL
 } TileWork;
 
+// The part of a tile, of KERNEL_ROW by KERNEL_ROW pixels or less, that begins at a pixel.
+static inline Tile tile_block(Tile tile, int left, int top)
+{
+    return (Tile){left, top, left + KERNEL_ROW < tile.right ? left + KERNEL_ROW : tile.right,
+                  top + KERNEL_ROW < tile.bottom ? top + KERNEL_ROW : tile.bottom};
+}
+
+// Places `aside` from the middle of a block's pixels in both directions, in rows; where the block is cut off, its last
+// ones again. Returns those of the block, a bit for each. The lens is left as it is.
+uint64_t block_places(const Film *film, Tile block, double aside, KernelPlaces *places);
+
 // Runs on options->threads threads; adds to the statistics. False when it was cancelled.
 bool tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics);
 

@@ -267,36 +267,8 @@ RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, c
     }
 }
 
-// The nearest hits, SHAPE_NONE where there is none, of rays that are free in space, of about unit length, and start at
-// one point: 64 camera rays, in rows of eight neighbours. The same bits as geometry_closest gives ray by ray.
-RT_ALWAYS_INLINE void geometry_closest_tile(const Geometry *g, unsigned features, const Ray rays[TILE_RAYS],
-                                            Hit hits[TILE_RAYS])
-{
-    SphereTile tile;
-    TileHits found;
-    bool is_usable = true, is_one_point = true;
-    tile.origin = rays[0].origin;
-    for (unsigned i = 0; i < TILE_RAYS; i++) {
-        SphereRay ray = sphere_ray_make(rays[i].origin, rays[i].direction);
-        is_usable = is_usable && sphere_ray_is_usable(&ray);
-        is_one_point = is_one_point && vec3_equal(rays[i].origin, tile.origin);
-        sphere_tile_set(&tile, i, &ray);
-    }
-    if (is_one_point) {
-        query_tile_closest(g, features, &tile, is_usable, &found);
-        for (unsigned i = 0; i < TILE_RAYS; i++) {
-            hits[i] = (Hit){found.t[i], found.shape[i], found.inside >> i & 1};
-        }
-        return;
-    }
-    for (unsigned i = 0; i < TILE_RAYS; i++) {
-        if (!geometry_closest(g, features, rays[i], RAY_START_CAMERA, (double)INFINITY, &hits[i])) {
-            hits[i].shape = SHAPE_NONE;
-        }
-    }
-}
-
-// The same for the rays of a view, which are put into `tile`: each is vec3_normalize of direction + (u right - v up).
+// What 64 camera rays meet: those of a view, in rows of eight neighbours, which are put into `tile`: each is
+// vec3_normalize of direction + (u right - v up). The same bits as geometry_closest gives ray by ray.
 RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features, const TileView *view,
                                             const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile,
                                             TileHits *hits)

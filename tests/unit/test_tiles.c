@@ -188,7 +188,13 @@ static void random_light(Random *random, int kinds, Scene *scene)
                                  .adaptive = 1,
                                  .circular = kind & 512,
                                  .jitter = kind & 1024,
-                                 .is_adaptive = kind & 2048};
+                                 .is_adaptive = kind & 2048,
+                                 .is_oriented = kind & 4096};
+        if (light.area.is_oriented) { // as the evaluator makes them
+            light.area.circular = true;
+            light.area.size2 = 3;
+            light.area.axis2 = vec3_scale(vec3_length(light.area.axis1), random_direction(random));
+        }
     }
     if (!scene_add_light(scene, &light)) {
         abort();

@@ -301,21 +301,25 @@ static void test_tiles(size_t family, int count)
         Vec3 down = vec3_cross(middle.direction, across);
         double step = pow(10, random_between(&random, -8, -1));
         Ray rays[TILE_RAYS];
-        Hit found[TILE_RAYS];
+        SphereTile tile = {.origin = middle.origin};
+        TileHits found;
         for (int i = 0; i < TILE_RAYS; i++) {
             int x = turn % 5 == 0 && i % 8 > 5 ? 5 : i % 8;
             Vec3 towards = vec3_add_scaled(middle.direction, step * (x - 3.5), across);
             rays[i] = (Ray){middle.origin, vec3_normalize(vec3_add_scaled(towards, step * (i / 8 - 3.5), down))};
+            SphereRay ray = sphere_ray_make(rays[i].origin, rays[i].direction);
+            sphere_tile_set(&tile, (unsigned)i, &ray);
         }
         for (size_t isa = 0; geometry_isa(isa); isa++) {
             geometry->kernels = sphere_kernels_choose(geometry_isa(isa));
-            geometry_closest_tile(geometry, TRACE_ALL_FEATURES, rays, found);
+            query_tile_closest(geometry, TRACE_ALL_FEATURES, &tile, true, &found);
             for (int i = 0; i < TILE_RAYS; i++) {
                 Hit hit = {0};
                 bool met = closest(geometry, rays[i], RAY_START_FREE, (double)INFINITY, &hit);
                 hits += met;
-                different += met ? hit.t != found[i].t || hit.shape != found[i].shape || hit.inside != found[i].inside
-                                 : found[i].shape != SHAPE_NONE;
+                different += met ? hit.t != found.t[i] || hit.shape != found.shape[i] ||
+                                       hit.inside != (found.inside >> i & 1)
+                                 : found.shape[i] != SHAPE_NONE;
             }
         }
     }
