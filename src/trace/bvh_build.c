@@ -14,78 +14,15 @@
 
 #include "base/pages.h"
 #include "base/parallel.h"
-#include "trace/bvh.h"
+#include "trace/bvh_split.h"
 
 enum {
-    BIN_MOST = 16,
-    SAMPLES_LEAST = 512, // a range of twice as many or more is binned by a sample of that size
     POOL_CHUNK_NODES = 256,
     // A range this small is built by one thread; a whole tree this small on one alone.
     TASK_REFS_LEAST = 4096,
     BUILDERS_MOST = 16,
     TASKS_MOST = 4096, // ranges that wait; what does not fit is built at once
 };
-
-// Four floats at a time; x, y and z are used.
-typedef float Float4 __attribute__((vector_size(16)));
-typedef int32_t Int4 __attribute__((vector_size(16)));
-
-typedef struct Box {
-    Float4 low, high;
-} Box;
-
-static const Box EMPTY_BOX = {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}};
-
-#ifdef __SSE__
-static inline Float4 float4_min(Float4 a, Float4 b)
-{
-    return __builtin_ia32_minps(a, b);
-}
-
-static inline Float4 float4_max(Float4 a, Float4 b)
-{
-    return __builtin_ia32_maxps(a, b);
-}
-#else
-static inline Float4 float4_min(Float4 a, Float4 b)
-{
-    Int4 mask = a < b;
-    return (Float4)((mask & (Int4)a) | (~mask & (Int4)b));
-}
-
-static inline Float4 float4_max(Float4 a, Float4 b)
-{
-    Int4 mask = a > b;
-    return (Float4)((mask & (Int4)a) | (~mask & (Int4)b));
-}
-#endif
-
-static inline void box_join(Box *box, const Box *other)
-{
-    box->low = float4_min(other->low, box->low);
-    box->high = float4_max(other->high, box->high);
-}
-
-static inline float box_half_area(const Box *box)
-{
-    Float4 size = box->high - box->low;
-    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
-}
-
-static inline Box ref_box(const BvhRef *ref)
-{
-    Box box;
-    memcpy(&box.low, ref->low, sizeof box.low);
-    memcpy(&box.high, ref->high, sizeof box.high);
-    return box;
-}
-
-// A range of refs to become a node or a leaf. Centres are twice the middles of the boxes.
-typedef struct Range {
-    Box box, centres;
-    uint32_t begin, end;
-    unsigned depth;
-} Range;
 
 typedef struct Task {
     Range range;
@@ -149,144 +86,6 @@ uint32_t bvh_ref_index(const BvhRef *ref)
     return (bits[0] & 0x7fffffu) | (bits[1] & 0x1ffu) << 23;
 }
 
-// ---- one split
-
-// Maps box centres to bins along the axis on which they lie farthest apart. The best of all three axes is seldom
-// another one, and costs three times as much to find.
-typedef struct Binning {
-    int axis, count;
-    float low, bins_per_unit;
-} Binning;
-
-typedef struct Bin {
-    Box box;
-    uint32_t count;
-} Bin;
-
-static inline int binning_bin(const Binning *binning, Float4 centre)
-{
-    int bin = (int)((centre[binning->axis] - binning->low) * binning->bins_per_unit);
-    return bin < binning->count ? bin : binning->count - 1;
-}
-
-// False when all centres are the same.
-static bool binning_init(Binning *binning, const Range *range)
-{
-    Float4 extent = range->centres.high - range->centres.low;
-    int axis = extent[1] > extent[0];
-    axis = extent[2] > extent[axis] ? 2 : axis;
-    // Half of all ranges are short; for them the bins themselves would be most of the work.
-    uint32_t refs = range->end - range->begin;
-    int count = refs >= 16 ? BIN_MOST : BIN_MOST / 2;
-    *binning = (Binning){axis, count, range->centres.low[axis], (float)count / extent[axis]};
-    return binning->bins_per_unit < INFINITY;
-}
-
-// A leaf is tested whole, so cost counts leaves, not things.
-static inline float side_cost(const Box *box, uint32_t count)
-{
-    return count ? (float)((count + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST) * box_half_area(box) : INFINITY;
-}
-
-// The cheapest place to cut: the first bin of the right side.
-static int bins_cut(const Bin *bins, int bin_count)
-{
-    float right_cost[BIN_MOST];
-    Box box = EMPTY_BOX;
-    uint32_t count = 0;
-    for (int i = bin_count - 1; i > 0; i--) {
-        box_join(&box, &bins[i].box);
-        count += bins[i].count;
-        right_cost[i] = side_cost(&box, count);
-    }
-    box = EMPTY_BOX;
-    count = 0;
-    float best = INFINITY;
-    int cut = 0;
-    for (int i = 1; i < bin_count; i++) {
-        box_join(&box, &bins[i - 1].box);
-        count += bins[i - 1].count;
-        float cost = side_cost(&box, count) + right_cost[i];
-        if (cost < best) {
-            best = cost;
-            cut = i;
-        }
-    }
-    return cut;
-}
-
-static void bins_fill(Bin bins[BIN_MOST], const BvhRef *refs, const Range *range, const Binning *binning)
-{
-    for (int i = 0; i < binning->count; i++) {
-        bins[i] = (Bin){EMPTY_BOX, 0};
-    }
-    uint32_t count = range->end - range->begin;
-    uint32_t stride = count < 2 * SAMPLES_LEAST ? 1 : count / SAMPLES_LEAST;
-    for (uint32_t i = range->begin; i < range->end; i += stride) {
-        Box box = ref_box(&refs[i]);
-        Bin *bin = &bins[binning_bin(binning, box.low + box.high)];
-        box_join(&bin->box, &box);
-        bin->count++;
-    }
-}
-
-// Puts the refs left of the split first, and measures both sides.
-static void split_apply(BvhRef *refs, const Range *range, const Binning *binning, int cut, Range *left, Range *right)
-{
-    uint32_t begin = range->begin;
-    uint32_t end = range->end;
-    Box boxes[2] = {EMPTY_BOX, EMPTY_BOX}, centres[2] = {EMPTY_BOX, EMPTY_BOX};
-    while (begin < end) {
-        Box box = ref_box(&refs[begin]);
-        Float4 centre = box.low + box.high;
-        int side = binning_bin(binning, centre) >= cut;
-        box_join(&boxes[side], &box);
-        box_join(&centres[side], &(Box){centre, centre});
-        if (side == 0) {
-            begin++;
-        } else {
-            BvhRef moved = refs[begin];
-            refs[begin] = refs[--end];
-            refs[end] = moved;
-        }
-    }
-    *left = (Range){boxes[0], centres[0], range->begin, begin, range->depth + 1};
-    *right = (Range){boxes[1], centres[1], begin, range->end, range->depth + 1};
-}
-
-// The box and centres of a range, from its refs.
-static Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth)
-{
-    Range range = {EMPTY_BOX, EMPTY_BOX, begin, end, depth};
-    for (uint32_t i = begin; i < end; i++) {
-        Box box = ref_box(&refs[i]);
-        Float4 centre = box.low + box.high;
-        box_join(&range.box, &box);
-        box_join(&range.centres, &(Box){centre, centre});
-    }
-    return range;
-}
-
-// Cuts a range of more than a leaf in two.
-static void range_split(BvhRef *refs, const Range *range, Range *left, Range *right)
-{
-    Binning binning;
-    if (range->depth < BVH_SAH_DEPTH_MOST && binning_init(&binning, range)) {
-        Bin bins[BIN_MOST];
-        bins_fill(bins, refs, range, &binning);
-        int cut = bins_cut(bins, binning.count);
-        if (cut > 0) {
-            split_apply(refs, range, &binning, cut, left, right);
-            return;
-        }
-    }
-    // In half by full leaves.
-    uint32_t leaves = (range->end - range->begin + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST;
-    uint32_t middle = range->begin + leaves / 2 * BVH_LEAF_MOST;
-    *left = range_measure(refs, range->begin, middle, range->depth + 1);
-    *right = range_measure(refs, middle, range->end, range->depth + 1);
-}
-
 // ---- nodes
 
 // A new node of the pool and its number for now, thread and place; NULL when out of memory.
@@ -328,11 +127,6 @@ static void node_clear(BvhNode *node)
         node->child[child] = BVH_CHILD_NONE;
         node->unused[child] = 0;
     }
-}
-
-static uint32_t range_count(const Range *range)
-{
-    return range->end - range->begin;
 }
 
 // Splits the child of the largest box, again and again, until there are eight or all are leaves.

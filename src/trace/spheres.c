@@ -22,6 +22,7 @@ enum {
     LARGE_RADIUS_RATIO = 32,
     CHUNK = 16384,      // spheres that a thread takes at a time
     NODES_CHUNK = 256,  // nodes whose leaves a thread fills at a time
+    AHEAD = 24,         // spheres that are asked for before they are needed
 };
 
 // ---- kernels
@@ -66,7 +67,9 @@ typedef struct Maker {
     double scale[2]; // lengths are multiplied by both
     double limit;    // spheres whose radius squared is above are large, and loose
     Chunk *chunks;
-    BvhRef *refs;           // of the spheres for the tree
+    BvhRef *refs;           // of the spheres for the tree, while it is built
+    uint32_t *numbers;      // of the spheres in the tree's order
+    uint32_t tree_count;    // of those
     uint32_t *first_blocks; // of each chunk of nodes
     uint32_t loose[LOOSE_SPHERES_MOST];
     atomic_uint next; // the first chunk that no thread has taken yet
@@ -253,6 +256,16 @@ static void slots_clear(const Maker *maker, uint32_t block, uint32_t begin)
     }
 }
 
+// Leaves follow each other as their nodes do, but the scene's spheres stand anywhere.
+static inline void fetch_ahead(const Maker *maker, uint32_t place)
+{
+    if (place < maker->tree_count) {
+        const Sphere *sphere = &maker->scene->spheres.items[maker->numbers[place]];
+        __builtin_prefetch(sphere);
+        __builtin_prefetch(sphere + 1); // it may lie across two lines
+    }
+}
+
 // Turns the leaves of a chunk of nodes into blocks.
 static void chunk_fill(const Maker *maker, uint32_t chunk)
 {
@@ -264,9 +277,10 @@ static void chunk_fill(const Maker *maker, uint32_t chunk)
             if (!(leaf & BVH_LEAF)) {
                 continue;
             }
-            uint32_t count = bvh_leaf_count(leaf);
+            uint32_t count = bvh_leaf_count(leaf), first = bvh_leaf_first(leaf);
             for (uint32_t at = 0; at < count; at++) {
-                slot_fill(maker, block * SPHERE_BLOCK + at, bvh_ref_index(&maker->refs[bvh_leaf_first(leaf) + at]));
+                fetch_ahead(maker, first + at + AHEAD);
+                slot_fill(maker, block * SPHERE_BLOCK + at, maker->numbers[first + at]);
             }
             slots_clear(maker, block, count);
             bvh->nodes[i].child[child] = BVH_LEAF | block++;
@@ -312,9 +326,33 @@ static bool table_reserve(SphereTable *table)
     return table->blocks && table->info;
 }
 
+static void numbers_work(void *client, int thread)
+{
+    Maker *maker = client;
+    (void)thread;
+    for (size_t chunk; (chunk = atomic_fetch_add(&maker->next, 1)) * CHUNK < maker->tree_count;) {
+        for (size_t i = chunk * CHUNK; i < (chunk + 1) * CHUNK && i < maker->tree_count; i++) {
+            maker->numbers[i] = bvh_ref_index(&maker->refs[i]);
+        }
+    }
+}
+
+// Keeps of the refs the numbers only, since the blocks take as much memory as the boxes do.
+static bool maker_keep_numbers(Maker *maker, int threads)
+{
+    maker->numbers = malloc(maker->tree_count * sizeof *maker->numbers);
+    if (maker->numbers) {
+        maker_share(maker, threads, numbers_work);
+    }
+    free(maker->refs);
+    maker->refs = NULL;
+    return maker->numbers != NULL;
+}
+
 // The tree over all but the loose spheres.
 static bool maker_plant(Maker *maker, uint32_t count, int threads)
 {
+    maker->tree_count = count;
     maker->refs = malloc(count * sizeof(*maker->refs));
     pages_prefer_huge(maker->refs, count * sizeof(*maker->refs));
     if (!maker->refs) {
@@ -322,7 +360,8 @@ static bool maker_plant(Maker *maker, uint32_t count, int threads)
     }
     maker_place(maker);
     maker_share(maker, threads, refs_work);
-    return bvh_build(&maker->table->bvh, maker->refs, count, threads) && maker_count_blocks(maker);
+    return bvh_build(&maker->table->bvh, maker->refs, count, threads) && maker_keep_numbers(maker, threads) &&
+           maker_count_blocks(maker);
 }
 
 static bool maker_make(Maker *maker, int threads)
@@ -365,6 +404,7 @@ bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int
     bool done = maker.chunks && maker_make(&maker, threads);
     free(maker.chunks);
     free(maker.refs);
+    free(maker.numbers);
     free(maker.first_blocks);
     return done;
 }
