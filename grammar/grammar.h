@@ -25,19 +25,27 @@ typedef struct GrammarLoop {
     double end, step;
 } GrammarLoop;
 
+// What the evaluator keeps of statements that differ in the numbers of a GrammarLiteral only. No padding.
+typedef struct GrammarLiteralKind {
+    float colour[5]; // of the pigment: red, green, blue, filter, transmit
+    uint32_t finish;
+} GrammarLiteralKind;
+
 // A statement `sphere { <n, n, n>, n … }` of nothing but numbers and words of the language.
 typedef struct GrammarLiteral {
     Span span;
     double centre[3], radius;
-    double colour[5];  // of its pigment: red, green, blue, filter, transmit
-    unsigned colours;  // how many of them the text says: 0, 3 or 5
+    GrammarLiteralKind kind; // with the colour that the text says; while it is being learnt, with nothing else
+    unsigned colours;        // how many numbers of it the text says: 0, 3 or 5
 } GrammarLiteral;
 
-// What the evaluator keeps of such statements that differ in these numbers only.
-typedef struct GrammarLiteralKind {
-    uint32_t finish;
-    float colour[5];
-} GrammarLiteralKind;
+
+// Some of them, one after the other; spans are from `base` on.
+typedef struct GrammarLiterals {
+    const GrammarLiteral *items;
+    size_t count, changes; // those whose kind is not that of the one before, the first one among them
+    uint64_t base;
+} GrammarLiterals;
 
 typedef enum LiteralResult {
     LITERAL_TAKEN,
@@ -82,7 +90,12 @@ typedef struct GrammarHooks {
     const uint64_t *literal_state;
     void (*literal_watch)(void *client, const GrammarLiteral *literal);
     bool (*literal_learn)(void *client, GrammarLiteralKind *kind);
-    LiteralResult (*literal)(void *client, const GrammarLiteral *literal, const GrammarLiteralKind *kind);
+    LiteralResult (*literal)(void *client, const GrammarLiteral *literal);
+    // Takes `count` >= 1 lists, none of them empty, at once and on `literal_threads`; it seems that about `more` will
+    // follow. False: nothing was done, they are to be given one by one.
+    bool (*literals)(void *client, const GrammarLiterals *lists, size_t count, size_t more);
+    int literal_threads;  // long runs of them are read on so many; 0 and 1: on the caller's alone
+    size_t literal_piece; // bytes of text that each of these takes at a time; 0: as is best
 } GrammarHooks;
 
 // Everything a parse needs; plain data, filled by the caller, shared by nested parses (#include).

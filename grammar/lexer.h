@@ -100,6 +100,7 @@ typedef struct GrammarState {
     uint64_t learning_end;     // where that ends
     uint64_t literal_state;    // of the hooks, when they were learnt
     unsigned literal_misses;   // in a row
+    bool many_literals;        // a whole buffer was full of them
 
     // Token stream.
     Token previous, current; // the last two delivered to the parser
@@ -142,6 +143,9 @@ void grammar_scan_end(GrammarState *state);
 void grammar_scan_literals(GrammarState *state);
 // The same for the scanner's buffer, which ends with a zero: returns where reading goes on, and moves `offset` there.
 const char *grammar_literals_read(GrammarState *state, const char *at, const char *end);
+// After that, where the source is long: goes on from `offset` on several threads. False: nothing was read. True: reading
+// goes on in the source at `offset`, and the scanner's buffer is out of date.
+bool grammar_literals_read_many(GrammarState *state);
 void grammar_literals_forget(GrammarState *state);
 
 // The next token, if it can be read at once from the scanner's buffer (quick.c).

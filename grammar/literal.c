@@ -10,11 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "grammar/lexer.h"
+#include "grammar/literal.h"
 #include "grammar/plain.h"
 
 enum {
-    TEXT_LONGEST = 4096,  // of what follows the radius
     MISSES_MOST = 64,     // so many texts in a row that no statement repeats: from then on few are kept
 };
 
@@ -57,14 +56,6 @@ static const char *read_head(const char *at, const char *end, GrammarLiteral *li
 
 // ---- patterns
 
-struct LiteralPattern {
-    char *text;          // before the gap, then after it
-    size_t before, after;
-    Word word;           // before the numbers in the gap; 0: there is none
-    bool is_used;        // the evaluator knows what it gives; else such statements are not read here
-    GrammarLiteralKind kind;
-};
-
 void grammar_literals_forget(GrammarState *state)
 {
     for (unsigned i = 0; i < LITERAL_PATTERNS; i++) {
@@ -78,25 +69,27 @@ void grammar_literals_forget(GrammarState *state)
 // The numbers of a pigment, in the order red, green, blue, filter, transmit.
 static const char *read_colour(const char *at, const char *end, Word word, GrammarLiteral *literal)
 {
-    double *colour = literal->colour;
     unsigned count = word == W_rgb ? 3 : word == W_rgbft ? 5 : 4;
-    colour[3] = colour[4] = 0.0;
+    double colour[5] = {0};
     at = read_numbers(at, end, count, colour);
-    if (at != NULL && word == W_rgbt) {
+    if (word == W_rgbt) {
         colour[4] = colour[3];
         colour[3] = 0.0;
     }
     literal->colours = word == W_rgb ? 3 : 5;
+    for (unsigned i = 0; i < literal->colours; i++) {
+        literal->kind.colour[i] = (float)colour[i];
+    }
     return at;
 }
 
-// The end of a statement whose text after the radius is that of a pattern; NULL: it is not.
 static const char *match(const LiteralPattern *pattern, const char *at, const char *end, GrammarLiteral *literal)
 {
     if ((size_t)(end - at) <= pattern->before + pattern->after || memcmp(at, pattern->text, pattern->before) != 0) {
         return NULL;
     }
     at += pattern->before;
+    literal->kind = pattern->kind;
     literal->colours = 0;
     if (pattern->word != 0) {
         at = read_colour(at, end, pattern->word, literal);
@@ -147,7 +140,7 @@ static const char *survey(const GrammarState *state, const char *at, const char 
 {
     unsigned depth = 1, pigments = 0;
     bool begins_pigment = false, is_after_number = true; // the radius
-    const char *limit = end - at > TEXT_LONGEST ? at + TEXT_LONGEST : end;
+    const char *limit = end - at > LITERAL_TEXT_LONGEST ? at + LITERAL_TEXT_LONGEST : end;
     *gap = (Gap){0};
     while (at < limit && depth > 0) {
         const char *begin = at;
@@ -243,20 +236,37 @@ static void end_learning(GrammarState *state)
     pattern->is_used = hooks->literal_learn(hooks->client, &pattern->kind) && state->offset == state->learning_end;
 }
 
-// The pattern that the text after a radius has, moved to the front; NULL: none.
-static const LiteralPattern *find(GrammarState *state, const char *at, const char *end, GrammarLiteral *literal,
-                                  const char **after)
+const char *literal_read(LiteralPattern *const *patterns, const char *at, const char *end, GrammarLiteral *literal,
+                         unsigned *which, const char **text)
 {
-    for (unsigned i = 0; i < LITERAL_PATTERNS && state->literals[i] != NULL; i++) {
-        LiteralPattern *pattern = state->literals[i];
-        *after = match(pattern, at, end, literal);
-        if (*after != NULL) {
-            memmove(state->literals + 1, state->literals, i * sizeof *state->literals);
-            state->literals[0] = pattern;
-            return pattern;
+    *text = read_head(at, end, literal);
+    *which = LITERAL_PATTERNS;
+    if (*text == NULL || !(literal->radius > 0.0)) {
+        *text = NULL;
+        return NULL;
+    }
+    for (unsigned i = 0; i < LITERAL_PATTERNS && patterns[i] != NULL; i++) {
+        const char *after = match(patterns[i], *text, end, literal);
+        if (after != NULL) {
+            *which = i;
+            return after;
         }
     }
     return NULL;
+}
+
+void literal_set_previous(GrammarState *state, uint64_t end)
+{
+    state->previous = (Token){.kind = '}', .span = {end - 1, end}};
+    state->last_read = '}';
+    state->offset = end;
+}
+
+static const LiteralPattern *move_to_front(GrammarState *state, unsigned which)
+{
+    LiteralPattern *pattern = state->literals[which];
+    memmove(state->literals + 1, state->literals, which * sizeof *state->literals);
+    return state->literals[0] = pattern;
 }
 
 const char *grammar_literals_read(GrammarState *state, const char *at, const char *end)
@@ -269,40 +279,41 @@ const char *grammar_literals_read(GrammarState *state, const char *at, const cha
         grammar_literals_forget(state);
         state->literal_state = *hooks->literal_state;
     }
-    uint64_t read_end = 0; // of the last one
+    size_t taken = 0;
     while (!state->ended) {
         GrammarLiteral literal;
-        const char *begin = plain_skip_blanks(at), *after = NULL;
-        const char *text = read_head(begin, end, &literal);
-        if (text == NULL || !(literal.radius > 0.0)) {
+        unsigned which;
+        const char *begin = plain_skip_blanks(at), *text;
+        const char *after = literal_read(state->literals, begin, end, &literal, &which, &text);
+        if (text == NULL) {
             break;
         }
         uint64_t offset = state->offset + (uint64_t)(begin - at);
-        const LiteralPattern *pattern = find(state, text, end, &literal, &after);
-        if (pattern == NULL) {
+        if (after == NULL) {
             state->offset = offset; // nothing before it but blanks, which are passed over
             begin_learning(state, begin, text, end, &literal);
             at = begin;
             break;
         }
+        const LiteralPattern *pattern = move_to_front(state, which);
         if (!pattern->is_used) {
             break;
         }
         state->literal_misses = 0;
         literal.span = (Span){offset, offset + (uint64_t)(after - begin)};
-        LiteralResult result = hooks->literal(hooks->client, &literal, &pattern->kind);
+        LiteralResult result = hooks->literal(hooks->client, &literal);
         if (result == LITERAL_LEFT) {
             break;
         }
         at = after;
-        state->offset = read_end = literal.span.end;
+        literal_set_previous(state, literal.span.end);
+        taken++;
         if (result == LITERAL_STOP) {
             state->client_ended = state->ended = true;
         }
     }
-    if (read_end > 0) { // as if its tokens had been delivered
-        state->previous = (Token){.kind = '}', .span = {read_end - 1, read_end}};
-        state->last_read = '}';
-    }
+    // Nearly all of a buffer was taken: there are perhaps many more.
+    state->many_literals = taken >= LITERALS_MANY && !state->ended && state->learning == NULL &&
+                           end - at < LITERAL_STATEMENT_LONGEST;
     return at;
 }

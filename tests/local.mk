@@ -41,6 +41,7 @@ unit_programs = \
   tests/unit/test_trace_tree \
   tests/unit/test_trace_secondary \
   tests/unit/test_coincident \
+  tests/unit/test_literal_many \
   tests/unit/test_range \
   tests/unit/test_invariance \
   tests/unit/test_study \
@@ -132,6 +133,8 @@ tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_coincident_SOURCES = %D%/unit/test_coincident.c $(unit_headers)
 tests_unit_test_coincident_LDADD = libapi.la
+tests_unit_test_literal_many_SOURCES = %D%/unit/test_literal_many.c $(unit_headers)
+tests_unit_test_literal_many_LDADD = libapi.la
 tests_unit_test_range_SOURCES = %D%/unit/test_range.c $(unit_headers)
 tests_unit_test_range_LDADD = libapi.la
 tests_unit_test_invariance_SOURCES = %D%/unit/test_invariance.c %D%/unit/scenes.h $(unit_headers)

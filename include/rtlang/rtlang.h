@@ -151,6 +151,10 @@ RT_API rt_status rt_write_text(rt_session *session, const char *path);
  * like all else; the scene and its messages are the same. */
 RT_API void rt_set_literals(rt_session *session, int on);
 
+/* Threads that long runs of such spheres are read with, and that large scenes are looked through with when they have
+ * been read; 0 (the default) for as many as the machine has. A scene and its messages do not depend on it. */
+RT_API rt_status rt_set_load_threads(rt_session *session, int threads);
+
 /* Names of the instruction sets that the tracer can use on this machine, from plain C to the best, and NULL past the
  * end. */
 RT_API const char *rt_isa(size_t i);

@@ -183,13 +183,14 @@ static rt_status load(rt_session *session, Source *source, double start)
         .clock_on = session->clock_on,
         .world = session->world.scale > 0.0 ? &session->world : NULL,
         .no_literals = session->no_literals,
+        .threads = session->load_threads > 0 ? session->load_threads : render_default_threads(),
         .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,
         .client = session,
     };
     session->scene.whole = SPAN_WHOLE(source_base(source));
-    bool fine = eval_source(&options, source, &session->scene) && scene_validate(&session->scene, &session->diags) &&
+    bool fine = eval_source(&options, source, &session->scene) && scene_validate(&session->scene, &session->diags, options.threads) &&
                 session->diags.error_count == 0 && session_load_pictures(session);
     source_close(source);
     diag_finish(&session->diags);

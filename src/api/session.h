@@ -36,6 +36,7 @@ struct rt_session {
     bool clock_on;
     EvalWorld world;
     bool no_literals;
+    int load_threads; // 0: as many as the machine has
     int width, height;
     struct {
         int left, top, width, height;

@@ -226,6 +226,15 @@ void rt_set_literals(rt_session *session, int on)
     session->no_literals = !on;
 }
 
+rt_status rt_set_load_threads(rt_session *session, int threads)
+{
+    if (threads < 0) {
+        return RT_FAULT_USAGE;
+    }
+    session->load_threads = threads;
+    return RT_OK;
+}
+
 const char *rt_isa(size_t i)
 {
     return geometry_isa(i);

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 
 typedef struct Worker {
     pthread_t thread;
@@ -36,4 +37,29 @@ int parallel_run(int threads, void (*work)(void *client, int number), void *clie
         pthread_join(workers[i].thread, NULL);
     }
     return started;
+}
+
+typedef struct Shared {
+    size_t count, run;
+    void (*work)(void *client, size_t begin, size_t end);
+    void *client;
+    atomic_size_t next;
+} Shared;
+
+static void shared_work(void *client, int number)
+{
+    Shared *shared = client;
+    (void)number;
+    for (size_t begin; (begin = atomic_fetch_add(&shared->next, shared->run)) < shared->count;) {
+        size_t left = shared->count - begin;
+        shared->work(shared->client, begin, begin + (left < shared->run ? left : shared->run));
+    }
+}
+
+void parallel_share(int threads, size_t count, size_t run, void (*work)(void *client, size_t begin, size_t end),
+                    void *client)
+{
+    Shared shared = {.count = count, .run = run, .work = work, .client = client};
+    size_t runs = (count + run - 1) / run;
+    parallel_run(runs < (size_t)threads ? (int)runs : threads, shared_work, &shared);
 }

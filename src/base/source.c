@@ -302,6 +302,40 @@ ptrdiff_t source_read(Source *source, char *buffer, size_t size)
     return got;
 }
 
+static bool file_read_at(int file, uint64_t position, char *buffer, size_t size)
+{
+    for (size_t have = 0; have < size;) {
+        ptrdiff_t got = pread(file, buffer + have, size - have, (off_t)(position + have));
+        if (got == 0 || (got < 0 && errno != EINTR)) {
+            return false;
+        }
+        have += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+bool source_read_at(const Source *source, uint64_t position, char *buffer, size_t size)
+{
+    if (position > source->size || size > source->size - position) {
+        return false;
+    }
+    if (source->kept) {
+        memcpy(buffer, source->kept + position, size);
+        return true;
+    }
+    return source->file != NO_FILE && file_read_at(source->file, position, buffer, size);
+}
+
+// A file that cannot be moved in is closed, so that reading on fails.
+void source_seek(Source *source, uint64_t position)
+{
+    if (source->file != NO_FILE && lseek(source->file, (off_t)position, SEEK_SET) < 0) {
+        file_close(&source->file);
+    }
+    source->map->bytes_read += position - source->position; // modulo 2^64: it may be less than before
+    source->position = position;
+}
+
 void source_close(Source *source)
 {
     file_close(&source->file);
@@ -370,14 +404,7 @@ static bool source_read_again(SourceMap *map, const Source *source, uint64_t off
     if (!source_reopen(map, source)) {
         return false;
     }
-    for (size_t have = 0; have < size;) {
-        ptrdiff_t got = pread(map->again_file, buffer + have, size - have, (off_t)(offset + have));
-        if (got == 0 || (got < 0 && errno != EINTR)) {
-            return false;
-        }
-        have += got > 0 ? (size_t)got : 0;
-    }
-    return true;
+    return file_read_at(map->again_file, offset, buffer, size);
 }
 
 // One byte of UTF-8. Each byte counts as a character until a well-formed sequence ends, which then counts as one

@@ -82,6 +82,12 @@ Source *source_open_text(SourceMap *map, const char *name, const char *text, siz
 ptrdiff_t source_read(Source *source, char *buffer, size_t size) RT_MUST_CHECK;
 
 // Closes the stream; the name and the means to find a line again stay with the map.
+// Bytes at a position, counted from the text's first, whatever was read before: fills the buffer, or is false. May be
+// called from several threads at once.
+bool source_read_at(const Source *source, uint64_t position, char *buffer, size_t size) RT_MUST_CHECK;
+// source_read goes on at a position, which is not beyond the end.
+void source_seek(Source *source, uint64_t position);
+
 void source_close(Source *source);
 
 Span source_extent(const Source *source); // of the whole text, as far as it was read or is a file

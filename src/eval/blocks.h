@@ -242,5 +242,7 @@ bool shape_flattened(Eval *ev, const ObjectPart *part);
 bool object_place(Eval *ev, SchemaKind kind, const void *object) RT_MUST_CHECK;
 // A sphere of a plain material; false after a fault.
 bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span) RT_MUST_CHECK;
+// Whether what the scene takes, and so many bytes more, is within the limit of memory.
+bool memory_has(const Eval *ev, size_t bytes);
 
 #endif

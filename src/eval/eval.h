@@ -63,6 +63,8 @@ typedef struct EvalOptions {
     bool clock_on;             // a clock was given
     const EvalWorld *world;    // NULL: where it says
     bool no_literals;          // statements of nothing but numbers are parsed like all others
+    int threads;               // for long runs of such statements; 0 and 1: the caller's alone
+    size_t literal_piece;      // bytes of text that each of these takes at a time; 0: as is best
     EvalNames *declared;       // set in the end; may be NULL
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console

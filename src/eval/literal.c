@@ -6,12 +6,17 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "eval/blocks.h"
 
 // Beyond this a colour is left to the statements that say what is wrong with it.
-#define COLOUR_GREATEST 1e30
+#define COLOUR_GREATEST 1e30f
+
+_Static_assert(sizeof(GrammarLiteralKind) == sizeof(Material), "a kind is a material");
 
 static Eval *eval_of(void *client)
 {
@@ -55,7 +60,7 @@ static bool has_colour(const GrammarLiteral *literal, const Material *material)
 {
     const float colour[] = {material->red, material->green, material->blue, material->filter, material->transmit};
     for (unsigned i = 0; i < literal->colours; i++) {
-        if (colour[i] != (float)literal->colour[i]) {
+        if (colour[i] != literal->kind.colour[i]) {
             return false;
         }
     }
@@ -87,26 +92,150 @@ static bool learn(void *client, GrammarLiteralKind *kind)
     }
     const Material *material = &scene->materials.items[sphere->material];
     *kind = (GrammarLiteralKind){
-        material->finish, {material->red, material->green, material->blue, material->filter, material->transmit}};
+        {material->red, material->green, material->blue, material->filter, material->transmit}, material->finish};
     return has_colour(&watched->literal, material);
 }
 
-static LiteralResult take(void *client, const GrammarLiteral *literal, const GrammarLiteralKind *kind)
+// False when its colour is to be left to the statements that say what is wrong with it.
+static inline bool literal_material(const GrammarLiteral *literal, Material *material)
+{
+    const float *colour = literal->kind.colour;
+    bool is_fine = true;
+    for (int i = 0; i < 5; i++) {
+        is_fine = is_fine && fabsf(colour[i]) <= COLOUR_GREATEST;
+    }
+    *material = (Material){colour[0], colour[1], colour[2], colour[3], colour[4], literal->kind.finish};
+    return is_fine;
+}
+
+// A zero is positive, as it is behind any transform.
+static Vec3 literal_centre(const GrammarLiteral *literal)
+{
+    return vec3(literal->centre[0] + 0.0, literal->centre[1] + 0.0, literal->centre[2] + 0.0);
+}
+
+static LiteralResult take(void *client, const GrammarLiteral *literal)
 {
     Eval *ev = eval_of(client);
-    float colour[5];
-    memcpy(colour, kind->colour, sizeof colour);
-    for (unsigned i = 0; i < literal->colours; i++) {
-        if (!(fabs(literal->colour[i]) <= COLOUR_GREATEST)) {
-            return LITERAL_LEFT;
-        }
-        colour[i] = (float)literal->colour[i];
+    Material material;
+    if (!literal_material(literal, &material)) {
+        return LITERAL_LEFT;
     }
-    // A zero is positive, as it is behind any transform.
-    Vec3 centre = {literal->centre[0] + 0.0, literal->centre[1] + 0.0, literal->centre[2] + 0.0};
-    Material material = {colour[0], colour[1], colour[2], colour[3], colour[4], kind->finish};
-    ev->faulty = !sphere_place_plain(ev, centre, literal->radius, &material, literal->span) || ev->faulty;
+    ev->faulty = !sphere_place_plain(ev, literal_centre(literal), literal->radius, &material, literal->span) ||
+                 ev->faulty;
     return eval_cancelled(ev) ? LITERAL_STOP : LITERAL_TAKEN;
+}
+
+// ---- many at once
+
+// Where the records of a list go.
+typedef struct Batch {
+    const GrammarLiterals *list;
+    size_t first_sphere, first_material;
+    MaterialIndex before; // the material before the list, which its first sphere has, too, …
+    bool goes_on;         // … when this is true
+} Batch;
+
+typedef struct Batches {
+    Scene *scene;
+    Batch *items;
+    size_t count, spheres, materials;
+    atomic_bool has_odd; // a colour that must be left
+} Batches;
+
+// Records are written behind the ends of the scene's lists.
+static void batch_fill(void *client, size_t begin, size_t end)
+{
+    Batches *batches = client;
+    Scene *scene = batches->scene;
+    for (; begin < end; begin++) {
+        const Batch *batch = &batches->items[begin];
+        const GrammarLiterals *list = batch->list;
+        Sphere *sphere = &scene->spheres.items[batch->first_sphere];
+        uint32_t order = scene->shape_count + (uint32_t)(batch->first_sphere - scene->spheres.count);
+        size_t next = batch->first_material;
+        MaterialIndex index = batch->before;
+        Material material, last;
+        bool is_fine = true;
+        for (size_t i = 0; i < list->count; i++) {
+            const GrammarLiteral *literal = &list->items[i];
+            is_fine = literal_material(literal, &material) && is_fine;
+            if (i == 0 ? !batch->goes_on : memcmp(&material, &last, sizeof last) != 0) {
+                scene->materials.items[index = (MaterialIndex)next++] = material;
+            }
+            last = material;
+            sphere[i] = (Sphere){literal_centre(literal), literal->radius, index, order + (uint32_t)i,
+                                 list->base + literal->span.begin};
+        }
+        if (!is_fine) {
+            atomic_store(&batches->has_odd, true);
+        }
+    }
+}
+
+static void batches_place(Batches *batches, const GrammarLiterals *lists)
+{
+    const Scene *scene = batches->scene;
+    MaterialIndex index;
+    const Material *known = scene_last_material(scene, &index);
+    Material last = known != NULL ? *known : (Material){.finish = RECORD_NONE};
+    for (size_t i = 0; i < batches->count; i++) {
+        const GrammarLiterals *list = &lists[i];
+        bool goes_on = memcmp(&last, &list->items[0].kind, sizeof last) == 0;
+        batches->items[i] = (Batch){.list = list,
+                                    .first_sphere = scene->spheres.count + batches->spheres,
+                                    .first_material = scene->materials.count + batches->materials,
+                                    .before = index,
+                                    .goes_on = goes_on};
+        batches->spheres += list->count;
+        batches->materials += list->changes - goes_on;
+        index = batches->materials > 0 ? (MaterialIndex)(scene->materials.count + batches->materials - 1) : index;
+        memcpy(&last, &list->items[list->count - 1].kind, sizeof last);
+    }
+}
+
+// Whether there is room for them, in all limits; if the lists must grow, for those that seem to follow, too.
+static bool reserve(Eval *ev, const Batches *batches, size_t more)
+{
+    Scene *scene = ev->scene;
+    size_t spheres = batches->spheres, materials = batches->materials;
+    bool grows = scene->spheres.capacity - scene->spheres.count < spheres ||
+                 scene->materials.capacity - scene->materials.count < materials;
+    if (scene_shapes_in_all(scene) + spheres > ev->options.limits->objects) {
+        return false;
+    }
+    // A little more than that, since it is a guess. Where it is too much, they grow as they need to.
+    double share = (double)materials / (double)spheres, all = (double)spheres + 1.02 * (double)more;
+    size_t bytes = (size_t)(all * ((double)sizeof(Sphere) + share * (double)sizeof(Material)));
+    if (grows && memory_has(ev, bytes) && !scene_reserve_spheres(scene, (size_t)all, (size_t)(all * share) + 1)) {
+        return false;
+    }
+    return scene_reserve_spheres(scene, spheres, materials) && memory_has(ev, 0);
+}
+
+// The same records in the same order as one by one. What may come to a fault is left to that.
+static bool take_many(void *client, const GrammarLiterals *lists, size_t count, size_t more)
+{
+    Eval *ev = eval_of(client);
+    Batches batches = {.scene = ev->scene, .count = count};
+    if (!scene_materials_add_up(ev->scene) || eval_cancelled(ev)) {
+        return false;
+    }
+    batches.items = malloc(count * sizeof *batches.items);
+    if (batches.items == NULL) {
+        return false;
+    }
+    batches_place(&batches, lists);
+    bool is_taken = reserve(ev, &batches, more);
+    if (is_taken) {
+        parallel_share(ev->options.threads, count, 1, batch_fill, &batches);
+        is_taken = !atomic_load(&batches.has_odd);
+    }
+    if (is_taken) {
+        scene_commit_spheres(ev->scene, batches.spheres, batches.materials);
+    }
+    free(batches.items);
+    return is_taken;
 }
 
 void literal_hooks(Eval *ev, GrammarHooks *hooks)
@@ -115,4 +244,7 @@ void literal_hooks(Eval *ev, GrammarHooks *hooks)
     hooks->literal_watch = watch;
     hooks->literal_learn = learn;
     hooks->literal = ev->options.no_literals ? NULL : take;
+    hooks->literals = take_many;
+    hooks->literal_threads = ev->options.threads;
+    hooks->literal_piece = ev->options.literal_piece;
 }

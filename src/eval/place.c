@@ -42,9 +42,15 @@ typedef struct Branch {
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer);
 static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *branch);
 
+bool memory_has(const Eval *ev, size_t bytes)
+{
+    size_t taken = ev->memory.used + scene_bytes(ev->scene);
+    return taken <= ev->memory.limit && bytes <= ev->memory.limit - taken;
+}
+
 static bool memory_suffices(Eval *ev, Span span)
 {
-    if (ev->memory.used + scene_bytes(ev->scene) > ev->memory.limit) {
+    if (!memory_has(ev, 0)) {
         ev->memory.refused = true;
         return eval_no_memory(ev, span);
     }

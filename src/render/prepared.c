@@ -208,7 +208,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     if (!p) {
         return NULL;
     }
-    int exponent = scene_exponent(scene);
+    int exponent = scene_exponent(scene, options->threads);
     p->geometry = geometry_new_with(scene, exponent, options);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);

@@ -5,7 +5,10 @@
 
 #include <float.h>
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 
+#include "base/parallel.h"
 #include "scene/part.h"
 
 // ---- the exact scale
@@ -56,13 +59,33 @@ static void range_add_part(LengthRange *range, const Part *part)
     }
 }
 
-int scene_exponent(const Scene *scene)
+typedef struct SphereLengths {
+    const Scene *scene;
+    LengthRange range;
+    pthread_mutex_t lock; // of the range
+} SphereLengths;
+
+static void add_spheres(void *client, size_t begin, size_t end)
 {
+    SphereLengths *lengths = client;
     LengthRange range = {INFINITY, 0.0};
-    for (size_t i = 0; i < scene->spheres.count; i++) {
-        range_add(&range, max_abs(scene->spheres.items[i].centre));
-        range_add(&range, scene->spheres.items[i].radius);
+    for (size_t i = begin; i < end; i++) {
+        const Sphere *sphere = &lengths->scene->spheres.items[i];
+        range_add(&range, max_abs(sphere->centre));
+        range_add(&range, sphere->radius);
     }
+    pthread_mutex_lock(&lengths->lock);
+    range_add(&lengths->range, range.least);
+    range_add(&lengths->range, range.greatest);
+    pthread_mutex_unlock(&lengths->lock);
+}
+
+int scene_exponent(const Scene *scene, int threads)
+{
+    SphereLengths lengths = {scene, {INFINITY, 0.0}, PTHREAD_MUTEX_INITIALIZER};
+    parallel_share(threads, scene->spheres.count, SPHERE_RUN, add_spheres, &lengths);
+    pthread_mutex_destroy(&lengths.lock);
+    LengthRange range = lengths.range;
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
         for (int row = 0; row < 4; row++) {
             range_add(&range, row_size(&scene->ellipsoids.items[i].to_world, row));
@@ -258,15 +281,52 @@ static void check_directions(const Scene *scene, DiagSink *diags)
     check_camera(&scene->camera, diags);
 }
 
-void scene_warn_of_range(const Scene *scene, DiagSink *diags)
+// Whether check_extent has nothing to tell of any ball of such sizes, in coordinates up to `place`.
+static bool nothing_to_tell(const Watch *watch, double least, double greatest, double place)
 {
-    int exponent = scene_exponent(scene);
-    Watch watch = {diags, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
-    for (size_t i = 0; i < scene->spheres.count; i++) {
+    return least >= watch->least && greatest < watch->end && place < watch->end && least >= place * DBL_EPSILON &&
+           place + max_abs(watch->eye) <= RANGE_RADII * least;
+}
+
+typedef struct SphereRange {
+    const Scene *scene;
+    const Watch *watch;
+    atomic_bool has_some;
+} SphereRange;
+
+static void look_at_spheres(void *client, size_t begin, size_t end)
+{
+    SphereRange *range = client;
+    double least = INFINITY, greatest = 0.0, place = 0.0;
+    for (size_t i = begin; i < end; i++) {
+        const Sphere *sphere = &range->scene->spheres.items[i];
+        double at = max_abs(sphere->centre);
+        least = sphere->radius < least ? sphere->radius : least;
+        greatest = sphere->radius > greatest ? sphere->radius : greatest;
+        place = at > place ? at : place;
+    }
+    if (!nothing_to_tell(range->watch, least, greatest, place)) {
+        atomic_store(&range->has_some, true);
+    }
+}
+
+// Runs of spheres are seldom worth a look at each.
+static void check_spheres(const Scene *scene, const Watch *watch, int threads)
+{
+    SphereRange range = {.scene = scene, .watch = watch};
+    parallel_share(threads, scene->spheres.count, SPHERE_RUN, look_at_spheres, &range);
+    for (size_t i = 0; atomic_load(&range.has_some) && i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         // ball_make (trace/sphere.h) leaves out spheres whose squares are beyond.
-        check_extent(&watch, &(Extent){sphere->radius, sphere->centre, sphere->source, "sphere"}, "it is not drawn");
+        check_extent(watch, &(Extent){sphere->radius, sphere->centre, sphere->source, "sphere"}, "it is not drawn");
     }
+}
+
+void scene_warn_of_range(const Scene *scene, DiagSink *diags, int threads)
+{
+    int exponent = scene_exponent(scene, threads);
+    Watch watch = {diags, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
+    check_spheres(scene, &watch, threads);
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
         const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
         Extent extent = transform_extent(&ellipsoid->to_world, ellipsoid->source, "stretched sphere");

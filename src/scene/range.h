@@ -12,6 +12,8 @@
 
 // Scaled lengths: the squares of radii from 2^RANGE_LEAST to below 2^RANGE_END, and of coordinates below 2^RANGE_END,
 // are held with all their bits.
+enum { SPHERE_RUN = 16384 }; // spheres that a thread looks at on end
+
 enum { RANGE_LEAST = -480, RANGE_END = 511 };
 
 // Seen from the camera, the greatest distance in radii at which a sphere's outline is a hundredth of its radius: 0.01 /
@@ -21,14 +23,14 @@ enum { RANGE_LEAST = -480, RANGE_END = 511 };
 // The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of
 // the greatest and the least are as far from overflow as from underflow. A scene times 2^k has an exponent greater by
 // k, so both become the same numbers. (The direction and screen of a perspective camera have no length that matters.)
-int scene_exponent(const Scene *scene);
+int scene_exponent(const Scene *scene, int threads);
 
 // Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and
 // of lights and cameras beyond the range. One pass.
-void scene_warn_of_range(const Scene *scene, DiagSink *diags);
+void scene_warn_of_range(const Scene *scene, DiagSink *diags, int threads);
 
 // Warns of equal shapes that some ray could see both of. Linear in the number of shapes. False when out of memory.
-bool scene_warn_of_twins(const Scene *scene, DiagSink *diags) RT_MUST_CHECK;
+bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
 
 // Whether that takes two parts for equal.
 bool scene_parts_are_twins(const Part *a, const Part *b);

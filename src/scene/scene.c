@@ -259,6 +259,34 @@ bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex ma
     return true;
 }
 
+bool scene_materials_add_up(const Scene *scene)
+{
+    return scene->material_index.is_given_up;
+}
+
+bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials)
+{
+    return spheres < UINT32_MAX - scene->shape_count && materials < MATERIAL_COMPOUND - scene->materials.count &&
+           ARRAY_RESERVE(&scene->spheres, scene->spheres.count + spheres) &&
+           ARRAY_RESERVE(&scene->materials, scene->materials.count + materials);
+}
+
+void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials)
+{
+    scene->spheres.count += spheres;
+    scene->shape_count += (uint32_t)spheres;
+    scene->materials.count += materials;
+    if (materials > 0) {
+        scene->material_index.last = (uint32_t)scene->materials.count - 1;
+    }
+}
+
+const Material *scene_last_material(const Scene *scene, MaterialIndex *index)
+{
+    *index = scene->material_index.last;
+    return *index < scene->materials.count ? &scene->materials.items[*index] : NULL;
+}
+
 bool scene_add_ellipsoid(Scene *scene, const Transform *to_world, const Transform *to_object, MaterialIndex material,
                          uint64_t source)
 {

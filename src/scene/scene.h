@@ -444,6 +444,15 @@ bool scene_add_light(Scene *scene, const Light *light) RT_MUST_CHECK;
 bool scene_add_fog(Scene *scene, const Fog *fog) RT_MUST_CHECK;
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer) RT_MUST_CHECK; // below the others
 bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex material, uint64_t source) RT_MUST_CHECK;
+// Many plain spheres at once. When it no longer pays to look for equal materials, each that differs from the one before
+// is added, and that can be done for many spheres side by side: behind the lists' ends, after `scene_reserve_spheres`,
+// until scene_commit_spheres says that they are there. The last of these materials, if any, is that of the last sphere.
+bool scene_materials_add_up(const Scene *scene);
+bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials) RT_MUST_CHECK;
+void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials);
+// The one that the next material is compared with, and where it stands; NULL: none.
+const Material *scene_last_material(const Scene *scene, MaterialIndex *index);
+
 bool scene_add_ellipsoid(Scene *scene, const Transform *to_world, const Transform *to_object, MaterialIndex material,
                          uint64_t source) RT_MUST_CHECK;
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material,
@@ -461,8 +470,8 @@ bool scene_add_leaf(Scene *scene, const Part *part) RT_MUST_CHECK;
 void scene_end_composite(Scene *scene);
 
 // Checks what only the whole scene can tell (a camera is missing, …) and what the renderer relies on. False when a
-// fault was reported; the renderer may then not be called.
-bool scene_validate(const Scene *scene, DiagSink *diags) RT_MUST_CHECK;
+// fault was reported; the renderer may then not be called. Many spheres are looked through on several threads.
+bool scene_validate(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
 
 // The scene as `.scn` text that evaluates to the same records, bit for bit, in the same order.
 void scene_dump(const Scene *scene, TextBuffer *out);

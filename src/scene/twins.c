@@ -7,10 +7,12 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/pages.h"
+#include "base/parallel.h"
 #include "scene/part.h"
 #include "scene/range.h"
 
@@ -26,7 +28,7 @@ typedef struct Key {
 } Key;
 
 typedef struct Slot {
-    uint32_t hash;
+    _Alignas(8) uint32_t hash;
     uint32_t item; // number of the shape, or after all shapes of the composite, + 1; 0: empty
 } Slot;
 
@@ -149,6 +151,16 @@ static uint32_t key_hash(const Key *key)
         hash ^= hash >> 33;
     }
     return (uint32_t)hash;
+}
+
+// Of the shapes from begin to end, whose slots are asked for.
+static void hash_some(const Twins *twins, size_t begin, size_t end, uint32_t *hashes)
+{
+    for (size_t item = begin; item < end; item++) {
+        Key key = item_key(twins, item);
+        hashes[item - begin] = key_hash(&key);
+        __builtin_prefetch(&twins->slots[hashes[item - begin] & twins->mask], 1);
+    }
 }
 
 static bool keys_are_equal(const Key *a, const Key *b)
@@ -312,7 +324,62 @@ static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diag
     }
 }
 
-bool scene_warn_of_twins(const Scene *scene, DiagSink *diags)
+// Many spheres on several threads: all are put in, in any order, for it hardly ever happens that two are equal.
+typedef struct Crowd {
+    const Twins *twins;
+    atomic_bool has_twins;
+} Crowd;
+
+// False when its equal is there.
+static bool put_in(const Twins *twins, size_t item, uint32_t hash)
+{
+    Slot wanted = {hash, (uint32_t)item + 1};
+    for (uint32_t at = hash & twins->mask;; at = (at + 1) & twins->mask) {
+        Slot known = {0};
+        if (__atomic_compare_exchange(&twins->slots[at], &known, &wanted, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+            return true;
+        }
+        if (known.hash == hash) {
+            Key key = item_key(twins, item), other = item_key(twins, known.item - 1);
+            if (keys_are_equal(&key, &other)) {
+                return false;
+            }
+        }
+    }
+}
+
+static void put_in_run(void *client, size_t begin, size_t end)
+{
+    Crowd *crowd = client;
+    for (; begin < end && !atomic_load(&crowd->has_twins); begin += AHEAD) {
+        uint32_t hashes[AHEAD];
+        size_t stop = begin + AHEAD < end ? begin + AHEAD : end;
+        hash_some(crowd->twins, begin, stop, hashes);
+        for (size_t item = begin; item < stop; item++) {
+            if (!put_in(crowd->twins, item, hashes[item - begin])) {
+                atomic_store(&crowd->has_twins, true);
+                return;
+            }
+        }
+    }
+}
+
+// How many of the first shapes are in the table, without an equal: none or all of the spheres.
+static size_t put_in_spheres(const Twins *twins, int threads)
+{
+    Crowd crowd = {.twins = twins};
+    if (threads < 2 || twins->ellipsoids <= SPHERE_RUN) {
+        return 0;
+    }
+    parallel_share(threads, twins->ellipsoids, SPHERE_RUN, put_in_run, &crowd);
+    if (atomic_load(&crowd.has_twins)) {
+        memset(twins->slots, 0, ((size_t)twins->mask + 1) * sizeof *twins->slots);
+        return 0;
+    }
+    return twins->ellipsoids;
+}
+
+bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads)
 {
     Twins twins = {.scene = scene, .ellipsoids = scene->spheres.count};
     twins.planes = twins.ellipsoids + scene->ellipsoids.count;
@@ -331,14 +398,10 @@ bool scene_warn_of_twins(const Scene *scene, DiagSink *diags)
     if (!twins.slots) {
         return false;
     }
-    for (size_t begin = 0; begin < twins.end; begin += AHEAD) {
+    for (size_t begin = put_in_spheres(&twins, threads); begin < twins.end; begin += AHEAD) {
         uint32_t hashes[AHEAD];
         size_t end = begin + AHEAD < twins.end ? begin + AHEAD : twins.end;
-        for (size_t item = begin; item < end; item++) {
-            Key key = item_key(&twins, item);
-            hashes[item - begin] = key_hash(&key);
-            __builtin_prefetch(&twins.slots[hashes[item - begin] & twins.mask], 1);
-        }
+        hash_some(&twins, begin, end, hashes);
         for (size_t item = begin; item < end; item++) {
             if (item_is_alone(&twins, item)) {
                 visit(&twins, item, hashes[item - begin], diags);

@@ -9,7 +9,6 @@
 
 enum {
     SLOTS_LEAST = 16,
-    SLOTS_RECENT = 4096,
     TRIED_LEAST = 1 << 16, // records after which it is seen whether they repeat
     FOUND_SHARE = 8,       // one of so many must have had an equal; a slot costs less than what it spares then
 };
@@ -76,43 +75,23 @@ bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t 
     return true;
 }
 
-// Random slots of a large table, and the records that they lead to, are in no cache: waiting for them takes longer than
-// all else that is done for a record.
-static bool forget_old(UniqueIndex *index)
-{
-    ARRAY_FREE(&index->slots);
-    if (!ARRAY_RESERVE(&index->slots, SLOTS_RECENT)) {
-        return false;
-    }
-    index->slots.count = SLOTS_RECENT;
-    memset(index->slots.items, 0, SLOTS_RECENT * sizeof *index->slots.items);
-    index->is_recent = true;
-    return true;
-}
-
 bool unique_place_if_worth(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
                            uint32_t *place)
 {
-    if (!index->is_recent) {
+    if (!index->is_given_up) {
         if (count < TRIED_LEAST || index->found >= count / FOUND_SHARE) {
             bool is_placed = unique_place(index, records, count, size, record, place);
             index->found += is_placed && *place < count;
             return is_placed;
         }
-        if (!forget_old(index)) {
-            return false;
-        }
+        ARRAY_FREE(&index->slots);
+        index->is_given_up = true;
     }
-    uint32_t *slot = &index->slots.items[(size_t)hash_bytes(record, size) & (SLOTS_RECENT - 1)];
-    if (*slot != 0 && memcmp((const char *)records + (*slot - 1) * size, record, size) == 0) {
-        *place = *slot - 1;
-        return true;
-    }
-    if (count >= UINT32_MAX - 1) {
+    bool is_last = index->last < count && memcmp((const char *)records + index->last * size, record, size) == 0;
+    if (!is_last && count >= UINT32_MAX - 1) {
         return false;
     }
-    *place = (uint32_t)count;
-    *slot = *place + 1;
+    *place = index->last = is_last ? index->last : (uint32_t)count;
     return true;
 }
 

@@ -18,7 +18,7 @@ typedef struct UniqueIndex {
     ARRAY(uint32_t) slots; // place in the array + 1, 0 when empty; a power of two of them
     uint32_t last;         // the place that was told last
     size_t found;          // records that had an equal
-    bool is_recent;        // of records with equal low bits in their hashes only the last one is known
+    bool is_given_up;      // only the record that was told last is looked at
 } UniqueIndex;
 
 // The place of an equal record among `count` ones of `size` bytes (a multiple of 4). When there is none, *place is
@@ -26,9 +26,9 @@ typedef struct UniqueIndex {
 bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
                   uint32_t *place) RT_MUST_CHECK;
 
-// The same as long as that pays: after so many records of which next to none had an equal, the table is given up for a
-// small one of those that came last, and an equal of an older one is kept again. What is kept twice depends on the
-// order of the records alone.
+// The same as long as that pays: after so many records of which next to none had an equal, the table is given up, and
+// only a record that equals the one told last is not kept again. What is kept twice depends on the order of the records
+// alone.
 bool unique_place_if_worth(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
                            uint32_t *place) RT_MUST_CHECK;
 

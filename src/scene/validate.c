@@ -5,7 +5,9 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <stdatomic.h>
 
+#include "base/parallel.h"
 #include "scene/faces.h"
 #include "scene/range.h"
 
@@ -63,16 +65,35 @@ static bool pigment_is_finite(Rgbft pigment)
     return rgb_is_finite(rgbft_rgb(pigment)) && isfinite(pigment.filter) && isfinite(pigment.transmit);
 }
 
-static bool materials_are_valid(const Scene *scene, DiagSink *diags)
+// Records that are looked at in runs, on several threads.
+typedef struct Check {
+    const Scene *scene;
+    atomic_bool has_invalid;
+} Check;
+
+static void check_materials(void *client, size_t begin, size_t end)
 {
+    Check *check = client;
+    bool finite = true;
+    for (size_t i = begin; i < end; i++) {
+        const Material *material = &check->scene->materials.items[i];
+        finite = pigment_is_finite(material_pigment(material)) && material->finish < check->scene->finishes.count &&
+                 finite;
+    }
+    if (!finite) {
+        atomic_store(&check->has_invalid, true);
+    }
+}
+
+static bool materials_are_valid(const Scene *scene, DiagSink *diags, int threads)
+{
+    Check check = {.scene = scene};
     bool finite = true;
     for (size_t i = 0; finite && i < scene->finishes.count; i++) {
         finite = finish_is_finite(&scene->finishes.items[i]);
     }
-    for (size_t i = 0; finite && i < scene->materials.count; i++) {
-        const Material *material = &scene->materials.items[i];
-        finite = pigment_is_finite(material_pigment(material)) && material->finish < scene->finishes.count;
-    }
+    parallel_share(threads, scene->materials.count, SPHERE_RUN, check_materials, &check);
+    finite = finite && !atomic_load(&check.has_invalid);
     return finite || fault(diags, DIAG_E0412, 0, "a texture has a number that is not finite");
 }
 
@@ -82,16 +103,41 @@ static bool has_material(const Scene *scene, MaterialIndex index)
                                      : index < scene->materials.count;
 }
 
-static bool shapes_are_valid(const Scene *scene, DiagSink *diags)
+static bool sphere_is_valid(const Scene *scene, const Sphere *sphere)
 {
+    return vec3_is_finite(sphere->centre) && isfinite(sphere->radius) && sphere->radius > 0.0 &&
+           has_material(scene, sphere->material);
+}
+
+static void check_spheres(void *client, size_t begin, size_t end)
+{
+    Check *check = client;
     bool valid = true;
-    for (size_t i = 0; i < scene->spheres.count; i++) {
+    for (size_t i = begin; i < end; i++) {
+        valid = sphere_is_valid(check->scene, &check->scene->spheres.items[i]) && valid;
+    }
+    if (!valid) {
+        atomic_store(&check->has_invalid, true);
+    }
+}
+
+// All are looked at for any that is not valid; if there is one, once more, in order.
+static bool spheres_are_valid(const Scene *scene, DiagSink *diags, int threads)
+{
+    Check check = {.scene = scene};
+    parallel_share(threads, scene->spheres.count, SPHERE_RUN, check_spheres, &check);
+    for (size_t i = 0; atomic_load(&check.has_invalid) && i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
-        if (!vec3_is_finite(sphere->centre) || !isfinite(sphere->radius) || !(sphere->radius > 0.0) ||
-            !has_material(scene, sphere->material)) {
-            valid = fault(diags, DIAG_E0413, sphere->source, "the sphere cannot be represented");
+        if (!sphere_is_valid(scene, sphere)) {
+            fault(diags, DIAG_E0413, sphere->source, "the sphere cannot be represented");
         }
     }
+    return !atomic_load(&check.has_invalid);
+}
+
+static bool shapes_are_valid(const Scene *scene, DiagSink *diags, int threads)
+{
+    bool valid = spheres_are_valid(scene, diags, threads);
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
         const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
         if (!transform_is_finite(&ellipsoid->to_world) || !transform_is_finite(&ellipsoid->to_object) ||
@@ -140,19 +186,19 @@ static void warn_of_what_is_missing(const Scene *scene, DiagSink *diags)
     }
 }
 
-bool scene_validate(const Scene *scene, DiagSink *diags)
+bool scene_validate(const Scene *scene, DiagSink *diags, int threads)
 {
     warn_of_what_is_missing(scene, diags);
     bool valid = camera_is_valid(&scene->camera, diags);
     valid = lights_are_valid(scene, diags) && valid;
-    valid = materials_are_valid(scene, diags) && valid;
+    valid = materials_are_valid(scene, diags, threads) && valid;
     valid = parts_are_valid(scene, diags) && valid;
-    valid = shapes_are_valid(scene, diags) && valid;
+    valid = shapes_are_valid(scene, diags, threads) && valid;
     if (!valid) {
         return false;
     }
-    scene_warn_of_range(scene, diags);
-    if (!scene_warn_of_twins(scene, diags) || !scene_warn_of_faces(scene, diags)) {
+    scene_warn_of_range(scene, diags, threads);
+    if (!scene_warn_of_twins(scene, diags, threads) || !scene_warn_of_faces(scene, diags)) {
         diag_report(diags, DIAG_E0602, SPAN_NONE, "out of memory looking for shapes that coincide");
         return false;
     }

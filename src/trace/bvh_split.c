@@ -116,19 +116,6 @@ static inline int binning_bin(const Binning *binning, float centre)
     return bin < binning->count ? bin : binning->count - 1;
 }
 
-// The least centre of bin 0 < `bin` or one after it.
-static float binning_edge(const Binning *binning, int bin)
-{
-    float edge = binning->low + (float)bin / binning->bins_per_unit;
-    while (binning_bin(binning, edge) >= bin) {
-        edge = nextafterf(edge, -INFINITY);
-    }
-    while (binning_bin(binning, edge) < bin) {
-        edge = nextafterf(edge, INFINITY);
-    }
-    return edge;
-}
-
 // False when all centres are the same.
 static bool binning_init(Binning *binning, const Range *range)
 {
@@ -292,6 +279,7 @@ static void move_blocks(Mover *mover, uint32_t *begin, uint32_t *end)
     }
 }
 
+// False when it cannot be cut so.
 static bool long_split(BvhRef *refs, const Range *range, const Binning *binning, Range *left, Range *right)
 {
     Bin bins[BIN_MOST];
@@ -304,7 +292,8 @@ static bool long_split(BvhRef *refs, const Range *range, const Binning *binning,
     if (cut == 0) {
         return false;
     }
-    Mover mover = {.refs = refs, .axis = binning->axis, .edge = binning_edge(binning, cut)};
+    float edge = binning->low + (float)cut / binning->bins_per_unit;
+    Mover mover = {.refs = refs, .axis = binning->axis, .edge = edge};
     for (int turn = 0; turn < TURNS; turn++) {
         mover.sums[turn][0] = mover.sums[turn][1] = EMPTY_SUM;
     }
@@ -320,6 +309,9 @@ static bool long_split(BvhRef *refs, const Range *range, const Binning *binning,
     for (int turn = 1; turn < TURNS; turn++) {
         sum_join(&mover.sums[0][0], &mover.sums[turn][0]);
         sum_join(&mover.sums[0][1], &mover.sums[turn][1]);
+    }
+    if (begin == range->begin || begin == range->end) {
+        return false; // bins were too narrow for their edges
     }
     const Sum *sums = mover.sums[0];
     *left = (Range){sums[0].box, sums[0].centres, range->begin, begin, range->depth + 1};

@@ -257,7 +257,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
         text_append(&outcome->diagnostics, "evaluation failed without a message\n");
     }
     scene.whole = SPAN_WHOLE(source_base(source));
-    if (wants(test, "validate") && !scene_validate(&scene, &diags) && diags.error_count == 0) {
+    if (wants(test, "validate") && !scene_validate(&scene, &diags, 2) && diags.error_count == 0) {
         text_append(&outcome->diagnostics, "validation failed without a message\n");
     }
     diag_finish(&diags);

@@ -175,7 +175,7 @@ static void test_validation(void)
         bool is_built = build_scene(&scene);
         diag_init(&diags, sources);
         cases[i].spoil(&scene);
-        bool is_valid = scene_validate(&scene, &diags);
+        bool is_valid = scene_validate(&scene, &diags, 1);
         tap_ok(is_built && is_valid == (cases[i].errors == 0) && diags.error_count == cases[i].errors &&
                    diags.count > 0 && diags.items[diags.count - 1].code == cases[i].code,
                "validation of %s", cases[i].name);

@@ -1,0 +1,236 @@
+// Long runs of literal spheres, read on several threads.
+//
+// The source's text is cut into pieces, one for each thread. A piece begins where the first statement `sphere {` stands,
+// and each is read as if all before it were fine; then the pieces' spheres are handed to the evaluator in order, up to
+// the first that is not what it was taken for. What comes of it is what comes of reading them one by one: where a
+// piece before did not end where the next one began, or something else than a literal stands, the rest is read again.
+//
+// SPDX-License-Identifier: MIT
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE // memmem
+#endif
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "grammar/literal.h"
+#include "grammar/plain.h"
+
+enum {
+    PIECE_BYTES = 1 << 20,
+    READERS_MOST = 64,
+    STATEMENT_LEAST = 16, // bytes; `sphere{<0,0,0>,1}` has 17
+};
+
+typedef struct Piece {
+    char *text; // of `bytes` + LITERAL_STATEMENT_LONGEST + 1
+    GrammarLiteral *literals; // their spans are within the text
+    size_t count, changes;    // see GrammarLiterals
+    size_t begin, end; // of the first statement and after the last, in the text
+    bool is_read;      // else nothing of it is known
+} Piece;
+
+typedef struct Readers {
+    const GrammarState *state;
+    uint64_t position; // of the first piece in the source
+    uint64_t size;     // of the source
+    size_t bytes;      // of a piece
+    int count;         // pieces
+    atomic_int next;
+    Piece pieces[READERS_MOST];
+} Readers;
+
+static const char *find_statement(const char *at, const char *end)
+{
+    static const char word[] = "sphere";
+    for (; (at = memmem(at, (size_t)(end - at), word, sizeof word - 1)) != NULL; at++) {
+        if (*plain_skip_blanks(at + sizeof word - 1) == '{') {
+            return at;
+        }
+    }
+    return end;
+}
+
+// Reads the statements that begin in a piece.
+static void piece_scan(const Readers *readers, Piece *piece, size_t length, size_t limit, bool is_first)
+{
+    const char *end = piece->text + length, *at = plain_skip_blanks(piece->text);
+    at = is_first ? at : find_statement(at, end);
+    LiteralPattern *const *patterns = readers->state->literals;
+    piece->begin = (size_t)(at - piece->text);
+    piece->count = piece->changes = 0;
+    while (at < piece->text + limit) {
+        GrammarLiteral *literal = &piece->literals[piece->count];
+        const char *text;
+        unsigned which;
+        const char *after = literal_read(patterns, at, end, literal, &which, &text);
+        if (after == NULL || !patterns[which]->is_used) {
+            break;
+        }
+        literal->span = (Span){(uint64_t)(at - piece->text), (uint64_t)(after - piece->text)};
+        bool is_like = piece->count > 0 && memcmp(&literal->kind, &literal[-1].kind, sizeof literal->kind) == 0;
+        piece->changes += !is_like;
+        piece->count++;
+        at = plain_skip_blanks(after);
+    }
+    piece->end = (size_t)(at - piece->text);
+}
+
+static void readers_work(void *client, int thread)
+{
+    Readers *readers = client;
+    (void)thread;
+    for (int i; (i = atomic_fetch_add(&readers->next, 1)) < readers->count;) {
+        Piece *piece = &readers->pieces[i];
+        uint64_t position = readers->position + (uint64_t)i * readers->bytes;
+        uint64_t left = readers->size - position;
+        size_t wanted = readers->bytes + LITERAL_STATEMENT_LONGEST;
+        size_t length = left < wanted ? (size_t)left : wanted;
+        piece->is_read = source_read_at(readers->state->source, position, piece->text, length);
+        if (piece->is_read) {
+            piece->text[length] = '\0';
+            piece_scan(readers, piece, length, readers->bytes < length ? readers->bytes : length, i == 0);
+        }
+    }
+}
+
+static void readers_free(Readers *readers)
+{
+    for (int i = 0; i < READERS_MOST; i++) {
+        free(readers->pieces[i].text);
+        free(readers->pieces[i].literals);
+    }
+    free(readers);
+}
+
+static Readers *readers_new(const GrammarState *state, size_t bytes, int count)
+{
+    Readers *readers = calloc(1, sizeof *readers);
+    if (readers == NULL) {
+        return NULL;
+    }
+    readers->state = state;
+    readers->bytes = bytes;
+    readers->count = count < READERS_MOST ? count : READERS_MOST;
+    for (int i = 0; i < readers->count; i++) {
+        readers->pieces[i].text = malloc(bytes + LITERAL_STATEMENT_LONGEST + 1);
+        readers->pieces[i].literals = malloc((bytes / STATEMENT_LEAST + 2) * sizeof(GrammarLiteral));
+        if (readers->pieces[i].text == NULL || readers->pieces[i].literals == NULL) {
+            readers_free(readers);
+            return NULL;
+        }
+    }
+    return readers;
+}
+
+// Hands a piece's spheres over one by one. False when what follows the last one taken is something else.
+static bool piece_take(GrammarState *state, const Piece *piece, uint64_t base)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    for (size_t i = 0; i < piece->count; i++) {
+        GrammarLiteral *literal = &piece->literals[i];
+        literal->span.begin += base;
+        literal->span.end += base;
+        LiteralResult result = hooks->literal(hooks->client, literal);
+        if (result == LITERAL_LEFT) {
+            return false;
+        }
+        literal_set_previous(state, literal->span.end);
+        if (result == LITERAL_STOP) {
+            state->client_ended = state->ended = true;
+            return false;
+        }
+    }
+    state->offset = base + piece->end;
+    return true;
+}
+
+// The pieces up to the first that did not begin where the one before ended; *is_whole: these are all, and the last one
+// ended where it was cut.
+static int pieces_fitting(const Readers *readers, bool *is_whole)
+{
+    int count = 0;
+    *is_whole = true;
+    while (*is_whole && count < readers->count && readers->pieces[count].is_read) {
+        const Piece *piece = &readers->pieces[count];
+        if (count > 0 && piece->begin + readers->bytes != readers->pieces[count - 1].end) {
+            break;
+        }
+        *is_whole = piece->end >= readers->bytes;
+        count++;
+    }
+    *is_whole = *is_whole && count == readers->count;
+    return count;
+}
+
+static bool pieces_take_together(GrammarState *state, const Readers *readers, int count, uint64_t start)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    GrammarLiterals lists[READERS_MOST];
+    uint64_t end = 0;
+    size_t kept = 0, spheres = 0;
+    for (int i = 0; i < count; i++) {
+        const Piece *piece = &readers->pieces[i];
+        uint64_t base = start + (uint64_t)i * readers->bytes;
+        if (piece->count > 0) {
+            lists[kept++] = (GrammarLiterals){piece->literals, piece->count, piece->changes, base};
+            end = base + piece->literals[piece->count - 1].span.end;
+            spheres += piece->count;
+        }
+    }
+    if (kept == 0) {
+        return false;
+    }
+    double left = (double)(source_extent(state->source).end - end);
+    if (!hooks->literals(hooks->client, lists, kept, (size_t)((double)spheres * left / (double)(end - start)))) {
+        return false;
+    }
+    literal_set_previous(state, end);
+    state->offset = start + (uint64_t)(count - 1) * readers->bytes + readers->pieces[count - 1].end;
+    return true;
+}
+
+// One round of all threads. False when there is something else, or too little is left.
+static bool read_round(GrammarState *state, Readers *readers)
+{
+    uint64_t start = state->offset;
+    readers->position = start - source_base(state->source);
+    if (readers->size - readers->position < (uint64_t)readers->count * readers->bytes) {
+        return false;
+    }
+    atomic_store(&readers->next, 0);
+    (void)parallel_run(readers->count, readers_work, readers);
+    bool is_whole;
+    int count = pieces_fitting(readers, &is_whole);
+    if (count > 0 && pieces_take_together(state, readers, count, start)) {
+        return is_whole;
+    }
+    for (int i = 0; i < count; i++) {
+        if (!piece_take(state, &readers->pieces[i], start + (uint64_t)i * readers->bytes)) {
+            return false;
+        }
+    }
+    return is_whole;
+}
+
+bool grammar_literals_read_many(GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    uint64_t base = source_base(state->source), before = state->offset;
+    size_t bytes = hooks->literal_piece > 0 ? hooks->literal_piece : PIECE_BYTES;
+    Span whole = source_extent(state->source);
+    if (hooks->literal_threads < 2 || whole.end - before < (uint64_t)hooks->literal_threads * bytes) {
+        return false;
+    }
+    Readers *readers = readers_new(state, bytes, hooks->literal_threads);
+    if (readers == NULL) {
+        return false; // they are read one by one
+    }
+    readers->size = whole.end - base;
+    while (read_round(state, readers)) {
+    }
+    readers_free(readers);
+    source_seek(state->source, state->offset - base);
+    return state->offset != before;
+}

@@ -1,0 +1,165 @@
+// Long runs of literal spheres read on several threads give the scene and the messages of one thread.
+//
+// Random texts of thousands of spheres, torn by what is no literal or nearly one, are read on one thread, and on several
+// with pieces of text so short that their ends fall anywhere; a new seed each run. Half of them begin with so many
+// colours that materials are no longer looked up, and spheres become records side by side. What is compared is the dump
+// and all messages, the checks of the whole scene among them. Usage: test_literal_many [texts].
+//
+// SPDX-License-Identifier: MIT
+#include <stdlib.h>
+#include <string.h>
+
+#include "ast/words.h"
+#include "eval/eval.h"
+#include "unit/random.h"
+#include "unit/tap.h"
+
+enum { SPHERES_FEW = 6000, SPHERES_MANY = 70000, TEXTS = 8 };
+
+typedef struct Outcome {
+    TextBuffer scene, messages;
+    size_t spheres;
+    bool is_fine;
+} Outcome;
+
+static void must(bool condition)
+{
+    if (!condition) {
+        fputs("test_literal_many: out of memory\n", stderr);
+        exit(99);
+    }
+}
+
+static Outcome read_text(const TextBuffer *text, int threads, size_t piece, uint64_t objects)
+{
+    Limits limits = LIMITS_DEFAULT;
+    SourceMap *sources = source_map_new();
+    InternTable *names = intern_new(limits.memory_bytes);
+    DiagSink diags;
+    Scene scene;
+    Outcome outcome = {0};
+    limits.objects = objects;
+    diag_init(&diags, sources);
+    scene_init(&scene);
+    must(sources != NULL && names != NULL && words_intern(names));
+    Source *source = source_open_text(sources, "many.scn", text_get(text), text->length);
+    must(source != NULL);
+    EvalOptions options = {
+        .sources = sources,
+        .names = names,
+        .diags = &diags,
+        .limits = &limits,
+        .image_width = 320,
+        .image_height = 240,
+        .threads = threads,
+        .literal_piece = piece,
+    };
+    outcome.is_fine = eval_source(&options, source, &scene);
+    outcome.is_fine = scene_validate(&scene, &diags, threads) && outcome.is_fine;
+    diag_finish(&diags);
+    for (size_t i = 0; i < diags.count; i++) {
+        diag_print(&diags, &diags.items[i], &outcome.messages);
+    }
+    scene_dump(&scene, &outcome.scene);
+    outcome.spheres = scene.spheres.count;
+    source_close(source);
+    scene_fini(&scene);
+    diag_fini(&diags);
+    intern_free(names);
+    source_map_free(sources);
+    return outcome;
+}
+
+// ---- texts
+
+static void write_sphere(TextBuffer *text, Random *random, bool has_colour)
+{
+    text_printf(text, "sphere { <%.5f, %.5f, %.5f>, %.4f ", random_between(random, -5, 5), random_between(random, -5, 5),
+                random_between(random, -5, 5), random_between(random, 0.01, 0.1));
+    if (has_colour) {
+        text_printf(text, "pigment { rgb <%.4f, %.4f, %.4f> } }\n", random_between(random, 0, 1),
+                    random_between(random, 0, 1), random_between(random, 0, 1));
+    } else {
+        text_append(text, "pigment { rgb 1 } finish { phong 0.5 } }\n");
+    }
+}
+
+// What a run of literals is torn by.
+static const char *const odd[] = {
+    "// sphere { <1, 2, 3>, 1 pigment { rgb <1, 1, 1> } }\n",
+    "/* sphere { <1, 2, 3>, 1 */",
+    "box { 0, 1 }\n",
+    "sphere { <1, 2, 3>, -1 pigment { rgb <1, 0, 1> } }\n",
+    "sphere { <1, 2, 3>, 1 pigment { rgb <1e31, 0, 1> } }\n",
+    "sphere { <1, 2, 3>, 1 pigment { rgb <0.5, 0, 1> } }\nsphere { <1, 2, 3>, 1 pigment { rgb <0.5, 0, 1> } }\n",
+    "sphere { <1, 2, 3>, 1e-30 pigment { rgb <0.5, 0.25, 1> } }\n",
+    "sphere { <1e200, 2, 3>, 1 pigment { rgb <0.5, 0.25, 1> } }\n",
+    "sphere { x, 1 pigment { rgb <1, 0, 1> } }\n",
+    "sphere { <1, 2, 3>, 1 pigment { rgb <1, 0, 1> } finish { diffuse 0.25 } }\n",
+    "#default { finish { ambient 0.25 } }\n",
+    "#declare A = 5;\n",
+    "sphere { <1, 2, 3>, 1 pigmnt { rgb <1, 0, 1> } }\n",
+    "sphere { <1, 2, 3>, 1 pigment { rgb <1, 0, 1> }\n",
+    "union { sphere { <1, 2, 3>, 1 pigment { rgb <1, 0, 1> } } sphere { <1, 2, 3>, 2 } }\n",
+    "sky_sphere { pigment { rgb <0.5, 0.5, 1> } }\n",
+    "}\n",
+};
+
+static void write_text(TextBuffer *text, Random *random, bool has_many_colours)
+{
+    int count = has_many_colours ? SPHERES_MANY + 3000 : SPHERES_FEW, quiet = has_many_colours ? SPHERES_MANY - 300 : 4500;
+    unsigned oddity = 20 + random_below(random, 1500);
+    for (int i = 0; i < count; i++) {
+        bool is_plain = i < quiet || random_below(random, oddity) > 0;
+        if (!is_plain) {
+            text_append(text, odd[random_below(random, RT_COUNT_OF(odd))]);
+        }
+        for (unsigned blanks = random_below(random, 64) == 0 ? random_below(random, 300) : 0; blanks > 0; blanks--) {
+            text_append_char(text, " \n\t"[random_below(random, 3)]);
+        }
+        write_sphere(text, random, has_many_colours || random_below(random, 3) > 0);
+        if (i > quiet && random_below(random, 40) == 0) { // of one colour, and of one that is given again
+            write_sphere(text, random, false);
+            text_append(text, "sphere { <1, 7, 3>, 1 pigment { rgb <0.25, 0, 1> } }\nsphere { <2, 7, 3>, 1 pigment { rgb <0.25, 0, 1> } }\n");
+        }
+    }
+}
+
+static bool is_same(const TextBuffer *a, const TextBuffer *b)
+{
+    return a->length == b->length && memcmp(text_get(a), text_get(b), a->length) == 0;
+}
+
+static void outcome_fini(Outcome *outcome)
+{
+    text_fini(&outcome->scene);
+    text_fini(&outcome->messages);
+}
+
+static void test_text(Random *random, bool has_many_colours)
+{
+    TextBuffer text;
+    text_init(&text);
+    write_text(&text, random, has_many_colours);
+    must(!text.failed);
+    uint64_t objects = random_below(random, 4) == 0 ? 65600 + random_below(random, 4000) : 1000000;
+    int threads = 2 + (int)random_below(random, 6);
+    size_t piece = 700 + random_below(random, 20000);
+    Outcome one = read_text(&text, 1, 0, objects), many = read_text(&text, threads, piece, objects);
+    tap_ok(one.is_fine == many.is_fine && is_same(&one.scene, &many.scene) && is_same(&one.messages, &many.messages),
+           "%zu spheres%s, pieces of %zu bytes on %d threads, %zu bytes of messages", one.spheres,
+           has_many_colours ? " of as many colours" : "", piece, threads, one.messages.length);
+    outcome_fini(&one);
+    outcome_fini(&many);
+    text_fini(&text);
+}
+
+int main(int argc, char **argv)
+{
+    Random random = {random_seed(NULL)};
+    int texts = argc > 1 ? atoi(argv[1]) : TEXTS;
+    for (int i = 0; i < texts; i++) {
+        test_text(&random, i % 2 == 1);
+    }
+    return tap_done();
+}
