@@ -180,6 +180,7 @@ typedef struct rt_sampling {
     double target_error; /* root mean square in linear light, at which the run ends; 0: none */
     double time_limit;   /* seconds of tracing; 0: none */
     int no_estimate;     /* do not work out the error; the picture is the same */
+    int no_pixel_errors; /* errors of single pixels are not asked for, so that of a large picture some tell the error */
     int max_trace_level; /* instead of the scene's; 0: the scene's */
 } rt_sampling;
 /* RT_FAULT_USAGE for an unknown name, a number out of range, or goals with "jittered" or "grid". */

@@ -33,11 +33,16 @@ void rt_get_photons(const rt_session *session, rt_photons *photons)
     *photons = (rt_photons){counts->emitted, counts->met, counts->arrived};
 }
 
+bool session_has_pixel_errors(const rt_session *session)
+{
+    return session->error.is_known && !session->sampling.no_pixel_errors;
+}
+
 rt_status rt_write_error(rt_session *session, const char *path)
 {
     ImageError fault = {""};
     Image image;
-    if (!session->rendered || !session->error.is_known) {
+    if (!session->rendered || !session_has_pixel_errors(session)) {
         return RT_FAULT_USAGE;
     }
     if (!image_init(&image, session->film.width, session->film.height, 1)) {

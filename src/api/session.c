@@ -469,7 +469,7 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
 {
-    if (!session->rendered || !is_output(session, path, output) || (output->error_channel && !session->error.is_known)) {
+    if (!session->rendered || !is_output(session, path, output) || (output->error_channel && !session_has_pixel_errors(session))) {
         return RT_FAULT_USAGE;
     }
     double start = session_clock();

@@ -77,6 +77,8 @@ typedef struct SessionNotes {
 } SessionNotes;
 void session_make_notes(const rt_session *session, SessionNotes *notes);
 
+// Whether errors of single pixels are known.
+bool session_has_pixel_errors(const rt_session *session);
 // The picture with each pixel's error as a fourth channel; released with image_fini. False when out of memory.
 bool session_picture_with_error(const rt_session *session, Image *image) RT_MUST_CHECK;
 

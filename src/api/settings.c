@@ -172,7 +172,8 @@ rt_status rt_set_sampling(rt_session *session, const rt_sampling *sampling)
     const double most = 1 << 24; // a pixel
     SamplingOptions options = {.seed = sampling->seed, .samples = sampling->samples,
                                .target_error = sampling->target_error, .time_limit = sampling->time_limit,
-                               .has_no_estimate = sampling->no_estimate != 0};
+                               .has_no_estimate = sampling->no_estimate != 0,
+                               .no_pixel_errors = sampling->no_pixel_errors != 0};
     bool has_goal = options.target_error > 0.0 || options.time_limit > 0.0;
     options.is_adaptive = sampling->adaptive || has_goal;
     if (!find_sampler(sampling->sampler, &options.sampler) || !find_filter(sampling->filter, &options.filter) ||

@@ -294,7 +294,9 @@ static rt_status set_sampling(rt_session *session, const Options *options)
 {
     rt_set_alpha(session, options->has_alpha);
     rt_status status = rt_set_antialias(session, &options->antialias);
-    if (status || rt_set_sampling(session, &options->sampling) == RT_OK) {
+    rt_sampling sampling = options->sampling;
+    sampling.no_pixel_errors = !options->error_map && !options->encoding.error_channel;
+    if (status || rt_set_sampling(session, &sampling) == RT_OK) {
         return status;
     }
     return fail_usage(session, options->sampling.adaptive && options->sampling.samples == 0.0

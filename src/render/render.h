@@ -93,6 +93,7 @@ typedef struct SamplingOptions {
     double target_error; // root mean square, in linear light; 0: none
     double time_limit;   // seconds; 0: none
     bool has_no_estimate; // the same picture without its error
+    bool no_pixel_errors; // render_pixel_error is not asked for: of a large picture some pixels tell of the error
 } SamplingOptions;
 
 // POV-Ray's ways to take more rays where colours differ; see render/antialias.h.

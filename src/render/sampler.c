@@ -5,8 +5,11 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "base/attributes.h"
+#include "render/sampler_many.h"
+#include "render/sobol.h"
 
 const char *sampler_name(SamplerKind kind)
 {
@@ -18,59 +21,10 @@ const char *sampler_name(SamplerKind kind)
     return kind < SAMPLER_COUNT ? names[kind] : NULL;
 }
 
-// ---- hashing
-
-// Chosen for its even bits by C. Wellons, "Prospecting for hash functions", 2018 (lowbias32).
-static inline uint32_t hash(uint32_t x)
-{
-    x = (x ^ (x >> 16)) * UINT32_C(0x7feb352d);
-    x = (x ^ (x >> 15)) * UINT32_C(0x846ca68b);
-    return x ^ (x >> 16);
-}
-
-RT_ALWAYS_INLINE uint32_t hash_add(uint32_t seed, uint32_t value)
-{
-    return hash(seed ^ (hash(value) + UINT32_C(0x9e3779b9) + (seed << 6) + (seed >> 2)));
-}
-
 uint32_t sampler_pixel_seed(uint64_t seed, uint32_t x, uint32_t y)
 {
-    return hash_add(hash_add(hash_add(hash((uint32_t)seed), (uint32_t)(seed >> 32)), x), y);
+    return sample_hash_add(sample_hash_add(sample_hash_add(sample_hash((uint32_t)seed), (uint32_t)(seed >> 32)), x), y);
 }
-
-static double unit(uint32_t bits)
-{
-    return bits * 0x1p-32;
-}
-
-static inline uint32_t reverse_bits(uint32_t x)
-{
-    x = __builtin_bswap32(x);
-    x = (x >> 4 & UINT32_C(0x0f0f0f0f)) | (x & UINT32_C(0x0f0f0f0f)) << 4;
-    x = (x >> 2 & UINT32_C(0x33333333)) | (x & UINT32_C(0x33333333)) << 2;
-    return (x >> 1 & UINT32_C(0x55555555)) | (x & UINT32_C(0x55555555)) << 1;
-}
-
-// A permutation in which each bit depends on those below it only: Laine and Karras, with Burley's constants. Of one
-// word, or of each of some.
-#define PERMUTE_UPWARD(x, seed)                                                                                        \
-    do {                                                                                                               \
-        (x) += (seed);                                                                                                 \
-        (x) ^= (x) * UINT32_C(0x6c50b47c);                                                                             \
-        (x) ^= (x) * UINT32_C(0xb82f1e52);                                                                             \
-        (x) ^= (x) * UINT32_C(0xc7afe638);                                                                             \
-        (x) ^= (x) * UINT32_C(0x8d22f6e6);                                                                             \
-    } while (0)
-
-// The other product of matrices that Sobol's numbers need; see sobol_reversed.
-#define PASCAL_TRIANGLE(x)                                                                                             \
-    do {                                                                                                               \
-        (x) ^= (x) >> 16;                                                                                              \
-        (x) ^= (x) >> 8 & UINT32_C(0x00ff00ff);                                                                        \
-        (x) ^= (x) >> 4 & UINT32_C(0x0f0f0f0f);                                                                        \
-        (x) ^= (x) >> 2 & UINT32_C(0x33333333);                                                                        \
-        (x) ^= (x) >> 1 & UINT32_C(0x55555555);                                                                        \
-    } while (0)
 
 // Owen's scrambling of a fraction of 2^32 whose bits are given in reverse: each bit is flipped by chance that depends
 // on the bits above it.
@@ -119,13 +73,13 @@ static uint32_t other_order(uint32_t index)
 // then; a first part whose number is a power of two stays a net.
 static SamplePoint sobol_point(uint32_t stream_seed, uint32_t pair, uint32_t index)
 {
-    uint32_t seed = hash_add(stream_seed, pair);
-    uint32_t shuffled = owen_scramble_reversed(reverse_bits(index), hash_add(stream_seed, pair & ~UINT32_C(1)));
+    uint32_t seed = sample_hash_add(stream_seed, pair);
+    uint32_t shuffled = owen_scramble_reversed(reverse_bits(index), sample_hash_add(stream_seed, pair & ~UINT32_C(1)));
     if (pair & 1) {
         shuffled = other_order(shuffled);
     }
-    return (SamplePoint){unit(owen_scramble_reversed(sobol_reversed(shuffled, 0), hash_add(seed, 1))),
-                         unit(owen_scramble_reversed(sobol_reversed(shuffled, 1), hash_add(seed, 2)))};
+    return (SamplePoint){sample_unit(owen_scramble_reversed(sobol_reversed(shuffled, 0), sample_hash_add(seed, 1))),
+                         sample_unit(owen_scramble_reversed(sobol_reversed(shuffled, 1), sample_hash_add(seed, 2)))};
 }
 
 // ---- the others
@@ -137,8 +91,8 @@ static double halton_value(uint32_t index, uint32_t base, uint32_t seed)
     double value = 0.0, place = 1.0 / base;
     for (; place > enough; index /= base, place /= base) {
         uint32_t digit = index % base;
-        value += (digit + hash(seed) % base) % base * place;
-        seed = hash_add(seed, digit);
+        value += (digit + sample_hash(seed) % base) % base * place;
+        seed = sample_hash_add(seed, digit);
     }
     return value;
 }
@@ -148,8 +102,8 @@ static SamplePoint halton_point(uint32_t seed, uint32_t index, uint32_t pair)
 {
     static const uint8_t bases[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
     uint32_t first = 2 * pair % RT_COUNT_OF(bases);
-    return (SamplePoint){halton_value(index, bases[first], hash_add(seed, 1)),
-                         halton_value(index, bases[first + 1], hash_add(seed, 2))};
+    return (SamplePoint){halton_value(index, bases[first], sample_hash_add(seed, 1)),
+                         halton_value(index, bases[first + 1], sample_hash_add(seed, 2))};
 }
 
 // A permutation of 0 … count - 1: A. Kensler, "Correlated multi-jittered sampling", Pixar 2013; here by walking the
@@ -162,9 +116,9 @@ static uint32_t permute(uint32_t i, uint32_t count, uint32_t seed)
     }
     do {
         i = (i + seed) & mask;
-        i = i * (hash(seed) | 1) & mask;
+        i = i * (sample_hash(seed) | 1) & mask;
         i ^= i >> 3 & mask;
-        i = (i * UINT32_C(0x85ebca6b) + hash(seed ^ 1)) & mask;
+        i = (i * UINT32_C(0x85ebca6b) + sample_hash(seed ^ 1)) & mask;
         i ^= i >> 5 & mask;
         i = i * UINT32_C(0xc2b2ae35) & mask;
     } while (i >= count);
@@ -176,17 +130,17 @@ static SamplePoint cell_point(const SampleStream *stream, uint32_t seed)
 {
     uint32_t count = stream->count > 0 ? stream->count : 1;
     uint32_t rows = (uint32_t)sqrt((double)count), columns = (count + rows - 1) / rows;
-    seed = hash_add(seed, stream->first);
+    seed = sample_hash_add(seed, stream->first);
     uint32_t cell = permute(stream->index - stream->first, rows * columns, seed);
-    uint32_t chance = stream->kind == SAMPLER_GRID ? seed : hash_add(seed, cell);
-    double x = (cell % columns + unit(hash_add(chance, 3))) / columns;
-    double y = (cell / columns + unit(hash_add(chance, 4))) / rows;
+    uint32_t chance = stream->kind == SAMPLER_GRID ? seed : sample_hash_add(seed, cell);
+    double x = (cell % columns + sample_unit(sample_hash_add(chance, 3))) / columns;
+    double y = (cell / columns + sample_unit(sample_hash_add(chance, 4))) / rows;
     return (SamplePoint){fmin(x, 1.0 - 0x1p-32), fmin(y, 1.0 - 0x1p-32)};
 }
 
 SamplePoint sample_next(SampleStream *stream)
 {
-    uint32_t pair = stream->pair++, seed = hash_add(stream->seed, pair);
+    uint32_t pair = stream->pair++, seed = sample_hash_add(stream->seed, pair);
     switch (stream->kind) {
     case SAMPLER_SOBOL:
         return sobol_point(stream->seed, pair, stream->index);
@@ -199,57 +153,43 @@ SamplePoint sample_next(SampleStream *stream)
     case SAMPLER_COUNT:
         break;
     }
-    seed = hash_add(seed, stream->index);
-    return (SamplePoint){unit(hash_add(seed, 1)), unit(hash_add(seed, 2))};
+    seed = sample_hash_add(seed, stream->index);
+    return (SamplePoint){sample_unit(sample_hash_add(seed, 1)), sample_unit(sample_hash_add(seed, 2))};
 }
 
 // ---- many at once
 
-// Four samples a step. Shifts, products and sums are those of single words.
-typedef uint32_t Words __attribute__((vector_size(16)));
-enum { WORDS = 4 };
+extern const SobolKernel sobol_kernel_plain;
+#ifdef __x86_64__
+extern const SobolKernel sobol_kernel_v2, sobol_kernel_v3, sobol_kernel_v4;
+static const SobolKernel *const sobol_kernels[] = {&sobol_kernel_plain, &sobol_kernel_v2, &sobol_kernel_v3,
+                                                   &sobol_kernel_v4};
+#else
+static const SobolKernel *const sobol_kernels[] = {&sobol_kernel_plain};
+#endif
 
-static inline Words words_reverse_bits(Words x)
+const SobolKernel *sobol_kernel_choose(const char *name)
 {
-    x = x >> 16 | x << 16;
-    x = (x >> 8 & UINT32_C(0x00ff00ff)) | (x & UINT32_C(0x00ff00ff)) << 8;
-    x = (x >> 4 & UINT32_C(0x0f0f0f0f)) | (x & UINT32_C(0x0f0f0f0f)) << 4;
-    x = (x >> 2 & UINT32_C(0x33333333)) | (x & UINT32_C(0x33333333)) << 2;
-    return (x >> 1 & UINT32_C(0x55555555)) | (x & UINT32_C(0x55555555)) << 1;
-}
-
-static inline Words words_scramble_reversed(Words x, uint32_t seed)
-{
-    PERMUTE_UPWARD(x, seed);
-    return words_reverse_bits(x);
-}
-
-static void sobol_places(const SampleStream *stream, uint32_t count, SamplePoint *places)
-{
-    uint32_t order = hash_add(stream->seed, stream->pair), seed = order;
-    uint32_t seeds[] = {hash_add(seed, 1), hash_add(seed, 2)};
-    for (uint32_t i = 0; i < count; i += WORDS) {
-        Words index = {i, i + 1, i + 2, i + 3};
-        Words shuffled = words_scramble_reversed(words_reverse_bits(index + stream->index), order);
-        Words x = words_scramble_reversed(shuffled, seeds[0]);
-        PASCAL_TRIANGLE(shuffled);
-        Words y = words_scramble_reversed(shuffled, seeds[1]);
-        for (uint32_t j = 0; j < WORDS && i + j < count; j++) {
-            places[i + j] = (SamplePoint){unit(x[j]), unit(y[j])};
+    for (size_t i = 0; i < RT_COUNT_OF(sobol_kernels); i++) {
+        if (strcmp(name, sobol_kernels[i]->name) == 0) {
+            return sobol_kernels[i];
         }
     }
+    return NULL;
 }
 
-void sample_places(const SampleStream *stream, uint32_t count, SamplePoint *places)
+void sample_places(const SobolKernel *kernel, const SampleStream *stream, uint32_t count, double *x, double *y)
 {
     bool is_second = stream->pair & 1; // in an order of its own
     if (stream->kind == SAMPLER_SOBOL && !is_second) {
-        sobol_places(stream, count, places);
+        kernel->places(stream->seed, stream->pair, stream->index, count, x, y);
         return;
     }
     for (uint32_t i = 0; i < count; i++) {
         SampleStream one = *stream;
         one.index += i;
-        places[i] = sample_next(&one);
+        SamplePoint point = sample_next(&one);
+        x[i] = point.x;
+        y[i] = point.y;
     }
 }

@@ -52,9 +52,6 @@ uint32_t sampler_pixel_seed(uint64_t seed, uint32_t x, uint32_t y);
 // The next two dimensions.
 SamplePoint sample_next(SampleStream *stream);
 
-// The next two dimensions of `count` samples from stream->index on, as sample_next gives them one by one.
-void sample_places(const SampleStream *stream, uint32_t count, SamplePoint *places);
-
 // Dimension 0 or 1 of the Sobol sequence as a fraction of 2^32.
 uint32_t sobol_value(uint32_t index, unsigned dimension);
 

@@ -9,7 +9,11 @@
 
 #include "render/tiles.h"
 
-enum { ALIKE_SAMPLES = 4 }; // of every pixel, before some get more than others, where corners say little
+enum {
+    ALIKE_SAMPLES = 4,  // of every pixel, before some get more than others, where corners say little
+    FIRST_MOST = 16,    // in the first round: soon there is a picture, and a first word on its error
+    PIXELS_MANY = 16384, // of a picture, from which some tell of its error as well as all
+};
 
 typedef struct Sampling {
     const Prepared *prepared;
@@ -139,14 +143,16 @@ static bool is_enough(Sampling *s)
     return false;
 }
 
-// All pixels alike, by doubling: 2, …, half of them, all. Sets that are no sequence are two halves.
+// All pixels alike, by doubling: a quarter of them, or FIRST_MOST where that is less, …, half of them, all: two steps
+// tell by what ratio the error falls. Sets that are no sequence are two halves.
 static uint32_t next_count(const Sampling *s, uint32_t count, uint32_t all)
 {
     uint32_t next = all;
     if (!sampler_is_sequence(s->wanted->sampler)) {
         return count == 0 ? (all + 1) / 2 : all;
     }
-    while (next > 2 && (next + 1) / 2 > count) {
+    uint32_t first = all / 4 < 2 ? 2 : all / 4 < FIRST_MOST ? all / 4 : FIRST_MOST;
+    while ((next + 1) / 2 > count && (next + 1) / 2 >= first) {
         next = (next + 1) / 2;
     }
     return next;
@@ -178,6 +184,7 @@ static bool run_pilot(Sampling *s)
     *round = (Round){.prepared = round->prepared,
                      .sampling = round->sampling,
                      .film = round->film,
+                     .points = round->points,
                      .filter = round->filter,
                      .draws_more = round->draws_more,
                      .corners = s->corners,
@@ -222,6 +229,13 @@ static void run_adaptive(Sampling *s)
             return;
         }
     }
+}
+
+// A goal is reached or not by what all pixels say.
+static bool judges_some(const SamplingOptions *wanted, const Film *film)
+{
+    return wanted->no_pixel_errors && !wanted->is_adaptive &&
+           (double)film->whole_width * film->whole_height >= PIXELS_MANY;
 }
 
 static bool draws_more(const Prepared *prepared)
@@ -283,7 +297,13 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->statistics = statistics;
     s->error = error;
     s->start = clock_seconds();
-    s->round = (Round){.prepared = prepared, .sampling = wanted, .film = film, .draws_more = draws_more(prepared)};
+    s->round = (Round){.prepared = prepared,
+                       .sampling = wanted,
+                       .film = film,
+                       .points = sobol_kernel_choose(geometry_isa_name(prepared->geometry)),
+                       .draws_more = draws_more(prepared),
+                       .judges_some = judges_some(wanted, film)};
+    estimate_begin(&s->estimate, &s->round);
     filter_init(&s->round.filter, wanted->filter);
     if (s->corners && !run_pilot(s)) {
         error->end = SAMPLING_INTERRUPTED;

@@ -10,6 +10,8 @@
 
 #include "render/prepared.h"
 #include "render/render.h"
+#include "render/sampler_many.h"
+#include "render/sobol.h"
 
 RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options, Film *film,
                           RenderStatistics *statistics, SamplingError *error) RT_MUST_CHECK;
@@ -20,6 +22,7 @@ typedef struct Round {
     const Prepared *prepared;
     const SamplingOptions *sampling;
     Film *film;
+    const SobolKernel *points;
     Filter filter;
     const uint16_t *buckets; // by priority, of each pixel; NULL: all pixels take part
     uint16_t least_bucket;   // of those that take part
@@ -29,7 +32,19 @@ typedef struct Round {
     bool draws_more;         // than the place in the pixel: for area lights or a lens
     bool is_corners;         // these rays
     bool is_pilot;           // pixels that start are to say how good their corners were
+    bool judges_some;        // the error is taken from those of one block in JUDGED_SHARE, chosen by chance
 } Round;
+
+enum { JUDGED_SHARE = 4, JUDGED_BLOCK = KERNEL_ROW };
+
+// Whether a pixel tells of the error. Blocks are those of the whole picture.
+static inline bool round_judges(const Round *round, int left, int top)
+{
+    uint32_t x = (uint32_t)(round->film->left + left) / JUDGED_BLOCK,
+             y = (uint32_t)(round->film->top + top) / JUDGED_BLOCK;
+    return !round->judges_some ||
+           sample_hash_add(sample_hash_add((uint32_t)round->sampling->seed, x), y) % JUDGED_SHARE == 0;
+}
 
 enum { START_SAMPLES = 4 };
 
@@ -68,11 +83,15 @@ typedef struct Estimate {
     LevelSums levels[LEVELS];
     double ratio[LEVELS]; // by which variance is taken to fall when samples are doubled
     uint64_t samples;
+    double judged;  // pixels that tell of the error
     double corners; // rays through them, which are in no pixel's count
     // Of pixels that have their corners only, by sort: the sum of what they are taken to be off by, and its relative
     // variance.
     double sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
 } Estimate;
+
+// Before the first round: which pixels tell of the error.
+void estimate_begin(Estimate *estimate, const Round *round);
 
 // After a round, which is whole unless it was cancelled: what it says of the ratios, and what all pixels say of the
 // error.

@@ -84,16 +84,38 @@ static void add_now(Estimate *estimate, const Film *film, const Round *round)
     }
 }
 
-// Both at once, where all pixels have just come to one number of samples.
-static void add_alike(Estimate *estimate, const Film *film, uint32_t count)
+static void add_pixels(LevelSums *sums, const Film *film, Tile part)
 {
-    size_t pixels = (size_t)film->width * (size_t)film->height;
+    for (int y = part.top; y < part.bottom; y++) {
+        const PixelRecord *row = &film->records[(size_t)y * (size_t)film->width];
+        for (int x = part.left; x < part.right; x++) {
+            double outer = row[x].outer;
+            sums->outer += outer;
+            sums->inner += row[x].inner;
+            sums->outer_squares += outer * outer;
+        }
+    }
+}
+
+// Where the picture's block ends, in the film, that holds a column or row of it.
+static int block_end(int at, int origin, int end)
+{
+    int next = at + JUDGED_BLOCK - (origin + at) % JUDGED_BLOCK;
+    return next < end ? next : end;
+}
+
+// Both at once, where all pixels have just come to one number of samples.
+static void add_alike(Estimate *estimate, const Film *film, const Round *round)
+{
     LevelSums sums = {0};
-    for (size_t i = 0; i < pixels; i++) {
-        double outer = film->records[i].outer;
-        sums.outer += outer;
-        sums.inner += film->records[i].inner;
-        sums.outer_squares += outer * outer;
+    for (int top = 0, bottom; top < film->height; top = bottom) {
+        bottom = block_end(top, film->top, film->height);
+        for (int left = 0, right; left < film->width; left = right) {
+            right = block_end(left, film->left, film->width);
+            if (round_judges(round, left, top)) {
+                add_pixels(&sums, film, (Tile){left, top, right, bottom});
+            }
+        }
     }
     sums.outer_now = sums.outer;
     sums.inner_now = sums.inner;
@@ -101,8 +123,8 @@ static void add_alike(Estimate *estimate, const Film *film, uint32_t count)
         LevelSums *none = &estimate->levels[level];
         none->outer_now = none->outer_squares = none->inner_now = 0.0;
     }
-    estimate->levels[estimate_level(count)] = sums;
-    estimate->samples = (uint64_t)count * pixels;
+    estimate->levels[estimate_level(round->count)] = sums;
+    estimate->samples = (uint64_t)round->count * (uint64_t)film->width * (uint64_t)film->height;
 }
 
 // The square of the relative error of a level's share of the mean square. Squares of normal errors have a variance of
@@ -166,16 +188,29 @@ static void tell(Estimate *estimate, const Film *film, const Round *round, Sampl
     double spread = exp(sqrt(relative * relative + wrong * wrong));
     error->samples = (double)estimate->samples / pixels;
     error->is_known = round->has_corners ? !round->is_pilot : error->samples >= 2.0;
-    error->rmse = sqrt(sum / pixels);
+    error->rmse = sqrt(sum / estimate->judged);
     error->low = error->rmse / spread;
     error->high = error->rmse * spread;
     error->slope = sum > 0.0 ? -0.5 * slope / sum : -0.5;
 }
 
+void estimate_begin(Estimate *estimate, const Round *round)
+{
+    const Film *film = round->film;
+    estimate->judged = 0.0;
+    for (int top = 0, bottom; top < film->height; top = bottom) {
+        bottom = block_end(top, film->top, film->height);
+        for (int left = 0, right; left < film->width; left = right) {
+            right = block_end(left, film->left, film->width);
+            estimate->judged += round_judges(round, left, top) ? (double)(right - left) * (bottom - top) : 0.0;
+        }
+    }
+}
+
 void estimate_update(Estimate *estimate, const Film *film, const Round *round, bool is_whole, SamplingError *error)
 {
     if (is_whole && !round->buckets) {
-        add_alike(estimate, film, round->count);
+        add_alike(estimate, film, round);
     } else {
         add_fresh(estimate, film, round);
         add_now(estimate, film, round);

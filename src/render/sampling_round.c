@@ -20,18 +20,26 @@ typedef struct Parts {
     double clear; // the same of the shares of what is behind the scene; with has_alpha
 } Parts;
 
+// Samples of a batch on end that go into one sum.
+typedef struct Run {
+    Parts *parts;
+    uint32_t which; // of parts->sum
+    int end;
+} Run;
+
 // Samples on their way through the kernel.
 typedef struct Batch {
     KernelPlaces places;
     Vec3 lens[KERNEL_RAYS];
     SampleStream streams[KERNEL_RAYS];
-    double weights[KERNEL_RAYS];
-    Rgb *sums[KERNEL_RAYS], *squares[KERNEL_RAYS];
-    double *clears[KERNEL_RAYS];
+    double weights[KERNEL_RAYS]; // where they are not all 1
     Rgb light[KERNEL_RAYS];
     double clear[KERNEL_RAYS];
     int count;
-    bool draws; // whether anything but the place in the pixel is drawn from the streams
+    Run runs[KERNEL_RAYS];
+    int run_count;
+    bool draws;   // whether anything but the place in the pixel is drawn from the streams
+    bool is_box;  // all weights are 1
 } Batch;
 
 // A pixel that takes part.
@@ -40,6 +48,7 @@ typedef struct Chosen {
     size_t index;
     uint32_t count; // samples that it gets
     bool starts;    // anew
+    bool is_judged; // its samples are to tell of its error
 } Chosen;
 
 uint32_t round_samples(const Round *round, size_t pixel)
@@ -51,10 +60,12 @@ uint32_t round_samples(const Round *round, size_t pixel)
     return round->count > 0 ? round->count - count : round_starts(round, count) ? START_SAMPLES : count;
 }
 
-static void batch_init(Batch *batch, const Prepared *p)
+static void batch_init(Batch *batch, const Round *round)
 {
+    const Prepared *p = round->prepared;
     bool has_lens = p->camera.lens_radius > 0.0;
-    batch->count = 0;
+    batch->count = batch->run_count = 0;
+    batch->is_box = round->filter.kind == FILTER_BOX;
     batch->places.lens = has_lens ? batch->lens : NULL;
     batch->draws = has_lens || (p->kernel->features & RENDER_LIGHTS);
 }
@@ -63,6 +74,23 @@ static void batch_trace(const Round *round, Batch *batch, uint64_t wanted, Rende
 {
     const Prepared *p = round->prepared;
     alpha_trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, batch->clear, counted);
+}
+
+static void run_add(const Round *round, const Batch *batch, const Run *run, int begin)
+{
+    Parts *parts = run->parts;
+    Rgb sum = parts->sum[run->which];
+    for (int i = begin; i < run->end; i++) {
+        Rgb light = batch->is_box ? batch->light[i] : rgb_scale(batch->weights[i], batch->light[i]);
+        sum = rgb_add(sum, light);
+        if (round->sampling->is_adaptive) {
+            parts->squares = rgb_add(parts->squares, rgb_mul(light, light));
+        }
+    }
+    parts->sum[run->which] = sum;
+    for (int i = begin; round->prepared->has_alpha && i < run->end; i++) {
+        parts->clear += (batch->is_box ? 1.0 : batch->weights[i]) * batch->clear[i];
+    }
 }
 
 static void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
@@ -79,48 +107,67 @@ static void batch_flush(const Round *round, Batch *batch, RenderStatistics *coun
     }
     uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
     batch_trace(round, batch, wanted, counted);
-    for (int i = 0; i < batch->count; i++) {
-        Rgb light = rgb_scale(batch->weights[i], batch->light[i]);
-        *batch->sums[i] = rgb_add(*batch->sums[i], light);
-        if (round->sampling->is_adaptive) {
-            *batch->squares[i] = rgb_add(*batch->squares[i], rgb_mul(light, light));
+    int begin = 0;
+    for (int i = 0; i < batch->run_count; i++) {
+        run_add(round, batch, &batch->runs[i], begin);
+        begin = batch->runs[i].end;
+    }
+    batch->count = batch->run_count = 0;
+}
+
+static void batch_begin_run(Batch *batch, Parts *parts, uint32_t which, int end)
+{
+    batch->runs[batch->run_count++] = (Run){parts, which, end};
+}
+
+// Puts `count` >= 1 new samples of a pixel, the first of which is number `begin`, into runs.
+static void batch_add_runs(Batch *batch, const Chosen *pixel, Parts *parts, uint32_t begin, uint32_t count)
+{
+    uint32_t half = (pixel->count + 1) / 2;
+    int first = batch->count;
+    if (pixel->starts) {
+        for (uint32_t j = 0; j < count; j++) {
+            batch_begin_run(batch, parts, begin + j, first + (int)j + 1);
         }
+        return;
     }
-    for (int i = 0; round->prepared->has_alpha && i < batch->count; i++) {
-        *batch->clears[i] += batch->weights[i] * batch->clear[i];
+    if (begin < half) {
+        uint32_t before = half - begin < count ? half - begin : count;
+        batch_begin_run(batch, parts, 0, first + (int)before);
     }
-    batch->count = 0;
+    if (begin + count > half) {
+        batch_begin_run(batch, parts, 1, first + (int)count);
+    }
 }
 
 // Some samples of a pixel; there is room for them. `stream` is that of the first, which is `begin` among the new ones.
 static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, const SampleStream *stream, uint32_t begin,
                       uint32_t count, Parts *parts)
 {
-    uint32_t half = (pixel->count + 1) / 2;
     const Film *film = round->film;
-    SamplePoint places[KERNEL_RAYS];
-    bool is_box = round->filter.kind == FILTER_BOX;
-    sample_places(stream, count, places);
+    double x[KERNEL_RAYS + SAMPLE_WORDS_MOST], y[KERNEL_RAYS + SAMPLE_WORDS_MOST];
+    double *u = &batch->places.u[batch->count], *v = &batch->places.v[batch->count];
+    sample_places(round->points, stream, count, x, y);
+    batch_add_runs(batch, pixel, parts, begin, count);
     for (uint32_t j = 0; j < count; j++) {
-        int i = batch->count++;
-        FilterSample at = {places[j].x - 0.5, places[j].y - 0.5, 1.0};
-        at = is_box ? at : filter_sample(&round->filter, places[j]);
-        batch->places.u[i] = film_u(film, pixel->x, at.x);
-        batch->places.v[i] = film_v(film, pixel->y, at.y);
-        batch->weights[i] = at.weight;
-        batch->sums[i] = &parts->sum[pixel->starts ? begin + j : begin + j >= half];
-        batch->squares[i] = &parts->squares;
-        batch->clears[i] = &parts->clear;
-        if (!batch->draws) {
-            continue;
+        FilterSample at = {x[j] - 0.5, y[j] - 0.5, 1.0};
+        if (!batch->is_box) {
+            at = filter_sample(&round->filter, (SamplePoint){x[j], y[j]});
+            batch->weights[batch->count + (int)j] = at.weight;
         }
-        batch->streams[i] = *stream;
-        batch->streams[i].index += j;
-        batch->streams[i].pair++;
+        u[j] = film_u(film, pixel->x, at.x);
+        v[j] = film_v(film, pixel->y, at.y);
+    }
+    for (uint32_t j = 0; batch->draws && j < count; j++) {
+        SampleStream *own = &batch->streams[batch->count + (int)j];
+        *own = *stream;
+        own->index += j;
+        own->pair++;
         if (batch->places.lens) {
-            batch->lens[i] = camera_lens_point(&round->prepared->camera, sample_next(&batch->streams[i]));
+            batch->lens[batch->count + (int)j] = camera_lens_point(&round->prepared->camera, sample_next(own));
         }
     }
+    batch->count += (int)count;
 }
 
 static uint32_t pixel_seed(const Round *round, int x, int y)
@@ -281,7 +328,7 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
     Rgb old = rgb(value[0], value[1], value[2]);
     value_put(value, rgb_add(rgb_scale(shares->of_old, old), rgb_scale(shares->of_mean, mean)));
     record->count += chosen->count;
-    if (!round->sampling->has_no_estimate) {
+    if (chosen->is_judged) {
         pixel_judge(round, shares, pixel, parts, old, mean);
     }
 }
@@ -289,13 +336,18 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
 // The pixels of a block that take part.
 static Chosen *block_choose(const Round *round, Tile block, Chosen *chosen)
 {
+    const Film *film = round->film;
+    bool has_estimate = !round->sampling->has_no_estimate;
+    bool is_whole = film->left % JUDGED_BLOCK == 0 && film->top % JUDGED_BLOCK == 0; // one block of the picture
+    bool is_judged = has_estimate && round_judges(round, block.left, block.top);
     for (int y = block.top; y < block.bottom; y++) {
-        size_t begin = (size_t)y * (size_t)round->film->width;
+        size_t begin = (size_t)y * (size_t)film->width;
         for (int x = block.left; x < block.right; x++) {
             uint32_t count = round_samples(round, begin + (size_t)x);
             if (count > 0) {
-                uint32_t had = round->film->records[begin + (size_t)x].count;
-                *chosen++ = (Chosen){x, y, begin + (size_t)x, count, round_starts(round, had)};
+                uint32_t had = film->records[begin + (size_t)x].count;
+                is_judged = is_whole ? is_judged : has_estimate && round_judges(round, x, y);
+                *chosen++ = (Chosen){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged};
             }
         }
     }
@@ -308,7 +360,7 @@ void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
     Parts parts[TILE_PIXELS];
     Shares shares = {0};
     Batch batch;
-    batch_init(&batch, round->prepared);
+    batch_init(&batch, round);
     // Blocks of pixels, so that rays of one call stay near each other.
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
@@ -352,7 +404,7 @@ static void block_corners(const Round *round, Tile block, Batch *batch, RenderSt
 void round_trace_corners(const Round *round, Tile tile, RenderStatistics *counted)
 {
     Batch batch;
-    batch_init(&batch, round->prepared);
+    batch_init(&batch, round);
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
             block_corners(round, tile_block(tile, left, top), &batch, counted);

@@ -7,7 +7,8 @@
 
 #include "render/filter.h"
 #include "render/light.h"
-#include "render/sampler.h"
+#include "render/sampler_many.h"
+#include "trace/geometry.h"
 #include "unit/tap.h"
 
 // The second dimension from the direction numbers of Joe and Kuo's table: s = 1, a = 0, m = 1.
@@ -213,12 +214,13 @@ static void test_rows(void)
     tap_ok(wrong == 0, "each light of a row is drawn as often as it counts in the grid");
 }
 
-// Many at once are what they are one by one.
-static void test_places(void)
+// Many at once are what they are one by one, with every instruction set.
+static void test_places(const char *isa)
 {
     enum { COUNT = 11 };
-    int wrong = 0;
-    for (SamplerKind kind = 0; kind < SAMPLER_COUNT; kind++) {
+    const SobolKernel *kernel = sobol_kernel_choose(isa);
+    int wrong = kernel == NULL;
+    for (SamplerKind kind = 0; kernel != NULL && kind < SAMPLER_COUNT; kind++) {
         for (uint32_t pair = 0; pair < 4; pair++) {
             for (uint32_t first = 0; first < 1u << 20; first = 3 * first + 1) {
                 SampleStream stream = {.kind = kind,
@@ -227,18 +229,18 @@ static void test_places(void)
                                        .first = first,
                                        .count = COUNT,
                                        .pair = pair};
-                SamplePoint places[COUNT];
-                sample_places(&stream, COUNT, places);
+                double x[COUNT + SAMPLE_WORDS_MOST], y[COUNT + SAMPLE_WORDS_MOST];
+                sample_places(kernel, &stream, COUNT, x, y);
                 for (uint32_t i = 0; i < COUNT; i++) {
                     SampleStream one = stream;
                     one.index += i;
                     SamplePoint place = sample_next(&one);
-                    wrong += place.x != places[i].x || place.y != places[i].y;
+                    wrong += place.x != x[i] || place.y != y[i];
                 }
             }
         }
     }
-    tap_ok(wrong == 0, "many places at once are those of single samples: %d differ", wrong);
+    tap_ok(wrong == 0, "%s: many places at once are those of single samples: %d differ", isa, wrong);
 }
 
 int main(void)
@@ -250,6 +252,8 @@ int main(void)
     test_moments();
     test_filters();
     test_rows();
-    test_places();
+    for (size_t i = 0; geometry_isa(i); i++) {
+        test_places(geometry_isa(i));
+    }
     return tap_done();
 }

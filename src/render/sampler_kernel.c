@@ -1,0 +1,72 @@
+// Sobol points, some at once: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+//
+// Shifts, products and sums are those of single words, so the bits are the same.
+//
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "render/sampler_many.h"
+#include "render/sobol.h"
+
+#ifdef __AVX2__
+enum { WORDS = 8 };
+#else
+enum { WORDS = 4 };
+#endif
+enum { PART = 4 };
+_Static_assert((int)WORDS <= (int)SAMPLE_WORDS_MOST, "there is room for a step");
+
+typedef uint32_t Words __attribute__((vector_size(4 * WORDS)));
+typedef int32_t PartWords __attribute__((vector_size(4 * PART)));
+typedef double PartNumbers __attribute__((vector_size(8 * PART)));
+
+RT_ALWAYS_INLINE Words words_reverse_bits(Words x)
+{
+    x = x >> 16 | x << 16;
+    x = (x >> 8 & UINT32_C(0x00ff00ff)) | (x & UINT32_C(0x00ff00ff)) << 8;
+    x = (x >> 4 & UINT32_C(0x0f0f0f0f)) | (x & UINT32_C(0x0f0f0f0f)) << 4;
+    x = (x >> 2 & UINT32_C(0x33333333)) | (x & UINT32_C(0x33333333)) << 2;
+    return (x >> 1 & UINT32_C(0x55555555)) | (x & UINT32_C(0x55555555)) << 1;
+}
+
+RT_ALWAYS_INLINE Words words_scramble_reversed(Words x, uint32_t seed)
+{
+    PERMUTE_UPWARD(x, seed);
+    return words_reverse_bits(x);
+}
+
+// As sample_unit: there are instructions for words with a sign only.
+RT_ALWAYS_INLINE void put_units(double *to, Words words)
+{
+    words ^= UINT32_C(0x80000000);
+    for (int i = 0; i < WORDS; i += PART) {
+        PartWords part;
+        memcpy(&part, (const char *)&words + sizeof part * (size_t)(i / PART), sizeof part);
+        PartNumbers units = (__builtin_convertvector(part, PartNumbers) + 0x1p31) * 0x1p-32;
+        memcpy(to + i, &units, sizeof units);
+    }
+}
+
+static void places(uint32_t stream_seed, uint32_t pair, uint32_t index, uint32_t count, double *x, double *y)
+{
+    uint32_t seed = sample_hash_add(stream_seed, pair), first = sample_hash_add(seed, 1),
+             second = sample_hash_add(seed, 2);
+    Words indices = {0};
+    for (uint32_t i = 0; i < WORDS; i++) {
+        indices[i] = index + i;
+    }
+    for (uint32_t i = 0; i < count; i += WORDS, indices += WORDS) {
+        Words shuffled = words_scramble_reversed(words_reverse_bits(indices), seed);
+        put_units(x + i, words_scramble_reversed(shuffled, first));
+        PASCAL_TRIANGLE(shuffled);
+        put_units(y + i, words_scramble_reversed(shuffled, second));
+    }
+}
+
+#define TEXT_OF(name)  TEXT_OF_(name)
+#define TEXT_OF_(name) #name
+#define JOINED(a, b)   JOINED_(a, b)
+#define JOINED_(a, b)  a##b
+
+extern const SobolKernel JOINED(sobol_kernel_, SPHERE_KERNELS);
+const SobolKernel JOINED(sobol_kernel_, SPHERE_KERNELS) = {TEXT_OF(SPHERE_KERNELS), places};

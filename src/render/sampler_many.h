@@ -1,0 +1,23 @@
+// Points of many samples at once, as sample_next gives them one by one; once for each instruction set.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SAMPLER_MANY_H
+#define RENDER_SAMPLER_MANY_H
+
+#include "render/sampler.h"
+
+enum { SAMPLE_WORDS_MOST = 8 }; // samples that are made in one step
+
+typedef struct SobolKernel {
+    const char *name; // of the instruction set, as that of SphereKernels
+    // The places of samples from `index` on. x and y have room for a whole number of steps.
+    void (*places)(uint32_t seed, uint32_t pair, uint32_t index, uint32_t count, double *x, double *y);
+} SobolKernel;
+
+// That of an instruction set by name; NULL when there is none.
+const SobolKernel *sobol_kernel_choose(const char *name);
+
+// The next two dimensions of `count` samples from stream->index on; there is room for SAMPLE_WORDS_MOST - 1 more.
+void sample_places(const SobolKernel *kernel, const SampleStream *stream, uint32_t count, double *x, double *y);
+
+#endif
