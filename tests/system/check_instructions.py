@@ -42,9 +42,9 @@ SPHERE = "sphere { 5 * z, 1 pigment { rgb 1 } } light_source { <3, 4, -5> rgb 1 
 MANY = ("#declare S = seed(7); light_source { <-8, 12, -10> rgb 1 }\n#for (I, 1, 300) sphere { <rand(S) * 8 - 4, rand(S) * 6 - 3,"
         " rand(S) * 8 + 4>, 0.1 + 0.25 * rand(S) pigment { rgb <rand(S), rand(S), rand(S)> } } #end\n")
 # Scene, samples a pixel: what is worked out for a pixel is paid once for each doubling of its samples.
-SAMPLED = {"one sphere": (SPHERE, 64), "300 spheres": (MANY, 16)}
-# Large enough that what is worked out once a round does not count for what a pixel costs.
-SAMPLED_SIZE = ("-W48", "-H36")
+SAMPLED = [("one sphere", SPHERE, 4), ("one sphere", SPHERE, 16), ("one sphere", SPHERE, 64), ("300 spheres", MANY, 16)]
+# Large enough that some of the pixels tell the error, and that what is worked out once a round does not count.
+SAMPLED_SIZE = ("-W160", "-H120")
 ESTIMATE_BAR = 1.02
 # Of tracing a scene by the kernel that is chosen for it, over a kernel compiled with nothing but what the scene has.
 ABSENT_BAR = 1.005
@@ -126,7 +126,7 @@ def judge_absent(tap, folder):
 
 def judge_estimate(tap, folder):
     """A line for each of SAMPLED: the instructions of sampling with and without its error."""
-    for name, (text, samples) in SAMPLED.items():
+    for name, text, samples in SAMPLED:
         told, untold = (scene_instructions(text, "sampling_run", folder, *SAMPLED_SIZE, f"--samples={samples}", *more)
                         for more in ((), ("--no-estimate",)))
         if not told or not untold:

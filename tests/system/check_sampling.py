@@ -123,6 +123,21 @@ def test_error_told():
     tap.ok("error:" not in rtlang(BALLS, "--samples=16", "--no-estimate")[1], "not without the estimate")
 
 
+def test_some_pixels():
+    """A large picture's error is told from some of its pixels, unless that of each is asked for; the picture is the same."""
+    size, options = (160, 120), ("--samples=16", "--seed=5", *LINEAR)
+    some = ERROR.search(rtlang(BALLS, *options, size=size)[1])
+    picture = linear("out.png")
+    every = ERROR.search(rtlang(BALLS, *options, "--error-map=map.png", output="every.png", size=size)[1])
+    tap.ok(picture == linear("every.png"), "the same picture, whichever pixels tell of its error")
+    told, low, high = (float(some[i]) for i in (1, 2, 3))
+    all_told, all_low, all_high = (float(every[i]) for i in (1, 2, 3))
+    tap.ok(told != all_told and low < all_told < high, "some pixels of a large one tell what all of them do", f"{some[0]} {every[0]}")
+    tap.ok(high / low >= all_high / all_low, "and do not say that they know it better", f"{some[0]} {every[0]}")
+    one = rtlang(BALLS, *options, "--threads=1", output="one.png", size=size)[1]
+    tap.ok(ERROR.search(one)[0] == some[0], "the same for any number of threads", one)
+
+
 def test_channel():
     """The same in EXR, where the error of each pixel is a channel of its own."""
     status, said = rtlang(BALLS, "--samples=16", "--seed=5", "--error-channel", "--error-map=map.exr", output="out.exr")
@@ -315,7 +330,7 @@ def test_refusals():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for test in (test_error_told, test_channel, test_precisions, test_goals, test_interrupt, test_restart, test_plateau, test_crop, test_lens, test_forward, test_refusals):
+        for test in (test_error_told, test_some_pixels, test_channel, test_precisions, test_goals, test_interrupt, test_restart, test_plateau, test_crop, test_lens, test_forward, test_refusals):
             test()
         os.chdir("/")
     tap.done()
