@@ -150,6 +150,8 @@ bool block_begins_like_colour(Block *block, const AstNode *item);
 // The scene's record of a pigment that is moved by `outer`.
 bool pigment_place(Eval *ev, const PigmentBlueprint *pigment, const Transform *outer, Span span,
                    Pigment *out) RT_MUST_CHECK;
+// True when nothing below a texture can be seen: it is of one colour that lets no light through.
+bool texture_hides_all(const TextureBlueprint *texture);
 // The scene's record of a texture that is moved by `outer`, and of what is inside (NULL: nothing was said).
 bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
                     const InteriorBlueprint *interior, bool is_hollow, Span span, MaterialIndex *index) RT_MUST_CHECK;
@@ -157,6 +159,9 @@ bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *
 // texture.c
 // Where an object or a material keeps its texture; NULL for other blocks.
 const TextureBlueprint **texture_place(Block *block);
+// Lays `top`, which may have layers of its own, over `below`. Both stay as they are; NULL after a fault.
+const TextureBlueprint *texture_laid_over(Eval *ev, Arena *arena, const TextureBlueprint *top,
+                                          const TextureBlueprint *below, Span span);
 bool interior_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool material_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // Moves a texture with all that lies below it.

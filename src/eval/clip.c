@@ -12,6 +12,7 @@ bool inverse_action(Block *block, const SchemaProperty *property, const AstNode 
     (void)property;
     (void)item;
     block->record->part.is_inverse = !block->record->part.is_inverse;
+    block->record->part.was_turned = true;
     return true;
 }
 

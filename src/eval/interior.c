@@ -38,7 +38,14 @@ bool material_action(Block *block, const SchemaProperty *property, const AstNode
         return false;
     }
     ObjectPart *part = &block->record->part;
-    part->texture = record.material.texture ? record.material.texture : part->texture;
+    const TextureBlueprint *texture = record.material.texture;
+    if (texture && part->texture) {
+        texture = texture_laid_over(block->ev, block->arena, texture, part->texture, item->span);
+        if (!texture) {
+            return false;
+        }
+    }
+    part->texture = texture ? texture : part->texture;
     part->interior = record.material.interior ? record.material.interior : part->interior;
     return true;
 }

@@ -169,6 +169,7 @@ typedef struct Eval {
     TextBuffer line;              // of #debug, not ended yet
     CursorFrame *free_frames;     // for reuse, in the program arena
     uint64_t steps;
+    uint64_t clear_count; // shapes that some light may go through
     bool has_unbalanced;          // a macro that is_unbalanced was defined
     unsigned splice_nesting;      // of fragments that are being parsed
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place

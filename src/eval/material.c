@@ -218,8 +218,7 @@ static bool add_texture_entries(const Builder *builder, const PatternPart *part,
     return true;
 }
 
-// True when nothing below a texture can be seen: it is of one colour that lets no light through.
-static bool hides_all(const TextureBlueprint *texture)
+bool texture_hides_all(const TextureBlueprint *texture)
 {
     return texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE &&
            texture->pigment.colour.filter == 0.0 && texture->pigment.colour.transmit == 0.0;
@@ -252,7 +251,7 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
     if (!layers_have_patterns(builder->ev, texture) ||
         !add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
         (has_bumps(texture) && !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
-        (texture->below && !hides_all(texture) &&
+        (texture->below && !texture_hides_all(texture) &&
          !add_texture(builder, texture->below, &moved, &record.below, &unused))) {
         return false;
     }
@@ -303,7 +302,7 @@ bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *
         return false;
     }
     bool is_plain = texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE;
-    if (is_plain && !has_bumps(texture) && (!texture->below || hides_all(texture)) &&
+    if (is_plain && !has_bumps(texture) && (!texture->below || texture_hides_all(texture)) &&
         compound.interior == RECORD_NONE) {
         Finish finish = texture->finish;
         finish.flags |= is_hollow ? FINISH_HOLLOW : 0;

@@ -24,6 +24,7 @@ typedef struct Placement {
     const TextureBlueprint *texture; // of the nearest object around that has one, else #default's
     Transform texture_outer;         // of the texture
     const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
+    uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
     bool is_inner, is_hollow; // inside of another object, whose word on this counts
     uint8_t hidden;
@@ -34,7 +35,9 @@ typedef struct Placement {
 typedef struct Branch {
     Placement placement;
     uint32_t parent; // node
+    uint32_t body;   // Part.body
     bool is_inverse; // one of those that a difference takes away
+    bool was_turned; // as of an object: it, or a group around it
     bool is_unseen;
     bool is_in_merge;
 } Branch;
@@ -84,9 +87,19 @@ static uint8_t hidden_of(const ObjectPart *part)
                      (part->no_reflection ? HIDDEN_MIRROR : 0));
 }
 
-static bool place_material(Eval *ev, const Placement *at, Span span, MaterialIndex *material)
+// What fills the first shape of a body that is filled fills the body. `inner_body` is Part.body of a leaf, else 0.
+static bool place_material(Eval *ev, const Placement *at, uint32_t inner_body, Span span, MaterialIndex *material)
 {
-    return material_place(ev, at->texture, &at->texture_outer, at->interior, at->is_hollow, span, material);
+    if (!material_place(ev, at->texture, &at->texture_outer, at->interior, at->is_hollow, span, material)) {
+        return false;
+    }
+    ev->clear_count += !texture_hides_all(at->texture);
+    if (at->body != RECORD_NONE && !inner_body && *material & MATERIAL_COMPOUND) {
+        uint32_t *interior = &ev->scene->bodies.items[at->body].interior;
+        *interior = *interior == RECORD_NONE ? ev->scene->compounds.items[*material & ~MATERIAL_COMPOUND].interior
+                                             : *interior;
+    }
+    return true;
 }
 
 // A group is hollow when it says so or its last member is; `hollow off` does not take back what that one says.
@@ -118,7 +131,7 @@ static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placemen
     Span span = sphere->part.span;
     MaterialIndex material;
     *is_round = sphere_image_radius(sphere->radius, transform, &image);
-    if (!*is_round || !may_add(ev, span) || !place_material(ev, inner, span, &material)) {
+    if (!*is_round || !may_add(ev, span) || !place_material(ev, inner, 0, span, &material)) {
         return !*is_round;
     }
     Vec3 centre = transform_point(transform, sphere->centre);
@@ -147,7 +160,7 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
     Scene *scene = ev->scene;
     Span span = common->span;
     bool is_added;
-    if (!may_add(ev, span) || !place_material(ev, inner, span, &material)) {
+    if (!may_add(ev, span) || !place_material(ev, inner, 0, span, &material)) {
         return false;
     }
     if (is_plain && part->kind == PART_BALL) {
@@ -193,14 +206,18 @@ static bool clips_matter(Eval *ev, const ClipChain *chain, const Part *shape)
 
 // ---- composites
 
-static bool add_node(Eval *ev, NodeOp op, bool is_inverse, uint32_t parent, Span span, uint32_t *index)
+static bool add_node(Eval *ev, NodeOp op, bool is_inverse, const Branch *branch, Span span, uint32_t *index)
 {
     const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
     if (ev->scene->nodes.count - composite->first_node >= COMPOSITE_NODES_MOST) {
         return eval_fault(ev, DIAG_E0363, span, "more than %d groups and empty shapes are cut with one another",
                           COMPOSITE_NODES_MOST);
     }
-    return scene_add_node(ev->scene, op, is_inverse, parent, span.begin, index) || eval_no_memory(ev, span);
+    if (!scene_add_node(ev->scene, op, is_inverse, branch->parent, span.begin, index)) {
+        return eval_no_memory(ev, span);
+    }
+    ev->scene->nodes.items[*index].body = branch->body;
+    return true;
 }
 
 static bool grow_clips(Eval *ev, const ClipChain *chain, const Part *shape, const Branch *object_branch, uint32_t node)
@@ -233,7 +250,7 @@ static bool grow_nothing(Eval *ev, SchemaKind kind, const ObjectPart *part, cons
         return eval_fault(ev, DIAG_E0364, part->span, "a %s without extent cannot be cut with other shapes",
                           schema_kind(kind)->word);
     }
-    return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch->parent, part->span, &node);
+    return add_node(ev, NODE_UNION, part->is_inverse != branch->is_inverse, branch, part->span, &node);
 }
 
 static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branch *branch)
@@ -258,9 +275,10 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
                           COMPOSITE_PARTS_MOST);
     }
     part.node = branch->parent;
+    part.body = branch->body;
     part.flags |= (common->is_inverse != branch->is_inverse ? PART_INVERSE : 0) | (branch->is_unseen ? PART_UNSEEN : 0);
     if (!may_add(ev, common->span) ||
-        (!branch->is_unseen && !place_material(ev, around, common->span, &part.material))) {
+        (!branch->is_unseen && !place_material(ev, around, branch->body, common->span, &part.material))) {
         return false;
     }
     return scene_add_leaf(ev->scene, &part) || eval_no_memory(ev, common->span);
@@ -271,7 +289,9 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionBlueprint *group,
     Branch branch = *outer;
     branch.is_inverse = false;
     branch.is_in_merge = op == NODE_MERGE || (op == NODE_UNION && outer->is_in_merge);
-    if (!add_node(ev, op, group->part.is_inverse != outer->is_inverse, outer->parent, group->part.span,
+    branch.was_turned |= outer->is_inverse || group->part.was_turned;
+    // A union that was once turned inside out has lost what is inside of it. Measured.
+    if (!add_node(ev, op == NODE_UNION && branch.was_turned ? NODE_MERGE : op, group->part.is_inverse != outer->is_inverse, outer, group->part.span,
                   &branch.parent)) {
         return false;
     }
@@ -322,6 +342,9 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         branch.placement.texture_outer = outer->placement.outer;
     }
     branch.placement.interior = part->interior ? part->interior : outer->placement.interior;
+    if (part->interior && outer->parent != NODE_NONE) {
+        branch.body = ++ev->scene->inner_body_count;
+    }
     branch.placement.is_inner = true;
     branch.placement.is_hollow = outer->placement.is_inner ? outer->placement.is_hollow : is_hollow(kind, object);
     if (!clips) {
@@ -336,21 +359,23 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         return grow_object(ev, kind, object, &branch);
     }
     uint32_t node;
-    if (!add_node(ev, NODE_CLIP, false, branch.parent, part->span, &node)) {
+    if (!add_node(ev, NODE_CLIP, false, &branch, part->span, &node)) {
         return false;
     }
     branch.parent = node;
     return grow_object(ev, kind, object, &branch) && grow_clips(ev, clips, known, &branch, node);
 }
 
-static bool place_composite(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, uint8_t hidden)
+static bool place_composite(Eval *ev, SchemaKind kind, const void *object, const Placement *outer,
+                            const Placement *inner)
 {
     const ObjectPart *part = object;
     Branch root = {.placement = *outer, .parent = NODE_NONE};
+    root.placement.body = inner->body;
     if (!may_add(ev, part->span)) {
         return false;
     }
-    if (!scene_begin_composite(ev->scene, hidden, part->span.begin)) {
+    if (!scene_begin_composite(ev->scene, inner->hidden, part->span.begin)) {
         return eval_no_memory(ev, part->span);
     }
     bool is_grown = grow(ev, kind, object, &root);
@@ -387,12 +412,19 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
         return result == SHAPE_NOTHING;
     }
     if (clips_matter(ev, inner->clips, common->is_inverse ? NULL : &shape)) {
-        return place_composite(ev, kind, object, outer, inner->hidden);
+        return place_composite(ev, kind, object, outer, inner);
     }
     if (may_be_round && inner->clips) {
         is_placed = place_sphere(ev, object, inner, &is_round);
     }
     return is_round ? is_placed : place_single(ev, common, is_plain, inner, &shape);
+}
+
+// A shape, or a group that is cut.
+static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
+{
+    return object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
+                                 : place_shape(ev, kind, object, outer, inner);
 }
 
 // What a light looks like: an object by itself, but for the texture and interior of what is around.
@@ -406,6 +438,7 @@ static bool place_look(Eval *ev, const LightBlueprint *light, const Placement *o
         .texture = outer->texture,
         .texture_outer = outer->texture_outer,
         .interior = outer->interior,
+        .body = outer->body,
         .hidden = outer->hidden | HIDDEN_SHADOW,
     };
     return place(ev, light->look->kind, light->look->object, &own);
@@ -424,17 +457,25 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .texture = part->texture ? part->texture : outer->texture,
         .texture_outer = part->texture ? outer->outer : outer->texture_outer,
         .interior = part->interior ? part->interior : outer->interior,
+        .body = outer->body,
         .clips = part->clips ? &own : outer->clips,
         .is_inner = true,
         .is_hollow = outer->is_inner ? outer->is_hollow : is_hollow(kind, object),
         .hidden = outer->hidden | (outer->is_hidden_fixed ? 0 : hidden_of(part)),
         .is_hidden_fixed = outer->is_hidden_fixed || !part->split_union || part->clips || part->bounds,
     };
-    if (kind == KIND_UNION && !part->is_inverse) {
-        return place_members(ev, object, &inner);
+    bool is_union = kind == KIND_UNION && !part->was_turned;
+    bool is_body = is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
+    if (!is_body) {
+        return is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);
     }
-    return object_is_group(kind) ? place_composite(ev, kind, object, outer, inner.hidden)
-                                 : place_shape(ev, kind, object, outer, &inner);
+    uint64_t clear_count = ev->clear_count;
+    if (!scene_begin_body(ev->scene, outer->body, &inner.body)) {
+        return eval_no_memory(ev, part->span);
+    }
+    bool is_placed = is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);
+    scene_end_body(ev->scene, inner.body, ev->clear_count != clear_count);
+    return is_placed;
 }
 
 Transform world_transform(const Eval *ev)
@@ -455,6 +496,7 @@ double world_scale(const Eval *ev)
 bool object_place(Eval *ev, SchemaKind kind, const void *object)
 {
     Transform outer = world_transform(ev);
-    Placement world = {.outer = outer, .texture = ev->objects->defaults, .texture_outer = outer};
+    Placement world = {.outer = outer, .texture = ev->objects->defaults, .texture_outer = outer,
+                       .body = RECORD_NONE};
     return place(ev, kind, object, &world);
 }

@@ -158,6 +158,17 @@ static bool lay_over(Eval *ev, Arena *arena, TextureBlueprint *top, const Textur
     }
 }
 
+const TextureBlueprint *texture_laid_over(Eval *ev, Arena *arena, const TextureBlueprint *top,
+                                          const TextureBlueprint *below, Span span)
+{
+    TextureBlueprint *texture = arena_copy(arena, top, sizeof *texture);
+    if (!texture) {
+        (void)eval_no_memory(ev, span);
+        return NULL;
+    }
+    return lay_over(ev, arena, texture, below, span) ? texture : NULL;
+}
+
 static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const TextureBlueprint *below,
                          TextureBlueprint *texture)
 {

@@ -11,11 +11,11 @@
 static const Vec3 odd_direction = {0.36, 0.80, 0.48};
 
 // What the line goes on from: the other side of the surface that was hit.
-static void go_through(const Geometry *geometry, Ray *ray, RayStart *start, const Hit *hit, uint32_t *order,
+static void go_through(const Prepared *prepared, Ray *ray, RayStart *start, const Hit *hit, uint64_t *body,
                        MaterialIndex *material)
 {
-    Surface surface = geometry_surface(geometry, TRACE_ALL_FEATURES, *ray, *hit);
-    *order = surface.order;
+    Surface surface = geometry_surface(prepared->geometry, TRACE_ALL_FEATURES, *ray, *hit);
+    *body = scene_body_key(prepared->scene, surface.order, surface.body);
     *material = surface.material;
     ray->origin = surface.point;
     *start = (RayStart){hit->shape, !hit->inside, 0};
@@ -36,10 +36,10 @@ static void put_below(Inside *inside, InsideEntry entry)
     }
 }
 
-static bool holds(const Inside *inside, uint32_t order)
+static bool holds(const Inside *inside, uint64_t body)
 {
     for (uint32_t i = 0; i < inside->count; i++) {
-        if (inside->entries[i].order == order) {
+        if (inside->entries[i].body == body) {
             return true;
         }
     }
@@ -53,23 +53,23 @@ static void walk(const Prepared *prepared, Ray ray, Inside *inside)
     Inside entered = {.count = 0};
     Hit hit;
     for (uint64_t passed = 0; passed <= prepared->crossings_max; passed++) {
-        uint32_t order;
+        uint64_t body;
         MaterialIndex material;
         if (!geometry_closest(prepared->geometry, TRACE_ALL_FEATURES, ray, start, (double)INFINITY, &hit)) {
             return;
         }
-        go_through(prepared->geometry, &ray, &start, &hit, &order, &material);
+        go_through(prepared, &ray, &start, &hit, &body, &material);
         uint32_t interior =
             material & MATERIAL_COMPOUND ? prepared->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
         bool is_solid = prepared->scene->fogs.count > 0 && !scene_is_hollow(prepared->scene, material) &&
                         !geometry_is_flat(prepared->geometry, hit.shape);
         if (!hit.inside) {
-            inside_enter(&entered, order, interior, is_solid);
-        } else if (holds(&entered, order)) {
-            (void)inside_leave(&entered, order);
-        } else if ((interior != RECORD_NONE || is_solid) && !holds(inside, order)) {
+            inside_enter(&entered, body, interior, is_solid);
+        } else if (holds(&entered, body)) {
+            (void)inside_leave(&entered, body);
+        } else if ((interior != RECORD_NONE || is_solid) && !holds(inside, body)) {
             // Other shapes change nothing here: rays that start inside of them are in empty space.
-            put_below(inside, (InsideEntry){order, interior, is_solid});
+            put_below(inside, (InsideEntry){body, interior, is_solid});
         }
     }
 }

@@ -1,6 +1,6 @@
 // What a ray is inside of, and what its surfaces do to it: bending, total reflection, Fresnel's share, fading.
 //
-// A ray keeps the shapes it has entered and not left, in that order; what it travels in is the last one, with empty
+// A ray keeps the bodies it has entered and not left, in that order; what it travels in is the last one, with empty
 // space below. All measured beside POV-Ray; the formulas are Snell's and Fresnel's, as in any textbook of optics.
 //
 // SPDX-License-Identifier: MIT
@@ -16,10 +16,10 @@
 #include "math/vec3.h"
 #include "scene/scene.h"
 
-enum { INSIDE_MAX = 64 }; // shapes that are entered while a ray is inside of so many are not remembered
+enum { INSIDE_MAX = 64 }; // bodies that are entered while a ray is inside of so many are not remembered
 
 typedef struct InsideEntry {
-    uint32_t order;    // of the shape
+    uint64_t body;     // scene_body_key
     uint32_t interior; // Scene.interiors, or RECORD_NONE for empty space
     bool is_solid;     // of a scene with fog: there is none inside of it
 } InsideEntry;
@@ -37,10 +37,10 @@ static inline void inside_copy(Inside *to, const Inside *from)
     }
 }
 
-static inline void inside_enter(Inside *inside, uint32_t order, uint32_t interior, bool is_solid)
+static inline void inside_enter(Inside *inside, uint64_t body, uint32_t interior, bool is_solid)
 {
     if (inside->count < INSIDE_MAX) {
-        inside->entries[inside->count++] = (InsideEntry){order, interior, is_solid};
+        inside->entries[inside->count++] = (InsideEntry){body, interior, is_solid};
     }
 }
 
@@ -53,11 +53,11 @@ static inline bool inside_is_solid(const Inside *inside)
     return is_solid;
 }
 
-// The shape need not be the one entered last; false when it is not there at all.
-static inline bool inside_leave(Inside *inside, uint32_t order)
+// The body need not be the one entered last; false when it is not there at all.
+static inline bool inside_leave(Inside *inside, uint64_t body)
 {
     uint32_t at = inside->count;
-    while (at > 0 && inside->entries[at - 1].order != order) {
+    while (at > 0 && inside->entries[at - 1].body != body) {
         at--;
     }
     if (at > 0) {

@@ -291,7 +291,7 @@ static void follow_light(Follower *follower, const ShadeMaterial *material, cons
         .adds = shade_light(follower->p, FEATURES, material, light, at, &unused),
     };
     if (!light->shadowless && distance > 0.0) {
-        out.visible = light->area.size1 > 0 ? shade_area(follower->p, FEATURES, at, light, &unused)
+        out.visible = light->area.size1 > 0 ? shade_area(follower->p, FEATURES, at, light, out.sends, &unused)
                                             : shade_visibility(follower->p, FEATURES, at, towards, distance, &unused);
     }
     follower->failed |= !ARRAY_PUSH(&follower->life->lights, out);

@@ -183,23 +183,26 @@ RT_ALWAYS_INLINE void light_parts_begin(LightParts *parts, const LightArea *area
     parts->waiting[0] = (LightPart){0, area->size1 - 1, 0, area->size2 - 1, 0, 1.0};
 }
 
-// True when two shares of light are so far apart that an adaptive area light is divided. Found by pictures: shares that
-// differ in all three colours divide it between 0.032 and 0.034, in two between 0.045 and 0.05.
-RT_ALWAYS_INLINE bool light_differs(Rgb a, Rgb b)
+// True when what two places send of `arriving` is so far apart that an adaptive area light is divided. Found by pictures:
+// parts that differ in all three colours divide it between 0.032 and 0.034, in two between 0.045 and 0.05.
+RT_ALWAYS_INLINE bool light_differs(Rgb arriving, Rgb a, Rgb b)
 {
-    return fabs(a.red - b.red) + fabs(a.green - b.green) + fabs(a.blue - b.blue) > 0.1;
+    Rgb apart = rgb_mul(arriving, rgb_add_scaled(a, -1.0, b));
+    return fabs(apart.red) + fabs(apart.green) + fabs(apart.blue) > 0.1;
 }
 
-// Puts a part's quarters on the list instead of it, when there are any and it needs it.
+// Puts a part's quarters on the list instead of it, when there are any and it needs it. `corners` are shares of the
+// light, all of which would be `arriving`.
 RT_ALWAYS_INLINE bool light_part_divides(LightParts *parts, const LightArea *area, LightPart part,
-                                         const Rgb corners[4])
+                                         Rgb arriving, const Rgb corners[4])
 {
     if (part.right - part.left <= 1 && part.bottom - part.top <= 1) {
         return false;
     }
     bool is_even = area->is_adaptive && part.level >= area->adaptive;
     for (int i = 0; is_even && i < 4; i++) {
-        is_even = !light_differs(corners[i], corners[(i + 1) % 4]) && !light_differs(corners[i], corners[(i + 2) % 4]);
+        is_even = !light_differs(arriving, corners[i], corners[(i + 1) % 4]) &&
+                  !light_differs(arriving, corners[i], corners[(i + 2) % 4]);
     }
     if (is_even) {
         return false;

@@ -122,6 +122,7 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
                        .shape = hit.shape,
                        .material = surface.material,
                        .order = surface.order,
+                       .body = surface.body,
                        .interior = has_interiors ? shade_interior(p, surface.material) : RECORD_NONE,
                        .ior_ratio = 1.0,
                        .way = has_interiors ? hit.t * p->textures.scale : 0.0,
@@ -230,6 +231,7 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pend
         step->is_hit = true;
         if (features & RENDER_INTERIORS) {
             inside_copy(&step->before, &pending->inside[pending->count]);
+            step->at.before = &step->before;
             shade_cross(p, features, &step->at, &step->before, &step->behind);
         }
         if (features & RENDER_FOG) {

@@ -23,11 +23,13 @@ typedef struct ShadePoint {
     ShapeId shape;
     MaterialIndex material;
     uint32_t order;    // of the shape, in the order of declaration
+    uint32_t body;     // likewise: Surface.body
     uint32_t interior; // of the shape
     double ior_ratio;  // index of refraction behind the surface over the one before it
     double way;        // of the ray that found it, in the scene's lengths; where there are interiors
     bool inside;  // the ray met the surface from the side where the shape is
     bool leaves;  // what the ray is in; where there are interiors
+    const Inside *before; // what the ray is inside of, as it comes; NULL where there are no interiors
     SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
 } ShadePoint;
 
@@ -82,14 +84,19 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
 }
 
 // The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
-// multiplies it, the first that does not ends it. What is seen from outside and lit from behind, by bumps or on its
-// back, gets its light through itself unfaded. Measured.
+// multiplies it, the first that does not ends it. The shadow ray is inside of what the ray was that came to the point,
+// and goes into bodies and out of them as that does. Measured.
 RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, const ShadePoint *at, Ray ray,
                                          RayStart start, double t_max)
 {
     Rgb share = rgb_grey(1.0);
     Hit hit;
-    bool fades = at->inside || !start.inward;
+    Inside inside;
+    inside.count = 0;
+    bool has_interiors = (features & RENDER_INTERIORS) && at->before;
+    if (has_interiors) {
+        inside_copy(&inside, at->before);
+    }
     for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
         Surface surface = geometry_surface(p->geometry, features, ray, hit);
         Rgb through = shade_surface_through(p, features, &surface);
@@ -97,10 +104,14 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
             return rgb_grey(0.0);
         }
         share = rgb_mul(share, through);
-        if ((features & RENDER_INTERIORS) && hit.inside && fades) {
-            share = rgb_mul(share, shade_shadow_faded(p, &surface, hit.t));
+        if (has_interiors) {
+            uint64_t body = scene_body_key(p->scene, surface.order, surface.body);
+            if (inside_leave(&inside, body)) {
+                share = rgb_mul(share, shade_shadow_faded(p, &surface, hit.t));
+            } else {
+                inside_enter(&inside, body, shade_interior(p, surface.material), false);
+            }
         }
-        fades = true;
         ray.origin = surface.point;
         t_max -= hit.t;
         start = (RayStart){hit.shape, !hit.inside, HIDDEN_SHADOW};
@@ -130,9 +141,9 @@ RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const 
     return shade_visibility(p, features, at, vec3_scale(1.0 / distance, offset), distance, statistics);
 }
 
-// The mean over an area light, see render/light.h.
+// The mean over an area light, see render/light.h, of which all would be `arriving`.
 RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const ShadePoint *at,
-                                const PreparedLight *light, RenderStatistics *statistics)
+                                     const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
     LightParts parts;
     Rgb sum = rgb_grey(0.0);
@@ -149,7 +160,7 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
                     : shade_area_one(p, features, at, light, light_area_offset(light, at->point, i, j), statistics);
             mean = rgb_add(mean, corners[corner]);
         }
-        if (!light_part_divides(&parts, &light->area, part, corners)) {
+        if (!light_part_divides(&parts, &light->area, part, arriving, corners)) {
             sum = rgb_add_scaled(sum, 0.25 * part.weight, mean);
         }
     }
@@ -158,11 +169,11 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
 
 // The same; or of one of its lights by chance, when the camera ray is one of many.
 RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
-                                const PreparedLight *light, RenderStatistics *statistics)
+                                const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
     return at->stream ? shade_area_one(p, features, at, light, light_area_sample(light, at->point, sample_next(at->stream)),
                                        statistics)
-                      : shade_area_grid(p, features, at, light, statistics);
+                      : shade_area_grid(p, features, at, light, arriving, statistics);
 }
 
 // Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
@@ -228,7 +239,7 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     // Beyond the plane of a parallel light nothing throws a shadow.
     if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
         Rgb share = (features & RENDER_LIGHTS) && light->area.size1 > 0
-                        ? shade_area(p, features, at, light, statistics)
+                        ? shade_area(p, features, at, light, arriving, statistics)
                         : shade_visibility(p, features, at, towards, distance, statistics);
         if (rgb_is_black(share)) {
             return share;

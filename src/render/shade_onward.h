@@ -119,16 +119,17 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onwar
 }
 
 // Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind
-// it. A ray leaves what it has entered, and enters anything else, from whichever side it comes to a surface: one that
-// is open or flat, too. Measured.
+// it. A ray leaves the body that it has entered, and enters any other, from whichever side it comes to a surface: one
+// that is open or flat, too. Measured.
 RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoint *at, const Inside *before,
                                   Inside *behind)
 {
+    uint64_t body = scene_body_key(p->scene, at->order, at->body);
     inside_copy(behind, before);
-    at->leaves = inside_leave(behind, at->order);
+    at->leaves = inside_leave(behind, body);
     if (!at->leaves) {
         bool is_solid = (features & RENDER_FOG) && !scene_is_hollow(p->scene, at->material);
-        inside_enter(behind, at->order, at->interior, is_solid);
+        inside_enter(behind, body, at->interior, is_solid);
     }
     at->ior_ratio = inside_ior(p->interiors, behind) / inside_ior(p->interiors, before);
 }

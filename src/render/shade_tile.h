@@ -101,7 +101,8 @@ RT_ALWAYS_INLINE uint64_t shade_tile_area(const Prepared *p, unsigned features, 
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
         ShadePoint at = shade_tile_point(tile, i, 0, NULL);
-        tile->share[i] = shade_area_grid(p, features, &at, light, statistics).red; // it is grey
+        Rgb arriving = light->is_plain ? light->colour : rgb_scale(tile->strength[i], light->colour);
+        tile->share[i] = shade_area_grid(p, features, &at, light, arriving, statistics).red; // it is grey
         dark |= (uint64_t)(tile->share[i] == 0.0) << i;
     }
     return dark;

@@ -66,14 +66,15 @@ static RealRgb real_faded(const RealScene *s, MaterialIndex material, Real way, 
 
 // ---- light
 
-static RealRgb real_visibility(const RealScene *s, const RealHit *at, RealVec towards, Real distance,
-                               RenderStatistics *statistics)
+static RealRgb real_visibility(const RealScene *s, const RealHit *at, const Inside *before, RealVec towards,
+                               Real distance, RenderStatistics *statistics)
 {
     RealRgb share = real_grey(1);
     RealRay ray = {at->point, towards};
     RealStart start = {at->kind, at->index, true, real_dot(at->normal, towards) < 0};
     RealHit hit;
-    bool fades = at->inside || !start.inward;
+    Inside inside;
+    inside_copy(&inside, before);
     statistics->shadow_rays++;
     for (uint64_t passed = 0; real_closest(s, &ray, start, distance, &hit); passed++) {
         const PreparedFinish *finish;
@@ -83,8 +84,12 @@ static RealRgb real_visibility(const RealScene *s, const RealHit *at, RealVec to
             return real_grey(0);
         }
         share = real_rgb_mul(share, through);
-        share = hit.inside && fades ? real_rgb_mul(share, real_faded(s, hit.material, hit.t, true)) : share;
-        fades = true;
+        uint64_t body = scene_body_key(s->scene, hit.order, 0);
+        if (inside_leave(&inside, body)) {
+            share = real_rgb_mul(share, real_faded(s, hit.material, hit.t, true));
+        } else {
+            inside_enter(&inside, body, study_interior(s->p, hit.material), false);
+        }
         ray.e = hit.point;
         distance -= hit.t;
         start = (RealStart){hit.kind, hit.index, true, !hit.inside};
@@ -127,7 +132,8 @@ static Real real_opaque(const RealScene *s, Rgbft pigment)
 
 // `normal` is turned to where the ray comes from.
 static RealRgb real_light(const RealScene *s, const PreparedLight *light, const PreparedFinish *finish, Rgbft pigment,
-                          const RealHit *at, RealVec normal, RealVec direction, RenderStatistics *statistics)
+                          const RealHit *at, const Inside *before, RealVec normal, RealVec direction,
+                          RenderStatistics *statistics)
 {
     RealVec offset = real_sub(real_vec(light->position), at->point);
     Real distance = light->parallel ? real_dot(offset, real_vec(light->towards)) : real_length(offset);
@@ -139,7 +145,7 @@ static RealRgb real_light(const RealScene *s, const PreparedLight *light, const 
         return real_grey(0);
     }
     if (!light->shadowless && distance > 0) {
-        RealRgb share = real_visibility(s, at, towards, distance, statistics);
+        RealRgb share = real_visibility(s, at, before, towards, distance, statistics);
         if (real_rgb_is_black(share)) {
             return share;
         }
@@ -211,6 +217,7 @@ typedef struct RealJunction {
     RealRgb reflectance;
     Real ior_ratio;
     Inside behind;
+    bool leaves; // what the ray is in
 } RealJunction;
 
 // The light that the mirror adds. At most max_trace_level deep.
@@ -245,7 +252,7 @@ static RealRgb real_reflected(const RealScene *s, const RealJunction *j, const R
 static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way, Inside *inside, bool *is_total)
 {
     RealRgb through = real_rgb_scale((Real)j->finish->refraction, real_pigment_through(j->pigment));
-    RealRgb fade = j->at.inside ? real_faded(s, j->at.material, j->at.t, false) : real_grey(1);
+    RealRgb fade = j->leaves ? real_faded(s, j->at.material, j->at.t, false) : real_grey(1);
     RealVec direction = way->ray.d;
     *is_total = false;
     if (real_rgb_is_black(through)) {
@@ -286,10 +293,10 @@ static void real_join(const RealScene *s, const RealWay *way, const Inside *insi
     j->normal = real_scale(j->at.inside ? -1 : 1, j->at.normal);
     j->pigment = study_pigment(s->p, j->at.material, &j->finish);
     inside_copy(&j->behind, inside);
-    if (j->at.inside) {
-        inside_leave(&j->behind, j->at.order);
-    } else {
-        inside_enter(&j->behind, j->at.order, study_interior(s->p, j->at.material), false);
+    uint64_t body = scene_body_key(s->scene, j->at.order, 0);
+    j->leaves = inside_leave(&j->behind, body);
+    if (!j->leaves) {
+        inside_enter(&j->behind, body, study_interior(s->p, j->at.material), false);
     }
     j->ior_ratio = (Real)inside_ior(s->p->interiors, &j->behind) / (Real)inside_ior(s->p->interiors, inside);
     j->reflectance = real_grey(0);
@@ -313,7 +320,8 @@ static RealRgb real_trace(const RealScene *s, RealWay way, Inside *inside, Rende
         Real opaque = real_opaque(s, j.pigment);
         RealRgb light = real_rgb_scale(opaque, real_rgb_mul(real_rgb(rgbft_rgb(j.pigment)), real_rgb(j.finish->glow)));
         for (size_t i = 0; i < s->p->light_count; i++) {
-            RealRgb one = real_light(s, &s->p->lights[i], j.finish, j.pigment, &j.at, j.normal, way.ray.d, statistics);
+            RealRgb one = real_light(s, &s->p->lights[i], j.finish, j.pigment, &j.at, inside, j.normal, way.ray.d,
+                                     statistics);
             light = real_rgb_add(light, 1, one);
         }
         sum = real_rgb_add(sum, 1, real_rgb_mul(way.share, light));

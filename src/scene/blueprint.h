@@ -115,6 +115,7 @@ typedef struct ObjectPart {
     bool hollow, split_union;
     const InteriorBlueprint *interior; // of its own; NULL: taken over
     bool is_inverse;
+    bool was_turned; // inside out, if only to be turned back
     bool no_shadow, no_image, no_reflection;
     bool ignored; // what changes no picture
     const Clip *clips, *bounds; // in order

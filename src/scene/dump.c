@@ -175,61 +175,110 @@ static void dump_material(const Material *material, size_t number, TextBuffer *o
     text_printf(out, " } finish { F%lu } }\n", (unsigned long)material->finish + 1);
 }
 
-// The texture of a shape, which is its last property.
-void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer *out)
+uint32_t dump_interior_of(const Scene *scene, MaterialIndex material)
 {
-    const char *hollow = scene_is_hollow(scene, material) ? " hollow" : "";
-    if (material & MATERIAL_COMPOUND) {
-        const Compound *compound = &scene->compounds.items[material & ~MATERIAL_COMPOUND];
-        text_printf(out, "%s texture { T%lu }", hollow, (unsigned long)compound->texture + 1);
-        if (compound->interior != RECORD_NONE) {
-            text_printf(out, " interior { I%lu }", (unsigned long)compound->interior + 1);
-        }
-        text_append(out, " }\n");
+    return material & MATERIAL_COMPOUND ? scene->compounds.items[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
+}
+
+void dump_interior_word(uint32_t interior, TextBuffer *out)
+{
+    if (interior == RECORD_NONE) {
+        text_append(out, " interior { ior 1 }");
     } else {
-        text_printf(out, "%s texture { M%lu } }\n", hollow, (unsigned long)material + 1);
+        text_printf(out, " interior { I%lu }", (unsigned long)interior + 1);
     }
 }
 
-static void dump_sphere(const Scene *scene, const Sphere *sphere, TextBuffer *out)
+void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *around, TextBuffer *out)
+{
+    const char *hollow = scene_is_hollow(scene, material) ? " hollow" : "";
+    uint32_t interior = dump_interior_of(scene, material);
+    if (material & MATERIAL_COMPOUND) {
+        const Compound *compound = &scene->compounds.items[material & ~MATERIAL_COMPOUND];
+        text_printf(out, "%s texture { T%lu }", hollow, (unsigned long)compound->texture + 1);
+    } else {
+        text_printf(out, "%s texture { M%lu }", hollow, (unsigned long)material + 1);
+    }
+    if (!around || *around != interior) {
+        dump_interior_word(interior, out);
+    }
+    text_append(out, " }\n");
+}
+
+static void dump_sphere(const Scene *scene, const Sphere *sphere, const uint32_t *around, TextBuffer *out)
 {
     dump_vector(out, "sphere { ", sphere->centre);
     dump_number(out, ", ", sphere->radius);
-    dump_texture(scene, sphere->material, out);
+    dump_texture(scene, sphere->material, around, out);
 }
 
-static void dump_ellipsoid(const Scene *scene, const Ellipsoid *ellipsoid, TextBuffer *out)
+static void dump_ellipsoid(const Scene *scene, const Ellipsoid *ellipsoid, const uint32_t *around, TextBuffer *out)
 {
     text_append(out, "sphere { 0, 1 matrix ");
     dump_numbers(out, &ellipsoid->to_world.m[0][0], 12);
-    dump_texture(scene, ellipsoid->material, out);
+    dump_texture(scene, ellipsoid->material, around, out);
 }
 
-static void dump_plane(const Scene *scene, const Plane *plane, TextBuffer *out)
+static void dump_plane(const Scene *scene, const Plane *plane, const uint32_t *around, TextBuffer *out)
 {
     dump_vector(out, "plane { ", plane->normal);
     dump_number(out, ", ", plane->distance);
-    dump_texture(scene, plane->material, out);
+    dump_texture(scene, plane->material, around, out);
+}
+
+// The bodies that are open while shapes are written, each as a union.
+typedef struct OpenBodies {
+    const Scene *scene;
+    uint32_t innermost, next; // Scene.bodies; the first may be RECORD_NONE
+} OpenBodies;
+
+static void close_bodies(OpenBodies *open, uint32_t order, TextBuffer *out)
+{
+    while (open->innermost != RECORD_NONE && open->scene->bodies.items[open->innermost].end <= order) {
+        const Body *body = &open->scene->bodies.items[open->innermost];
+        if (body->interior != RECORD_NONE || body->around != RECORD_NONE) {
+            dump_interior_word(body->interior, out);
+        }
+        text_append(out, " }\n");
+        open->innermost = body->around;
+    }
+}
+
+static void open_bodies(OpenBodies *open, uint32_t order, TextBuffer *out)
+{
+    for (; open->next < open->scene->bodies.count && open->scene->bodies.items[open->next].first <= order; open->next++) {
+        if (open->scene->bodies.items[open->next].end > order) {
+            text_append(out, "union {\n");
+            open->innermost = open->next;
+        }
+    }
 }
 
 // Each array is in the order of declaration, so they are merged.
 static void dump_shapes(const Scene *scene, TextBuffer *out)
 {
+    static const uint32_t nothing = RECORD_NONE;
     size_t sphere = 0, ellipsoid = 0, plane = 0, part = 0, composite = 0;
+    OpenBodies open = {scene, RECORD_NONE, 0};
     for (uint32_t order = 0; order < scene->shape_count; order++) {
+        close_bodies(&open, order, out);
+        open_bodies(&open, order, out);
+        bool is_in_body = open.innermost != RECORD_NONE;
+        const uint32_t *around = is_in_body ? &scene->bodies.items[open.innermost].interior : &nothing;
         if (sphere < scene->spheres.count && scene->spheres.items[sphere].order == order) {
-            dump_sphere(scene, &scene->spheres.items[sphere++], out);
+            dump_sphere(scene, &scene->spheres.items[sphere++], around, out);
         } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
-            dump_plane(scene, &scene->planes.items[plane++], out);
+            dump_plane(scene, &scene->planes.items[plane++], around, out);
         } else if (ellipsoid < scene->ellipsoids.count && scene->ellipsoids.items[ellipsoid].order == order) {
-            dump_ellipsoid(scene, &scene->ellipsoids.items[ellipsoid++], out);
+            dump_ellipsoid(scene, &scene->ellipsoids.items[ellipsoid++], around, out);
         } else if (composite < scene->composites.count && scene->composites.items[composite].order == order) {
             part += scene->composites.items[composite].part_count;
-            dump_composite(scene, &scene->composites.items[composite++], out);
+            dump_composite(scene, &scene->composites.items[composite++], is_in_body ? around : NULL, out);
         } else {
-            dump_part(scene, &scene->parts.items[part++], out);
+            dump_part(scene, &scene->parts.items[part++], around, out);
         }
     }
+    close_bodies(&open, scene->shape_count, out);
 }
 
 static void dump_fog(const Fog *fog, TextBuffer *out)

@@ -19,11 +19,16 @@ void dump_numbers(TextBuffer *out, const double *numbers, size_t count);
 // finishes.
 void dump_textures(const Scene *scene, TextBuffer *out);
 void dump_sky(const Scene *scene, TextBuffer *out);
-// The texture of a shape, which is its last property, and its end.
-void dump_texture(const Scene *scene, MaterialIndex material, TextBuffer *out);
+// What fills a shape of a material: Scene.interiors, or RECORD_NONE.
+uint32_t dump_interior_of(const Scene *scene, MaterialIndex material);
+// Named where there is one, else as one that is empty.
+void dump_interior_word(uint32_t interior, TextBuffer *out);
+// The texture of a shape, which is its last property, its interior unless that is *around, and its end. A shape that is
+// a body of its own in another one has none around.
+void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *around, TextBuffer *out);
 
-// Shapes that are not plain ones.
-void dump_part(const Scene *scene, const Part *part, TextBuffer *out);
-void dump_composite(const Scene *scene, const Composite *composite, TextBuffer *out);
+// Shapes that are not plain ones. A composite in a body leaves its interior to that.
+void dump_part(const Scene *scene, const Part *part, const uint32_t *around, TextBuffer *out);
+void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, TextBuffer *out);
 
 #endif

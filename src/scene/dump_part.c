@@ -48,7 +48,7 @@ static void dump_words(bool is_inverse, uint8_t hidden, const char *before, cons
     }
 }
 
-void dump_part(const Scene *scene, const Part *part, TextBuffer *out)
+void dump_part(const Scene *scene, const Part *part, const uint32_t *around, TextBuffer *out)
 {
     dump_form(part, out);
     text_append(out, part->flags & PART_OPEN ? " open" : "");
@@ -60,32 +60,53 @@ void dump_part(const Scene *scene, const Part *part, TextBuffer *out)
     if (part->flags & PART_UNSEEN) {
         text_append(out, " }\n");
     } else {
-        dump_texture(scene, part->material, out);
+        dump_texture(scene, part->material, around, out);
     }
 }
 
 // Where the dump stands in a composite.
 typedef struct Walk {
     const Scene *scene;
+    const Composite *composite;
     uint32_t node, node_end;
     uint32_t part;
 } Walk;
 
-static void dump_node(Walk *walk, uint8_t hidden, const char *hollow, TextBuffer *out);
+// What fills the group around: Part.body and its interior.
+typedef struct Fill {
+    uint32_t body, interior;
+} Fill;
+
+enum { FILL_NONE = UINT32_MAX }; // no Part.body: nothing is around
+
+// What the first part of a body within a composite is filled with.
+static uint32_t body_interior(const Walk *walk, uint32_t body)
+{
+    for (uint32_t i = 0; i < walk->composite->part_count; i++) {
+        const Part *part = &walk->scene->parts.items[walk->composite->first_part + i];
+        if (part->body == body && !(part->flags & PART_UNSEEN)) {
+            return dump_interior_of(walk->scene, part->material);
+        }
+    }
+    return RECORD_NONE;
+}
+
+static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char *hollow, TextBuffer *out);
 
 // The next child of a node: the next node of all, or the next part, whichever was declared first.
-static void dump_child(Walk *walk, uint32_t parent, TextBuffer *out)
+static void dump_child(Walk *walk, uint32_t parent, const Fill *around, TextBuffer *out)
 {
     const Node *node = walk->node < walk->node_end ? &walk->scene->nodes.items[walk->node] : NULL;
     if (node && node->parent == parent && node->first_part <= walk->part) {
-        dump_node(walk, 0, "", out);
+        dump_node(walk, around, 0, "", out);
     } else {
-        dump_part(walk->scene, &walk->scene->parts.items[walk->part++], out);
+        const Part *part = &walk->scene->parts.items[walk->part++];
+        dump_part(walk->scene, part, part->body == around->body ? &around->interior : NULL, out);
     }
 }
 
 // Recursive, as deep as the language lets objects nest. The object that is clipped comes first, then each of its clips.
-static void dump_node(Walk *walk, uint8_t hidden, const char *hollow, TextBuffer *out)
+static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char *hollow, TextBuffer *out)
 {
     static const char *const heads[] = {
         [NODE_UNION] = "union {\n",
@@ -95,15 +116,21 @@ static void dump_node(Walk *walk, uint8_t hidden, const char *hollow, TextBuffer
     };
     uint32_t at = walk->node++;
     const Node *node = &walk->scene->nodes.items[at];
+    bool is_body = node->body != around->body;
+    Fill fill = is_body ? (Fill){node->body, body_interior(walk, node->body)} : *around;
     text_append(out, heads[node->op]);
     for (uint32_t i = 0; i < node->child_count; i++) {
         bool is_clip = node->op == NODE_CLIP && i > 0;
         text_append(out, is_clip ? "clipped_by { " : "");
-        dump_child(walk, at, out);
+        dump_child(walk, at, &fill, out);
         text_append(out, is_clip ? "}\n" : "");
     }
     dump_words(node->is_inverse, hidden, "", " ", out);
-    text_printf(out, "%s}\n", hollow);
+    text_append(out, hollow);
+    if (is_body && (fill.interior != RECORD_NONE || around->body != FILL_NONE)) {
+        dump_interior_word(fill.interior, out);
+    }
+    text_append(out, "}\n");
 }
 
 // All parts that are seen are hollow, or none is; members without surfaces have no say.
@@ -118,8 +145,10 @@ static const char *hollow_word(const Scene *scene, const Composite *composite)
     return "";
 }
 
-void dump_composite(const Scene *scene, const Composite *composite, TextBuffer *out)
+void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, TextBuffer *out)
 {
-    Walk walk = {scene, composite->first_node, composite->first_node + composite->node_count, composite->first_part};
-    dump_node(&walk, composite->hidden, hollow_word(scene, composite), out);
+    Walk walk = {scene, composite, composite->first_node, composite->first_node + composite->node_count,
+                 composite->first_part};
+    Fill fill = around ? (Fill){0, *around} : (Fill){FILL_NONE, RECORD_NONE};
+    dump_node(&walk, &fill, composite->hidden, hollow_word(scene, composite), out);
 }

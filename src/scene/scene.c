@@ -75,6 +75,7 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->parts);
     ARRAY_FREE(&scene->nodes);
     ARRAY_FREE(&scene->composites);
+    ARRAY_FREE(&scene->bodies);
     unique_fini(&scene->finish_index);
     unique_fini(&scene->material_index);
     unique_fini(&scene->pigment_entry_index);
@@ -229,6 +230,7 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
+           LIST_BYTES(scene->bodies) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
            LIST_BYTES(scene->pictures) + scene_picture_bytes(scene);
 #undef LIST_BYTES
@@ -369,4 +371,49 @@ void scene_end_composite(Scene *scene)
     Composite *composite = &scene->composites.items[scene->composites.count - 1];
     composite->node_count = (uint32_t)scene->nodes.count - composite->first_node;
     composite->part_count = (uint32_t)scene->parts.count - composite->first_part;
+}
+
+bool scene_begin_body(Scene *scene, uint32_t around, uint32_t *index)
+{
+    Body body = {.first = scene->shape_count, .end = UINT32_MAX, .around = around, .interior = RECORD_NONE};
+    *index = (uint32_t)scene->bodies.count;
+    return scene->bodies.count < RECORD_NONE && ARRAY_PUSH(&scene->bodies, body);
+}
+
+void scene_end_body(Scene *scene, uint32_t index, bool is_kept)
+{
+    if (!is_kept && scene->bodies.count == (size_t)index + 1) {
+        scene->bodies.count--;
+    } else {
+        scene->bodies.items[index].end = scene->shape_count;
+    }
+}
+
+// The last one that begins at or before the shape is the innermost of those that hold it, or within those or behind them.
+uint32_t scene_body(const Scene *scene, uint32_t order)
+{
+    size_t low = 0, high = scene->bodies.count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (scene->bodies.items[middle].first <= order) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    uint32_t body = low > 0 ? (uint32_t)(low - 1) : RECORD_NONE;
+    while (body != RECORD_NONE && scene->bodies.items[body].end <= order) {
+        body = scene->bodies.items[body].around;
+    }
+    return body;
+}
+
+uint64_t scene_body_key(const Scene *scene, uint32_t order, uint32_t inner)
+{
+    enum { INNER = 1, WHOLE = 2, SHAPE = 3 };
+    if (inner) {
+        return (uint64_t)INNER << 32 | inner;
+    }
+    uint32_t body = scene->bodies.count ? scene_body(scene, order) : RECORD_NONE;
+    return body == RECORD_NONE ? (uint64_t)SHAPE << 32 | order : (uint64_t)WHOLE << 32 | body;
 }

@@ -265,6 +265,7 @@ typedef struct Part {
     uint32_t node;          // of the scene, that it is a leaf of; NODE_NONE alone
     MaterialIndex material; // of no meaning when unseen
     uint32_t order;         // of a leaf: the composite's
+    uint32_t body;          // of a leaf: 0 that of the composite, else the number of one within it
     uint64_t source;
     Transform to_world, to_object; // inverse of each other
     Vec3 data[3];
@@ -283,6 +284,7 @@ typedef struct Node {
     uint32_t parent; // NODE_NONE: the root
     uint32_t child_count;
     uint32_t first_part; // parts that stand before it in the scene
+    uint32_t body;       // as of a part
     uint64_t source;
 } Node;
 
@@ -297,6 +299,15 @@ typedef struct Composite {
     uint32_t order;
     uint64_t source;
 } Composite;
+
+// Shapes that are one body, which has one interior: a ray that is inside of one and meets the next leaves the body.
+// Bodies that hold others stand before them, and each shape is in the innermost around it; what is in none is a body by
+// itself. Only those are kept that some light may go through.
+typedef struct Body {
+    uint32_t first, end; // order of its first shape and of the one behind its last
+    uint32_t around;     // Scene.bodies, or RECORD_NONE
+    uint32_t interior;   // of its first own shape: Scene.interiors, or RECORD_NONE
+} Body;
 
 // Light that is lost on the way of a ray, and the fog's own that comes in its place.
 typedef struct Fog {
@@ -366,6 +377,8 @@ typedef struct Scene {
     ARRAY(Part) parts;
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
+    ARRAY(Body) bodies;
+    uint32_t inner_body_count; // bodies within composites
     uint32_t shape_count; // spheres, ellipsoids, planes, composites and parts that stand alone
     UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, slope_entry_index, normal_entry_index,
         normal_index, texture_entry_index, texture_index, interior_index, compound_index, picture_source_index,
@@ -468,6 +481,17 @@ bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, u
                     uint32_t *index) RT_MUST_CHECK;
 bool scene_add_leaf(Scene *scene, const Part *part) RT_MUST_CHECK;
 void scene_end_composite(Scene *scene);
+
+// A body within `around` (or RECORD_NONE) begins, then come its shapes and the bodies in it. It must be ended, and is
+// forgotten then if it is the last one and not to be kept.
+bool scene_begin_body(Scene *scene, uint32_t around, uint32_t *index) RT_MUST_CHECK;
+void scene_end_body(Scene *scene, uint32_t index, bool is_kept);
+
+// The innermost body that holds the shape at a place in the order of declaration; RECORD_NONE for none.
+uint32_t scene_body(const Scene *scene, uint32_t order);
+
+// A number that is the same for surfaces of one body and no others. `inner` is a leaf's Part.body, else 0.
+uint64_t scene_body_key(const Scene *scene, uint32_t order, uint32_t inner);
 
 // Checks what only the whole scene can tell (a camera is missing, …) and what the renderer relies on. False when a
 // fault was reported; the renderer may then not be called. Many spheres are looked through on several threads.

@@ -359,7 +359,7 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
     if ((features & TRACE_PLANES) && kind == SHAPE_PLANE) {
         const PlaneEntry *plane = &g->planes[index];
         return (Surface){plane_point(&plane->shape, ray, hit.t), plane->shape.normal, plane->info.material,
-                         plane->info.order};
+                         plane->info.order, 0};
     }
     if ((features & TRACE_ELLIPSOIDS) && kind == SHAPE_ELLIPSOID) {
         const EllipsoidEntry *ellipsoid = &g->ellipsoids[index];
@@ -373,7 +373,7 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
     Ball ball = sphere_table_ball(&g->spheres, index);
     Vec3 normal = sphere_normal(ray, &ball, hit.t);
     Vec3 point = vec3_add_scaled(ball.centre, sqrt(ball.radius_squared), normal);
-    return (Surface){point, normal, g->spheres.info[index].material, g->spheres.info[index].order};
+    return (Surface){point, normal, g->spheres.info[index].material, g->spheres.info[index].order, 0};
 }
 
 // The surfaces that a tile's rays of `wanted` have met, and their materials.

@@ -140,7 +140,7 @@ bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, do
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit)
 {
     const Solid *solid = &table->solids[part_index(hit->shape)];
-    Surface surface = {.material = solid->material, .order = solid->order};
+    Surface surface = {.material = solid->material, .order = solid->order, .body = solid->body};
     solid_surface(solid, ray, hit->t, part_side(hit->shape), &surface.point, &surface.normal);
     if (solid->flips) {
         surface.normal = vec3_neg(surface.normal);

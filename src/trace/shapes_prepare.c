@@ -20,6 +20,7 @@ static Solid solid_of(const Part *part, int exponent)
         .twin = SLOT_NONE,
         .material = part->material,
         .order = part->order,
+        .body = part->body,
         .data = {part->data[0], part->data[1], part->data[2]},
     };
     if (part->kind == PART_PLANE) {

@@ -22,7 +22,7 @@ typedef struct Solid {
     uint32_t composite;    // NODE_NONE alone
     uint32_t twin;         // of a ball: the slot of a sphere that equals it, SLOT_NONE if there is none
     MaterialIndex material;
-    uint32_t order;
+    uint32_t order, body;
     Vec3 centre;
     double extent;         // solid_extent
     Transform to_world, to_object; // linear parts; the last rows are 0

@@ -75,6 +75,7 @@ typedef struct Surface {
     Vec3 normal; // unit, outward, whatever side was hit
     MaterialIndex material;
     uint32_t order; // of the shape, in the order of declaration
+    uint32_t body;  // of a leaf of a composite: Part.body, else 0
 } Surface;
 
 typedef struct Geometry Geometry;
