@@ -226,7 +226,7 @@ static void dump_plane(const Scene *scene, const Plane *plane, const uint32_t *a
     dump_texture(scene, plane->material, around, out);
 }
 
-// The bodies that are open while shapes are written, each as a union.
+// The bodies of several shapes that are open while shapes are written, each as a union.
 typedef struct OpenBodies {
     const Scene *scene;
     uint32_t innermost, next; // Scene.bodies; the first may be RECORD_NONE
@@ -247,24 +247,33 @@ static void close_bodies(OpenBodies *open, uint32_t order, TextBuffer *out)
 static void open_bodies(OpenBodies *open, uint32_t order, TextBuffer *out)
 {
     for (; open->next < open->scene->bodies.count && open->scene->bodies.items[open->next].first <= order; open->next++) {
-        if (open->scene->bodies.items[open->next].end > order) {
+        if (open->scene->bodies.items[open->next].end > order + 1) {
             text_append(out, "union {\n");
             open->innermost = open->next;
         }
     }
 }
 
+// What is said around a shape of its interior: NULL where it is a body of its own in another one.
+static const uint32_t *interior_around(const OpenBodies *open, uint32_t order)
+{
+    static const uint32_t nothing = RECORD_NONE;
+    if (open->innermost == RECORD_NONE) {
+        return &nothing;
+    }
+    return open->innermost == scene_body(open->scene, order) ? &open->scene->bodies.items[open->innermost].interior
+                                                             : NULL;
+}
+
 // Each array is in the order of declaration, so they are merged.
 static void dump_shapes(const Scene *scene, TextBuffer *out)
 {
-    static const uint32_t nothing = RECORD_NONE;
     size_t sphere = 0, ellipsoid = 0, plane = 0, part = 0, composite = 0;
     OpenBodies open = {scene, RECORD_NONE, 0};
     for (uint32_t order = 0; order < scene->shape_count; order++) {
         close_bodies(&open, order, out);
         open_bodies(&open, order, out);
-        bool is_in_body = open.innermost != RECORD_NONE;
-        const uint32_t *around = is_in_body ? &scene->bodies.items[open.innermost].interior : &nothing;
+        const uint32_t *around = interior_around(&open, order);
         if (sphere < scene->spheres.count && scene->spheres.items[sphere].order == order) {
             dump_sphere(scene, &scene->spheres.items[sphere++], around, out);
         } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
@@ -273,7 +282,7 @@ static void dump_shapes(const Scene *scene, TextBuffer *out)
             dump_ellipsoid(scene, &scene->ellipsoids.items[ellipsoid++], around, out);
         } else if (composite < scene->composites.count && scene->composites.items[composite].order == order) {
             part += scene->composites.items[composite].part_count;
-            dump_composite(scene, &scene->composites.items[composite++], is_in_body ? around : NULL, out);
+            dump_composite(scene, &scene->composites.items[composite++], around, open.innermost != RECORD_NONE, out);
         } else {
             dump_part(scene, &scene->parts.items[part++], around, out);
         }

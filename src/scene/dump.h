@@ -27,8 +27,10 @@ void dump_interior_word(uint32_t interior, TextBuffer *out);
 // a body of its own in another one has none around.
 void dump_texture(const Scene *scene, MaterialIndex material, const uint32_t *around, TextBuffer *out);
 
-// Shapes that are not plain ones. A composite in a body leaves its interior to that.
+// Shapes that are not plain ones. A composite that is_inside of a body leaves its interior to that, unless it is one of
+// its own.
 void dump_part(const Scene *scene, const Part *part, const uint32_t *around, TextBuffer *out);
-void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, TextBuffer *out);
+void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, bool is_inside,
+                    TextBuffer *out);
 
 #endif

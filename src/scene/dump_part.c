@@ -70,6 +70,7 @@ typedef struct Walk {
     const Composite *composite;
     uint32_t node, node_end;
     uint32_t part;
+    bool is_inside; // of a body
 } Walk;
 
 // What fills the group around: Part.body and its interior.
@@ -127,7 +128,7 @@ static void dump_node(Walk *walk, const Fill *around, uint8_t hidden, const char
     }
     dump_words(node->is_inverse, hidden, "", " ", out);
     text_append(out, hollow);
-    if (is_body && (fill.interior != RECORD_NONE || around->body != FILL_NONE)) {
+    if (is_body && (fill.interior != RECORD_NONE || around->body != FILL_NONE || walk->is_inside)) {
         dump_interior_word(fill.interior, out);
     }
     text_append(out, "}\n");
@@ -145,10 +146,11 @@ static const char *hollow_word(const Scene *scene, const Composite *composite)
     return "";
 }
 
-void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, TextBuffer *out)
+void dump_composite(const Scene *scene, const Composite *composite, const uint32_t *around, bool is_inside,
+                    TextBuffer *out)
 {
     Walk walk = {scene, composite, composite->first_node, composite->first_node + composite->node_count,
-                 composite->first_part};
-    Fill fill = around ? (Fill){0, *around} : (Fill){FILL_NONE, RECORD_NONE};
+                 composite->first_part, is_inside};
+    Fill fill = around && is_inside ? (Fill){0, *around} : (Fill){FILL_NONE, RECORD_NONE};
     dump_node(&walk, &fill, composite->hidden, hollow_word(scene, composite), out);
 }
