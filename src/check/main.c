@@ -18,6 +18,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "check/elsewhere.h"
 #include "check/options.h"
 #include "check/povray_range.h"
 #include "check/povray_run.h"
@@ -292,6 +293,22 @@ static void doubts_find(const Check *check, const Image *ours, const Image *thei
     outcome->agrees = (double)left <= check->options->ties * (double)difference->pixels;
 }
 
+// Takes pixels out of the judgement in which POV-Ray does not agree with itself.
+static void elsewhere_find(const Check *check, const Image *ours, const Image *theirs, Outcome *outcome)
+{
+    const ImageDifference *difference = &outcome->difference;
+    ElsewhereJob job = {.options = check->options,
+                        .scene = outcome->scene,
+                        .povray = check->povray,
+                        .folder = check->folder,
+                        .include_paths = check->include_paths,
+                        .threshold = threshold_between_steps(check->options->threshold)};
+
+    outcome->povray_elsewhere = elsewhere_count(&job, ours, theirs);
+    uint64_t left = difference->pixels_beyond[BEYOND_THRESHOLD] - outcome->povray_elsewhere;
+    outcome->agrees = (double)left <= check->options->ties * (double)difference->pixels;
+}
+
 // False when the report cannot be written.
 static bool scene_check(const Check *check, int number, Outcome *outcome)
 {
@@ -308,6 +325,9 @@ static bool scene_check(const Check *check, int number, Outcome *outcome)
         pictures_compare(check->options, &ours, &theirs, outcome);
         if (outcome->compared && !outcome->agrees && check->options->doubts > 0) {
             doubts_find(check, &ours, &theirs, outcome);
+        }
+        if (outcome->compared && !outcome->agrees && check->options->elsewhere > 0) {
+            elsewhere_find(check, &ours, &theirs, outcome);
         }
     }
     if (check->report != NULL && interrupted == 0) {

@@ -139,6 +139,11 @@ static bool apply_doubts(Options *options, const char *argument)
     return parse_integer(argument, 1, 1000, &options->doubts);
 }
 
+static bool apply_elsewhere(Options *options, const char *argument)
+{
+    return parse_integer(argument, 1, ELSEWHERE_MOST, &options->elsewhere);
+}
+
 static bool apply_json(Options *options, const char *argument)
 {
     (void)argument;
@@ -168,6 +173,8 @@ static const OptionRow rows[] = {
      "share of the pixels that may differ by more (default 0.0001)"},
     {0, "doubts", "N", apply_doubts, "a whole number from 1 to 1000",
      "draw what differs N more times, put elsewhere: pixels that only rounding decides do not count"},
+    {0, "elsewhere", "N", apply_elsewhere, "a whole number from 1 to 100",
+     "have POV-Ray draw what differs N more times, put elsewhere: where it does not agree with itself does not count"},
     {0, "povray", "PROGRAM", apply_povray, "a program", "POV-Ray's program (default povray)"},
     {'I', "include-path", "FOLDER", apply_include_path, "a folder", "also look here for #include; may repeat"},
     {'j', "threads", "N", apply_threads, "a whole number from 1 to 512",

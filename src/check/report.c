@@ -34,6 +34,9 @@ void report_text(FILE *out, const Outcome *outcome)
     if (outcome->decided_by_rounding > 0) {
         fprintf(out, ", %" PRIu64 " by rounding", outcome->decided_by_rounding);
     }
+    if (outcome->povray_elsewhere > 0) {
+        fprintf(out, ", %" PRIu64 " not elsewhere", outcome->povray_elsewhere);
+    }
     fprintf(out, ", rtlang %.3f s, povray %.3f s (%.1fx)%s%s: %s\n", outcome->rtlang_seconds, outcome->povray_seconds,
             outcome->povray_seconds / outcome->rtlang_seconds, outcome->range[0] != '\0' ? ", " : "", outcome->range,
             outcome->agrees ? "ok" : "FAIL");
@@ -54,7 +57,8 @@ void report_json(FILE *out, const Outcome *outcome)
         json_number(out, "flip", outcome->flip);
         fprintf(out, ", \"beyond\": %" PRIu64 ", \"beyond_code_16\": %" PRIu64 ", \"beyond_code_8\": %" PRIu64,
                 d->pixels_beyond[BEYOND_THRESHOLD], d->pixels_beyond[BEYOND_CODE_16], d->pixels_beyond[BEYOND_CODE_8]);
-        fprintf(out, ", \"by_rounding\": %" PRIu64, outcome->decided_by_rounding);
+        fprintf(out, ", \"by_rounding\": %" PRIu64 ", \"not_elsewhere\": %" PRIu64, outcome->decided_by_rounding,
+                outcome->povray_elsewhere);
         fprintf(out, ", \"pixels\": %" PRIu64, d->pixels);
         json_number(out, "rtlang_seconds", outcome->rtlang_seconds);
         json_number(out, "povray_seconds", outcome->povray_seconds);

@@ -174,6 +174,22 @@ RT_ALWAYS_INLINE double query_ellipsoid_error(const Geometry *g, unsigned featur
     return may_coincide && t > 0.0 ? ellipsoid_crossing_error(&g->ellipsoids[index].shape, &own, t) : 0.0;
 }
 
+// Whether a plane that is crossed at t is met on a way to t_max: it is not when the end lies on it but for rounding.
+RT_ALWAYS_INLINE bool query_plane_before(const PlaneShape *shape, const SphereRay *ray, double t, double t_max)
+{
+    return t < t_max && !(t_max < (double)INFINITY &&
+                          roots_are_one(t, plane_crossing_error(shape, (Ray){ray->origin, ray->direction}, t), t_max,
+                                        way_end_error(t_max)));
+}
+
+// The same of an ellipsoid.
+RT_ALWAYS_INLINE bool query_ellipsoid_before(const EllipsoidShape *shape, const SphereRay *ray, double t, double t_max)
+{
+    Ray own = {ray->origin, ray->direction};
+    return t < t_max && !(t_max < (double)INFINITY &&
+                          roots_are_one(t, ellipsoid_crossing_error(shape, &own, t), t_max, way_end_error(t_max)));
+}
+
 // Brings the nearest of the spheres up to date with all other shapes.
 RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
                                            Nearest *nearest)
@@ -185,7 +201,9 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
             bool inside = vec3_dot(g->planes[i].shape.normal, ray->direction) > 0.0;
             double t = query_plane_root(g, i, ray, start);
             double error = query_plane_error(g, features, i, ray, t);
-            if (!is_beside || t > error + start_error) {
+            bool is_at_end = nearest->hit.shape == SHAPE_NONE && t > 0.0 &&
+                             !query_plane_before(&g->planes[i].shape, ray, t, nearest->hit.t);
+            if (!is_at_end && (!is_beside || t > error + start_error)) {
                 nearest_offer_within(nearest, t, error, shape_id(SHAPE_PLANE, i), inside, g->planes[i].info.order);
             }
         }
@@ -196,8 +214,12 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
             bool inside = false;
             double t = query_ellipsoid_root(g, i, ray, start, is_beside ? &start_error : NULL, &inside);
             double error = query_ellipsoid_error(g, features, i, ray, t);
-            nearest_offer_within(nearest, t, error, shape_id(SHAPE_ELLIPSOID, i), inside,
-                                 g->ellipsoids[i].info.order);
+            bool is_at_end = nearest->hit.shape == SHAPE_NONE && t > 0.0 &&
+                             !query_ellipsoid_before(&g->ellipsoids[i].shape, ray, t, nearest->hit.t);
+            if (!is_at_end) {
+                nearest_offer_within(nearest, t, error, shape_id(SHAPE_ELLIPSOID, i), inside,
+                                     g->ellipsoids[i].info.order);
+            }
         }
     }
     if (features & TRACE_PARTS) {
@@ -213,7 +235,7 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
-    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false, 0.0};
+    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false, way_end_error(t_max)};
     if (features & TRACE_ANY_SPHERES) {
         query_spheres_closest(g, features, &sphere_ray, start, &nearest);
     }
@@ -283,7 +305,8 @@ RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features
     bool is_beside = query_starts_beside(g, features, start, SHAPE_PLANE);
     for (uint32_t i = 0; i < g->plane_count; i++) {
         double t = query_plane_root(g, i, ray, start);
-        if (t > (is_beside ? query_plane_error(g, features, i, ray, t) + start_error : 0.0) && t < t_max) {
+        if (t > (is_beside ? query_plane_error(g, features, i, ray, t) + start_error : 0.0) &&
+            query_plane_before(&g->planes[i].shape, ray, t, t_max)) {
             return true;
         }
     }
@@ -307,7 +330,7 @@ RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool 
         for (uint32_t i = 0; i < g->ellipsoid_count; i++) {
             bool inside;
             double t = query_ellipsoid_root(g, i, &sphere_ray, start, is_beside ? &start_error : NULL, &inside);
-            if (t > 0.0 && t < t_max) {
+            if (t > 0.0 && query_ellipsoid_before(&g->ellipsoids[i].shape, &sphere_ray, t, t_max)) {
                 return true;
             }
         }
@@ -324,6 +347,21 @@ RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ra
     return query_occluded(g, features, true, ray, start, t_max);
 }
 
+// Of surfaces that a plane is before, those whose way does not end on it.
+RT_ALWAYS_INLINE uint64_t query_plane_before_surfaces(const PlaneShape *shape, const TileSurfaces *from,
+                                                      const SurfaceRays *rays, uint64_t occluded)
+{
+    uint64_t before = 0;
+    for (; occluded; occluded &= occluded - 1) {
+        int i = __builtin_ctzll(occluded);
+        Vec3 direction = vec3(rays->towards[0][i], rays->towards[1][i], rays->towards[2][i]);
+        SphereRay ray = sphere_ray_make(tile_surface_point(from, i), direction);
+        double t = plane_root(shape, ray.origin, ray.direction);
+        before |= (uint64_t)query_plane_before(shape, &ray, t, rays->distance[i]) << i;
+    }
+    return before;
+}
+
 // The surfaces, of those asked for, that anything is before on their way to a point; `together` when that is the same
 // one. Surfaces are of spheres and planes. The same as geometry_occluded says of each.
 RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned features, const TileSurfaces *from,
@@ -333,6 +371,7 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
     bool has_one_plane = query_has_one_plane(g, features);
     if (has_one_plane) {
         occluded = asked & g->kernels->plane_occluded(&g->planes[0].shape, shape_id(SHAPE_PLANE, 0), from, rays);
+        occluded = query_plane_before_surfaces(&g->planes[0].shape, from, rays, occluded);
         left &= ~occluded;
     }
     if (together) {

@@ -132,7 +132,7 @@ void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart start, dou
 
 bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max)
 {
-    Nearest nearest = {.hit = {.t = t_max, .shape = SHAPE_NONE}};
+    Nearest nearest = {.hit = {.t = t_max, .shape = SHAPE_NONE}, .error = way_end_error(t_max)};
     table_closest(table, ray, start, start_error, true, &nearest);
     return nearest.hit.shape != SHAPE_NONE;
 }

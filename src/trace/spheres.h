@@ -204,15 +204,22 @@ RT_ALWAYS_INLINE bool roots_are_one(double t, double error, double other, double
     return apart <= error * (least / t) + other_error * (least / other);
 }
 
+// How far the end of a way may be from the point that it leads to: its length comes from three rounded differences, a
+// sum of squares and a root, and its direction is rounded twice more. 0 for a way without an end.
+RT_ALWAYS_INLINE double way_end_error(double t_max)
+{
+    return t_max < (double)INFINITY ? 8.0 * 0x1p-53 * t_max : 0.0;
+}
+
 // The same for a root that may be off by `error`: where surfaces coincide but for rounding, too, the shape that was
-// declared first is seen.
+// declared first is seen. What the end of the way lies on but for rounding is not met: a light on a surface shines.
 RT_ALWAYS_INLINE void nearest_offer_within(Nearest *nearest, double t, double error, ShapeId shape, bool inside,
                                            uint32_t order)
 {
     if (!(t > 0.0 && t < (double)INFINITY)) {
         return;
     }
-    bool is_tie = nearest->hit.shape != SHAPE_NONE && roots_are_one(t, error, nearest->hit.t, nearest->error);
+    bool is_tie = roots_are_one(t, error, nearest->hit.t, nearest->error);
     if (is_tie ? order < nearest->order : t < nearest->hit.t) {
         *nearest = (Nearest){{t, shape, inside}, order, false, error};
     }

@@ -71,8 +71,9 @@ LACKING = {"E0210", "E0250", "E0251", "E0252", "E0269"}
 MARKS = "<!-- survey:begin -->", "<!-- survey:end -->"
 # The greatest difference of a pixel, in steps of 1/65535, up to which scenes are counted together.
 STEPS = [2, 16, 256, 4096, 65535]
+MEETS, BUT_FOR, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses"
 CHANCE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\bjitter\b|\b(?:aperture|blur_samples)\s+[\d.]+(?:\s*,\s*\d+)?', re.DOTALL)
-DOUBTS = 6  # how often a scene that differs is drawn elsewhere, to tell what only rounding decides
+ELSEWHERE = 24  # how often POV-Ray draws a scene that differs put elsewhere, to tell where it does not agree with itself
 
 
 def arguments():
@@ -200,7 +201,7 @@ def without_chance(path):
 def render(record, options, folders):
     """Adds what rtcheck says of an accepted scene."""
     path, record["without_chance"] = without_chance(record["path"])
-    command = [os.environ["RTCHECK"], "--json", "-j1", "-W160", "-H120", f"--doubts={DOUBTS}", *(f"-I{place}" for place in folders)]
+    command = [os.environ["RTCHECK"], "--json", "-j1", "-W160", "-H120", f"--elsewhere={ELSEWHERE}", *(f"-I{place}" for place in folders)]
     done = call(command, path, options.timeout)
     if not done:
         record["picture"] = {"failed": "time limit"}
@@ -268,6 +269,11 @@ def write_table(records, path):
         file.write(before + MARKS[0] + "\n" + "\n".join(lines) + "\n" + MARKS[1] + after)
 
 
+def verdict(picture):
+    """Whether a scene that was compared meets the bar."""
+    return MISSES if not picture["agrees"] else BUT_FOR if picture["not_elsewhere"] > 0 else MEETS
+
+
 def print_pictures(records):
     drawn = [record for record in records if "picture" in record]
     failed = [record for record in drawn if "max" not in record["picture"]]
@@ -278,14 +284,14 @@ def print_pictures(records):
         print(f"{count:6}  greatest difference {below} to {step} of 65535")
         below = step + 1
     judged = [record for record in drawn if record not in failed]
-    agree = [record for record in judged if record["picture"]["agrees"]]
-    rounding = [record for record in agree if record["picture"]["by_rounding"] > 0]
-    print(f"{len(agree):6}  agree within 2 of 65535 in all but 0.01 % of their pixels; {len(rounding)} of them but for pixels that rounding "
-          "decides")
+    verdicts = collections.Counter(verdict(record["picture"]) for record in judged)
+    print(f"{verdicts[MEETS]:6}  {MEETS}: within 2 of 65535 in all but 0.01 % of their pixels")
+    print(f"{verdicts[BUT_FOR]:6}  {BUT_FOR}: but for pixels that POV-Ray draws as rtlang does where the scene is put elsewhere")
+    print(f"{verdicts[MISSES]:6}  {MISSES}")
     print(f"{sum(record['without_chance'] for record in judged):6}  compared without `jitter` and focal blur, which are chance")
     for record in drawn:
         picture = record["picture"]
-        words = picture.get("failed") or picture.get("fault") or json.dumps(picture)
+        words = picture.get("failed") or picture.get("fault") or f"{verdict(picture)} {json.dumps(picture)}"
         print(f"{record['scene']}: " + " ".join(words.split()))
 
 

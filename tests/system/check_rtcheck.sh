@@ -42,6 +42,18 @@ stand_in cut 'head -c 100 "$ours" > "$output"'
 stand_in exchanged 'sed "s/rgb 1, rgb 0/rgb 0, rgb 1/" doubt.scn > ../exchanged.scn
 "$RTLANG" -q -W 16 -H 8 --depth=16 --file-gamma=1 -o "$output" ../exchanged.scn'
 
+# The same, but where the scene is put elsewhere it draws what rtlang draws in all pixels but those of the left half.
+stand_in settled 'for a; do case $a in +I*) input=${a#+I?}; input=${input%?};; esac; done
+case $input in
+*elsewhere.pov)
+    red="box { <-8,-4,-3>, <0,4,-2> pigment { rgb <1,0,0> } finish { ambient 1 diffuse 0 }"
+    echo "$red } $red scale 1024 }" >> "$input"
+    "$RTLANG" -q -W 16 -H 8 --depth=16 --file-gamma=1 -o "$output" "$input";;
+*)
+    sed "s/rgb 1, rgb 0/rgb 0, rgb 1/" doubt.scn > ../exchanged.scn
+    "$RTLANG" -q -W 16 -H 8 --depth=16 --file-gamma=1 -o "$output" ../exchanged.scn;;
+esac'
+
 # expect NAME STATUS PATTERN ARGUMENT...: runs rtcheck; its output must match the pattern of case.
 expect() {
     name=$1 status=$2 pattern=$3
@@ -129,6 +141,14 @@ expect 'unless so few may' 0 '*", 105 by rounding, "*"x): ok"' \
     -W 16 -H 8 --doubts 30 --ties 23/128 --povray "$work/exchanged" doubt.scn
 expect 'of equal pictures nothing is doubtful' 0 '*"beyond 0 "*"255 0, rtlang "*"x): ok"' \
     -W 16 -H 8 --doubts 5 --povray "$work/same" doubt.scn
+doubt 0.5
+expect 'what POV-Ray draws otherwise elsewhere does not count' 1 '*"beyond 128 "*", 64 not elsewhere, "*"x): FAIL"' \
+    -W 16 -H 8 --elsewhere 2 --povray "$work/settled" doubt.scn
+expect 'and need not' 0 '*"\"agrees\": true, "*"\"beyond\": 128, "*"\"not_elsewhere\": 64"*' \
+    --json -W 16 -H 8 --elsewhere 2 --ties 64/128 --povray "$work/settled" doubt.scn
+expect 'POV-Ray need not be able to draw it' 1 '*"beyond 128 "*"255 128, rtlang "*"x): FAIL"' \
+    -W 16 -H 8 --elsewhere 2 --povray "$work/exchanged" doubt.scn
+expect 'no number of places' 2 '*"--elsewhere wants a whole number from 1 to 100"*' --elsewhere 101 'a scene.scn'
 expect 'no number of doubts' 2 '*"--doubts wants a whole number from 1 to 1000"*' --doubts 0 'a scene.scn'
 expect 'help' 0 '"Usage: rtcheck "*' --help
 cd / || exit 99

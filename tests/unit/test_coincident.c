@@ -2,7 +2,8 @@
 // be there, whatever the two shapes are and however each of them is rounded.
 //
 // Shapes with a surface in common are put elsewhere by a random turn and move, two at a time and in both orders. The
-// picture of the first and the second, with lights and mirrors, has to be the first one's alone, bit for bit.
+// picture of the first and the second, with lights and mirrors, has to be the first one's alone, bit for bit. Nor does
+// what a light stands on throw a shadow above it.
 //
 // SPDX-License-Identifier: MIT
 #include <stdio.h>
@@ -129,6 +130,60 @@ static void test_first(const Family *family, const char *first, const char place
            first, off, pairs * WIDTH * HEIGHT, pairs, off > 0 ? ", as beside " : "", off > 0 ? worst : "");
 }
 
+// ---- a light on a surface
+
+// All have <0, 0, 0> on them and nothing above it.
+static const char *const below[] = {
+    "plane { y, 0",
+    "box { <-50, -1, -50>, <50, 0, 50>",
+    "disc { 0, y, 60",
+    "cylinder { -y, 0, 60",
+    "cone { -2 * y, 80, 0, 60",
+    "triangle { <-200, 0, -200>, <200, 0, -200>, <0, 0, 300>",
+    "intersection { box { -40, 40 } plane { y, 0 }",
+    "merge { box { <-50, -1, -50>, <0.1, 0, 50> } box { <0, -1, -50>, <50, 0, 50> }",
+    "sphere { -y, 1 scale <2, 2, 3>",
+    "cylinder { <-9, -1, 0>, <9, -1, 0>, 1",
+};
+
+// A ball and a light, with something below it.
+static bool draw_lit(const char *place, const char *shape, const char *pigment, float *values)
+{
+    char text[2048];
+    int width, height;
+    int length = snprintf(text, sizeof text,
+                          "#version 3.7; global_settings { assumed_gamma 1 }\n"
+                          "camera { location <0.3, 1, -9> look_at <0, 3, 0> angle 14 %s }\n"
+                          "light_source { 0, rgb 1 %s }\n"
+                          "sphere { <0.2, 3, 0.1>, 1 pigment { rgb 1 } finish { ambient 0 } %s }\n%s %s %s %s\n",
+                          place, place, place, shape ? shape : "", shape ? pigment : "", shape ? place : "",
+                          shape ? "}" : "");
+    rt_session *session = rt_session_new(NULL);
+    bool is_drawn = rt_set_size(session, WIDTH, HEIGHT) == RT_OK &&
+                    rt_load_text(session, "lit", text, (size_t)length) == RT_OK && rt_render(session, 1) == RT_OK;
+    if (is_drawn) {
+        memcpy(values, rt_pixels(session, &width, &height), VALUES * sizeof *values);
+    } else {
+        printf("# not drawn: %s\n", text);
+    }
+    rt_session_free(session);
+    return is_drawn;
+}
+
+// The light shines on the ball as if nothing were below.
+static void test_lit(const char *shape, const char *pigment, const char places[PLACES][PLACE_MOST])
+{
+    static float alone[VALUES], both[VALUES];
+    int off = 0;
+    for (int place = 0; place < PLACES; place++) {
+        off += draw_lit(places[place], NULL, pigment, alone) && draw_lit(places[place], shape, pigment, both)
+                   ? pixels_off(alone, both)
+                   : WIDTH * HEIGHT;
+    }
+    tap_ok(off == 0, "a light on %s %s }: %d of %d pixels are in its shadow", shape, pigment, off,
+           PLACES * WIDTH * HEIGHT);
+}
+
 int main(int argc, char **argv)
 {
     Random random = {random_seed(argc > 1 ? argv[1] : NULL)};
@@ -143,6 +198,10 @@ int main(int argc, char **argv)
         for (size_t k = 0; k < SHAPES_MOST && family->shapes[k] && (family->firsts == 0 || k < family->firsts); k++) {
             test_first(family, family->shapes[k], (const char(*)[PLACE_MOST])places);
         }
+    }
+    for (size_t i = 0; i < sizeof below / sizeof below[0]; i++) {
+        test_lit(below[i], "pigment { rgb 1 }", (const char(*)[PLACE_MOST])places);
+        test_lit(below[i], "pigment { rgbt 0.5 }", (const char(*)[PLACE_MOST])places);
     }
     return tap_done();
 }
