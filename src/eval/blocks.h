@@ -32,6 +32,7 @@ struct ObjectState {
     FinishMemo finish;
     const SkySphereBlueprint *sky;              // the last one so far, in the program's memory; NULL: none
     Span sky_span;
+    uint32_t groups;       // unions so far that say what their members are filled with
     bool may_lack_weights; // the map that is read belongs to `average`
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring, has_deferred;

@@ -282,7 +282,7 @@ static bool add_interior(const Builder *builder, const TextureBlueprint *texture
     }
     interior.fade_distance *= world_scale(builder->ev);
     *index = RECORD_NONE;
-    return (interior.ior == 1.0 && interior.fade_distance == 0.0) ||
+    return (interior.ior == 1.0 && interior.fade_distance == 0.0 && interior.caustics == 0.0) ||
            scene_add_interior(builder->ev->scene, &interior, index) || no_memory(builder);
 }
 

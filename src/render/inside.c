@@ -15,7 +15,7 @@ static void go_through(const Prepared *prepared, Ray *ray, RayStart *start, cons
                        MaterialIndex *material)
 {
     Surface surface = geometry_surface(prepared->geometry, TRACE_ALL_FEATURES, *ray, *hit);
-    *body = scene_body_key(prepared->scene, surface.order, surface.body);
+    *body = scene_shape_key(surface.order, surface.body);
     *material = surface.material;
     ray->origin = surface.point;
     *start = (RayStart){hit->shape, !hit->inside, 0};
@@ -74,12 +74,17 @@ static void walk(const Prepared *prepared, Ray ray, Inside *inside)
     }
 }
 
-// Both ways, for an endless shape is left on one of them only.
+// Both ways, for an endless shape is left on one of them only. Each member of a union counts here, even where they are
+// one. Measured.
 void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside)
 {
     inside->count = 0;
     if (prepared->scene->interiors.count > 0 || prepared->scene->fogs.count > 0) {
         walk(prepared, (Ray){point, odd_direction}, inside);
         walk(prepared, (Ray){point, vec3_neg(odd_direction)}, inside);
+        for (uint32_t i = 0; i < inside->count; i++) {
+            uint64_t *body = &inside->entries[i].body;
+            *body = scene_shape_is_key(*body) ? scene_body_key(prepared->scene, (uint32_t)*body, 0) : *body;
+        }
     }
 }

@@ -26,6 +26,7 @@ typedef struct ShadePoint {
     uint32_t body;     // likewise: Surface.body
     uint32_t interior; // of the shape
     double ior_ratio;  // index of refraction behind the surface over the one before it
+    double fresnel_ratio; // the same as inside_fresnel_ratio has it
     double way;        // of the ray that found it, in the scene's lengths; where there are interiors
     bool inside;  // the ray met the surface from the side where the shape is
     bool leaves;  // what the ray is in; where there are interiors
@@ -64,20 +65,33 @@ RT_ALWAYS_INLINE Rgb shade_faded(const Prepared *p, uint32_t interior, double wa
                : rgb_grey(1.0);
 }
 
-// The same on the way from a light, where a power of 0 leaves all. Measured.
-RT_ALWAYS_INLINE Rgb shade_shadow_faded(const Prepared *p, const Surface *surface, double t)
+// The same on the way to a light, where a power of 0 leaves all, at a surface after a way t since the last one. As rays
+// that are seen, this one enters what it is not inside of, from whichever side it comes. Measured.
+RT_ALWAYS_INLINE Rgb shade_shadow_crossed(const Prepared *p, const Surface *surface, double t, Inside *inside)
 {
     uint32_t interior = shade_interior(p, surface->material);
+    uint64_t body = scene_body_key(p->scene, surface->order, surface->body);
+    if (!inside_leave(inside, body)) {
+        inside_enter(inside, body, interior, false);
+        return rgb_grey(1.0);
+    }
     return interior != RECORD_NONE && p->interiors[interior].fade_power != 0.0
                ? shade_faded(p, interior, t * p->textures.scale)
                : rgb_grey(1.0);
 }
 
-// What a surface multiplies light with that goes through it.
-RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface)
+// What a surface whose interior has caustics multiplies light with that goes through it. In compound.c.
+Rgb shade_caustics(const Prepared *p, const Compound *compound, const Surface *surface, Vec3 direction);
+
+// What a surface multiplies light with that goes through it in a direction.
+RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features, const Surface *surface, Vec3 direction)
 {
     if ((features & RENDER_TEXTURES) && (surface->material & MATERIAL_COMPOUND)) {
         const Compound *compound = &p->compounds[surface->material & ~MATERIAL_COMPOUND];
+        if ((features & RENDER_INTERIORS) && compound->interior != RECORD_NONE &&
+            p->interiors[compound->interior].caustics != 0.0) {
+            return shade_caustics(p, compound, surface, direction);
+        }
         return texture_walk(&p->textures, compound->texture, surface->point, 0.0, NULL, NULL).light;
     }
     return texture_pigment_through(material_pigment(&p->materials[surface->material]));
@@ -99,18 +113,13 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
     }
     for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
         Surface surface = geometry_surface(p->geometry, features, ray, hit);
-        Rgb through = shade_surface_through(p, features, &surface);
+        Rgb through = shade_surface_through(p, features, &surface, ray.direction);
         if (rgb_is_black(through) || passed > p->crossings_max) {
             return rgb_grey(0.0);
         }
         share = rgb_mul(share, through);
         if (has_interiors) {
-            uint64_t body = scene_body_key(p->scene, surface.order, surface.body);
-            if (inside_leave(&inside, body)) {
-                share = rgb_mul(share, shade_shadow_faded(p, &surface, hit.t));
-            } else {
-                inside_enter(&inside, body, shade_interior(p, surface.material), false);
-            }
+            share = rgb_mul(share, shade_shadow_crossed(p, &surface, hit.t, &inside));
         }
         ray.origin = surface.point;
         t_max -= hit.t;

@@ -46,7 +46,7 @@ static RealRgb real_pigment_through(Rgbft pigment)
     return real_rgb_add(through, (Real)pigment.transmit, real_grey(1));
 }
 
-// As shade_faded and shade_shadow_faded; `way` in prepared lengths.
+// As shade_faded, and on the way to a light as shade_shadow_crossed; `way` in prepared lengths.
 static RealRgb real_faded(const RealScene *s, MaterialIndex material, Real way, bool is_shadow)
 {
     uint32_t index = study_interior(s->p, material);
@@ -66,6 +66,25 @@ static RealRgb real_faded(const RealScene *s, MaterialIndex material, Real way, 
 
 // ---- light
 
+// A ray leaves what it has entered, and enters anything else, as in shade_cross; true when it leaves.
+static bool real_cross(const RealScene *s, const RealHit *hit, Inside *inside)
+{
+    uint64_t body = scene_body_key(s->scene, hit->order, 0);
+    bool leaves = inside_leave(inside, body);
+    if (!leaves) {
+        inside_enter(inside, body, study_interior(s->p, hit->material), false);
+    }
+    return leaves;
+}
+
+// As shade_caustics, of a surface without bumps.
+static Real real_caustics(const RealScene *s, const RealHit *hit, RealVec towards)
+{
+    uint32_t index = study_interior(s->p, hit->material);
+    double caustics = index == RECORD_NONE ? 0.0 : s->p->interiors[index].caustics;
+    return caustics == 0.0 ? 1 : 1 + REAL_POW(REAL_FABS(real_dot(hit->normal, towards)), (Real)(45.0 * caustics));
+}
+
 static RealRgb real_visibility(const RealScene *s, const RealHit *at, const Inside *before, RealVec towards,
                                Real distance, RenderStatistics *statistics)
 {
@@ -83,12 +102,9 @@ static RealRgb real_visibility(const RealScene *s, const RealHit *at, const Insi
         if (real_rgb_is_black(through) || passed > s->p->crossings_max) {
             return real_grey(0);
         }
-        share = real_rgb_mul(share, through);
-        uint64_t body = scene_body_key(s->scene, hit.order, 0);
-        if (inside_leave(&inside, body)) {
+        share = real_rgb_scale(real_caustics(s, &hit, towards), real_rgb_mul(share, through));
+        if (real_cross(s, &hit, &inside)) {
             share = real_rgb_mul(share, real_faded(s, hit.material, hit.t, true));
-        } else {
-            inside_enter(&inside, body, study_interior(s->p, hit.material), false);
         }
         ray.e = hit.point;
         distance -= hit.t;
@@ -215,7 +231,7 @@ typedef struct RealJunction {
     const PreparedFinish *finish;
     Rgbft pigment;
     RealRgb reflectance;
-    Real ior_ratio;
+    Real ior_ratio, fresnel_ratio;
     Inside behind;
     bool leaves; // what the ray is in
 } RealJunction;
@@ -293,16 +309,16 @@ static void real_join(const RealScene *s, const RealWay *way, const Inside *insi
     j->normal = real_scale(j->at.inside ? -1 : 1, j->at.normal);
     j->pigment = study_pigment(s->p, j->at.material, &j->finish);
     inside_copy(&j->behind, inside);
-    uint64_t body = scene_body_key(s->scene, j->at.order, 0);
-    j->leaves = inside_leave(&j->behind, body);
-    if (!j->leaves) {
-        inside_enter(&j->behind, body, study_interior(s->p, j->at.material), false);
-    }
+    j->leaves = real_cross(s, &j->at, &j->behind);
     j->ior_ratio = (Real)inside_ior(s->p->interiors, &j->behind) / (Real)inside_ior(s->p->interiors, inside);
+    bool is_nested = j->leaves && inside->count > 1;
+    uint32_t own = study_interior(s->p, j->at.material);
+    Real own_ior = own == RECORD_NONE ? 1 : (Real)s->p->interiors[own].ior;
+    j->fresnel_ratio = is_nested ? (Real)inside_ior(s->p->interiors, inside) / own_ior : j->ior_ratio;
     j->reflectance = real_grey(0);
     if (j->finish->reflects) {
         j->reflectance = real_reflectance(j->finish, real_rgb(rgbft_rgb(j->pigment)), -real_dot(j->normal, way->ray.d),
-                                          j->ior_ratio);
+                                          j->fresnel_ratio);
     }
 }
 

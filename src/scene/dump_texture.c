@@ -243,6 +243,9 @@ static void dump_interior(const Interior *interior, size_t number, TextBuffer *o
     dump_number(out, " fade_distance ", interior->fade_distance);
     dump_number(out, " fade_power ", interior->fade_power);
     dump_rgb(out, " fade_color ", interior->fade_colour);
+    if (interior->caustics != 0.0) {
+        dump_number(out, " caustics ", interior->caustics);
+    }
     text_append(out, " }\n");
 }
 

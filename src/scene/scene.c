@@ -408,12 +408,21 @@ uint32_t scene_body(const Scene *scene, uint32_t order)
     return body;
 }
 
+// The upper half of a key.
+enum { KEY_INNER = 1, KEY_WHOLE = 2, KEY_SHAPE = 3 };
+
+uint64_t scene_shape_key(uint32_t order, uint32_t inner)
+{
+    return inner ? (uint64_t)KEY_INNER << 32 | inner : (uint64_t)KEY_SHAPE << 32 | order;
+}
+
+bool scene_shape_is_key(uint64_t key)
+{
+    return key >> 32 == KEY_SHAPE;
+}
+
 uint64_t scene_body_key(const Scene *scene, uint32_t order, uint32_t inner)
 {
-    enum { INNER = 1, WHOLE = 2, SHAPE = 3 };
-    if (inner) {
-        return (uint64_t)INNER << 32 | inner;
-    }
-    uint32_t body = scene->bodies.count ? scene_body(scene, order) : RECORD_NONE;
-    return body == RECORD_NONE ? (uint64_t)SHAPE << 32 | order : (uint64_t)WHOLE << 32 | body;
+    uint32_t body = !inner && scene->bodies.count ? scene_body(scene, order) : RECORD_NONE;
+    return body == RECORD_NONE ? scene_shape_key(order, inner) : (uint64_t)KEY_WHOLE << 32 | body;
 }

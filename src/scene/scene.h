@@ -183,6 +183,7 @@ typedef struct Interior {
     double fade_distance; // light is halved on this way; 0: none is lost
     double fade_power;    // 1 / (1 + (way / distance)^power), from 1000 on exp(-way / distance)
     Rgb fade_colour;      // what is left in the end
+    double caustics;      // exponent of the light that is gathered behind a surface, see docs/language.md; 0: none is
 } Interior;
 
 // What is more than a plain material.
@@ -492,6 +493,10 @@ uint32_t scene_body(const Scene *scene, uint32_t order);
 
 // A number that is the same for surfaces of one body and no others. `inner` is a leaf's Part.body, else 0.
 uint64_t scene_body_key(const Scene *scene, uint32_t order, uint32_t inner);
+
+// The same as if each shape were a body, and whether a key is that of a shape, whose order is its lower half.
+uint64_t scene_shape_key(uint32_t order, uint32_t inner);
+bool scene_shape_is_key(uint64_t key);
 
 // Checks what only the whole scene can tell (a camera is missing, …) and what the renderer relies on. False when a
 // fault was reported; the renderer may then not be called. Many spheres are looked through on several threads.

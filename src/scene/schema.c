@@ -478,6 +478,8 @@ static const SchemaProperty interior_properties[] = {
      .doc = "1 / (1 + (way / distance) ^ power); from 1000 on exp(-way / distance)"},
     {"fade_color", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "what the light fades to"},
     {"fade_colour", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "the same"},
+    {"caustics", TYPE_NUMBER, AT(InteriorBlueprint, interior.caustics),
+     .doc = "how narrow the light is that is gathered where its way through the surface is straight; 0: none is"},
 };
 
 static const InteriorBlueprint interior_defaults = {.interior = {.ior = 1.0}};

@@ -143,6 +143,7 @@ INTERIOR = {
     "ior": "interior { ior {1.1~1.8} }",
     "fade": "interior { ior {1.05~1.3} fade_distance {0.3~1.5} fade_power {0.5~3} }",
     "fade colour": "interior { fade_distance {0.3~1.5} fade_power 1001 fade_color {rgb} }",
+    "caustics": "interior { ior {1~1.4} caustics {0.02~0.6} }",
     "material": "",  # the texture and an interior in one, see object_text
 }
 TRANSFORM = {

@@ -93,6 +93,18 @@ def judge_around(tap, folder):
                    f"{function}: {without} instructions where there is none, {with_it} where there is")
 
 
+def judge_clip(tap, folder):
+    """A box that holds the sphere that it clips takes no instruction of a ray; one that does not takes some."""
+    taken = {clip: scene_instructions(SPHERE.replace("pigment", clip + " pigment"), "render_film", folder)
+             for clip in ("", "clipped_by { box { <-1, -1, 4>, <1, 1, 6> } }", "clipped_by { box { <-1, -1, 4>, <1, 0.5, 6> } }")}
+    counts = list(taken.values())
+    if not all(counts):
+        tap.skip("clips", "callgrind does not run rtlang")
+    else:
+        tap.ok(counts[0] == counts[1] < counts[2], f"a sphere takes {counts[0]} instructions, {counts[1]} in a box that "
+               f"holds it, {counts[2]} in one that cuts it")
+
+
 def judge_ordinary(tap, folder):
     """No sphere of an example is decided by double words; one that is met at its very edge is."""
     touched = "camera { orthographic location <1 / 32, 1 + 1 / 24, -5> look_at <1 / 32, 1 + 1 / 24, 0> right x up y }\nsphere { 0, 1 } light_source { 9, 1 }\n"
@@ -146,6 +158,7 @@ def main():
             if os.path.exists(program):
                 judge_loop(tap, name, program, folder)
         judge_around(tap, folder)
+        judge_clip(tap, folder)
         judge_ordinary(tap, folder)
         if os.path.exists(KERNELS):
             judge_absent(tap, folder)
