@@ -32,6 +32,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
     [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
+    [ACTION_NOISE_GENERATOR] = settings_generator_action,
     [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
     [ACTION_LOOKS_LIKE] = light_look_action,
 };

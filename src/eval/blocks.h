@@ -209,6 +209,7 @@ bool image_place(Eval *ev, const ImageBlueprint *image, uint32_t *index) RT_MUST
 // A gamma after its word, whose name and place are for messages: a number, or `srgb`, which leaves *gamma as it is.
 bool settings_read_gamma(Block *block, const char *name, Span word, GammaModel *model, double *gamma) RT_MUST_CHECK;
 bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool settings_generator_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
 
 // extent.c

@@ -5,6 +5,8 @@
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
 
+#include <stddef.h>
+
 bool settings_read_gamma(Block *block, const char *name, Span word, GammaModel *model, double *gamma)
 {
     if (cursor_at_word(&block->cursor, W_srgb)) {
@@ -42,6 +44,17 @@ bool settings_gamma_action(Block *block, const SchemaProperty *property, const A
     settings->gamma_model = model;
     settings->assumed_gamma = gamma;
     return true;
+}
+
+// Once said it is 1, 2 or 3, as in POV-Ray; unsaid, the version decides.
+bool settings_generator_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty number = {.word = "noise_generator",
+                                          .type = TYPE_INTEGER,
+                                          .range = {RANGE_FAULT, false, 1.0, 3.0},
+                                          .at = offsetof(SettingsBlueprint, noise_generator)};
+    (void)property;
+    return block_value(block, &number, item->span);
 }
 
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)

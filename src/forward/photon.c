@@ -119,7 +119,6 @@ static Rgb scattered_light(const Prepared *prepared, const Scattered *at, Vec3 d
                         .direction = vec3_neg(direction),
                         .shape = at->shape,
                         .ior_ratio = 1.0,
-                        .fresnel_ratio = 1.0,
                         .inside = inside};
     return rgb_scale(at->stands_for, shade_light(prepared, FEATURES, &at->material, at->light, &point, &unused));
 }

@@ -42,7 +42,8 @@ RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *mater
     if (!(features & RENDER_REFLECTION) || !material->finish->reflects) {
         return false;
     }
-    *reflectance = shade_reflectance(features, material, -vec3_dot(at->normal, at->direction), at->fresnel_ratio);
+    double ratio = at->before ? at->fresnel_ratio : 1.0;
+    *reflectance = shade_reflectance(features, material, -vec3_dot(at->normal, at->direction), ratio);
     return true;
 }
 
@@ -125,7 +126,6 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
                        .body = surface.body,
                        .interior = has_interiors ? shade_interior(p, surface.material) : RECORD_NONE,
                        .ior_ratio = 1.0,
-                       .fresnel_ratio = 1.0,
                        .way = has_interiors ? hit.t * p->textures.scale : 0.0,
                        .inside = hit.inside,
                        .stream = features & RENDER_LIGHTS ? stream : NULL};

@@ -26,12 +26,12 @@ typedef struct ShadePoint {
     uint32_t body;     // likewise: Surface.body
     uint32_t interior; // of the shape
     double ior_ratio;  // index of refraction behind the surface over the one before it
-    double fresnel_ratio; // the same as inside_fresnel_ratio has it
     double way;        // of the ray that found it, in the scene's lengths; where there are interiors
     bool inside;  // the ray met the surface from the side where the shape is
     bool leaves;  // what the ray is in; where there are interiors
-    const Inside *before; // what the ray is inside of, as it comes; NULL where there are no interiors
     SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
+    const Inside *before; // what the ray is inside of as it arrives; NULL where there are no interiors
+    double fresnel_ratio; // of index of refraction, as inside_fresnel_ratio has it; where `before` is
 } ShadePoint;
 
 // What a surface is made of at a point. "Opaque share" is 1 - filter - transmit, and in old scenes

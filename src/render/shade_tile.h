@@ -49,7 +49,6 @@ RT_ALWAYS_INLINE ShadePoint shade_tile_point(const LightTile *tile, int i, Mater
                         .material = material,
                         .interior = RECORD_NONE,
                         .ior_ratio = 1.0,
-                        .fresnel_ratio = 1.0,
                         .inside = from->inside >> i & 1,
                         .stream = stream};
 }

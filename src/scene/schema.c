@@ -323,7 +323,7 @@ static const SchemaProperty settings_properties[] = {
      .doc = "generations of mirrored rays, the camera's included"},
     {"adc_bailout", TYPE_NUMBER, AT(SettingsBlueprint, adc_bailout), .range = {RANGE_FAULT, false, -INFINITY, 1.0},
      .doc = "rays that weigh less are not followed; those of the camera weigh 1"},
-    {"noise_generator", TYPE_INTEGER, AT(SettingsBlueprint, noise_generator), .range = {RANGE_FAULT, false, 1.0, 3.0},
+    {"noise_generator", TYPE_ACTION, ACTION_NOISE_GENERATOR,
      .doc = "of all patterns that say nothing else: 1, 2 or 3; unless said 2, or 1 before version 3.5"},
     {"number_of_waves", TYPE_INTEGER, AT(SettingsBlueprint, number_of_waves),
      .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of `ripples` and `waves`: points they come from"},

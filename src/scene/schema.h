@@ -104,6 +104,7 @@ typedef enum SchemaAction {
     ACTION_ASSUMED_GAMMA,
     ACTION_SKY_LAYER,
     ACTION_TURBULENCE,
+    ACTION_NOISE_GENERATOR,
     ACTION_COUNT
 } SchemaAction;
 

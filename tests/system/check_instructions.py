@@ -96,7 +96,7 @@ def judge_around(tap, folder):
 def judge_clip(tap, folder):
     """A box that holds the sphere that it clips takes no instruction of a ray; one that does not takes some."""
     taken = {clip: scene_instructions(SPHERE.replace("pigment", clip + " pigment"), "render_film", folder)
-             for clip in ("", "clipped_by { box { <-1, -1, 4>, <1, 1, 6> } }", "clipped_by { box { <-1, -1, 4>, <1, 0.5, 6> } }")}
+             for clip in ("", "clipped_by { box { <-1.1, -1.1, 3.9>, <1.1, 1.1, 6.1> } }", "clipped_by { box { <-1.1, -1.1, 3.9>, <1.1, 0.5, 6.1> } }")}
     counts = list(taken.values())
     if not all(counts):
         tap.skip("clips", "callgrind does not run rtlang")
