@@ -15,23 +15,24 @@
 #include "check/povray_run.h"
 #include "rtlang/rtlang.h"
 
-// Pixels, to the right and down.
+// How much larger it is, how far beside its place, and how many pixels the picture is to the right and down.
 typedef struct Place {
-    double scale, right, down;
+    double scale, beside, right, down;
 } Place;
 
-// Where the scene is; a thousand times as large; moved, in directions that are spread evenly, and every fourth time in
-// one of those sizes as well. Powers of two change no other bit. The lengths that POV-Ray takes for nothing are about
-// 1e-3 and less, those that it takes for endless 1e7 and more.
+// Where the scene is; a thousand times as large; then its picture moved, in directions that are spread evenly, and every
+// other time the scene put into one of those sizes or beside its place as well. Powers of two change no other bit. The
+// lengths that POV-Ray takes for nothing are about 1e-3 and less, those that it takes for endless 1e7 and more.
 static Place place_number(int i)
 {
     static const double scales[] = {0x1p10, 0x1p6, 0x1p14};
     const double golden_angle = 2.399963229728653;
 
     if (i < 2) {
-        return (Place){i == 0 ? 1.0 : 0x1p10, 0.0, 0.0};
+        return (Place){i == 0 ? 1.0 : 0x1p10, 0.0, 0.0, 0.0};
     }
-    return (Place){i % 4 == 1 ? scales[i / 4 % 3] : 1.0, 1e-6 * cos(golden_angle * i), 1e-6 * sin(golden_angle * i)};
+    return (Place){i % 4 == 1 ? scales[i / 4 % 3] : 1.0, i % 4 == 3 ? 1.0 + 0.1 * i : 0.0,
+                   1e-6 * cos(golden_angle * i), 1e-6 * sin(golden_angle * i)};
 }
 
 typedef struct Comparison {
@@ -41,7 +42,7 @@ typedef struct Comparison {
 
 static rt_status place_load(rt_session *session, const ElsewhereJob *job, const Place *place)
 {
-    static const double nowhere[3] = {0.0, 0.0, 0.0};
+    const double shift[3] = {0.6180339887 * place->beside, -0.7548776662 * place->beside, 0.5698402910 * place->beside};
     const Options *options = job->options;
     rt_status status = rt_set_size(session, options->width, options->height);
 
@@ -49,7 +50,7 @@ static rt_status place_load(rt_session *session, const ElsewhereJob *job, const 
         status = rt_add_include_path(session, job->include_paths[i]);
     }
     status = status == RT_OK && options->clock_given ? rt_set_clock(session, options->clock) : status;
-    status = status == RT_OK ? rt_set_world(session, place->scale, nowhere) : status;
+    status = status == RT_OK ? rt_set_world(session, place->scale, shift) : status;
     status = status == RT_OK ? rt_load_file(session, job->scene) : status;
     return status == RT_OK && (place->right != 0.0 || place->down != 0.0)
                ? rt_move_picture(session, place->right, place->down)
@@ -111,7 +112,7 @@ static bool place_draw(const ElsewhereJob *job, const char *scene, const char *p
 static bool is_unsure(const ElsewhereJob *job, const Comparison *pictures, const Place *place, size_t pixel)
 {
     double apart = image_pixel_difference(pictures->ours, pictures->theirs, pixel);
-    bool is_only_moved = place->scale == 1.0 && pictures->unmoved->values != NULL;
+    bool is_only_moved = place->scale == 1.0 && place->beside == 0.0 && pictures->unmoved->values != NULL;
 
     return image_pixel_difference(pictures->ours, pictures->other, pixel) <= job->threshold ||
            (is_only_moved && 2.0 * image_pixel_difference(pictures->unmoved, pictures->other, pixel) >= apart);

@@ -202,7 +202,7 @@ def render(record, options, folders):
     """Adds what rtcheck says of an accepted scene."""
     path, record["without_chance"] = without_chance(record["path"])
     command = [os.environ["RTCHECK"], "--json", "-j1", "-W160", "-H120", f"--elsewhere={ELSEWHERE}", *(f"-I{place}" for place in folders)]
-    done = call(command, path, options.timeout)
+    done = call(command, path, options.timeout * (ELSEWHERE + 2))
     if not done:
         record["picture"] = {"failed": "time limit"}
     else:
