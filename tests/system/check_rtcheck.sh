@@ -42,6 +42,8 @@ stand_in cut 'head -c 100 "$ours" > "$output"'
 stand_in exchanged 'sed "s/rgb 1, rgb 0/rgb 0, rgb 1/" doubt.scn > ../exchanged.scn
 "$RTLANG" -q -W 16 -H 8 --depth=16 --file-gamma=1 -o "$output" ../exchanged.scn'
 
+stand_in once 'case $output in *elsewhere.png) exit 1;; esac
+"$TMPDIR/../exchanged" "$@"'
 # The same, but where the scene is put elsewhere it draws what rtlang draws in all pixels but those of the left half.
 stand_in settled 'for a; do case $a in +I*) input=${a#+I?}; input=${input%?};; esac; done
 case $input in
@@ -147,7 +149,7 @@ expect 'what POV-Ray draws otherwise elsewhere does not count' 1 '*"beyond 128 "
 expect 'and need not' 0 '*"\"agrees\": true, "*"\"beyond\": 128, "*"\"not_elsewhere\": 64"*' \
     --json -W 16 -H 8 --elsewhere 2 --ties 64/128 --povray "$work/settled" doubt.scn
 expect 'POV-Ray need not be able to draw it' 1 '*"beyond 128 "*"255 128, rtlang "*"x): FAIL"' \
-    -W 16 -H 8 --elsewhere 2 --povray "$work/exchanged" doubt.scn
+    -W 16 -H 8 --elsewhere 2 --povray "$work/once" doubt.scn
 expect 'no number of places' 2 '*"--elsewhere wants a whole number from 1 to 100"*' --elsewhere 101 'a scene.scn'
 expect 'no number of doubts' 2 '*"--doubts wants a whole number from 1 to 1000"*' --doubts 0 'a scene.scn'
 expect 'help' 0 '"Usage: rtcheck "*' --help
