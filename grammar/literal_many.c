@@ -20,6 +20,7 @@
 enum {
     PIECE_BYTES = 1 << 20,
     READERS_MOST = 64,
+    PIECES_LEAST = 2,     // of less, one thread reads as fast
     STATEMENT_LEAST = 16, // bytes; `sphere{<0,0,0>,1}` has 17
 };
 
@@ -36,8 +37,8 @@ typedef struct Readers {
     uint64_t position; // of the first piece in the source
     uint64_t size;     // of the source
     size_t bytes;      // of a piece
-    int count;         // pieces
-    atomic_int next;
+    int count;         // pieces that there is room for, or text
+    atomic_int next;   // the first that no thread has taken yet
     Piece pieces[READERS_MOST];
 } Readers;
 
@@ -112,7 +113,7 @@ static Readers *readers_new(const GrammarState *state, size_t bytes, int count)
     }
     readers->state = state;
     readers->bytes = bytes;
-    readers->count = count < READERS_MOST ? count : READERS_MOST;
+    readers->count = count;
     for (int i = 0; i < readers->count; i++) {
         readers->pieces[i].text = malloc(bytes + LITERAL_STATEMENT_LONGEST + 1);
         readers->pieces[i].literals = malloc((bytes / STATEMENT_LEAST + 2) * sizeof(GrammarLiteral));
@@ -191,12 +192,20 @@ static bool pieces_take_together(GrammarState *state, const Readers *readers, in
     return true;
 }
 
+// How many whole pieces are left from a position on, up to `most`.
+static int pieces_left(uint64_t size, uint64_t position, size_t bytes, int most)
+{
+    uint64_t left = (size - position) / bytes;
+    return left < (uint64_t)most ? (int)left : most;
+}
+
 // One round of all threads. False when there is something else, or too little is left.
 static bool read_round(GrammarState *state, Readers *readers)
 {
     uint64_t start = state->offset;
     readers->position = start - source_base(state->source);
-    if (readers->size - readers->position < (uint64_t)readers->count * readers->bytes) {
+    readers->count = pieces_left(readers->size, readers->position, readers->bytes, readers->count);
+    if (readers->count < PIECES_LEAST) {
         return false;
     }
     atomic_store(&readers->next, 0);
@@ -219,15 +228,14 @@ bool grammar_literals_read_many(GrammarState *state)
     const GrammarHooks *hooks = state->context->hooks;
     uint64_t base = source_base(state->source), before = state->offset;
     size_t bytes = hooks->literal_piece > 0 ? hooks->literal_piece : PIECE_BYTES;
-    Span whole = source_extent(state->source);
-    if (hooks->literal_threads < 2 || whole.end - before < (uint64_t)hooks->literal_threads * bytes) {
-        return false;
-    }
-    Readers *readers = readers_new(state, bytes, hooks->literal_threads);
+    uint64_t size = source_extent(state->source).end - base;
+    int threads = hooks->literal_threads < READERS_MOST ? hooks->literal_threads : READERS_MOST;
+    int count = pieces_left(size, before - base, bytes, threads);
+    Readers *readers = count < PIECES_LEAST ? NULL : readers_new(state, bytes, count);
     if (readers == NULL) {
         return false; // they are read one by one
     }
-    readers->size = whole.end - base;
+    readers->size = size;
     while (read_round(state, readers)) {
     }
     readers_free(readers);
