@@ -72,11 +72,15 @@ static Outcome read_text(const TextBuffer *text, int threads, size_t piece, uint
 
 // ---- texts
 
-static void write_sphere(TextBuffer *text, Random *random, bool has_colour)
+typedef enum Colour { COLOUR_NONE, COLOUR_NEW, COLOUR_ONE_OF_TWO } Colour;
+
+static void write_sphere(TextBuffer *text, Random *random, Colour colour)
 {
     text_printf(text, "sphere { <%.5f, %.5f, %.5f>, %.4f ", random_between(random, -5, 5), random_between(random, -5, 5),
                 random_between(random, -5, 5), random_between(random, 0.01, 0.1));
-    if (has_colour) {
+    if (colour == COLOUR_ONE_OF_TWO) {
+        text_printf(text, "pigment { rgb <0.5, 0.25, %u> } }\n", random_below(random, 2));
+    } else if (colour == COLOUR_NEW) {
         text_printf(text, "pigment { rgb <%.4f, %.4f, %.4f> } }\n", random_between(random, 0, 1),
                     random_between(random, 0, 1), random_between(random, 0, 1));
     } else {
@@ -107,20 +111,22 @@ static const char *const odd[] = {
 
 static void write_text(TextBuffer *text, Random *random, bool has_many_colours)
 {
-    int count = has_many_colours ? SPHERES_MANY + 3000 : SPHERES_FEW, quiet = has_many_colours ? SPHERES_MANY - 300 : 4500;
+    int count = has_many_colours ? SPHERES_MANY + 6000 : SPHERES_FEW, quiet = has_many_colours ? SPHERES_MANY - 4000 : 4500;
+    int sane = quiet + (has_many_colours ? 6000 : 0); // as it is with repeated colours, but torn by nothing yet
     unsigned oddity = 20 + random_below(random, 1500);
     for (int i = 0; i < count; i++) {
-        bool is_plain = i < quiet || random_below(random, oddity) > 0;
+        bool is_plain = i < sane || random_below(random, oddity) > 0;
         if (!is_plain) {
             text_append(text, odd[random_below(random, RT_COUNT_OF(odd))]);
         }
         for (unsigned blanks = random_below(random, 64) == 0 ? random_below(random, 300) : 0; blanks > 0; blanks--) {
             text_append_char(text, " \n\t"[random_below(random, 3)]);
         }
-        write_sphere(text, random, has_many_colours || random_below(random, 3) > 0);
-        if (i > quiet && random_below(random, 40) == 0) { // of one colour, and of one that is given again
-            write_sphere(text, random, false);
-            text_append(text, "sphere { <1, 7, 3>, 1 pigment { rgb <0.25, 0, 1> } }\nsphere { <2, 7, 3>, 1 pigment { rgb <0.25, 0, 1> } }\n");
+        // Where materials are not looked up any more, some are those of the sphere before.
+        bool is_repeated = has_many_colours ? i > quiet : random_below(random, 3) > 0;
+        write_sphere(text, random, !is_repeated ? (has_many_colours ? COLOUR_NEW : COLOUR_NONE) : COLOUR_ONE_OF_TWO);
+        if (i > quiet && random_below(random, 40) == 0) {
+            write_sphere(text, random, random_below(random, 2) == 0 ? COLOUR_NEW : COLOUR_NONE);
         }
     }
 }
