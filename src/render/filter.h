@@ -21,20 +21,20 @@ typedef enum FilterKind {
 // "box", …; NULL for FILTER_COUNT.
 const char *filter_name(FilterKind kind);
 
-enum { FILTER_STEPS = 256 };
+enum { FILTER_STEPS = 4096 };
 
 // A filter prepared: the inverse of the integral of its size along one axis.
 typedef struct Filter {
     FilterKind kind;
     double inverse[FILTER_STEPS + 1]; // place for each step of the integral; not of the box
-    double scale;                     // 1 over the integral of the filter along one axis
+    double weight;                    // of a sample along one axis, but for its sign; 1 where none is negative
 } Filter;
 
 void filter_init(Filter *filter, FilterKind kind);
 
 typedef struct FilterSample {
     double x, y;   // from the pixel's middle, in pixels
-    double weight; // of mean 1
+    double weight; // of mean 1; 1 where the filter is positive, so that even light stays even
 } FilterSample;
 
 FilterSample filter_sample(const Filter *filter, SamplePoint at);
