@@ -11,6 +11,7 @@
     X(tree_dull, "tree+shadows, no highlights", GEOMETRY_TREE, RENDER_SHADOWS)                                         \
     X(tree_shadows, "tree+shadows", GEOMETRY_TREE, SHADING_SHADOWS)                                                    \
     X(tree_mirrors, "tree+shadows+mirrors", GEOMETRY_TREE, SHADING_MIRRORS)                                            \
+    X(tree_clear, "tree+shadows+transparency", GEOMETRY_TREE, SHADING_SHADOWS | RENDER_TRANSPARENCY)                   \
     X(tree_any, "tree+shadows+mirrors+transparency", GEOMETRY_TREE, SHADING_ANY)                                       \
     X(many_plain, "tree+planes", GEOMETRY_MANY, SHADING_PLAIN)                                                         \
     X(many_shadows, "tree+planes+shadows", GEOMETRY_MANY, SHADING_SHADOWS)                                             \
