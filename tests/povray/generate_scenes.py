@@ -322,7 +322,9 @@ def plan(count, seed):
 def fill(rng, text):
     """The text with numbers, colours and vectors in the places of its words in braces."""
     def number(low, high, digits=3):
-        return f"{rng.uniform(low, high):.{digits}f}"
+        """Never a round one: a face at 0.600 lies on the edge of a checker of scale 0.3, where rounding decides on all of it."""
+        text = f"{rng.uniform(low, high):.{digits}f}"
+        return text + "7" if text.endswith("00") else text
 
     def replace(match):
         word = match.group()
