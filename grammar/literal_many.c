@@ -9,7 +9,6 @@
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE // memmem
 #endif
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,7 +37,6 @@ typedef struct Readers {
     uint64_t size;     // of the source
     size_t bytes;      // of a piece
     int count;         // pieces that there is room for, or text
-    atomic_int next;   // the first that no thread has taken yet
     Piece pieces[READERS_MOST];
 } Readers;
 
@@ -78,13 +76,12 @@ static void piece_scan(const Readers *readers, Piece *piece, size_t length, size
     piece->end = (size_t)(at - piece->text);
 }
 
-static void readers_work(void *client, int thread)
+static void readers_work(void *client, size_t begin, size_t end)
 {
     Readers *readers = client;
-    (void)thread;
-    for (int i; (i = atomic_fetch_add(&readers->next, 1)) < readers->count;) {
+    for (size_t i = begin; i < end; i++) {
         Piece *piece = &readers->pieces[i];
-        uint64_t position = readers->position + (uint64_t)i * readers->bytes;
+        uint64_t position = readers->position + i * readers->bytes;
         uint64_t left = readers->size - position;
         size_t wanted = readers->bytes + LITERAL_STATEMENT_LONGEST;
         size_t length = left < wanted ? (size_t)left : wanted;
@@ -208,8 +205,7 @@ static bool read_round(GrammarState *state, Readers *readers)
     if (readers->count < PIECES_LEAST) {
         return false;
     }
-    atomic_store(&readers->next, 0);
-    (void)parallel_run(readers->count, readers_work, readers);
+    parallel_share(readers->count, (size_t)readers->count, 1, readers_work, readers);
     bool is_whole;
     int count = pieces_fitting(readers, &is_whole);
     if (count > 0 && pieces_take_together(state, readers, count, start)) {

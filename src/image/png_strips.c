@@ -39,7 +39,6 @@ struct PngStrips {
     int given;                // pieces of them that were given
     unsigned long checksum;   // of all before `first`
     unsigned char trailer[4];
-    atomic_int next;
     atomic_bool failed;
     Strip strips[BATCH];
 };
@@ -154,12 +153,11 @@ static bool strip_make(PngStrips *strips, int index)
     return fine;
 }
 
-static void strips_work(void *client, int number)
+static void strips_work(void *client, size_t begin, size_t end)
 {
     PngStrips *strips = client;
-    (void)number;
-    for (int i; (i = atomic_fetch_add(&strips->next, 1)) < strips->made;) {
-        if (!strip_make(strips, strips->first + i)) {
+    for (size_t i = begin; i < end; i++) {
+        if (!strip_make(strips, strips->first + (int)i)) {
             atomic_store(&strips->failed, true);
         }
     }
@@ -172,9 +170,7 @@ bool png_strips_next(PngStrips *strips, bool *failed)
     int left = strips->count - strips->first;
     strips->made = left < BATCH ? left : BATCH;
     strips->given = 0;
-    atomic_store(&strips->next, 0);
-    int threads = strips->encoder->encoding.threads;
-    parallel_run(threads < strips->made ? threads : strips->made, strips_work, strips);
+    parallel_share(strips->encoder->encoding.threads, (size_t)strips->made, 1, strips_work, strips);
     for (int i = 0; i < strips->made; i++) {
         const Strip *strip = &strips->strips[i];
         strips->checksum = adler32_combine(strips->checksum, strip->checksum, (z_off_t)strip->raw_size);

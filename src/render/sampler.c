@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/attributes.h"
+#include "base/isa.h"
 #include "render/sampler_many.h"
 #include "render/sobol.h"
 
@@ -159,14 +160,7 @@ SamplePoint sample_next(SampleStream *stream)
 
 // ---- many at once
 
-extern const SobolKernel sobol_kernel_plain;
-#ifdef __x86_64__
-extern const SobolKernel sobol_kernel_v2, sobol_kernel_v3, sobol_kernel_v4;
-static const SobolKernel *const sobol_kernels[] = {&sobol_kernel_plain, &sobol_kernel_v2, &sobol_kernel_v3,
-                                                   &sobol_kernel_v4};
-#else
-static const SobolKernel *const sobol_kernels[] = {&sobol_kernel_plain};
-#endif
+ISA_LIST(SobolKernel, sobol_kernel_, sobol_kernels);
 
 const SobolKernel *sobol_kernel_choose(const char *name)
 {

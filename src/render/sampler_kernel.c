@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
+#include "base/isa.h"
 #include "render/sampler_many.h"
 #include "render/sobol.h"
 
@@ -63,10 +64,5 @@ static void places(uint32_t stream_seed, uint32_t pair, uint32_t index, uint32_t
     }
 }
 
-#define TEXT_OF(name)  TEXT_OF_(name)
-#define TEXT_OF_(name) #name
-#define JOINED(a, b)   JOINED_(a, b)
-#define JOINED_(a, b)  a##b
-
-extern const SobolKernel JOINED(sobol_kernel_, SPHERE_KERNELS);
-const SobolKernel JOINED(sobol_kernel_, SPHERE_KERNELS) = {TEXT_OF(SPHERE_KERNELS), places};
+extern const SobolKernel ISA_NAMED(sobol_kernel_);
+const SobolKernel ISA_NAMED(sobol_kernel_) = {ISA_TEXT, places};

@@ -5,13 +5,9 @@
 
 #include <string.h>
 
-extern const TileLights tile_lights_plain;
-#ifdef __x86_64__
-extern const TileLights tile_lights_v2, tile_lights_v3, tile_lights_v4;
-static const TileLights *const tables[] = {&tile_lights_plain, &tile_lights_v2, &tile_lights_v3, &tile_lights_v4};
-#else
-static const TileLights *const tables[] = {&tile_lights_plain};
-#endif
+#include "base/isa.h"
+
+ISA_LIST(TileLights, tile_lights_, tables);
 
 const TileLights *tile_lights_choose(const char *name)
 {

@@ -4,6 +4,7 @@
 // whole, one by one where it must be.
 //
 // SPDX-License-Identifier: MIT
+#include "base/isa.h"
 #include "render/shade_light.h"
 #include "render/tile_light.h"
 #include "trace/simd.h"
@@ -212,10 +213,5 @@ static void tile_add(LightTile *tile, const PreparedLight *light, uint64_t lit)
     }
 }
 
-#define TEXT_OF(name)  TEXT_OF_(name)
-#define TEXT_OF_(name) #name
-#define JOINED(a, b)   JOINED_(a, b)
-#define JOINED_(a, b)  a##b
-
-extern const TileLights JOINED(tile_lights_, SPHERE_KERNELS);
-const TileLights JOINED(tile_lights_, SPHERE_KERNELS) = {TEXT_OF(SPHERE_KERNELS), tile_aim, tile_add};
+extern const TileLights ISA_NAMED(tile_lights_);
+const TileLights ISA_NAMED(tile_lights_) = {ISA_TEXT, tile_aim, tile_add};

@@ -7,10 +7,10 @@
 #include "trace/spheres.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/isa.h"
 #include "base/pages.h"
 #include "base/parallel.h"
 
@@ -27,14 +27,7 @@ enum {
 
 // ---- kernels
 
-extern const SphereKernels sphere_kernels_plain;
-#ifdef __x86_64__
-extern const SphereKernels sphere_kernels_v2, sphere_kernels_v3, sphere_kernels_v4;
-static const SphereKernels *const kernels[] = {&sphere_kernels_plain, &sphere_kernels_v2, &sphere_kernels_v3,
-                                               &sphere_kernels_v4};
-#else
-static const SphereKernels *const kernels[] = {&sphere_kernels_plain};
-#endif
+ISA_LIST(SphereKernels, sphere_kernels_, kernels);
 
 const SphereKernels *sphere_kernels_at(size_t i)
 {
@@ -72,7 +65,6 @@ typedef struct Maker {
     uint32_t tree_count;    // of those
     uint32_t *first_blocks; // of each chunk of nodes
     uint32_t loose[LOOSE_SPHERES_MOST];
-    atomic_uint next; // the first chunk that no thread has taken yet
 } Maker;
 
 static double maker_length(const Maker *maker, double length)
@@ -122,11 +114,12 @@ static double large_radius_squared(const Maker *maker)
     return sample_count ? samples[sample_count / 2] * (LARGE_RADIUS_RATIO * LARGE_RADIUS_RATIO) : (double)INFINITY;
 }
 
-static void chunk_measure(const Maker *maker, size_t number)
+static void measure_work(void *client, size_t begin, size_t end)
 {
+    const Maker *maker = client;
     Chunk chunk = {.low = {(double)INFINITY, (double)INFINITY, (double)INFINITY},
                    .high = {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}};
-    for (size_t i = number * CHUNK; i < chunk_end(maker, number); i++) {
+    for (size_t i = begin; i < end; i++) {
         Ball ball = maker_ball(maker, i);
         if (!ball_is_usable(&ball)) {
             continue;
@@ -141,23 +134,13 @@ static void chunk_measure(const Maker *maker, size_t number)
         chunk.high = vec3_greatest(chunk.high, c);
         chunk.radius_squared = ball.radius_squared > chunk.radius_squared ? ball.radius_squared : chunk.radius_squared;
     }
-    maker->chunks[number] = chunk;
+    maker->chunks[begin / CHUNK] = chunk;
 }
 
-static void measure_work(void *client, int thread)
+// Threads for work on all spheres of the scene, by chunks.
+static void maker_share(Maker *maker, int threads, void (*work)(void *client, size_t begin, size_t end))
 {
-    Maker *maker = client;
-    (void)thread;
-    for (size_t chunk; (chunk = atomic_fetch_add(&maker->next, 1)) < chunk_count(maker);) {
-        chunk_measure(maker, chunk);
-    }
-}
-
-// Threads for work that is shared by chunks.
-static void maker_share(Maker *maker, int threads, void (*work)(void *client, int thread))
-{
-    atomic_store(&maker->next, 0);
-    parallel_run(chunk_count(maker) < (size_t)threads ? (int)chunk_count(maker) : threads, work, maker);
+    parallel_share(threads, maker->scene->spheres.count, CHUNK, work, maker);
 }
 
 // Counts usable and large spheres; what is large is loose if there are few of them.
@@ -197,10 +180,11 @@ static void maker_place(Maker *maker)
     bvh_place(&maker->table->bvh, vec3_sub(all.low, margin), vec3_add(all.high, margin));
 }
 
-static void chunk_refs(const Maker *maker, size_t number)
+static void refs_work(void *client, size_t begin, size_t end)
 {
-    BvhRef *ref = maker->refs + maker->chunks[number].first;
-    for (size_t i = number * CHUNK; i < chunk_end(maker, number); i++) {
+    const Maker *maker = client;
+    BvhRef *ref = maker->refs + maker->chunks[begin / CHUNK].first;
+    for (size_t i = begin; i < end; i++) {
         Ball ball = maker_ball(maker, i);
         if (ball_is_usable(&ball) && ball.radius_squared <= maker->limit) {
             double r = sqrt(ball.radius_squared);
@@ -208,15 +192,6 @@ static void chunk_refs(const Maker *maker, size_t number)
             *ref++ = bvh_ref(&maker->table->bvh, vec3_sub(ball.centre, radius), vec3_add(ball.centre, radius),
                              (uint32_t)i);
         }
-    }
-}
-
-static void refs_work(void *client, int thread)
-{
-    Maker *maker = client;
-    (void)thread;
-    for (size_t chunk; (chunk = atomic_fetch_add(&maker->next, 1)) < chunk_count(maker);) {
-        chunk_refs(maker, chunk);
     }
 }
 
@@ -267,11 +242,12 @@ static inline void fetch_ahead(const Maker *maker, uint32_t place)
 }
 
 // Turns the leaves of a chunk of nodes into blocks.
-static void chunk_fill(const Maker *maker, uint32_t chunk)
+static void blocks_work(void *client, size_t begin, size_t end)
 {
+    const Maker *maker = client;
     Bvh *bvh = &maker->table->bvh;
-    uint32_t block = maker->first_blocks[chunk];
-    for (uint32_t i = chunk * NODES_CHUNK; i < (chunk + 1) * NODES_CHUNK && i < bvh->node_count; i++) {
+    uint32_t block = maker->first_blocks[begin / NODES_CHUNK];
+    for (size_t i = begin; i < end; i++) {
         for (int child = 0; child < BVH_WIDTH; child++) {
             BvhChild leaf = bvh->nodes[i].child[child];
             if (!(leaf & BVH_LEAF)) {
@@ -285,15 +261,6 @@ static void chunk_fill(const Maker *maker, uint32_t chunk)
             slots_clear(maker, block, count);
             bvh->nodes[i].child[child] = BVH_LEAF | block++;
         }
-    }
-}
-
-static void blocks_work(void *client, int thread)
-{
-    Maker *maker = client;
-    (void)thread;
-    for (uint32_t chunk; (chunk = atomic_fetch_add(&maker->next, 1)) * NODES_CHUNK < maker->table->bvh.node_count;) {
-        chunk_fill(maker, chunk);
     }
 }
 
@@ -326,14 +293,11 @@ static bool table_reserve(SphereTable *table)
     return table->blocks && table->info;
 }
 
-static void numbers_work(void *client, int thread)
+static void numbers_work(void *client, size_t begin, size_t end)
 {
-    Maker *maker = client;
-    (void)thread;
-    for (size_t chunk; (chunk = atomic_fetch_add(&maker->next, 1)) * CHUNK < maker->tree_count;) {
-        for (size_t i = chunk * CHUNK; i < (chunk + 1) * CHUNK && i < maker->tree_count; i++) {
-            maker->numbers[i] = bvh_ref_index(&maker->refs[i]);
-        }
+    const Maker *maker = client;
+    for (size_t i = begin; i < end; i++) {
+        maker->numbers[i] = bvh_ref_index(&maker->refs[i]);
     }
 }
 
@@ -342,7 +306,7 @@ static bool maker_keep_numbers(Maker *maker, int threads)
 {
     maker->numbers = malloc(maker->tree_count * sizeof *maker->numbers);
     if (maker->numbers) {
-        maker_share(maker, threads, numbers_work);
+        parallel_share(threads, maker->tree_count, CHUNK, numbers_work, maker);
     }
     free(maker->refs);
     maker->refs = NULL;
@@ -386,7 +350,7 @@ static bool maker_make(Maker *maker, int threads)
         }
         slots_clear(maker, 0, table->loose_count);
     }
-    maker_share(maker, threads, blocks_work);
+    parallel_share(threads, table->bvh.node_count, NODES_CHUNK, blocks_work, maker);
     return true;
 }
 

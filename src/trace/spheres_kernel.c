@@ -4,6 +4,7 @@
 // so that verdicts and roots are the same bits in vectors of any width.
 //
 // SPDX-License-Identifier: MIT
+#include "base/isa.h"
 #include "trace/bvh_walk.h"
 #include "trace/plane_tile.h"
 #include "trace/simd.h"
@@ -169,14 +170,9 @@ static bool is_supported(void)
 #endif
 }
 
-#define TEXT_OF(name)  TEXT_OF_(name)
-#define TEXT_OF_(name) #name
-#define JOINED(a, b)   JOINED_(a, b)
-#define JOINED_(a, b)  a##b
-
-extern const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS);
-const SphereKernels JOINED(sphere_kernels_, SPHERE_KERNELS) = {
-    .name = TEXT_OF(SPHERE_KERNELS),
+extern const SphereKernels ISA_NAMED(sphere_kernels_);
+const SphereKernels ISA_NAMED(sphere_kernels_) = {
+    .name = ISA_TEXT,
     .is_supported = is_supported,
     .closest = spheres_closest,
     .occluded = spheres_occluded,
