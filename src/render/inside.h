@@ -75,14 +75,16 @@ static inline double inside_ior(const Interior *interiors, const Inside *inside)
     return interior == RECORD_NONE ? 1.0 : interiors[interior].ior;
 }
 
-// The index of refraction behind a surface over that before it as Fresnel's share has them. Of several shapes that a ray is
-// in, the one that it leaves counts as what is before. Measured.
-static inline double inside_fresnel_ratio(const Interior *interiors, const Inside *before, const Inside *behind,
-                                          uint32_t interior, bool leaves)
+// The indices of refraction before and behind a surface as Fresnel's share has them. Of several shapes that a ray is in,
+// the one that it leaves counts as what is before. Measured.
+static inline void inside_fresnel_sides(const Interior *interiors, const Inside *before, const Inside *behind,
+                                        uint32_t interior, bool leaves, double *ior_before, double *ior_behind)
 {
     double medium = inside_ior(interiors, before);
     double own = interior == RECORD_NONE ? 1.0 : interiors[interior].ior;
-    return leaves && before->count > 1 ? medium / own : inside_ior(interiors, behind) / medium;
+    bool is_nested = leaves && before->count > 1;
+    *ior_before = is_nested ? own : medium;
+    *ior_behind = is_nested ? medium : inside_ior(interiors, behind);
 }
 
 // The direction behind a surface where the index of refraction becomes `ratio` times what it was; false when nothing

@@ -132,7 +132,9 @@ RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoi
         inside_enter(behind, body, at->interior, is_solid);
     }
     at->ior_ratio = inside_ior(p->interiors, behind) / inside_ior(p->interiors, before);
-    at->fresnel_ratio = inside_fresnel_ratio(p->interiors, before, behind, at->interior, at->leaves);
+    double ior_before, ior_behind;
+    inside_fresnel_sides(p->interiors, before, behind, at->interior, at->leaves, &ior_before, &ior_behind);
+    at->fresnel_ratio = ior_behind / ior_before;
 }
 
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to

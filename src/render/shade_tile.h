@@ -152,7 +152,8 @@ RT_ALWAYS_INLINE Rgb shade_tile_mirror(const Prepared *p, unsigned features, Sha
 
 // The light of the rays of a view.
 RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, ShadePath path, const TileView *view,
-                                 const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
+                                 const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
+                                 RenderStatistics *statistics)
 {
     SphereTile rays;
     TileHits hits;

@@ -311,10 +311,10 @@ static void real_join(const RealScene *s, const RealWay *way, const Inside *insi
     inside_copy(&j->behind, inside);
     j->leaves = real_cross(s, &j->at, &j->behind);
     j->ior_ratio = (Real)inside_ior(s->p->interiors, &j->behind) / (Real)inside_ior(s->p->interiors, inside);
-    bool is_nested = j->leaves && inside->count > 1;
-    uint32_t own = study_interior(s->p, j->at.material);
-    Real own_ior = own == RECORD_NONE ? 1 : (Real)s->p->interiors[own].ior;
-    j->fresnel_ratio = is_nested ? (Real)inside_ior(s->p->interiors, inside) / own_ior : j->ior_ratio;
+    double ior_before, ior_behind;
+    inside_fresnel_sides(s->p->interiors, inside, &j->behind, study_interior(s->p, j->at.material), j->leaves, &ior_before,
+                         &ior_behind);
+    j->fresnel_ratio = (Real)ior_behind / (Real)ior_before;
     j->reflectance = real_grey(0);
     if (j->finish->reflects) {
         j->reflectance = real_reflectance(j->finish, real_rgb(rgbft_rgb(j->pigment)), -real_dot(j->normal, way->ray.d),
