@@ -12,8 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "check/load.h"
 #include "check/povray_run.h"
-#include "rtlang/rtlang.h"
 
 // How much larger it is, how far beside its place, and how many pixels the picture is to the right and down.
 typedef struct Place {
@@ -42,16 +42,9 @@ typedef struct Comparison {
 
 static rt_status place_load(rt_session *session, const ElsewhereJob *job, const Place *place)
 {
-    const double shift[3] = {0.6180339887 * place->beside, -0.7548776662 * place->beside, 0.5698402910 * place->beside};
-    const Options *options = job->options;
-    rt_status status = rt_set_size(session, options->width, options->height);
+    World world = world_beside(place->scale, place->beside);
+    rt_status status = scene_load(session, job->options, job->include_paths, job->scene, &world);
 
-    for (int i = 0; status == RT_OK && i < options->include_path_count; i++) {
-        status = rt_add_include_path(session, job->include_paths[i]);
-    }
-    status = status == RT_OK && options->clock_given ? rt_set_clock(session, options->clock) : status;
-    status = status == RT_OK ? rt_set_world(session, place->scale, shift) : status;
-    status = status == RT_OK ? rt_load_file(session, job->scene) : status;
     return status == RT_OK && (place->right != 0.0 || place->down != 0.0)
                ? rt_move_picture(session, place->right, place->down)
                : status;

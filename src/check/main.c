@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "check/elsewhere.h"
+#include "check/load.h"
 #include "check/options.h"
 #include "check/povray_range.h"
 #include "check/povray_run.h"
@@ -116,28 +117,14 @@ static void on_progress(void *client, double done)
     }
 }
 
-// `shift`: where the scene is put; NULL: where it is.
-static rt_status rtlang_steps(rt_session *session, const Check *check, const char *scene, const double *shift,
+static rt_status rtlang_steps(rt_session *session, const Check *check, const char *scene, const World *world,
                               const char *output)
 {
     static const rt_output linear_16 = {.depth = RT_DEPTH_16, .file_gamma = 1.0};
-    const Options *options = check->options;
-    rt_status status = rt_set_size(session, options->width, options->height);
+    rt_status status = scene_load(session, check->options, check->include_paths, scene, world);
 
-    for (int i = 0; status == RT_OK && i < options->include_path_count; i++) {
-        status = rt_add_include_path(session, check->include_paths[i]);
-    }
-    if (status == RT_OK && options->clock_given) {
-        status = rt_set_clock(session, options->clock);
-    }
-    if (status == RT_OK && shift != NULL) {
-        status = rt_set_world(session, 1.0, shift);
-    }
     if (status == RT_OK) {
-        status = rt_load_file(session, scene);
-    }
-    if (status == RT_OK) {
-        status = rt_render(session, options->threads);
+        status = rt_render(session, check->options->threads);
     }
     return status == RT_OK ? rt_write(session, output, &linear_16) : status;
 }
@@ -217,6 +204,15 @@ static double threshold_between_steps(double threshold)
     return ((is_whole ? nearest : floor(whole)) + 0.5) / 65535.0;
 }
 
+// Whether few enough pixels are beyond the threshold, but for those that are excused.
+static void outcome_judge(const Options *options, uint64_t excused, Outcome *outcome)
+{
+    const ImageDifference *difference = &outcome->difference;
+    uint64_t left = difference->pixels_beyond[BEYOND_THRESHOLD] - excused;
+
+    outcome->agrees = (double)left <= options->ties * (double)difference->pixels;
+}
+
 static void pictures_compare(const Options *options, const Image *ours, const Image *theirs, Outcome *outcome)
 {
     const double thresholds[IMAGE_THRESHOLDS] = {
@@ -224,7 +220,6 @@ static void pictures_compare(const Options *options, const Image *ours, const Im
         [BEYOND_CODE_16] = threshold_between_steps(1.0 / 65535.0),
         [BEYOND_CODE_8] = threshold_between_steps(1.0 / 255.0),
     };
-    const ImageDifference *difference = &outcome->difference;
 
     if (ours->width != theirs->width || ours->height != theirs->height) {
         snprintf(outcome->detail, sizeof outcome->detail, "pictures of %dx%d and %dx%d cannot be compared", ours->width,
@@ -234,8 +229,7 @@ static void pictures_compare(const Options *options, const Image *ours, const Im
         snprintf(outcome->detail, sizeof outcome->detail, "out of memory");
     } else {
         outcome->compared = true;
-        outcome->agrees = (double)difference->pixels_beyond[BEYOND_THRESHOLD] <=
-                          options->ties * (double)difference->pixels;
+        outcome_judge(options, 0, outcome);
     }
 }
 
@@ -266,9 +260,9 @@ static uint64_t doubts_mark(const Check *check, const Image *ours, const Image *
 static bool moved_run(const Check *check, const char *scene, int number, const char *output)
 {
     static const rt_callbacks silent = {0};
-    double step = 1.0 + 0.1 * number, shift[3] = {0.6180339887 * step, -0.7548776662 * step, 0.5698402910 * step};
+    World world = world_beside(1.0, 1.0 + 0.1 * number);
     rt_session *session = rt_session_new(&silent);
-    bool fine = session != NULL && rtlang_steps(session, check, scene, shift, output) == RT_OK;
+    bool fine = session != NULL && rtlang_steps(session, check, scene, &world, output) == RT_OK;
 
     rt_session_free(session);
     return fine;
@@ -288,15 +282,12 @@ static void doubts_find(const Check *check, const Image *ours, const Image *thei
     }
     unlink(scratch);
     free(marked);
-    const ImageDifference *difference = &outcome->difference;
-    uint64_t left = difference->pixels_beyond[BEYOND_THRESHOLD] - outcome->decided_by_rounding;
-    outcome->agrees = (double)left <= check->options->ties * (double)difference->pixels;
+    outcome_judge(check->options, outcome->decided_by_rounding, outcome);
 }
 
 // Takes pixels out of the judgement in which POV-Ray does not agree with itself.
 static void elsewhere_find(const Check *check, const Image *ours, const Image *theirs, Outcome *outcome)
 {
-    const ImageDifference *difference = &outcome->difference;
     ElsewhereJob job = {.options = check->options,
                         .scene = outcome->scene,
                         .povray = check->povray,
@@ -305,8 +296,7 @@ static void elsewhere_find(const Check *check, const Image *ours, const Image *t
                         .threshold = threshold_between_steps(check->options->threshold)};
 
     outcome->povray_elsewhere = elsewhere_count(&job, ours, theirs);
-    uint64_t left = difference->pixels_beyond[BEYOND_THRESHOLD] - outcome->povray_elsewhere;
-    outcome->agrees = (double)left <= check->options->ties * (double)difference->pixels;
+    outcome_judge(check->options, outcome->povray_elsewhere, outcome);
 }
 
 // False when the report cannot be written.
