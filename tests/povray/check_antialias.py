@@ -12,12 +12,13 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True
+import documents  # noqa: E402
 import images  # noqa: E402
 import pictures  # noqa: E402
 
 TOP = os.environ.get("top_srcdir", ".")
 DOCUMENT = os.path.join(TOP, "docs", "language.md")
-BEGIN, END = "<!-- antialias:begin -->", "<!-- antialias:end -->"
+MARK = "antialias"
 WIDTH, HEIGHT = 100, 75  # neither is a multiple of the blocks
 SCENES = ("light_spot", "pattern_hexagon", "interior_glass", "mapped/image_interpolate_2", "mapped/image_grey", "gamma_assumed_22", "gamma_assumed_srgb", "gamma_version36_no_gamma")
 # method, depth, threshold, gamma
@@ -53,15 +54,9 @@ def sentence(greatest, beyond, pixels):
 
 
 def judge_document(words):
-    with open(DOCUMENT, encoding="utf-8") as file:
-        text = file.read()
-    head, rest = text.split(BEGIN)
-    said, tail = rest.split(END)
     if "--update" in sys.argv:
-        with open(DOCUMENT, "w", encoding="utf-8") as file:
-            file.write(head + BEGIN + "\n" + words + "\n" + END + tail)
-        said = words
-    return said.strip() == words, f"docs/language.md tells what was measured: {words!r}"
+        documents.write(DOCUMENT, MARK, words + "\n")
+    return documents.read(DOCUMENT, MARK).strip() == words, f"docs/language.md tells what was measured: {words!r}"
 
 
 def main():

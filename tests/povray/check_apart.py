@@ -17,11 +17,12 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True
+import documents  # noqa: E402
 import pictures  # noqa: E402
 
 TOP = os.environ.get("top_srcdir", ".")
 DOCUMENT = os.path.join(TOP, "docs", "language.md")
-BEGIN, END = "<!-- apart:begin -->\n", "<!-- apart:end -->"
+MARK = "apart"
 WIDTH, HEIGHT = 160, 120
 MISSING_TOOL = 3  # rtcheck's exit code when it cannot run POV-Ray or cannot read pictures
 HEAD = (f"| scene | what differs | greatest difference | root mean square | of {WIDTH} x {HEIGHT} pixels beyond 2/65535 |\n"
@@ -70,13 +71,6 @@ def table(scenes, found):
     return HEAD + "".join(rows)
 
 
-def read_document():
-    with open(DOCUMENT, encoding="utf-8") as file:
-        head, rest = file.read().split(BEGIN)
-    said, tail = rest.split(END)
-    return head, said, tail
-
-
 def judge(scene, found, rows):
     """(passed, words) of one scene: beyond the bar, and not beyond what the table says."""
     name, measured = name_of(scene), found.get(name_of(scene))
@@ -101,11 +95,9 @@ def main():
     if found is None:
         print("1..0 # SKIP " + messages.strip().splitlines()[0])
         return 0
-    head, said, tail = read_document()
     if "--update" in sys.argv:
-        said = table(scenes, found)
-        with open(DOCUMENT, "w", encoding="utf-8") as file:
-            file.write(head + BEGIN + said + END + tail)
+        documents.write(DOCUMENT, MARK, table(scenes, found))
+    said = documents.read(DOCUMENT, MARK)
     rows = {row[0]: row[1:] for row in ROW.findall(said)}
     results = [judge(scene, found, rows) for scene in scenes]
     gone = sorted(set(rows) - {name_of(scene) for scene in scenes})

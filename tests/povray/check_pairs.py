@@ -17,6 +17,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
+import documents  # noqa: E402
 import generate_scenes  # noqa: E402
 import pictures  # noqa: E402
 
@@ -66,8 +67,7 @@ def judge(choices, answer):
 
 def words_without_scenes(texts):
     """Words of the reference of the language that none of the scenes holds."""
-    with open(os.path.join(os.environ.get("top_srcdir", "."), "docs/language.md"), encoding="utf-8") as file:
-        tables = file.read().split("<!-- schema:begin -->")[1].split("<!-- schema:end -->")[0]
+    tables = documents.read(os.path.join(os.environ.get("top_srcdir", "."), "docs/language.md"), "schema")
     words = set(re.findall(r"^### ([a-z_]+)$", tables, re.MULTILINE))
     words.update(re.findall(r"^\| `(\w+)` \|", tables, re.MULTILINE))
     held = set(re.findall(r"\w+", " ".join(texts)))

@@ -22,6 +22,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
+import documents  # noqa: E402
 import pictures  # noqa: E402
 
 EXAMPLES = "/usr/share/doc/povray/examples"  # of Debian's package povray-examples
@@ -68,7 +69,7 @@ GROUPS = {
 GROUP_OF = {word: group for group, words in GROUPS.items() for word in words.split()}
 TOKEN = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\])*\"|#\s*\w+|\w+", re.DOTALL)
 LACKING = {"E0210", "E0250", "E0251", "E0252", "E0269"}
-MARKS = "<!-- survey:begin -->", "<!-- survey:end -->"
+MARK = "survey"
 # The greatest difference of a pixel, in steps of 1/65535, up to which scenes are counted together.
 STEPS = [2, 16, 256, 4096, 65535]
 MEETS, BUT_FOR, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses"
@@ -135,8 +136,7 @@ def need(blocker):
 def supported():
     """The words of blocks that the reference of the language lists: their tables are printed by rtlang's own schema."""
     reference = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "language.md")
-    with open(reference, encoding="utf-8") as file:
-        tables = file.read().split("<!-- schema:begin -->")[1].split("<!-- schema:end -->")[0]
+    tables = documents.read(reference, "schema")
     rows = re.findall(r"^\| (`[^|]*) \|", tables, re.MULTILINE)
     return set(re.findall(r"^### (\w+)", tables, re.MULTILINE)).union(*(re.findall(r"`(\w+)`", row) for row in rows))
 
@@ -262,11 +262,7 @@ def write_table(records, path):
     lines = [f"{accepted} of {len(records)} scenes are accepted. What stands in the way of the others, when it does so in more than one:", "",
              "| | first fault | any fault | the only one |", "|---|---|---|---|"]
     lines += [f"| {group} | {first} | {any_} | {only} |" for group, first, any_, only in blockers_by_need(records) if any_ > 1]
-    with open(path, encoding="utf-8") as file:
-        before, rest = file.read().split(MARKS[0])
-    after = rest.split(MARKS[1])[1]
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(before + MARKS[0] + "\n" + "\n".join(lines) + "\n" + MARKS[1] + after)
+    documents.write(path, MARK, "\n".join(lines) + "\n")
 
 
 def verdict(picture):

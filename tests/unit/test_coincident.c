@@ -71,20 +71,9 @@ static const Family families[] = {
      2},
 };
 
-static bool draw(const Family *family, const char *place, const char *first, const char *second, float *values)
+static bool draw_text(const char *text, int length, float *values)
 {
-    static const char head[] = "global_settings { assumed_gamma 1 } background { rgb <0.2, 0.3, 0.5> }";
-    static const char other[] = "pigment { rgb <0.1, 0.9, 0.2> } finish { ambient 1 }";
-    char text[4096];
     int width, height;
-    int length =
-        snprintf(text, sizeof text,
-                 "%s\ncamera { %s %s }\nlight_source { <3, 5, -2>, 0.8 %s }\nlight_source { <-9, 0.4, 2>, 0.5 %s }\n"
-                 "%s %s %s }\n",
-                 head, family->camera, place, place, place, first, family->look, place);
-    if (second) {
-        length += snprintf(text + length, sizeof text - (size_t)length, "%s %s %s }\n", second, other, place);
-    }
     rt_session *session = rt_session_new(NULL);
     rt_set_format(session, RT_FORMAT_JSON);
     bool is_drawn = rt_set_size(session, WIDTH, HEIGHT) == RT_OK &&
@@ -97,6 +86,22 @@ static bool draw(const Family *family, const char *place, const char *first, con
     }
     rt_session_free(session);
     return is_drawn;
+}
+
+static bool draw(const Family *family, const char *place, const char *first, const char *second, float *values)
+{
+    static const char head[] = "global_settings { assumed_gamma 1 } background { rgb <0.2, 0.3, 0.5> }";
+    static const char other[] = "pigment { rgb <0.1, 0.9, 0.2> } finish { ambient 1 }";
+    char text[4096];
+    int length =
+        snprintf(text, sizeof text,
+                 "%s\ncamera { %s %s }\nlight_source { <3, 5, -2>, 0.8 %s }\nlight_source { <-9, 0.4, 2>, 0.5 %s }\n"
+                 "%s %s %s }\n",
+                 head, family->camera, place, place, place, first, family->look, place);
+    if (second) {
+        length += snprintf(text + length, sizeof text - (size_t)length, "%s %s %s }\n", second, other, place);
+    }
+    return draw_text(text, length, values);
 }
 
 static int pixels_off(const float *a, const float *b)
@@ -150,7 +155,6 @@ static const char *const below[] = {
 static bool draw_lit(const char *place, const char *shape, const char *pigment, float *values)
 {
     char text[2048];
-    int width, height;
     int length = snprintf(text, sizeof text,
                           "#version 3.7; global_settings { assumed_gamma 1 }\n"
                           "camera { location <0.3, 1, -9> look_at <0, 3, 0> angle 14 %s }\n"
@@ -158,16 +162,7 @@ static bool draw_lit(const char *place, const char *shape, const char *pigment, 
                           "sphere { <0.2, 3, 0.1>, 1 pigment { rgb 1 } finish { ambient 0 } %s }\n%s %s %s %s\n",
                           place, place, place, shape ? shape : "", shape ? pigment : "", shape ? place : "",
                           shape ? "}" : "");
-    rt_session *session = rt_session_new(NULL);
-    bool is_drawn = rt_set_size(session, WIDTH, HEIGHT) == RT_OK &&
-                    rt_load_text(session, "lit", text, (size_t)length) == RT_OK && rt_render(session, 1) == RT_OK;
-    if (is_drawn) {
-        memcpy(values, rt_pixels(session, &width, &height), VALUES * sizeof *values);
-    } else {
-        printf("# not drawn: %s\n", text);
-    }
-    rt_session_free(session);
-    return is_drawn;
+    return draw_text(text, length, values);
 }
 
 // The light shines on the ball as if nothing were below.
