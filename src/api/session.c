@@ -190,7 +190,8 @@ static rt_status load(rt_session *session, Source *source, double start)
         .client = session,
     };
     session->scene.whole = SPAN_WHOLE(source_base(source));
-    bool fine = eval_source(&options, source, &session->scene) && scene_validate(&session->scene, &session->diags, options.threads) &&
+    bool fine = eval_source(&options, source, &session->scene) &&
+                scene_validate(&session->scene, &session->diags, options.threads) &&
                 session->diags.error_count == 0 && session_load_pictures(session);
     source_close(source);
     diag_finish(&session->diags);
@@ -469,7 +470,8 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
 {
-    if (!session->rendered || !is_output(session, path, output) || (output->error_channel && !session_has_pixel_errors(session))) {
+    if (!session->rendered || !is_output(session, path, output) ||
+        (output->error_channel && !session_has_pixel_errors(session))) {
         return RT_FAULT_USAGE;
     }
     double start = session_clock();

@@ -143,31 +143,34 @@ typedef struct Batches {
     atomic_bool has_odd; // a colour that must be left
 } Batches;
 
-// Records are written behind the ends of the scene's lists.
-static void batch_fill(void *client, size_t begin, size_t end)
+// Records are written behind the ends of the scene's lists. False when there is a colour that must be left.
+static bool batch_fill(const Batch *batch, Scene *scene)
+{
+    const GrammarLiterals *list = batch->list;
+    Sphere *sphere = &scene->spheres.items[batch->first_sphere];
+    uint32_t order = scene->shape_count + (uint32_t)(batch->first_sphere - scene->spheres.count);
+    size_t next = batch->first_material;
+    MaterialIndex index = batch->before;
+    Material material, last;
+    bool is_fine = true;
+    for (size_t i = 0; i < list->count; i++) {
+        const GrammarLiteral *literal = &list->items[i];
+        is_fine = literal_material(literal, &material) && is_fine;
+        if (i == 0 ? !batch->goes_on : memcmp(&material, &last, sizeof last) != 0) {
+            scene->materials.items[index = (MaterialIndex)next++] = material;
+        }
+        last = material;
+        sphere[i] = (Sphere){literal_centre(literal), literal->radius, index, order + (uint32_t)i,
+                             list->base + literal->span.begin};
+    }
+    return is_fine;
+}
+
+static void batches_work(void *client, size_t begin, size_t end)
 {
     Batches *batches = client;
-    Scene *scene = batches->scene;
-    for (; begin < end; begin++) {
-        const Batch *batch = &batches->items[begin];
-        const GrammarLiterals *list = batch->list;
-        Sphere *sphere = &scene->spheres.items[batch->first_sphere];
-        uint32_t order = scene->shape_count + (uint32_t)(batch->first_sphere - scene->spheres.count);
-        size_t next = batch->first_material;
-        MaterialIndex index = batch->before;
-        Material material, last;
-        bool is_fine = true;
-        for (size_t i = 0; i < list->count; i++) {
-            const GrammarLiteral *literal = &list->items[i];
-            is_fine = literal_material(literal, &material) && is_fine;
-            if (i == 0 ? !batch->goes_on : memcmp(&material, &last, sizeof last) != 0) {
-                scene->materials.items[index = (MaterialIndex)next++] = material;
-            }
-            last = material;
-            sphere[i] = (Sphere){literal_centre(literal), literal->radius, index, order + (uint32_t)i,
-                                 list->base + literal->span.begin};
-        }
-        if (!is_fine) {
+    for (size_t i = begin; i < end; i++) {
+        if (!batch_fill(&batches->items[i], batches->scene)) {
             atomic_store(&batches->has_odd, true);
         }
     }
@@ -228,7 +231,7 @@ static bool take_many(void *client, const GrammarLiterals *lists, size_t count, 
     batches_place(&batches, lists);
     bool is_taken = reserve(ev, &batches, more);
     if (is_taken) {
-        parallel_share(ev->options.threads, count, 1, batch_fill, &batches);
+        parallel_share(ev->options.threads, count, 1, batches_work, &batches);
         is_taken = !atomic_load(&batches.has_odd);
     }
     if (is_taken) {

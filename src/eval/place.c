@@ -291,8 +291,8 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionBlueprint *group,
     branch.is_in_merge = op == NODE_MERGE || (op == NODE_UNION && outer->is_in_merge);
     branch.was_turned |= outer->is_inverse || group->part.was_turned;
     // A union that was once turned inside out has lost what is inside of it. Measured.
-    if (!add_node(ev, op == NODE_UNION && branch.was_turned ? NODE_MERGE : op, group->part.is_inverse != outer->is_inverse, outer, group->part.span,
-                  &branch.parent)) {
+    op = op == NODE_UNION && branch.was_turned ? NODE_MERGE : op;
+    if (!add_node(ev, op, group->part.is_inverse != outer->is_inverse, outer, group->part.span, &branch.parent)) {
         return false;
     }
     bool is_fine = true;

@@ -20,7 +20,8 @@ enum {
 
 typedef int32_t Int4 __attribute__((vector_size(16)));
 
-static const Box EMPTY_BOX = {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}};
+#define EMPTY {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}}
+static const Box EMPTY_BOX = EMPTY;
 
 #ifdef __SSE__
 static inline Float4 float4_min(Float4 a, Float4 b)
@@ -65,8 +66,7 @@ typedef struct Sum {
     Box box, centres;
 } Sum;
 
-static const Sum EMPTY_SUM = {{{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}},
-                              {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}}};
+static const Sum EMPTY_SUM = {EMPTY, EMPTY};
 
 static inline void sum_add(Sum *sum, const BvhRef *ref)
 {
