@@ -134,17 +134,61 @@ RT_ALWAYS_INLINE uint8_t encode_8(const Encoder *encoder, unsigned steps, float 
     return (uint8_t)code;
 }
 
-static void run_8(const Encoder *encoder, const float *values, size_t count, uint8_t *samples)
+// Values that are looked at together: whole pixels of 1, 2, 3 or 4 channels.
+enum { CHUNK = 24 };
+
+// Where the bits of eight values are not those of the pixel before.
+RT_ALWAYS_INLINE uint64_t bits_apart(const float *values, size_t channels)
+{
+    uint64_t here[4], before[4];
+    memcpy(here, values, sizeof here);
+    memcpy(before, values - channels, sizeof before);
+    return (here[0] ^ before[0]) | (here[1] ^ before[1]) | (here[2] ^ before[2]) | (here[3] ^ before[3]);
+}
+
+// Whether the values of a chunk are those of the pixel before it.
+RT_ALWAYS_INLINE bool is_chunk_even(const float *values, size_t channels)
+{
+    return bits_apart(values, channels) == 0 &&
+           (bits_apart(values + 8, channels) | bits_apart(values + 16, channels)) == 0;
+}
+
+RT_ALWAYS_INLINE void run_8_steps(const Encoder *encoder, unsigned steps, const float *values, size_t count,
+                                  uint8_t *samples)
+{
+    for (size_t i = 0; i < count; i++) {
+        samples[i] = encode_8(encoder, steps, values[i]);
+    }
+}
+
+static void chunk_8(const Encoder *encoder, const float *values, size_t count, uint8_t *samples)
 {
     if (encoder->steps == 1) { // as for sRGB
-        for (size_t i = 0; i < count; i++) {
-            samples[i] = encode_8(encoder, 1, values[i]);
-        }
+        run_8_steps(encoder, 1, values, count, samples);
     } else {
-        for (size_t i = 0; i < count; i++) {
-            samples[i] = encode_8(encoder, encoder->steps, values[i]);
-        }
+        run_8_steps(encoder, encoder->steps, values, count, samples);
     }
+}
+
+// Backgrounds are even: what is as the pixel before it has its code.
+static void run_8(const Encoder *encoder, const float *values, size_t count, uint8_t *samples)
+{
+    size_t channels = (size_t)encoder->channels, i = 0;
+    bool was_even = false;
+    for (; i + CHUNK <= count; i += CHUNK) {
+        bool is_even = i > 0 && is_chunk_even(values + i, channels);
+        if (!is_even) {
+            chunk_8(encoder, values + i, CHUNK, samples + i);
+        } else if (was_even) {
+            memcpy(samples + i, samples + i - CHUNK, CHUNK);
+        } else {
+            for (size_t k = i; k < i + CHUNK; k++) {
+                samples[k] = samples[k - channels];
+            }
+        }
+        was_even = is_even;
+    }
+    chunk_8(encoder, values + i, count - i, samples + i);
 }
 
 static void run_16(const Encoder *encoder, const float *values, size_t count, uint16_t *samples)

@@ -9,11 +9,12 @@
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "image/png_fault.h"
 #include "image/png_strips.h"
 
-enum { SRGB_GAMMA = 45455, IDAT_MOST = 1 << 30 };
+enum { SRGB_GAMMA = 45455, IDAT_MOST = 1 << 30, BUFFER_BYTES = 8192 };
 
 typedef struct PngWriter {
     const Image *image;
@@ -24,20 +25,38 @@ typedef struct PngWriter {
     png_infop info;
     PngStrips *strips;
     bool no_memory;
+    size_t held; // bytes that are not written yet: pieces of even pictures are short, and many
+    unsigned char buffer[BUFFER_BYTES];
 } PngWriter;
 
-static void on_write(png_structp png, png_bytep data, size_t length)
+static void bytes_write(const PngWriter *writer, const void *bytes, size_t length)
 {
-    const PngWriter *writer = png_get_io_ptr(png);
-
-    if (!atomic_file_write(writer->file, data, length, writer->error)) {
-        png_error(png, "write error");
+    if (!atomic_file_write(writer->file, bytes, length, writer->error)) {
+        png_error(writer->png, "write error");
     }
 }
 
 static void on_flush(png_structp png)
 {
-    (void)png;
+    PngWriter *writer = png_get_io_ptr(png);
+
+    bytes_write(writer, writer->buffer, writer->held);
+    writer->held = 0;
+}
+
+static void on_write(png_structp png, png_bytep data, size_t length)
+{
+    PngWriter *writer = png_get_io_ptr(png);
+
+    if (writer->held + length > sizeof writer->buffer) {
+        on_flush(png);
+    }
+    if (length > sizeof writer->buffer) {
+        bytes_write(writer, data, length);
+    } else {
+        memcpy(writer->buffer + writer->held, data, length);
+        writer->held += length;
+    }
 }
 
 static void header_write(const PngWriter *writer)
@@ -102,6 +121,7 @@ static bool write_guarded(PngWriter *writer)
     header_write(writer);
     pixels_write(writer);
     png_write_chunk(writer->png, iend, NULL, 0);
+    on_flush(writer->png);
     return !writer->no_memory;
 }
 

@@ -157,11 +157,14 @@ RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, ShadePath
 {
     SphereTile rays;
     TileHits hits;
-    geometry_closest_view(p->geometry, features, view, places->u, places->v, &rays, &hits);
     Rgb background = rgb_add(rgb_grey(0.0), p->background);
     for (int i = 0; i < TILE_RAYS; i++) {
         light[i] = background;
     }
+    if (geometry_view_passes(p->geometry, features, view, places->u, places->v)) {
+        return;
+    }
+    geometry_closest_view(p->geometry, features, view, places->u, places->v, &rays, &hits);
     uint64_t met = hits.met & wanted;
     if (!met) {
         return;

@@ -14,6 +14,15 @@ typedef struct Single {
     atomic_bool has_no_memory;
 } Single;
 
+RT_ALWAYS_INLINE void store_row(const Rgb *light, int count, float *pixels)
+{
+    for (int i = 0; i < count; i++) {
+        pixels[3 * i] = (float)light[i].red;
+        pixels[3 * i + 1] = (float)light[i].green;
+        pixels[3 * i + 2] = (float)light[i].blue;
+    }
+}
+
 static void trace_block(const Single *single, Tile block, RenderStatistics *counted)
 {
     Film *film = single->film;
@@ -23,17 +32,17 @@ static void trace_block(const Single *single, Tile block, RenderStatistics *coun
     places.lens = NULL;
     uint64_t wanted = block_places(film, block, 0.0, &places);
     alpha_trace(single->prepared, &places, NULL, wanted, light, clear, counted);
+    int columns = block.right - block.left;
     for (int y = block.top; y < block.bottom; y++) {
-        const Rgb *row = &light[(y - block.top) * KERNEL_ROW];
-        float *pixel = &film->rgb[3 * ((size_t)y * (size_t)film->width + (size_t)block.left)];
-        for (int i = 0; block.left + i < block.right; i++) {
-            pixel[3 * i] = (float)row[i].red;
-            pixel[3 * i + 1] = (float)row[i].green;
-            pixel[3 * i + 2] = (float)row[i].blue;
-            if (film->clear) {
-                size_t at = (size_t)y * (size_t)film->width + (size_t)(block.left + i);
-                film->clear[at] = (float)clear[(y - block.top) * KERNEL_ROW + i];
-            }
+        int first = (y - block.top) * KERNEL_ROW;
+        size_t at = (size_t)y * (size_t)film->width + (size_t)block.left;
+        if (columns == KERNEL_ROW) { // almost always: a constant
+            store_row(&light[first], KERNEL_ROW, &film->rgb[3 * at]);
+        } else {
+            store_row(&light[first], columns, &film->rgb[3 * at]);
+        }
+        for (int i = 0; film->clear && i < columns; i++) {
+            film->clear[at + (size_t)i] = (float)clear[first + i];
         }
     }
 }

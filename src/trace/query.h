@@ -289,6 +289,14 @@ RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, c
     }
 }
 
+// Whether it is certain that the rays of a view meet nothing.
+RT_ALWAYS_INLINE bool geometry_view_passes(const Geometry *g, unsigned features, const TileView *view,
+                                           const double u[TILE_RAYS], const double v[TILE_RAYS])
+{
+    bool has_others = (features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) || ((features & TRACE_PLANES) && g->plane_count > 0);
+    return (features & TRACE_SPHERES) && !has_others && g->kernels->view_passes(&g->spheres, view, u, v);
+}
+
 // What 64 camera rays meet: those of a view, in rows of eight neighbours, which are put into `tile`: each is
 // vec3_normalize of direction + (u right - v up). The same bits as geometry_closest gives ray by ray.
 RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features, const TileView *view,

@@ -116,6 +116,9 @@ typedef struct SphereKernels {
     // The rays of a view at 64 places, with the bits that vec3_normalize and sphere_ray_make give. False when one of
     // them is not usable.
     bool (*view_tile)(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile);
+    // Whether it is certain, before the rays are made, that none of them meets a sphere. Never where there is a tree.
+    bool (*view_passes)(const SphereTable *table, const TileView *view, const double u[TILE_RAYS],
+                        const double v[TILE_RAYS]);
 } SphereKernels;
 
 // The kernels of an instruction set by name, or, for NULL, the best that this processor has. NULL when it has not.

@@ -182,4 +182,5 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .plane_closest = plane_closest,
     .plane_occluded = plane_occluded,
     .view_tile = view_tile,
+    .view_passes = view_passes,
 };

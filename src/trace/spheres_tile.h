@@ -71,6 +71,46 @@ static bool view_tile(const TileView *view, const double u[TILE_RAYS], const dou
     return doubles_least(least) > 0x1p-100 && doubles_greatest(greatest) < (double)INFINITY;
 }
 
+// The least and the greatest of 64 places.
+static void places_range(const double places[TILE_RAYS], double range[2])
+{
+    Doubles low = doubles_load(places), high = low;
+    for (unsigned i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
+        low = doubles_min(low, doubles_load(&places[i]));
+        high = doubles_max(high, doubles_load(&places[i]));
+    }
+    range[0] = doubles_least(low);
+    range[1] = doubles_greatest(high);
+}
+
+static Vec3 view_direction(const TileView *view, double u, double v)
+{
+    return vec3_add(view->direction, vec3_sub(vec3_scale(u, view->right), vec3_scale(v, view->up)));
+}
+
+// All places lie in a rectangle, and of directions to a rectangle those to a corner are farthest from the axis.
+static bool view_passes(const SphereTable *table, const TileView *view, const double u[TILE_RAYS],
+                        const double v[TILE_RAYS])
+{
+    double across[2], down[2], greatest = 0.0, sum = 0.0;
+    if (table->bvh.nodes || table->loose_count == 0) {
+        return false;
+    }
+    places_range(u, across);
+    places_range(v, down);
+    double u_middle = 0.5 * (across[0] + across[1]), v_middle = 0.5 * (down[0] + down[1]);
+    RayCone cone = {.origin = view->origin, .axis = vec3_normalize(view_direction(view, u_middle, v_middle))};
+    for (int i = 0; i < 4; i++) {
+        Vec3 corner = vec3_normalize(view_direction(view, across[i & 1], down[i >> 1]));
+        double apart = vec3_length_squared(vec3_sub(corner, cone.axis));
+        greatest = apart > greatest ? apart : greatest;
+        sum += apart;
+    }
+    cone.spread = sqrt(greatest) + CONE_MARGIN;
+    bool is_usable = cone.spread < 0.5 && sum < (double)INFINITY; // and no NaN
+    return is_usable && cone_spheres(&cone, &table->blocks[0]) == 0;
+}
+
 static void beam_set_rows(TileBeam *beam)
 {
     for (unsigned row = 0; row < ROWS; row++) {
