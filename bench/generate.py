@@ -33,7 +33,7 @@ POVRAY_LOOP = """#declare S = seed(1);
 """
 TACHYON_HEAD = """BEGIN_SCENE
 RESOLUTION 800 600
-CAMERA ZOOM 1.0 ASPECTRATIO 1.0 ANTIALIASING 0 RAYDEPTH 5
+CAMERA ZOOM 1.0 ASPECTRATIO 1.0 ANTIALIASING 0 RAYDEPTH {depth}
   CENTER 0 0 -3.2 VIEWDIR 0 0 1 UPDIR 0 1 0
 END_CAMERA
 BACKGROUND 0.2 0.3 0.4
@@ -101,7 +101,8 @@ def write_povray(out, kind, count):
 
 
 def write_tachyon(out, kind, count):
-    out.write(TACHYON_HEAD)
+    # Tachyon counts what a ray goes through, the others do not: as many shells as there are, and out of them again.
+    out.write(TACHYON_HEAD.format(depth=2 * count if kind == "nested" else 5))
     for centre, radius, colour, clear in KINDS[kind](count):
         out.write(TACHYON_SPHERE.format(*centre, radius, *colour, opacity=1 - clear))
     out.write("END_SCENE\n")
