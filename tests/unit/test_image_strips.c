@@ -53,6 +53,20 @@ static bool reads_back(const Image *image, const ImageEncoding *encoding, const 
     return fine;
 }
 
+// Stretches of even pixels, some of them long, between others.
+static void fill(Image *image, Random *random)
+{
+    size_t channels = (size_t)image->channels, count = (size_t)image->width * (size_t)image->height * channels;
+    size_t left = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (i % channels == 0) {
+            left = left > 0 ? left - 1 : random_below(random, 2) ? 0 : random_below(random, 60);
+        }
+        bool is_same = left > 0 && i >= channels;
+        image->values[i] = is_same ? image->values[i - channels] : (float)random_between(random, -0.1, 1.1);
+    }
+}
+
 static void check_size(int width, int height, int channels, ImageDepth depth)
 {
     const ImageEncoding encoding = {.depth = depth, .transfer = IMAGE_TRANSFER_SRGB};
@@ -61,8 +75,8 @@ static void check_size(int width, int height, int channels, ImageDepth depth)
     Image image;
     int file = mkstemps(path, 4);
     bool fine = file >= 0 && image_init(&image, width, height, channels);
-    for (size_t i = 0; fine && i < (size_t)width * (size_t)height * (size_t)channels; i++) {
-        image.values[i] = i % 7 < 3 ? 0.25f : (float)random_between(&random, -0.1, 1.1);
+    if (fine) {
+        fill(&image, &random);
     }
     fine = fine && write_with(&image, encoding, 1, path);
     Bytes one = file_bytes(path);
@@ -84,6 +98,9 @@ int main(void)
     check_size(3, 64, 3, IMAGE_DEPTH_8);
     check_size(65, 65, 3, IMAGE_DEPTH_16);
     check_size(17, 200, 4, IMAGE_DEPTH_8);
-    check_size(5, 5000, 2, IMAGE_DEPTH_16); // more strips than are made at a time
+    check_size(3001, 70, 3, IMAGE_DEPTH_8);
+    check_size(1501, 33, 1, IMAGE_DEPTH_8);
+    check_size(22000, 3, 3, IMAGE_DEPTH_8); // a row is more than a strip should be
+    check_size(2100, 1000, 2, IMAGE_DEPTH_16); // more strips than are made at a time
     return tap_done();
 }
