@@ -235,6 +235,9 @@ bool grammar_literals_read_many(GrammarState *state)
     while (read_round(state, readers)) {
     }
     readers_free(readers);
-    source_seek(state->source, state->offset - base);
-    return state->offset != before;
+    bool has_moved = state->offset != before;
+    if (has_moved) { // else the scanner goes on with what it holds, and the source behind that
+        source_seek(state->source, state->offset - base);
+    }
+    return has_moved;
 }

@@ -142,6 +142,16 @@ static void outcome_fini(Outcome *outcome)
     text_fini(&outcome->messages);
 }
 
+static void compare(const TextBuffer *text, int threads, size_t piece, uint64_t objects, const char *name)
+{
+    Outcome one = read_text(text, 1, 0, objects), many = read_text(text, threads, piece, objects);
+    tap_ok(one.is_fine == many.is_fine && is_same(&one.scene, &many.scene) && is_same(&one.messages, &many.messages),
+           "%zu spheres%s, pieces of %zu bytes on %d threads, %zu bytes of messages", one.spheres, name, piece, threads,
+           one.messages.length);
+    outcome_fini(&one);
+    outcome_fini(&many);
+}
+
 static void test_text(Random *random, bool has_many_colours)
 {
     TextBuffer text;
@@ -151,12 +161,23 @@ static void test_text(Random *random, bool has_many_colours)
     uint64_t objects = random_below(random, 4) == 0 ? 65600 + random_below(random, 4000) : 1000000;
     int threads = 2 + (int)random_below(random, 6);
     size_t piece = 700 + random_below(random, 20000);
-    Outcome one = read_text(&text, 1, 0, objects), many = read_text(&text, threads, piece, objects);
-    tap_ok(one.is_fine == many.is_fine && is_same(&one.scene, &many.scene) && is_same(&one.messages, &many.messages),
-           "%zu spheres%s, pieces of %zu bytes on %d threads, %zu bytes of messages", one.spheres,
-           has_many_colours ? " of as many colours" : "", piece, threads, one.messages.length);
-    outcome_fini(&one);
-    outcome_fini(&many);
+    compare(&text, threads, piece, objects, has_many_colours ? " of as many colours" : "");
+    text_fini(&text);
+}
+
+// A literal that is left to the usual way, the first of a round: nothing moves then, the source neither.
+static void test_left(Random *random)
+{
+    TextBuffer text;
+    text_init(&text);
+    for (int i = 1; i <= 6000; i++) {
+        write_sphere(&text, random, COLOUR_NEW);
+        if (i % 130 == 0) {
+            text_append(&text, "sphere { <1, 2, 3>, 1 pigment { rgb <1e31, 0, 1> } }\n");
+        }
+    }
+    must(!text.failed);
+    compare(&text, 2, 1000, 1000000, ", some of them left");
     text_fini(&text);
 }
 
@@ -167,5 +188,6 @@ int main(int argc, char **argv)
     for (int i = 0; i < texts; i++) {
         test_text(&random, i % 2 == 1);
     }
+    test_left(&random);
     return tap_done();
 }
