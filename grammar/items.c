@@ -10,7 +10,7 @@
 
 #include "ast/words.h"
 #include "grammar/lexer.h"
-#include "grammar/plain.h"
+#include "base/plain.h"
 
 enum {
     KEPT = 8,         // forms

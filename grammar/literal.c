@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "grammar/literal.h"
-#include "grammar/plain.h"
+#include "base/plain.h"
 
 enum {
     MISSES_MOST = 64,     // so many texts in a row that no statement repeats: from then on few are kept

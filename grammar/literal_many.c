@@ -14,7 +14,7 @@
 
 #include "base/parallel.h"
 #include "grammar/literal.h"
-#include "grammar/plain.h"
+#include "base/plain.h"
 
 enum {
     PIECE_BYTES = 1 << 20,

@@ -15,7 +15,6 @@ libgrammar_la_SOURCES = \
   %D%/literal_many.c \
   %D%/messages.c \
   %D%/parser.y \
-  %D%/plain.h \
   %D%/quick.c \
   %D%/splice.c \
   %D%/splice.h \

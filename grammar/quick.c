@@ -12,7 +12,7 @@
 
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
-#include "grammar/plain.h"
+#include "base/plain.h"
 
 enum {
     AHEAD = 32,          // bytes at hand wherever a token begins

@@ -11,8 +11,6 @@
 #include "eval/internal.h"
 #include "math/transform.h"
 
-static const double pi = 3.14159265358979323846;
-
 static bool give_number(Value *value, double number)
 {
     *value = value_of_number(number);
@@ -73,12 +71,12 @@ double number_to_int(double number)
 // Rounded as POV-Ray does it, measured on 400 numbers.
 double number_degrees(double radians)
 {
-    return radians / (pi / 180.0);
+    return radians / (NUMBER_PI / 180.0);
 }
 
 double number_radians(double degrees)
 {
-    return degrees * (pi / 180.0);
+    return degrees * (NUMBER_PI / 180.0);
 }
 
 static bool positive_only(Eval *ev, const AstNode *node, Value *value)
@@ -178,7 +176,6 @@ static bool new_stream(Eval *ev, const AstNode *node, Value *value)
     return give_number(value, (double)(ev->streams.count - 1));
 }
 
-// The generator of POV-Ray, as measured: state' = state * 1812433253 + 12345 modulo 2^32, value = state' / (2^32 - 1).
 static bool next_random(Eval *ev, const AstNode *node, Value *value)
 {
     double handle;
@@ -188,9 +185,7 @@ static bool next_random(Eval *ev, const AstNode *node, Value *value)
     if (!(handle > -1.0 && handle < (double)ev->streams.count)) {
         return eval_fault(ev, DIAG_E0303, node->a->span, "`rand` needs what `seed` gave, and %g is not that", handle);
     }
-    uint32_t *state = &ev->streams.items[(size_t)fmax(handle, 0.0)];
-    *state = *state * 1812433253u + 12345u;
-    return give_number(value, *state / 4294967295.0);
+    return give_number(value, random_next(&ev->streams.items[(size_t)fmax(handle, 0.0)]));
 }
 
 // ---- noise
@@ -400,6 +395,11 @@ static const Builtin builtins[WORD_COUNT] = {
     [W_prod] = {not_supported, NULL, 0, ANY_COUNT},
 };
 
+NumberFn builtin_of_number(Symbol word)
+{
+    return builtins[word].of_number;
+}
+
 static bool fault_count(Eval *ev, const AstNode *node, const Builtin *builtin)
 {
     unsigned bound = node->count < builtin->least ? builtin->least : builtin->greatest;
@@ -461,7 +461,7 @@ static const struct {
     double v[4];
 } constants[] = {
     {W_x, 3, {1, 0, 0}},    {W_y, 3, {0, 1, 0}},   {W_z, 3, {0, 0, 1}},   {W_u, 2, {1, 0}},
-    {W_v, 2, {0, 1}},       {W_t, 4, {0, 0, 0, 1}}, {W_pi, 0, {3.14159265358979323846}},
+    {W_v, 2, {0, 1}},       {W_t, 4, {0, 0, 0, 1}}, {W_pi, 0, {NUMBER_PI}},
     {W_true, 0, {1}},       {W_yes, 0, {1}},       {W_on, 0, {1}},        {W_false, 0, {0}},
     {W_no, 0, {0}},         {W_off, 0, {0}},
 };

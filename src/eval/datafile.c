@@ -9,7 +9,8 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "eval/internal.h"
+#include "base/plain.h"
+#include "eval/scope.h"
 
 enum {
     BLOCK_BYTES = 64 << 10,
@@ -412,6 +413,76 @@ static bool give(Eval *ev, const Place *place, const Value *value)
                                   : array_assign(ev, place->array, place->element, value, target->span);
 }
 
+// A number that is written in the most usual way, and all around it; NULL: anything else.
+static const char *read_plainly(const char *at, const char *end, double *number)
+{
+    at = plain_read_number(at, end, number);
+    while (at != NULL && is_blank(*at)) {
+        at++;
+    }
+    return at;
+}
+
+static const char *read_three_plainly(const char *at, const char *end, double *three)
+{
+    for (unsigned i = 0; i < 3; i++) {
+        do {
+            at++; // a `<`, a comma, a blank
+        } while (is_blank(*at));
+        at = read_plainly(at, end, &three[i]);
+        if (at == NULL || *at != (i < 2 ? ',' : '>')) {
+            return NULL;
+        }
+    }
+    do {
+        at++;
+    } while (is_blank(*at));
+    return at;
+}
+
+// The next value and the comma behind it, where both are written in the most usual way and at hand, and the name is a
+// number or vector already. False: nothing was done.
+static bool read_quickly(Eval *ev, const AstNode *target, DataFile *file)
+{
+    Binding *binding = target->kind == AST_NAME ? scope_binding(ev, target->symbol) : NULL;
+    if (binding == NULL || binding->array != NULL || !is_readable_into(binding->variable)) {
+        return false;
+    }
+    Value value;
+    const char *at = file->at;
+    while (is_blank(*at)) {
+        at++;
+    }
+    if ((size_t)(file->end - at) < LOOK_AHEAD) {
+        return false;
+    }
+    bool is_vector = *at == '<';
+    at = is_vector ? read_three_plainly(at, file->end, value.v) : read_plainly(at, file->end, &value.number);
+    if (at == NULL || *at != ',') {
+        return false;
+    }
+    file->at = at + 1;
+    binding->is_used = true;
+    Value *known = binding->variable;
+    value_set_number(known, value.number); // the first component, too
+    if (is_vector) {
+        known->kind = VALUE_VECTOR;
+        known->components = 3;
+        known->v[1] = value.v[1];
+        known->v[2] = value.v[2];
+    }
+    return true;
+}
+
+// The first target that is left to the usual way; NULL: none.
+static const AstNode *read_most(Eval *ev, const AstNode *targets, DataFile *file)
+{
+    while (targets != NULL && read_quickly(ev, targets, file)) {
+        targets = targets->next;
+    }
+    return targets;
+}
+
 // Reads one value for each target; *missed is the first that got none. False after a fault.
 static bool read_all(Eval *ev, const AstNode *targets, DataFile *file, bool *is_end, const AstNode **missed)
 {
@@ -462,11 +533,15 @@ static void run_read(Eval *ev, const AstNode *node)
         return;
     }
     DataFile *file = found->file;
+    const AstNode *left = ev->options.no_literals ? node->b : read_most(ev, node->b, file);
+    if (left == NULL) {
+        return;
+    }
     DiagFrame frame;
     bool is_end = false;
     const AstNode *missed = NULL;
     eval_frame_enter(ev, &frame, "read from", eval_text(ev, name->symbol), node->span);
-    bool fine = read_all(ev, node->b, file, &is_end, &missed);
+    bool fine = read_all(ev, left, file, &is_end, &missed);
     eval_frame_leave(ev);
     if (fine && missed != NULL && missed != node->b) {
         eval_warn(ev, DIAG_W0501, missed->span, "the file ends before a value for this; what it was it stays");

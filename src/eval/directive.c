@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
-#include "eval/internal.h"
+#include "eval/scope.h"
 
 typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 
@@ -71,11 +71,33 @@ static bool assign(Eval *ev, const AstNode *node, const Target *target, const Va
                : array_assign(ev, target->array, target->element, value, node->b->span);
 }
 
+// A name that is a number becomes another one. False: nothing was done.
+static bool declare_number(Eval *ev, const AstNode *node)
+{
+    double number;
+    const AstNode *target = node->a;
+    if (target->kind != AST_NAME || (node->flags & (AST_ENDED | AST_UNREADABLE)) != AST_ENDED) {
+        return false;
+    }
+    const Binding *binding = scope_binding(ev, target->symbol);
+    Value *known = scope_number(binding);
+    bool is_here = known != NULL && (node->op == AST_OP_DECLARE || binding->level == ev->scope->levels.count);
+    if (!is_here || !quick_number(ev, node->b, &number)) {
+        return false;
+    }
+    value_set_number(known, number);
+    ev->is_value_ended = false;
+    return true;
+}
+
 static void run_declare(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     Value value;
     Target target;
+    if (declare_number(ev, node)) {
+        return;
+    }
     if (!find_target(ev, node, &target)) {
         ev->faulty = true;
         return;
@@ -305,9 +327,9 @@ bool loop_continues(Eval *ev, CursorFrame *frame)
     const AstNode *node = frame->node;
     if (frame->kind == FRAME_WHILE) {
         bool holds;
-        ArenaMark mark = arena_mark(&ev->scratch);
+        ArenaMark mark = scratch_mark(ev);
         bool fine = eval_condition(ev, node->a, &holds);
-        arena_rewind(&ev->scratch, mark);
+        scratch_rewind(ev, mark);
         return fine && holds && eval_step(ev, node->span);
     }
     bool holds;
@@ -380,9 +402,8 @@ bool directive_run(Cursor *cursor, const AstNode *node)
         (void)initialiser_fault(cursor->ev, node->span);
         return true;
     }
-    Arena *scratch = &cursor->ev->scratch;
-    ArenaMark mark = arena_mark(scratch);
+    ArenaMark mark = scratch_mark(cursor->ev);
     run(cursor, node);
-    arena_rewind(scratch, mark);
+    scratch_rewind(cursor->ev, mark);
     return true;
 }

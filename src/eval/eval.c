@@ -38,7 +38,7 @@ static void fault_not_an_object(Eval *ev, const AstNode *item)
 static void place(Eval *ev, const AstNode *item)
 {
     bool is_placeable = item->kind == AST_BLOCK || item->kind == AST_NAME || item->kind == AST_INDEX;
-    ArenaMark mark = arena_mark(&ev->scratch);
+    ArenaMark mark = scratch_mark(ev);
     if (!is_placeable) {
         fault_not_an_object(ev, item);
     } else {
@@ -46,7 +46,7 @@ static void place(Eval *ev, const AstNode *item)
         ev->has_stray = !fine && item->kind != AST_BLOCK;
         ev->faulty = !fine || ev->faulty;
     }
-    arena_rewind(&ev->scratch, mark);
+    scratch_rewind(ev, mark);
 }
 
 void eval_item(Eval *ev, const AstNode *item)

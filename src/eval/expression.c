@@ -13,8 +13,13 @@
 bool eval_number(Eval *ev, const AstNode *node, double *number)
 {
     Value value;
+    double quick;
     if (node->kind == AST_NUMBER) {
         *number = node->number;
+        return true;
+    }
+    if (quick_number(ev, node, &quick)) {
+        *number = quick;
         return true;
     }
     return eval_expression(ev, node, &value) && value_number(ev, &value, node->span, number);

@@ -12,6 +12,7 @@
 //   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
 //   literal.c    spheres that are read without a tree
 //   repeat.c     spheres that loops and macros place again and again
+//   quick.c      numbers that are worked out at once
 //   lint.c       what is suspicious in the text
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
 //   misfit.c     what is said of items that do not fit into a block
@@ -135,6 +136,7 @@ typedef struct Repeat {
     size_t spheres, shapes, messages;        // before it was watched
     Material material;                       // but for the colour
     bool is_tried, is_known;
+    bool is_quick; // its expressions are worked out by quick.c
 } Repeat;
 enum { REPEATS = 32, REPEAT_STREAMS = 16 };
 typedef enum RepeatStep {
@@ -205,6 +207,26 @@ NoiseGenerator eval_noise_generator(const Eval *ev);
 const char *eval_text(const Eval *ev, Symbol symbol);
 // Of a node that begins with its symbol, the symbol alone: `sphere` of a whole block.
 Span eval_word_span(const Eval *ev, const AstNode *node);
+
+// As arena_rewind: most of the time the mark is in the same chunk.
+static inline void memory_rewind(Arena *arena, ArenaMark mark)
+{
+    if (RT_LIKELY(arena->chunk == mark.chunk)) {
+        arena->next = mark.next;
+    } else {
+        arena_rewind(arena, mark);
+    }
+}
+
+static inline ArenaMark scratch_mark(const Eval *ev)
+{
+    return (ArenaMark){ev->scratch.chunk, ev->scratch.next};
+}
+
+static inline void scratch_rewind(Eval *ev, ArenaMark mark)
+{
+    memory_rewind(&ev->scratch, mark);
+}
 
 // Enter and leave what is on the call stack of messages. The frame must live until it is left.
 void eval_frame_enter(Eval *ev, DiagFrame *frame, const char *what, const char *name, Span span);
@@ -332,6 +354,29 @@ bool eval_string(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // A condition of a directive.
 bool eval_condition(Eval *ev, const AstNode *node, bool *holds) RT_MUST_CHECK;
 
+// Numbers at once (quick.c): false, or 0, where the expression is to be worked out the usual way. `draws`: random
+// numbers may be drawn, which the caller takes back after that; else nothing has happened.
+bool quick_number_of(Eval *ev, const AstNode *node, bool draws, double *number) RT_MUST_CHECK;
+// A vector of three: 3; or a number, which then stands in all three: 1.
+unsigned quick_three_of(Eval *ev, const AstNode *node, bool draws, double *three) RT_MUST_CHECK;
+
+// What nests deeply, or where nesting may count, goes the usual way, as does all without literals.
+enum { QUICK_DEEPEST = 12 };
+static inline bool quick_is_flat(const AstNode *node)
+{
+    return node->depth <= QUICK_DEEPEST;
+}
+
+static inline bool quick_has_room(const Eval *ev)
+{
+    return ev->expression_depth + 2 * QUICK_DEEPEST <= ev->expression_depth_limit && !ev->options.no_literals;
+}
+
+RT_MUST_CHECK static inline bool quick_number(Eval *ev, const AstNode *node, double *number)
+{
+    return quick_is_flat(node) && quick_has_room(ev) && quick_number_of(ev, node, false, number);
+}
+
 // The nodes of operators.
 bool operator_unary(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool operator_binary(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
@@ -352,6 +397,7 @@ static inline void number_check(Eval *ev, double number, Span span)
     }
 }
 
+#define NUMBER_PI 3.14159265358979323846
 double number_to_int(double number); // as a C conversion to int does it on x86: what does not fit is the least int
 double number_degrees(double radians);
 double number_radians(double degrees);
@@ -379,6 +425,16 @@ bool call_is_value(const Eval *ev, const AstNode *call);
 bool call_value(Eval *ev, const AstNode *call, Value *value) RT_MUST_CHECK;
 bool function_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool spline_create(Eval *ev, const AstNode *block, Value *value) RT_MUST_CHECK;
+
+// The function of a word that takes one number and has a value at each; NULL: it is none.
+typedef double (*NumberFn)(double number);
+NumberFn builtin_of_number(Symbol word);
+// The generator of POV-Ray, as measured: state' = state * 1812433253 + 12345 modulo 2^32, value = state' / (2^32 - 1).
+static inline double random_next(uint32_t *state)
+{
+    *state = *state * 1812433253u + 12345u;
+    return *state / 4294967295.0;
+}
 
 bool builtin_call(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool builtin_constant(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;

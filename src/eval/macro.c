@@ -6,9 +6,12 @@
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
 
-#include "eval/internal.h"
+#include "eval/scope.h"
 
-enum { CALL_WEIGHT = 8 }; // of native recursion, see eval_deepen
+enum {
+    CALL_WEIGHT = 8,   // of native recursion, see eval_deepen
+    ARGUMENTS_FEW = 6, // more of them take scratch memory
+};
 
 // What the items of a body, or of a branch in it, may give where a value is wanted.
 typedef struct Yield {
@@ -131,11 +134,46 @@ typedef struct Argument {
     ValueArray *array;
 } Argument;
 
+// A name that has a value of any kind stands for itself.
+static bool read_name(const Eval *ev, const AstNode *node, Argument *argument)
+{
+    Binding *binding = scope_binding(ev, node->symbol);
+    unsigned kind = binding != NULL ? binding->variable->kind : VALUE_NONE;
+    if (kind == VALUE_NONE || kind == VALUE_UNSET || kind == VALUE_MACRO || kind == VALUE_FILE) {
+        return false;
+    }
+    binding->is_used = true;
+    argument->variable = binding->variable;
+    argument->array = binding->array;
+    return true;
+}
+
+// False: it is to be read the usual way.
+static bool read_quickly(Eval *ev, const AstNode *node, Argument *argument)
+{
+    if (!quick_has_room(ev) || !quick_is_flat(node) || (node->flags & AST_KNOWN)) {
+        return false;
+    }
+    if ((node->kind == AST_NAME || node->kind == AST_INDEX) && !(node->flags & AST_IN_PARENTHESES)) {
+        return node->kind == AST_NAME && read_name(ev, node, argument);
+    }
+    Value *value = &argument->value;
+    unsigned width = quick_three_of(ev, node, false, value->v);
+    value->kind = width == 3 ? VALUE_VECTOR : VALUE_NUMBER;
+    value->components = width == 3 ? 3 : 0;
+    value->block = 0;
+    value->name = SYMBOL_NONE;
+    return width != 0;
+}
+
 static bool read_argument(Eval *ev, const AstNode *node, Argument *argument)
 {
     bool is_bare = !(node->flags & AST_IN_PARENTHESES);
     argument->variable = NULL;
     argument->array = NULL;
+    if (read_quickly(ev, node, argument)) {
+        return true;
+    }
     if (is_bare && node->kind == AST_INDEX) {
         return array_locate(ev, node, &argument->variable, &argument->array) &&
                (argument->variable->kind != VALUE_NONE ||
@@ -161,7 +199,10 @@ static bool bind(Eval *ev, Symbol name, const Argument *argument, Span span)
 // All arguments are worked out in the caller's scope before the first is bound.
 static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
 {
-    Argument *arguments = arena_alloc_array(&ev->scratch, macro->parameter_count, sizeof *arguments);
+    Argument few[ARGUMENTS_FEW];
+    Argument *arguments = macro->parameter_count <= ARGUMENTS_FEW
+                              ? few
+                              : arena_alloc_array(&ev->scratch, macro->parameter_count, sizeof *arguments);
     if (arguments == NULL) {
         return eval_no_memory(ev, call->span);
     }
@@ -205,9 +246,9 @@ bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame)
         }
         return false;
     }
-    ArenaMark mark = arena_mark(&ev->scratch);
+    ArenaMark mark = scratch_mark(ev);
     bool fine = bind_all(ev, call, macro);
-    arena_rewind(&ev->scratch, mark);
+    scratch_rewind(ev, mark);
     if (fine) {
         ev->call_depth++;
         eval_frame_enter(ev, frame, "in macro", eval_text(ev, macro->name), call->span);

@@ -216,7 +216,7 @@ bool eval_place(Eval *ev, const AstNode *item)
     if (step == REPEAT_KNOWN && repeat_place(ev, item, &is_fine)) {
         return is_fine;
     }
-    ArenaMark mark = arena_mark(&ev->scratch);
+    ArenaMark mark = scratch_mark(ev);
     Arena *arena = kind == KIND_SKY_SPHERE ? &ev->program : &ev->scratch; // a sky is kept until the end
     Blueprint record;
     SchemaKind is;
@@ -230,7 +230,7 @@ bool eval_place(Eval *ev, const AstNode *item)
     if (step == REPEAT_WATCH) {
         repeat_learn(ev, item, is_plain);
     }
-    arena_rewind(&ev->scratch, mark);
+    scratch_rewind(ev, mark);
     return is_fine;
 }
 

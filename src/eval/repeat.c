@@ -116,9 +116,22 @@ void repeat_learn(Eval *ev, const AstNode *sphere, bool is_plain_object)
     MaterialIndex material = scene->spheres.items[repeat->spheres].material;
     repeat->is_known = !(material & MATERIAL_COMPOUND);
     repeat->material = repeat->is_known ? scene->materials.items[material] : repeat->material;
+    repeat->is_quick = quick_is_flat(repeat->centre) && quick_is_flat(repeat->radius) &&
+                       (!repeat->colour || quick_is_flat(repeat->colour));
 }
 
-// A vector of three finite numbers, or, where `takes_number`, one for all.
+// What a turn gives: where the sphere is, how large, and of which colour.
+typedef struct Turn {
+    double centre[3], radius, colour[3];
+} Turn;
+
+static bool is_finite(const double *three)
+{
+    return isfinite(three[0]) && isfinite(three[1]) && isfinite(three[2]);
+}
+
+
+// A vector of three numbers, or, where `takes_number`, one for all.
 static bool take_three(Eval *ev, const AstNode *node, bool takes_number, double *three)
 {
     Value value;
@@ -127,62 +140,109 @@ static bool take_three(Eval *ev, const AstNode *node, bool takes_number, double 
     }
     if (takes_number && value.kind == VALUE_NUMBER) {
         three[0] = three[1] = three[2] = value.number;
-    } else if (value.kind == VALUE_VECTOR && value.components == 3) {
-        memcpy(three, value.v, 3 * sizeof *three);
-    } else {
+        return true;
+    }
+    if (value.kind != VALUE_VECTOR || value.components != 3) {
         return false;
     }
-    return isfinite(three[0]) && isfinite(three[1]) && isfinite(three[2]);
+    memcpy(three, value.v, 3 * sizeof *three);
+    return true;
 }
 
-static bool take_values(Eval *ev, const Repeat *repeat, double *centre, double *radius, Material *material)
+static bool is_fine_radius(double radius)
+{
+    return radius > 0.0 && isfinite(radius);
+}
+
+static bool is_fine_colour(const double *colour)
+{
+    return fabs(colour[0]) <= COLOUR_GREATEST && fabs(colour[1]) <= COLOUR_GREATEST && fabs(colour[2]) <= COLOUR_GREATEST;
+}
+
+// Nothing is worked out after what is not fine: the statement itself is to tell first what is wrong with that.
+static bool take_values(Eval *ev, const Repeat *repeat, Turn *turn)
 {
     Value value;
-    double colour[3];
-    if (!take_three(ev, repeat->centre, false, centre) || !eval_expression(ev, repeat->radius, &value) ||
-        value.kind != VALUE_NUMBER || !(value.number > 0.0) || !isfinite(value.number)) {
+    if (!take_three(ev, repeat->centre, false, turn->centre) || !is_finite(turn->centre) ||
+        !eval_expression(ev, repeat->radius, &value) || value.kind != VALUE_NUMBER || !is_fine_radius(value.number)) {
         return false;
     }
-    *radius = value.number;
-    *material = repeat->material;
-    if (repeat->colour) {
-        if (!take_three(ev, repeat->colour, true, colour) || !(fabs(colour[0]) <= COLOUR_GREATEST) ||
-            !(fabs(colour[1]) <= COLOUR_GREATEST) || !(fabs(colour[2]) <= COLOUR_GREATEST)) {
-            return false;
-        }
-        material->red = (float)colour[0];
-        material->green = (float)colour[1];
-        material->blue = (float)colour[2];
+    turn->radius = value.number;
+    return !repeat->colour || (take_three(ev, repeat->colour, true, turn->colour) && is_fine_colour(turn->colour));
+}
+
+static bool take_usually(Eval *ev, const Repeat *repeat, Turn *turn)
+{
+    ArenaMark mark = scratch_mark(ev);
+    bool is_taken = take_values(ev, repeat, turn);
+    scratch_rewind(ev, mark);
+    return is_taken;
+}
+
+// The states of all random numbers.
+typedef struct Streams {
+    size_t count;
+    uint32_t states[REPEAT_STREAMS];
+} Streams;
+
+static void streams_keep(const Eval *ev, Streams *kept)
+{
+    kept->count = ev->streams.count;
+    for (size_t i = 0; i < kept->count; i++) {
+        kept->states[i] = ev->streams.items[i];
     }
-    return true;
+}
+
+static void streams_take_back(Eval *ev, const Streams *kept)
+{
+    ev->streams.count = kept->count;
+    for (size_t i = 0; i < kept->count; i++) {
+        ev->streams.items[i] = kept->states[i];
+    }
+}
+
+static bool take_quickly(Eval *ev, const Repeat *repeat, Turn *turn)
+{
+    return quick_three_of(ev, repeat->centre, true, turn->centre) == 3 && is_finite(turn->centre) &&
+           quick_number_of(ev, repeat->radius, true, &turn->radius) && is_fine_radius(turn->radius) &&
+           (!repeat->colour ||
+            (quick_three_of(ev, repeat->colour, true, turn->colour) && is_fine_colour(turn->colour)));
+}
+
+static bool take(Eval *ev, Repeat *repeat, const Streams *kept, Turn *turn)
+{
+    if (repeat->is_quick && quick_has_room(ev)) {
+        if (take_quickly(ev, repeat, turn)) {
+            return true;
+        }
+        streams_take_back(ev, kept);
+        repeat->is_quick = false; // what is refused once is refused again, most likely
+    }
+    return take_usually(ev, repeat, turn);
 }
 
 bool repeat_place(Eval *ev, const AstNode *sphere, bool *is_fine)
 {
-    Repeat repeat = *place_of(ev, sphere); // an expression places nothing
-    uint32_t streams[REPEAT_STREAMS];
-    size_t stream_count = ev->streams.count;
-    double centre[3], radius;
-    Material material;
-    if (stream_count > REPEAT_STREAMS) {
+    Repeat *repeat = place_of(ev, sphere);
+    Streams kept;
+    Turn turn;
+    if (ev->streams.count > REPEAT_STREAMS) {
         return false;
     }
-    if (stream_count > 0) {
-        memcpy(streams, ev->streams.items, stream_count * sizeof *streams);
-    }
-    ArenaMark mark = arena_mark(&ev->scratch);
-    bool is_taken = take_values(ev, &repeat, centre, &radius, &material);
-    arena_rewind(&ev->scratch, mark);
-    if (!is_taken) {
-        place_of(ev, sphere)->is_known = false;
-        ev->streams.count = stream_count;
-        if (stream_count > 0) {
-            memcpy(ev->streams.items, streams, stream_count * sizeof *streams);
-        }
+    streams_keep(ev, &kept);
+    if (!take(ev, repeat, &kept, &turn)) {
+        repeat->is_known = false;
+        streams_take_back(ev, &kept);
         return false;
+    }
+    Material material = repeat->material;
+    if (repeat->colour) {
+        material.red = (float)turn.colour[0];
+        material.green = (float)turn.colour[1];
+        material.blue = (float)turn.colour[2];
     }
     // A zero is positive, as it is behind any transform.
-    Vec3 at = {centre[0] + 0.0, centre[1] + 0.0, centre[2] + 0.0};
-    *is_fine = sphere_place_plain(ev, at, radius, &material, sphere->span);
+    Vec3 at = {turn.centre[0] + 0.0, turn.centre[1] + 0.0, turn.centre[2] + 0.0};
+    *is_fine = sphere_place_plain(ev, at, turn.radius, &material, sphere->span);
     return true;
 }

@@ -8,35 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/scope.h"
 
 // So many names are looked at for suggestions in a run: a scene of a million names and faults gets no more.
 enum { LOOKED_AT_MOST = 1 << 26 };
-
-typedef struct Binding Binding;
-struct Binding {
-    Value own;
-    Value *variable;   // &own, or what a parameter by reference stands for
-    ValueArray *array; // of which the variable is an element, or NULL
-    Binding *hidden;   // the meaning of the same name further out
-    Binding *next;     // in the same level
-    Symbol name;       // SYMBOL_NONE after #undef
-    uint32_t level;    // 0: global
-    bool is_given;     // by the scene, not before it
-    bool is_used;      // it was looked for since
-};
-
-typedef struct Level {
-    ArenaMark mark;
-    Binding *locals;
-} Level;
-
-struct Scope {
-    Arena arena; // of locals
-    ARRAY(Binding *) innermost;
-    ARRAY(Level) levels; // level n is items[n - 1]
-    uint64_t looked_at;  // names, for suggestions
-};
 
 bool scope_init(Eval *ev)
 {
@@ -75,23 +50,13 @@ void scope_pop(Eval *ev)
             scope->innermost.items[local->name] = local->hidden;
         }
     }
-    arena_rewind(&scope->arena, level->mark);
+    memory_rewind(&scope->arena, level->mark);
     scope->levels.count--;
-}
-
-static Binding *find(const Eval *ev, Symbol name)
-{
-    return name < ev->scope->innermost.count ? ev->scope->innermost.items[name] : NULL;
 }
 
 Value *scope_find(const Eval *ev, Symbol name)
 {
-    Binding *binding = find(ev, name);
-    if (binding == NULL) {
-        return NULL;
-    }
-    binding->is_used = true;
-    return binding->variable;
+    return scope_look(ev, name);
 }
 
 EvalNames scope_count(const Eval *ev)
@@ -109,13 +74,13 @@ EvalNames scope_count(const Eval *ev)
 
 ValueArray *scope_array(const Eval *ev, Symbol name)
 {
-    const Binding *binding = find(ev, name);
+    const Binding *binding = scope_binding(ev, name);
     return binding != NULL ? binding->array : NULL;
 }
 
 bool scope_is_reference(const Eval *ev, Symbol name)
 {
-    const Binding *binding = find(ev, name);
+    const Binding *binding = scope_binding(ev, name);
     return binding != NULL && binding->variable != &binding->own;
 }
 
@@ -147,9 +112,16 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
         eval_no_memory(ev, span);
         return NULL;
     }
-    *binding = (Binding){.name = name, .level = (uint32_t)level, .hidden = scope->innermost.items[name],
-                          .is_given = span.end > 0};
+    binding->own.kind = VALUE_NONE; // the rest of it is not looked at
+    binding->own.name = SYMBOL_NONE;
     binding->variable = &binding->own;
+    binding->array = NULL;
+    binding->hidden = scope->innermost.items[name];
+    binding->next = NULL;
+    binding->name = name;
+    binding->level = (uint32_t)level;
+    binding->is_given = span.end > 0;
+    binding->is_used = false;
     if (level > 0) {
         binding->next = scope->levels.items[level - 1].locals;
         scope->levels.items[level - 1].locals = binding;
@@ -169,7 +141,7 @@ static Arena *arena_for(Eval *ev, const Binding *binding)
 static Binding *find_or_make(Eval *ev, Symbol name, bool local, Span span)
 {
     size_t level = ev->scope->levels.count;
-    Binding *binding = find(ev, name);
+    Binding *binding = scope_binding(ev, name);
     if (binding == NULL || (local && binding->level != level)) {
         return make(ev, name, local ? level : 0, span);
     }
@@ -194,7 +166,7 @@ static bool may_replace(Eval *ev, const Value *known, const Value *value, Symbol
 
 bool scope_is_new(const Eval *ev, Symbol name, bool local)
 {
-    const Binding *binding = find(ev, name);
+    const Binding *binding = scope_binding(ev, name);
     return binding == NULL || (local && binding->level != ev->scope->levels.count);
 }
 
@@ -203,7 +175,7 @@ bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span)
     if (RT_LIKELY(!scope_is_new(ev, name, local))) {
         return true;
     }
-    const Binding *outer = find(ev, name);
+    const Binding *outer = scope_binding(ev, name);
     if (outer != NULL && (outer->variable->kind == VALUE_MACRO || outer->variable->kind == VALUE_FUNCTION)) {
         return true; // it is not hidden
     }
@@ -245,6 +217,10 @@ bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span s
 bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span)
 {
     Binding *binding = make(ev, name, ev->scope->levels.count, span);
+    if (binding != NULL && value->kind == VALUE_NUMBER) {
+        value_set_number(&binding->own, value->number);
+        return true;
+    }
     return binding != NULL && value_store(ev, value, &ev->scope->arena, span, &binding->own);
 }
 
@@ -261,7 +237,7 @@ bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *ar
 
 bool scope_define_macro(Eval *ev, Macro *macro)
 {
-    Binding *binding = find(ev, macro->name);
+    Binding *binding = scope_binding(ev, macro->name);
     if (binding == NULL) {
         binding = make(ev, macro->name, 0, macro->span);
     } else if (binding->variable->kind != VALUE_MACRO) {
@@ -277,7 +253,7 @@ bool scope_define_macro(Eval *ev, Macro *macro)
 
 bool scope_undef(Eval *ev, Symbol name)
 {
-    Binding *binding = find(ev, name);
+    Binding *binding = scope_binding(ev, name);
     if (binding == NULL) {
         return false;
     }

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Spheres that are read by their text alone are those that the parser reads: random texts, each read in both ways.
+"""Spheres that are read by their text alone, or placed again and again by a loop, are those of the usual way: random
+texts, each read in both ways, with files of numbers that they read.
 
-Usage: check_literals.py [COUNT [SEED]]   Prints TAP, a line for each batch of texts; `check_literals.py -SEED` prints one.
+Usage: check_literals.py [COUNT [SEED]]   Prints TAP, a line for each batch of texts; `check_literals.py -SEED` prints one,
+and writes the files that it reads.
 The scene's dump, every message with its place, and the exit code must be the same. SPDX-License-Identifier: MIT
 """
 import concurrent.futures
@@ -18,6 +20,9 @@ FAULTY = {"<{c}>", "finish { phnog 1 }", "finish { diffuse -1 }", "torus", "3", 
           "sphere", "5", "sphere { <1, 2, 3", "union { sphere { 0, 1 } ", "0", "-1", "", ",,", "interior { ior 1.5 }",
           "clipped_by { plane { y, 9 } }"}
 SCANNER_BLOCK = 256 * 1024
+DATA_BLOCK = 64 * 1024
+# What a turn of a loop over a file tells of what it has read; nothing, most of the time.
+SHOWN = ["", "", "", "#debug concat(str(X, 0, 3), \"\\n\")", "#debug concat(str(defined(F), 0, 0), str(Y, 0, -1), \"\\n\")"]
 
 
 class Text:
@@ -27,6 +32,7 @@ class Text:
         self.dice = random.Random(seed)
         self.is_sane = self.dice.random() < 0.5
         self.kinds = [self.rest() for _ in range(self.dice.randrange(1, 6))]
+        self.files = {}  # name -> what #read finds there
 
     def pick(self, *choices):
         sane = [choice for choice in choices if choice not in FAULTY]
@@ -87,17 +93,54 @@ class Text:
                          "#if (A) sphere { <0, 0, 0>, 1 } #end", "#declare T = texture { pigment { rgb 1 } }", "}\n", "#end", "5",
                          "#for (I, 1, 3) sphere { I*x, 1 } #end", "/* " + "x" * 300 + " */", "sphere { <1, 2, 3", "#local A = 2;")
 
+    def datum(self, odd):
+        if self.dice.random() < odd:
+            return self.pick(self.odd_number(), "+ 1", "-/* so */2", "<1, 2>", "<1 2 3>", "<1, 2, 3,>", "<1,2,3,4,5>", "\"text\"", "5 6", "x", "", "#",
+                             "1\x1a", "1\v", "<1,2,", "1e", "- -1", "3.4.5", "1" * 300, "<" + " " * 700 + "1, 2, 3>")
+        return self.pick(self.number(), self.number(), self.number(), f"<{self.numbers(3)}>" if self.dice.random() < 0.2 else self.number())
+
+    def data(self, odd):
+        """A file of numbers, most of them with commas, some longer than what is read at a time."""
+        blank = self.pick(" ", "", "\n", "\t ", " // why\n", "\r\n")
+        text = "".join(f"{self.datum(odd)}{self.pick(',', ',') if self.dice.random() > odd / 8 else self.pick('', ' ', ',,')}{blank}"
+                       for _ in range(self.dice.choice([0, 1, 3, 8, 40, 200])))
+        text = text.rstrip(" ,\n") if self.dice.random() < 0.3 else text
+        if text and self.dice.random() < 0.1:
+            text = "/*" + "-" * (DATA_BLOCK - self.dice.randrange(700)) + "*/" + text
+        name = f"d{len(self.files)}.txt"
+        self.files[name] = text
+        return name
+
+    def reading(self, odd):
+        """A loop over a file."""
+        targets = self.pick("X", "X, Y", "X, Y, Z, R", "V, R", "X, X", "A0[1], X", "A0[0], A0[X]")
+        body = f"#read (F, {targets}) {self.dice.choice(SHOWN)}\n{self.loop_body(odd)}"
+        again = f"#fopen F \"{self.data(odd)}\" read #declare X = 0; #declare Y = 1; #declare Z = 2; #declare R = 0.5; #declare A0 = array[3] {{1, 2, 0}};\n"
+        return again + self.pick(f"#while (defined(F)) {body} #end", f"#for (I, 1, 3) #ifdef (F) {body} #end #end #ifdef (F) #fclose F #end",
+                                 f"#macro B(P, Q) sphere {{ P, Q pigment {{ rgb <X, 0, Q>*0.1 }} }} #end #while (defined(F)) #read (F, X, Y) B(<X, Y, X>, abs(Y) + 0.1) #end",
+                                 f"#declare N = 0; #while (defined(F) & N < 7) {body} #declare N = N + 1; #end #fclose F")
+
     def expression(self, number):
-        return self.pick(number, "rand(S)", "I", "I*0.5 + 1", "-I", "V.x", "max(I, 2)", "1/(I + 1)", "2*rand(S) - 1", "vlength(V)",
-                         *([] if self.is_sane else ["1/(I - 2)", "V", "A", "M()", "Red", "I*1e200*1e200", "N"]))
+        return self.pick(number, "rand(S)", "I", "I*0.5 + 1", "-I", "V.x", "max(I, 2)", "1/(I + 1)", "2*rand(S) - 1", "vlength(V)", "W[I]", "W[mod(I, 2)]",
+                         "mod(I, 3)", "pow(I, 2)", "sqrt(I)", "(I > 2)", "(I = 2)", "(I != 1)*2", "int(I/2)", "sin(I)", "2*pi", "defined(I)", "div(7, I)", "min(I, 3, V.y)",
+                         "atan2(I, 2)", "abs(-I)", "W[rand(S)*3]", "P[1].y", "(I >= 3 & I < 5)", "rand(S) + vlength(V)", "+I", "!I", "x.x",
+                         *([] if self.is_sane else ["1/(I - 2)", "V", "A", "M()", "Red", "I*1e200*1e200", "N", "W[I*2]", "sqrt(2 - I)", "acosh(I - 2)",
+                                                    "(I = 1 + 3e-10)", "W", "pow(0, I - 3)", "I = 2", "sin(I = 2)", "max(I < 2, 1)", "V.w", "P[I]", "rand(99)"]))
+
+    def loop_body(self, odd):
+        body = "\n".join(self.sphere(odd) for _ in range(self.dice.randrange(1, 4)))
+        body = re.sub(r"(?<=[<,\s{])-?\d+\.\d+(?=[,>])", lambda found: self.expression(found[0]), body)
+        return re.sub(r"(?<={)<[^<>]*>(?=,)", lambda found: self.pick(found[0], found[0], "V", "I*x + V", "rand(S)*y", "P[1]", "-V", "V*<1, 2, I>", "2*P[I - 1]", "I*z/2"), body)
 
     def loop(self, odd):
         """Spheres that a loop or a macro places again and again."""
-        body = "\n".join(self.sphere(odd) for _ in range(self.dice.randrange(1, 4)))
-        body = re.sub(r"(?<=[<,\s{])-?\d+\.\d+(?=[,>])", lambda found: self.expression(found[0]), body)
-        body = re.sub(r"(?<={)<[^<>]*>(?=,)", lambda found: self.pick(found[0], found[0], "V", "I*x + V", "rand(S)*y"), body)
+        body = self.loop_body(odd)
         return self.pick(f"#for (I, 1, 5) {body} #end", f"#declare I = 0; #while (I < 4) {body} #declare I = I + 1; #end",
                          f"#macro B(I) {body} #end B(1) B(2) B(3) B(rand(S)) B(5)",
+                         f"#macro B(I, V) {body} #declare I = I + 1; #end #declare K = 1; B(K, V) B(K, <1, K, 2>) B((K), -x) B(K + 1, P[0]) B(W[1], P[1]) B(pi, 3*<1, 2, K>)",
+                         f"#macro B(I) #local J = I*2; #declare I = J + 0.5; {body} #end #declare K = 1; #while (K < 20) B(K) B(W[1]) #end",
+                         f"#macro B(J) #local I = I + J; {body} #end #declare I = 1; B(1) B(I) B(2) B(I)",
+                         f"#declare I = 3; #while (I > 0.5) {body} #local I = I - 0.5; #end",
                          f"#for (I, 1, 6) {body} #if (I = 4) #default {{ finish {{ ambient 0.3 }} }} #end #end",
                          f"#for (I, 1, 5) {body} #declare V = <I, 1, rand(S)>; #end")
 
@@ -105,11 +148,12 @@ class Text:
         odd = self.pick(0.0, 0.05, 0.05, 0.4)
         text = self.pick("0" if self.is_sane else "", "#declare A = 1; #declare Red = rgb x; #declare Shiny = finish { phong 1 }\n"
                              "#declare T = texture { pigment { rgb 1 } } #macro M() scale 2 #end\n")
-        text += "#declare S = seed(5); #declare V = <1, 2, 3>;\n"
+        text += "#declare S = seed(5); #declare V = <1, 2, 3>; #declare W = array[7] {0, 1, 2.5, 3, -4, 5, 6}; #declare P = array[2] {<1, 2, 3>, <0, 0, 4>};\n"
         if self.dice.random() < 0.05:  # statements across the end of the scanner's block
             text += "// " + "-" * (SCANNER_BLOCK - len(text) - self.dice.randrange(600)) + "\n"
         for _ in range(self.dice.randrange(1, 60)):
-            text += (self.other() if self.dice.random() < odd else self.loop(odd) if self.dice.random() < 0.05 else self.sphere(odd)) + self.pick("\n", "\n", " ", "", "\r\n\n")
+            text += (self.other() if self.dice.random() < odd else self.loop(odd) if self.dice.random() < 0.05 else
+                     self.reading(odd) if self.dice.random() < 0.03 else self.sphere(odd)) + self.pick("\n", "\n", " ", "", "\r\n\n")
         return text
 
 
@@ -124,9 +168,10 @@ def compare(seeds):
     wrong, fine = [], 0
     with tempfile.TemporaryDirectory() as folder:
         for seed in seeds:
-            name = "text.scn"
-            with open(os.path.join(folder, name), "w", encoding="latin-1", newline="") as file:
-                file.write(Text(seed).write())
+            name, text = "text.scn", Text(seed)
+            for path, content in {name: text.write(), **text.files}.items():
+                with open(os.path.join(folder, path), "w", encoding="latin-1", newline="") as file:
+                    file.write(content)
             by_text, by_parser = read(folder, name), read(folder, name, "--no-literals")
             fine += by_parser[0] == 0
             wrong += [seed] if by_text != by_parser else []
@@ -135,7 +180,11 @@ def compare(seeds):
 
 def main():
     if sys.argv[1:] and sys.argv[1].startswith("-"):
-        sys.stdout.write(Text(int(sys.argv[1][1:])).write())
+        text = Text(int(sys.argv[1][1:]))
+        sys.stdout.write(text.write())
+        for name, content in text.files.items():
+            with open(name, "w", encoding="latin-1", newline="") as file:
+                file.write(content)
         return 0
     count, seed = (int(argument) for argument in (sys.argv[1:] + [COUNT, SEED][len(sys.argv) - 1:])[:2])
     seeds = list(range(seed * 1000000, seed * 1000000 + count))

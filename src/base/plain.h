@@ -1,11 +1,11 @@
-// Plain text in the scanner's buffer: blanks, digits, letters and numbers, read without the scanner's tables.
+// Plain text in a buffer: blanks, digits, letters and numbers, read without the tables of a scanner.
 //
-// The buffer ends with a zero. What is not sure to be read as the scanner would read it is refused, and left to it.
-// Private to the grammar.
+// The buffer ends with a zero. What is not sure to be read alike by those who read all forms of a number, the scanner of
+// scenes and the reader of data files, is refused, and left to them.
 //
 // SPDX-License-Identifier: MIT
-#ifndef GRAMMAR_PLAIN_H
-#define GRAMMAR_PLAIN_H
+#ifndef BASE_PLAIN_H
+#define BASE_PLAIN_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -83,45 +83,66 @@ static inline const char *plain_read_any(const char *at, const char *end, double
     return plain_is_digit(at[-1]) || at[-1] == '.' ? at : NULL;
 }
 
+// Powers of ten that are integers and doubles.
+static const struct {
+    int64_t integer;
+    double real;
+} plain_tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6},
+                  {10000000, 1e7}, {100000000, 1e8}, {1000000000, 1e9}, {10000000000, 1e10}, {100000000000, 1e11},
+                  {1000000000000, 1e12}, {10000000000000, 1e13}, {100000000000000, 1e14}};
+
+// After `whole` and the point there are `count` digits, which the eight bytes begin with: NULL when the number goes on.
+RT_ALWAYS_INLINE const char *plain_end_number(const char *point, int64_t whole, uint64_t chunk, unsigned count,
+                                              double sign, double *number)
+{
+    whole = whole * plain_tens[count].integer + (int64_t)plain_join_digits(chunk, count);
+    *number = sign * ((double)whole / plain_tens[count].real);
+    return plain_goes_on(point[1 + count]) ? NULL : point + 1 + count;
+}
+
 // A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
 // A number that is cut off by the end of the buffer is read as if it ended there.
-// Signs are multiplied with, since they come as they like and a branch would be foretold badly.
+// Signs are multiplied with, since they come as they like and a branch would be foretold badly. How many digits a number
+// has is mostly as before: branches on that are foretold well, and reading goes on behind it before it is counted.
 RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, double *number)
 {
     static const double signs[] = {1.0, -1.0};
     double sign = signs[*at == '-'];
     at += *at == '-';
 #if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    static const struct {
-        uint64_t integer;
-        double real;
-    } tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6},
-              {10000000, 1e7}, {100000000, 1e8}, {1000000000, 1e9}, {10000000000, 1e10}, {100000000000, 1e11}, {1000000000000, 1e12},
-              {10000000000000, 1e13}, {100000000000000, 1e14}};
     enum { DIGITS_FEW = 8, DIGITS_EXACT = 15, AHEAD = 32 };
     // An integer of up to 15 digits is a double, and so is the power of ten that divides it: one rounding.
     if (RT_LIKELY(end - at >= AHEAD && plain_is_digit(*at))) {
-        const char *point = at + 1;
-        uint64_t chunk, whole = (uint64_t)(*at - '0');
+        const char *point = at + 1, *after = NULL;
+        uint64_t chunk;
+        int64_t whole = *at - '0';
         for (; plain_is_digit(*point) && point - at < DIGITS_FEW; point++) { // few, most of the time
-            whole = whole * 10 + (uint64_t)(*point - '0');
+            whole = whole * 10 + (*point - '0');
         }
         memcpy(&chunk, point + 1, sizeof chunk);
-        unsigned count = plain_count_digits(chunk);
-        const char *after = point + 1 + count;
-        if (RT_LIKELY(*point == '.' && count - 1 < DIGITS_FEW - 1 && !plain_goes_on(*after))) {
-            whole = whole * tens[count].integer + plain_join_digits(chunk, count);
-            *number = sign * ((double)whole / tens[count].real);
+        unsigned count = *point == '.' ? plain_count_digits(chunk) : 0;
+        switch (count) {
+        case 1: after = plain_end_number(point, whole, chunk, 1, sign, number); break;
+        case 2: after = plain_end_number(point, whole, chunk, 2, sign, number); break;
+        case 3: after = plain_end_number(point, whole, chunk, 3, sign, number); break;
+        case 4: after = plain_end_number(point, whole, chunk, 4, sign, number); break;
+        case 5: after = plain_end_number(point, whole, chunk, 5, sign, number); break;
+        case 6: after = plain_end_number(point, whole, chunk, 6, sign, number); break;
+        case 7: after = plain_end_number(point, whole, chunk, 7, sign, number); break;
+        default: break;
+        }
+        if (RT_LIKELY(after != NULL)) {
             return after;
         }
-        if (*point == '.' && count == DIGITS_FEW) {
+        if (count == DIGITS_FEW) {
             uint64_t next;
+            after = point + 1 + count;
             memcpy(&next, after, sizeof next);
             unsigned more = plain_count_digits(next), fraction = count + more;
             if (more > 0 && (size_t)(point - at) + fraction <= DIGITS_EXACT && !plain_goes_on(after[more])) {
-                whole = whole * tens[count].integer + plain_join_digits(chunk, count);
-                whole = whole * tens[more].integer + plain_join_digits(next, more);
-                *number = sign * ((double)whole / tens[fraction].real);
+                whole = whole * plain_tens[count].integer + (int64_t)plain_join_digits(chunk, count);
+                whole = whole * plain_tens[more].integer + (int64_t)plain_join_digits(next, more);
+                *number = sign * ((double)whole / plain_tens[fraction].real);
                 return after + more;
             }
         }
