@@ -49,7 +49,8 @@ typedef enum Without {
     PART("mirrored rays", RENDER_REFLECTION, "no finish reflects", WITHOUT_REFLECTION)                               \
     PART("reflection exponent", RENDER_EXPONENT, "no finish has it", WITHOUT_NOTHING)                                \
     PART("rays through surfaces", RENDER_TRANSPARENCY, "no pigment lets light through", WITHOUT_NOTHING)             \
-    PART("patterns and layers", RENDER_TEXTURES, "each texture is of one colour", WITHOUT_NOTHING)                   \
+    PART("patterns", RENDER_PIGMENTS, "each texture is of one colour", WITHOUT_NOTHING)                              \
+    PART("layers", RENDER_TEXTURES, "each texture is one layer that lets nothing through", WITHOUT_NOTHING)          \
     PART("interiors", RENDER_INTERIORS, "nothing bends light or asks what it is inside of", WITHOUT_NOTHING)         \
     PART("sky", RENDER_SKY, "no sky_sphere", WITHOUT_SKY)                                                            \
     PART("fog", RENDER_FOG, "no fog", WITHOUT_FOG)                                                                   \

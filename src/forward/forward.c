@@ -23,7 +23,7 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
 {
     const PreparedCamera *camera = &prepared->camera;
     const unsigned unknown =
-        (unsigned)RENDER_TEXTURES | RENDER_NORMALS | RENDER_INTERIORS | RENDER_TRANSPARENCY | RENDER_EXPONENT;
+        (unsigned)RENDER_PIGMENTS | RENDER_TEXTURES | RENDER_NORMALS | RENDER_INTERIORS | RENDER_TRANSPARENCY | RENDER_EXPONENT;
     if (prepared->scene->fogs.count > 0) {
         return "fog";
     }

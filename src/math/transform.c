@@ -175,19 +175,6 @@ bool transform_invert(const Transform *transform, Transform *inverse)
     return true;
 }
 
-Vec3 transform_point(const Transform *transform, Vec3 point)
-{
-    return vec3_add(transform_direction(transform, point), transform_row(transform, 3));
-}
-
-Vec3 transform_direction(const Transform *transform, Vec3 direction)
-{
-    const double(*m)[3] = transform->m;
-    return vec3(direction.x * m[0][0] + direction.y * m[1][0] + direction.z * m[2][0],
-                direction.x * m[0][1] + direction.y * m[1][1] + direction.z * m[2][1],
-                direction.x * m[0][2] + direction.y * m[1][2] + direction.z * m[2][2]);
-}
-
 Vec3 transform_normal(const Transform *inverse, Vec3 normal)
 {
     const double(*m)[3] = inverse->m;

@@ -57,6 +57,7 @@ Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, Shade
 {
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
     LayerSum sum = {p, at, weight, onward, statistics, HUGE_VAL, rgb_grey(0.0)};
+    *onward = (ShadeOnward){.reflection_exponent = 1.0, .part = 1.0};
     TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
     onward->through = rgb_scale(sum.refraction, through.light);
     onward->through_weight = sum.refraction * through.weight;

@@ -20,13 +20,14 @@ typedef enum RenderFeature {
     RENDER_REFLECTION = 1 << 11,
     RENDER_TRANSPARENCY = 1 << 12, // filter or transmit, in shadows too
     RENDER_EXPONENT = 1 << 13,     // reflected light raised to a power
-    RENDER_TEXTURES = 1 << 14,     // patterns or layers
+    RENDER_TEXTURES = 1 << 14,     // layers, patterns of textures, what lets light through; asks for RENDER_PIGMENTS
     RENDER_INTERIORS = 1 << 15,    // refraction, fading, Fresnel's mirror
     RENDER_LIGHTS = 1 << 16,       // lights of one place, direction or distance: spotlight, fading, area
     RENDER_SKY = 1 << 17,          // layers before the background
     RENDER_FOG = 1 << 18,          // asks for RENDER_INTERIORS too: there is none inside of what is not hollow
     RENDER_NORMALS = 1 << 19,      // bumps
-    RENDER_ALL_FEATURES = 0xfff << 8,
+    RENDER_PIGMENTS = 1 << 20,     // patterns
+    RENDER_ALL_FEATURES = 0x1fff << 8,
 } RenderFeature;
 
 // Pixels left <= x < right, top <= y < bottom.

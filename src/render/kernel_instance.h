@@ -54,7 +54,7 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
     } else if (features & ~(unsigned)SHADE_TILE_FEATURES) {
         trace_view(p, features, path, &view, places, streams, wanted, light, &counted);
     } else {
-        shade_tile(p, features, path, &view, places, streams, wanted, light, &counted);
+        shade_tile(p, features, &view, places, streams, wanted, light, &counted);
     }
     *statistics = counted;
 }
@@ -68,6 +68,7 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
 #define SHADING_SHADOWS (RENDER_SHADOWS | RENDER_HIGHLIGHTS)
 #define SHADING_MIRRORS (RENDER_SHADOWS | RENDER_HIGHLIGHTS | RENDER_BRILLIANCE | RENDER_REFLECTION)
 #define SHADING_ANY (SHADING_MIRRORS | RENDER_TRANSPARENCY)
+#define SHADING_TEXTURES (SHADING_ANY | RENDER_PIGMENTS | RENDER_TEXTURES)
 
 #define DEFINE_KERNEL(name, text, geometry, shading)                                                                   \
     static __attribute__((noinline)) Rgb path_##name(const Prepared *p, Pending *pending, SampleStream *stream,        \

@@ -111,8 +111,8 @@ RT_ALWAYS_INLINE Vec3 light_area_place(const PreparedLight *light, Vec3 point, d
         u += aside;
         v += aside;
     }
-    double side = fmax(fabs(u), fabs(v));
-    if (area->circular && side > 0.0) {
+    if (area->circular && (u != 0.0 || v != 0.0)) {
+        double side = fmax(fabs(u), fabs(v));
         double shrink = side / sqrt(u * u + v * v);
         u *= shrink;
         v *= shrink;
@@ -141,15 +141,13 @@ RT_ALWAYS_INLINE Vec3 light_area_offset(const PreparedLight *light, Vec3 point, 
 // ends; with `jitter`, a place within half a step of it. Rises with `at`, which is below 1.
 RT_ALWAYS_INLINE double light_row_sample(int size, bool jitter, double at)
 {
-    int low = 0, high = size - 1;
+    int low = 0;
     if (size == 1) {
         return 0.0;
     }
-    while (high > low) {
-        int sum = low + high;
-        bool is_last = high - low == 1, is_upper = at >= 0.5;
-        low = is_upper ? is_last ? high : (sum + 1) / 2 : low;
-        high = is_upper ? high : is_last ? low : sum / 2;
+    for (int span = size - 1; span > 0; span /= 2) {
+        bool is_upper = at >= 0.5;
+        low += is_upper ? span - span / 2 : 0;
         at = 2.0 * at - is_upper;
     }
     return (low + (jitter ? at - 0.5 : 0.0)) / (size - 1) - 0.5;

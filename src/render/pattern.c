@@ -107,12 +107,18 @@ static double julia(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 
 // ---- blocks: the number of the kind that is there
 
+// What is left of x after whole periods, in [0, period).
+static double remainder_of(double x, double period)
+{
+    return x - period * floor(x / period);
+}
+
 static double checker(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
     (void)source;
     double sum = floor(p.x) + floor(p.y) + floor(p.z);
-    return fabs(fmod(sum, 2.0));
+    return remainder_of(sum, 2.0); // whole, as fmod has it in five times the time
 }
 
 // The middles are at q <3/2, 0, sqrt(3)/2> + r <0, 0, sqrt(3)>. A point belongs to the one that its fractional q, r and
@@ -131,12 +137,6 @@ static double hexagon(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     }
     double colour = fmod(2.0 * q_whole + r_whole, 3.0);
     return colour < 0.0 ? colour + 3.0 : colour;
-}
-
-// What is left of x after whole periods, in [0, period).
-static double remainder_of(double x, double period)
-{
-    return x - period * floor(x / period);
 }
 
 // Mortar (0) fills the end of each period of x, y and z. Odd courses are moved by half a brick in x, even ones in z.
@@ -195,9 +195,14 @@ static double wave(const Pattern *pattern, double x)
     return x;
 }
 
+static bool has_turbulence(const Pattern *pattern)
+{
+    return pattern->turbulence.x != 0.0 || pattern->turbulence.y != 0.0 || pattern->turbulence.z != 0.0;
+}
+
 bool pattern_needs_noise(const Pattern *pattern)
 {
-    return pattern_info((PatternType)pattern->type)->uses_noise || vec3_max_abs(pattern->turbulence) > 0.0;
+    return pattern_info((PatternType)pattern->type)->uses_noise || has_turbulence(pattern);
 }
 
 bool pattern_needs_waves(const Pattern *pattern)
@@ -208,8 +213,7 @@ bool pattern_needs_waves(const Pattern *pattern)
 // Turbulence moves a point last, in the pattern's own space, wherever it was said.
 Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
-    bool is_moved = vec3_max_abs(pattern->turbulence) > 0.0 &&
-                    !pattern_info((PatternType)pattern->type)->has_own_turbulence;
+    bool is_moved = has_turbulence(pattern) && !pattern_info((PatternType)pattern->type)->has_own_turbulence;
     return is_moved ? pattern_turbulent(pattern, source, point) : point;
 }
 

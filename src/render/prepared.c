@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "render/sampler_many.h"
 #include "render/tile_light.h"
 #include "scene/range.h"
 
@@ -163,6 +164,18 @@ static unsigned pigments_features(const Scene *scene, const TextureTable *textur
     return 0;
 }
 
+// Of all others that are needed, `features`, only transparency matters.
+static unsigned textures_features(const TextureTable *textures, unsigned features)
+{
+    const Scene *scene = textures->scene;
+    bool is_single = !(features & RENDER_TRANSPARENCY);
+    for (size_t i = 0; i < scene->compounds.count; i++) {
+        is_single = is_single && texture_single(textures, scene->compounds.items[i].texture);
+    }
+    unsigned needed = (unsigned)RENDER_PIGMENTS | (is_single ? 0 : (unsigned)RENDER_TEXTURES);
+    return scene->compounds.count > 0 ? needed : 0;
+}
+
 static unsigned needed_features(const Prepared *p, const Scene *scene)
 {
     unsigned features = geometry_features(p->geometry) | pigments_features(scene, &p->textures);
@@ -170,7 +183,7 @@ static unsigned needed_features(const Prepared *p, const Scene *scene)
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
         features |= p->lights[i].is_plain ? 0 : (unsigned)RENDER_LIGHTS;
     }
-    features |= scene->compounds.count ? (unsigned)RENDER_TEXTURES : 0;
+    features |= textures_features(&p->textures, features);
     features |= scene->normals.count ? (unsigned)RENDER_NORMALS : 0;
     features |= scene->interiors.count ? (unsigned)RENDER_INTERIORS : 0;
     features |= scene->sky.count ? (unsigned)RENDER_SKY : 0;
@@ -227,6 +240,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->features = needed_features(p, scene);
     p->kernel = kernel_choose(p->features);
     p->tile_lights = tile_lights_choose(geometry_isa_name(p->geometry));
+    p->points = sobol_kernel_choose(geometry_isa_name(p->geometry));
     return p;
 }
 

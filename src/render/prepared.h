@@ -79,6 +79,7 @@ struct Prepared {
     unsigned features; // TraceFeature and RenderFeature bits that the scene needs
     const Kernel *kernel;
     const struct TileLights *tile_lights; // of the geometry's instruction set
+    const struct SobolKernel *points;     // likewise
 };
 
 // What a ray that starts at a point of prepared space is inside of, the outermost first.

@@ -61,13 +61,9 @@ uint32_t sobol_value(uint32_t index, unsigned dimension)
 // column, for the fewest boxes that break this.
 static uint32_t other_order(uint32_t index)
 {
-    static const uint16_t columns[] = {0x0001, 0x0003, 0x0004, 0x000d, 0x0016, 0x002e, 0x004b,
-                                       0x00f1, 0x01af, 0x03ec, 0x0779, 0x0b1e, 0x1858, 0x20ff};
     uint32_t low = 0;
-    for (size_t i = 0; i < RT_COUNT_OF(columns); i++) {
-        low ^= (uint32_t)columns[i] & (0 - (index >> i & 1));
-    }
-    return (index & UINT32_MAX << RT_COUNT_OF(columns)) ^ low;
+    OTHER_ORDER(index, low);
+    return (index & UINT32_MAX << OTHER_ORDER_BITS) ^ low;
 }
 
 // The order of the points is shuffled for two pairs at once, and for different ones on its own, which are independent
@@ -183,6 +179,31 @@ void sample_places(const SobolKernel *kernel, const SampleStream *stream, uint32
         SampleStream one = *stream;
         one.index += i;
         SamplePoint point = sample_next(&one);
+        x[i] = point.x;
+        y[i] = point.y;
+    }
+}
+
+void sample_next_of(const SobolKernel *kernel, SampleStream *streams, const uint8_t *which, uint32_t count, double *x,
+                    double *y)
+{
+    uint32_t seeds[SAMPLE_STREAMS_MOST], pairs[SAMPLE_STREAMS_MOST], indices[SAMPLE_STREAMS_MOST];
+    if (count > 0 && streams[which[0]].kind == SAMPLER_SOBOL) {
+        uint32_t whole = (count + SAMPLE_WORDS_MOST - 1) / SAMPLE_WORDS_MOST * SAMPLE_WORDS_MOST;
+        for (uint32_t i = 0; i < whole; i++) {
+            SampleStream *stream = &streams[which[i < count ? i : count - 1]];
+            seeds[i] = stream->seed;
+            pairs[i] = stream->pair;
+            indices[i] = stream->index;
+        }
+        for (uint32_t i = 0; i < count; i++) {
+            streams[which[i]].pair++;
+        }
+        kernel->points(seeds, pairs, indices, count, x, y);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        SamplePoint point = sample_next(&streams[which[i]]);
         x[i] = point.x;
         y[i] = point.y;
     }

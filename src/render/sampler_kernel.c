@@ -30,7 +30,7 @@ RT_ALWAYS_INLINE Words words_reverse_bits(Words x)
     return (x >> 1 & UINT32_C(0x55555555)) | (x & UINT32_C(0x55555555)) << 1;
 }
 
-RT_ALWAYS_INLINE Words words_scramble_reversed(Words x, uint32_t seed)
+RT_ALWAYS_INLINE Words words_scramble_reversed(Words x, Words seed)
 {
     PERMUTE_UPWARD(x, seed);
     return words_reverse_bits(x);
@@ -50,19 +50,56 @@ RT_ALWAYS_INLINE void put_units(double *to, Words words)
 
 static void places(uint32_t stream_seed, uint32_t pair, uint32_t index, uint32_t count, double *x, double *y)
 {
-    uint32_t seed = sample_hash_add(stream_seed, pair), first = sample_hash_add(seed, 1),
-             second = sample_hash_add(seed, 2);
+    uint32_t seed = sample_hash_add(stream_seed, pair);
+    const Words none = {0}, first = none + sample_hash_add(seed, 1), second = none + sample_hash_add(seed, 2);
     Words indices = {0};
     for (uint32_t i = 0; i < WORDS; i++) {
         indices[i] = index + i;
     }
     for (uint32_t i = 0; i < count; i += WORDS, indices += WORDS) {
-        Words shuffled = words_scramble_reversed(words_reverse_bits(indices), seed);
+        Words shuffled = words_scramble_reversed(words_reverse_bits(indices), none + seed);
         put_units(x + i, words_scramble_reversed(shuffled, first));
         PASCAL_TRIANGLE(shuffled);
         put_units(y + i, words_scramble_reversed(shuffled, second));
     }
 }
 
+RT_ALWAYS_INLINE Words words_hash(Words x)
+{
+    SAMPLE_HASH(x);
+    return x;
+}
+
+RT_ALWAYS_INLINE Words words_hash_add(Words seed, Words value)
+{
+    return words_hash(seed ^ (words_hash(value) + UINT32_C(0x9e3779b9) + (seed << 6) + (seed >> 2)));
+}
+
+RT_ALWAYS_INLINE Words words_load(const uint32_t *from)
+{
+    Words words;
+    memcpy(&words, from, sizeof words);
+    return words;
+}
+
+// sobol_point of each.
+static void points(const uint32_t *seeds, const uint32_t *pairs, const uint32_t *indices, uint32_t count, double *x,
+                   double *y)
+{
+    const Words none = {0};
+    for (uint32_t i = 0; i < count; i += WORDS) {
+        Words stream_seed = words_load(seeds + i), pair = words_load(pairs + i), index = words_load(indices + i);
+        Words seed = words_hash_add(stream_seed, pair);
+        Words shuffled =
+            words_scramble_reversed(words_reverse_bits(index), words_hash_add(stream_seed, pair & ~UINT32_C(1)));
+        Words low = none, is_second = none - (pair & 1);
+        OTHER_ORDER(shuffled, low);
+        shuffled = (is_second & ((shuffled & UINT32_MAX << OTHER_ORDER_BITS) ^ low)) | (~is_second & shuffled);
+        put_units(x + i, words_scramble_reversed(shuffled, words_hash_add(seed, none + 1)));
+        PASCAL_TRIANGLE(shuffled);
+        put_units(y + i, words_scramble_reversed(shuffled, words_hash_add(seed, none + 2)));
+    }
+}
+
 extern const SobolKernel ISA_NAMED(sobol_kernel_);
-const SobolKernel ISA_NAMED(sobol_kernel_) = {ISA_TEXT, places};
+const SobolKernel ISA_NAMED(sobol_kernel_) = {ISA_TEXT, places, points};

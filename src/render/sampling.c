@@ -184,7 +184,6 @@ static bool run_pilot(Sampling *s)
     *round = (Round){.prepared = round->prepared,
                      .sampling = round->sampling,
                      .film = round->film,
-                     .points = round->points,
                      .filter = round->filter,
                      .draws_more = round->draws_more,
                      .corners = s->corners,
@@ -300,7 +299,6 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->round = (Round){.prepared = prepared,
                        .sampling = wanted,
                        .film = film,
-                       .points = sobol_kernel_choose(geometry_isa_name(prepared->geometry)),
                        .draws_more = draws_more(prepared),
                        .judges_some = judges_some(wanted, film)};
     estimate_begin(&s->estimate, &s->round);

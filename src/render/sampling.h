@@ -22,7 +22,6 @@ typedef struct Round {
     const Prepared *prepared;
     const SamplingOptions *sampling;
     Film *film;
-    const SobolKernel *points;
     Filter filter;
     const uint16_t *buckets; // by priority, of each pixel; NULL: all pixels take part
     uint16_t least_bucket;   // of those that take part

@@ -147,7 +147,7 @@ static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, con
     const Film *film = round->film;
     double x[KERNEL_RAYS + SAMPLE_WORDS_MOST], y[KERNEL_RAYS + SAMPLE_WORDS_MOST];
     double *u = &batch->places.u[batch->count], *v = &batch->places.v[batch->count];
-    sample_places(round->points, stream, count, x, y);
+    sample_places(round->prepared->points, stream, count, x, y);
     batch_add_runs(batch, pixel, parts, begin, count);
     for (uint32_t j = 0; j < count; j++) {
         FilterSample at = {x[j] - 0.5, y[j] - 0.5, 1.0};

@@ -73,16 +73,40 @@ RT_ALWAYS_INLINE void shade_set_mirror(unsigned features, const ShadeMaterial *m
     }
 }
 
-// The light of a surface of one material, and what it sends on.
-RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadePoint *at, ShadeOnward *onward,
-                                 RenderStatistics *statistics)
+// The one layer that is seen at a point.
+typedef struct ShadeLayer {
+    Rgbft pigment;
+    FinishIndex finish;
+} ShadeLayer;
+
+// Looks it up; false where there may be more, or light goes through a texture: shade_compound walks that.
+RT_ALWAYS_INLINE bool shade_one_layer(const Prepared *p, unsigned features, MaterialIndex material, Vec3 point,
+                                      ShadeLayer *layer)
 {
-    const Material *plain = &p->materials[at->material];
-    Rgbft pigment = material_pigment(plain);
-    ShadeMaterial material = shade_material(p, features, pigment, plain->finish);
+    if (!(features & (RENDER_TEXTURES | RENDER_PIGMENTS)) || !(material & MATERIAL_COMPOUND)) {
+        const Material *plain = &p->materials[material];
+        *layer = (ShadeLayer){material_pigment(plain), plain->finish};
+        return true;
+    }
+    const Texture *texture = texture_single(&p->textures, p->compounds[material & ~MATERIAL_COMPOUND].texture);
+    if ((features & RENDER_TEXTURES) && !texture) {
+        return false;
+    }
+    Vec3 place = vec3_scale(p->textures.scale, point);
+    *layer = (ShadeLayer){texture_pigment(&p->textures, &texture->pigment, place), texture->finish};
+    return !(features & RENDER_TRANSPARENCY) || (layer->pigment.filter == 0.0 && layer->pigment.transmit == 0.0);
+}
+
+// The light of a surface of one layer, and what it sends on.
+RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadeLayer *layer, const ShadePoint *at,
+                                 ShadeOnward *onward, RenderStatistics *statistics)
+{
+    ShadeMaterial material = shade_material(p, features, layer->pigment, layer->finish);
+    *onward =
+        (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
     shade_set_mirror(features, &material, at, onward);
     if (features & RENDER_TRANSPARENCY) {
-        onward->through = rgb_scale(material.finish->refraction, texture_pigment_through(pigment));
+        onward->through = rgb_scale(material.finish->refraction, texture_pigment_through(layer->pigment));
         onward->conserves_energy = material.finish->conserves_energy;
     }
     return shade_local(p, features, &material, at, statistics);
@@ -92,12 +116,10 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
 RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const ShadePoint *at, double weight,
                                    ShadeOnward *onward, RenderStatistics *statistics)
 {
-    *onward =
-        (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
-    if ((features & RENDER_TEXTURES) && (at->material & MATERIAL_COMPOUND)) {
-        return shade_compound(p, at, weight, onward, statistics);
-    }
-    return shade_plain(p, features, at, onward, statistics);
+    ShadeLayer layer;
+    return shade_one_layer(p, features, at->material, at->point, &layer)
+               ? shade_plain(p, features, &layer, at, onward, statistics)
+               : shade_compound(p, at, weight, onward, statistics);
 }
 
 // Finds what a ray hits; false when it meets nothing.
@@ -195,12 +217,13 @@ RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, Pending *
                                  ShadeStep *step)
 {
     ShadeWays ways;
-    if (step->at.material & MATERIAL_COMPOUND) {
-        step->light = shade_bumpy(p, &step->at, step->ray.weight, &ways, statistics);
-    } else {
+    ShadeLayer layer;
+    if (shade_one_layer(p, features, step->at.material, step->at.point, &layer)) {
         ways.count = 1;
         ways.normals[0] = step->at.normal;
-        step->light = shade_surface(p, features, &step->at, step->ray.weight, &ways.onward[0], statistics);
+        step->light = shade_plain(p, features, &layer, &step->at, &ways.onward[0], statistics);
+    } else {
+        step->light = shade_bumpy(p, &step->at, step->ray.weight, &ways, statistics);
     }
     pending_add(pending, &step->ray, step->light);
     step->onward = ways.onward[0];

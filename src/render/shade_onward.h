@@ -68,12 +68,18 @@ RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadePoint *at)
     return vec3_normalize(mirrored);
 }
 
-// The mirrored ray, unless it is too deep or worth too little. The angle does not enter its weight.
+// Whether a mirrored ray of such a weight goes on: it is neither too deep nor worth too little.
+RT_ALWAYS_INLINE bool shade_is_followed(const Prepared *p, int level, double weight)
+{
+    return level < p->max_trace_level && !(weight < p->adc_bailout);
+}
+
+// The mirrored ray, if it is followed. The angle does not enter its weight.
 RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ShadeOnward *onward,
                                     const ShadePoint *at, const PendingRay *from, Pending *pending)
 {
     double weight = from->weight * onward->reflection_weight;
-    if (from->level >= p->max_trace_level || weight < p->adc_bailout) {
+    if (!shade_is_followed(p, from->level, weight)) {
         return;
     }
     PendingRay ray = {
@@ -198,12 +204,12 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
 }
 
 // Notes the share of a ray that is not followed, in whole units, so that sums do not depend on their order.
-RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, const PendingRay *from, Rgb share, RenderStatistics *statistics)
+RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, int level, Rgb share, RenderStatistics *statistics)
 {
-    double cut = fmin(fmax(rgb_luminance(rgb_mul(from->share, share)), 0.0), 1.0);
+    double cut = fmin(fmax(rgb_luminance(share), 0.0), 1.0);
     uint64_t units = (uint64_t)(cut * 0x1p32);
-    statistics->cut_by_level += from->level >= p->max_trace_level ? units : 0;
-    statistics->cut_by_weight += from->level >= p->max_trace_level ? 0 : units;
+    statistics->cut_by_level += level >= p->max_trace_level ? units : 0;
+    statistics->cut_by_weight += level >= p->max_trace_level ? 0 : units;
 }
 
 // The rays that go on from a hit; the reflected one will be traced first. `before` and `behind` are what the ray is
@@ -218,7 +224,7 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Sh
         is_total = shade_go_through(p, features, onward, at, from, before, behind, pending);
         statistics->transmitted_rays += (uint64_t)(pending->count - place);
         if (pending->count == place) {
-            shade_note_cut(p, from, onward->through, statistics);
+            shade_note_cut(p, from->level, rgb_mul(from->share, onward->through), statistics);
         }
     }
     place = pending->count;
@@ -226,7 +232,7 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Sh
         shade_reflect(p, features, onward, at, from, pending);
         statistics->reflected_rays += pending->count > place;
         if (pending->count == place) {
-            shade_note_cut(p, from, onward->reflectance, statistics);
+            shade_note_cut(p, from->level, rgb_mul(from->share, onward->reflectance), statistics);
         }
         if ((features & RENDER_INTERIORS) && pending->count > place) {
             inside_copy(&pending->inside[pending->count - 1], before);

@@ -1,29 +1,33 @@
 // Light along the camera rays of a tile: the same as render/shade.h gives ray by ray, bit for bit, with the arithmetic
 // of the first surface done for some rays at once.
 //
-// For surfaces of one colour that let nothing through; what goes on from a mirror is traced ray by ray. Everything is always-inline and takes the kernel's features as a constant.
+// For surfaces of one layer that let nothing through. What mirrors send on is traced ray by ray; what all of it meets is
+// the tile's next surfaces. Everything is always-inline and takes the kernel's features as a constant.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_TILE_H
 #define RENDER_SHADE_TILE_H
 
+#include "render/sampler_many.h"
 #include "render/shade.h"
 #include "render/tile_light.h"
 
 // What a kernel may have for its tiles to be shaded so.
 enum {
     SHADE_TILE_FEATURES = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
-                          RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_LIGHTS
+                          RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_LIGHTS | RENDER_PIGMENTS
 };
 
 // Materials, glow, and normals towards the viewer.
-RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, LightTile *tile, const MaterialIndex material[TILE_RAYS])
+RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, LightTile *tile,
+                                       const MaterialIndex material[TILE_RAYS])
 {
     const TileSurfaces *surfaces = &tile->surfaces;
     for (int i = 0; i < surfaces->count; i++) {
-        const Material *own = &p->materials[material[i]];
-        const PreparedFinish *finish = &p->finishes[own->finish];
-        Rgb pigment = rgbft_rgb(material_pigment(own));
+        ShadeLayer layer;
+        shade_one_layer(p, features, material[i], tile_surface_point(surfaces, i), &layer);
+        const PreparedFinish *finish = &p->finishes[layer.finish];
+        Rgb pigment = rgbft_rgb(layer.pigment);
         Rgb glow = rgb_mul(pigment, finish->glow);
         const double colour[3] = {pigment.red, pigment.green, pigment.blue};
         const double light[3] = {glow.red, glow.green, glow.blue};
@@ -68,15 +72,23 @@ RT_ALWAYS_INLINE uint64_t shade_tile_strengths(LightTile *tile, const PreparedLi
 }
 
 // One place of an area for each surface of `asked`, by its stream.
-RT_ALWAYS_INLINE void shade_tile_places(const LightTile *tile, const PreparedLight *light, uint64_t asked,
+RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile, const PreparedLight *light, uint64_t asked,
                                         SampleStream *streams, SurfaceRays *rays)
 {
+    uint8_t surface[TILE_RAYS], ray[TILE_RAYS];
+    double x[TILE_RAYS], y[TILE_RAYS];
+    uint32_t count = 0;
     rays->end = light->position;
     rays->aside = light->area_radius;
-    for (; asked; asked &= asked - 1) {
-        int i = __builtin_ctzll(asked);
+    for (; asked; asked &= asked - 1, count++) {
+        surface[count] = (uint8_t)__builtin_ctzll(asked);
+        ray[count] = tile->surfaces.ray[surface[count]];
+    }
+    sample_next_of(p->points, streams, ray, count, x, y);
+    for (uint32_t k = 0; k < count; k++) {
+        int i = surface[k];
         Vec3 point = tile_surface_point(&tile->surfaces, i);
-        Vec3 aside = light_area_sample(light, point, sample_next(&streams[tile->surfaces.ray[i]]));
+        Vec3 aside = light_area_sample(light, point, (SamplePoint){x[k], y[k]});
         Vec3 offset = vec3_sub(vec3_add(light->position, aside), point);
         rays->distance[i] = vec3_length(offset);
         Vec3 towards = vec3_scale(1.0 / rays->distance[i], offset);
@@ -94,7 +106,7 @@ RT_ALWAYS_INLINE uint64_t shade_tile_area(const Prepared *p, unsigned features, 
     uint64_t dark = 0;
     if (streams) {
         SurfaceRays rays;
-        shade_tile_places(tile, light, asked, streams, &rays);
+        shade_tile_places(p, tile, light, asked, streams, &rays);
         statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
         return geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, &rays, true, asked);
     }
@@ -130,30 +142,104 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Li
     }
 }
 
-// Where a surface mirrors: what the ray brings back in all. `light` is the surface's own.
-RT_ALWAYS_INLINE Rgb shade_tile_mirror(const Prepared *p, unsigned features, ShadePath path, const ShadePoint *at,
-                                       Rgb light, SampleStream *stream, RenderStatistics *statistics)
+// Rays of a tile on their way: as in PendingRay.
+typedef struct TilePaths {
+    Rgb share[TILE_RAYS];
+    double weight[TILE_RAYS];
+} TilePaths;
+
+// Adds what the surfaces shine; the first ones, which the camera sees, have all of it.
+RT_ALWAYS_INLINE void shade_tile_gather(const LightTile *tile, const TilePaths *paths, bool is_first, Rgb *light)
 {
-    PendingRay first = {.ray = {p->camera.location, at->direction},
-                        .start = RAY_START_CAMERA,
-                        .share = rgb_grey(1.0),
-                        .weight = 1.0,
-                        .level = 1};
-    const Material *material = &p->materials[at->material];
-    ShadeMaterial own = shade_material(p, features, material_pigment(material), material->finish);
-    ShadeOnward onward = {.through = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
-    Pending pending;
-    shade_set_mirror(features, &own, at, &onward);
-    pending_begin(&pending);
-    pending_add(&pending, &first, light);
-    shade_go_on(p, features, &onward, at, &first, NULL, NULL, &pending, statistics);
-    return path(p, &pending, stream, statistics);
+    for (int i = 0; i < tile->surfaces.count; i++) {
+        unsigned ray = tile->surfaces.ray[i];
+        Rgb own = rgb(tile->light[0][i], tile->light[1][i], tile->light[2][i]);
+        light[ray] = is_first ? rgb_add(rgb_grey(0.0), own) : rgb_add(light[ray], rgb_mul(paths->share[ray], own));
+    }
+}
+
+// Whether a surface mirrors its ray, at a level, and that is followed: then its share is what goes on.
+RT_ALWAYS_INLINE bool shade_tile_mirrors(const Prepared *p, unsigned features, const LightTile *tile, int i, int level,
+                                         TilePaths *paths, RenderStatistics *statistics)
+{
+    unsigned ray = tile->surfaces.ray[i];
+    Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
+    ShadeMaterial material = {pigment, pigment, tile->finish[i]};
+    ShadePoint at = shade_tile_point(tile, i, 0, NULL);
+    ShadeOnward onward = {.reflection_weight = 0.0};
+    if (!tile->finish[i]->reflects) {
+        return false;
+    }
+    shade_set_mirror(features, &material, &at, &onward);
+    paths->share[ray] = rgb_mul(level == 1 ? rgb_grey(1.0) : paths->share[ray], onward.reflectance);
+    paths->weight[ray] = (level == 1 ? 1.0 : paths->weight[ray]) * onward.reflection_weight;
+    if (!shade_is_followed(p, level, paths->weight[ray])) {
+        shade_note_cut(p, level, paths->share[ray], statistics);
+        return false;
+    }
+    statistics->reflected_rays++;
+    return true;
+}
+
+// Takes what the mirrored rays meet for the tile's surfaces. Adds the light of those that meet nothing.
+RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, LightTile *tile,
+                                        MaterialIndex material[TILE_RAYS], TilePaths *paths, int level, Rgb *light,
+                                        RenderStatistics *statistics)
+{
+    TileSurfaces *surfaces = &tile->surfaces;
+    _Alignas(64) double mirrored[3][TILE_RAYS];
+    uint8_t own[TILE_RAYS]; // of the rays that go on, which of the tile's they are
+    OnwardRays rays;
+    TileHits hits;
+    rays.count = 0;
+    rays.inward = 0;
+    for (int i = 0; i < surfaces->count; i++) {
+        if (shade_tile_mirrors(p, features, tile, i, level, paths, statistics)) {
+            if (rays.count == 0) {
+                p->tile_lights->mirror(tile, mirrored);
+            }
+            own[rays.count] = surfaces->ray[i];
+            onward_ray_add(&rays, tile_surface_point(surfaces, i), vec3(mirrored[0][i], mirrored[1][i], mirrored[2][i]),
+                           surfaces->shape[i], surfaces->inside >> i & 1);
+        }
+    }
+    surfaces->count = 0;
+    if (rays.count == 0) {
+        return;
+    }
+    geometry_closest_onward(p->geometry, features, &rays, &hits);
+    for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
+        unsigned ray = own[__builtin_ctzll(missed)];
+        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
+    }
+    if (hits.met) {
+        geometry_onward_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+    }
+    for (int i = 0; i < surfaces->count; i++) {
+        surfaces->ray[i] = own[surfaces->ray[i]];
+    }
+}
+
+// The light of what the rays have met, and of what mirrors show.
+RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, LightTile *tile,
+                                       MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
+                                       RenderStatistics *statistics)
+{
+    TilePaths paths;
+    for (int level = 1; tile->surfaces.count > 0; level++) {
+        shade_tile_begin(p, features, tile, material);
+        shade_tile_lights(p, features, tile, streams, statistics);
+        shade_tile_gather(tile, &paths, level == 1, light);
+        if (!(features & RENDER_REFLECTION)) {
+            return;
+        }
+        shade_tile_bounce(p, features, tile, material, &paths, level, light, statistics);
+    }
 }
 
 // The light of the rays of a view.
-RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, ShadePath path, const TileView *view,
-                                 const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
-                                 RenderStatistics *statistics)
+RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
+                                 SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
 {
     SphereTile rays;
     TileHits hits;
@@ -172,17 +258,7 @@ RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, ShadePath
     LightTile tile;
     MaterialIndex material[TILE_RAYS];
     geometry_tile_surfaces(p->geometry, features, &rays, &hits, met, &tile.surfaces, material);
-    shade_tile_begin(p, &tile, material);
-    shade_tile_lights(p, features, &tile, streams, statistics);
-    for (int i = 0; i < tile.surfaces.count; i++) {
-        Rgb *out = &light[tile.surfaces.ray[i]];
-        *out = rgb_add(rgb_grey(0.0), rgb(tile.light[0][i], tile.light[1][i], tile.light[2][i]));
-        if ((features & RENDER_REFLECTION) && tile.finish[i]->reflects) {
-            SampleStream *stream = (features & RENDER_LIGHTS) && streams ? &streams[tile.surfaces.ray[i]] : NULL;
-            ShadePoint at = shade_tile_point(&tile, i, material[i], stream);
-            *out = shade_tile_mirror(p, features, path, &at, *out, stream, statistics);
-        }
-    }
+    shade_tile_paths(p, features, &tile, material, streams, light, statistics);
 }
 
 #endif

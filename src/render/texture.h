@@ -84,6 +84,15 @@ typedef struct TextureThrough {
 TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
                             void *client);
 
+// A texture that is one layer without bumps; NULL where there is more to walk.
+static inline const Texture *texture_single(const TextureTable *table, uint32_t index)
+{
+    const Texture *texture = &table->scene->textures.items[index];
+    bool is_single =
+        texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE && texture->normal == RECORD_NONE;
+    return is_single ? texture : NULL;
+}
+
 // The normal of a layer that has bumps: `normal`, of length 1 and turned to the viewer, as they turn it. Of length 1.
 // In normal.c.
 Vec3 texture_normal(const TextureTable *table, const TextureLayer *layer, Vec3 normal);

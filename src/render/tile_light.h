@@ -30,6 +30,8 @@ typedef struct TileLights {
     uint64_t (*aim)(LightTile *tile, const PreparedLight *light);
     // Adds the light that was aimed to those that it reaches, and 0 to the others.
     void (*add)(LightTile *tile, const PreparedLight *light, uint64_t lit);
+    // Where each surface would mirror its ray, of length 1; `mirrored` is aligned as a vector is.
+    void (*mirror)(const LightTile *tile, double mirrored[3][TILE_RAYS]);
 } TileLights;
 
 // Those of an instruction set by name; NULL when there is none.

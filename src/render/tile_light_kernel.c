@@ -82,16 +82,6 @@ static void tile_power(double base[TILE_RAYS], int count, double exponent)
     }
 }
 
-// The bits from i on, as many as a vector has components, as a mask of these.
-RT_ALWAYS_INLINE DoublesMask places_mask(uint64_t bits, int i)
-{
-    DoublesMask mask = {0};
-    for (int k = 0; k < DOUBLES; k++) {
-        mask[k] = -(int64_t)(bits >> (i + k) & 1);
-    }
-    return mask;
-}
-
 // Highlights of surfaces of one finish.
 static void tile_highlights(const LightTile *tile, const PreparedFinish *finish, double shine[TILE_RAYS])
 {
@@ -134,7 +124,7 @@ static void tile_highlights(const LightTile *tile, const PreparedFinish *finish,
         tile_power(cosine, count, kind == 0 ? finish->phong_size : finish->shininess);
         for (int i = 0; i < count; i += DOUBLES) {
             Doubles more = amount * doubles_load(&cosine[i]);
-            DoublesMask mask = places_mask(ahead, i);
+            DoublesMask mask = doubles_bits_mask(ahead >> i);
             doubles_store(&shine[i], doubles_load(&shine[i]) + (Doubles)(mask & (DoublesMask)more));
         }
     }
@@ -176,7 +166,7 @@ static void tile_add_finish(LightTile *tile, const PreparedLight *light, const P
         tile_tint(tile, finish, lit, tint);
     }
     for (int i = 0; i < count; i += DOUBLES) {
-        DoublesMask mine = places_mask(own, i), reached = places_mask(lit, i);
+        DoublesMask mine = doubles_bits_mask(own >> i), reached = doubles_bits_mask(lit >> i);
         Doubles cosine = doubles_load(&tile->cosine[i]);
         DoublesMask front = cosine > 0.0;
         Doubles diffuse = doubles_choose(front, doubles_splat(finish->diffuse), doubles_splat(finish->diffuse_back));
@@ -213,5 +203,25 @@ static void tile_add(LightTile *tile, const PreparedLight *light, uint64_t lit)
     }
 }
 
+// shade_mirrored of each.
+static void tile_mirror(const LightTile *tile, double mirrored[3][TILE_RAYS])
+{
+    for (int i = 0; i < tile->surfaces.count; i += DOUBLES) {
+        Doubles d[3], n[3], r[3];
+        for (int axis = 0; axis < 3; axis++) {
+            d[axis] = doubles_load(&tile->surfaces.direction[axis][i]);
+            n[axis] = doubles_load(&tile->normal[axis][i]);
+        }
+        Doubles twice = -2.0 * (d[0] * n[0] + d[1] * n[1] + d[2] * n[2]);
+        for (int axis = 0; axis < 3; axis++) {
+            r[axis] = d[axis] + twice * n[axis];
+        }
+        Doubles shrink = 1.0 / doubles_sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+        for (int axis = 0; axis < 3; axis++) {
+            doubles_store(&mirrored[axis][i], shrink * r[axis]);
+        }
+    }
+}
+
 extern const TileLights ISA_NAMED(tile_lights_);
-const TileLights ISA_NAMED(tile_lights_) = {ISA_TEXT, tile_aim, tile_add};
+const TileLights ISA_NAMED(tile_lights_) = {ISA_TEXT, tile_aim, tile_add, tile_mirror};

@@ -50,30 +50,49 @@ RT_ALWAYS_INLINE unsigned cone_spheres(const RayCone *cone, const SphereBlock *b
     return touched;
 }
 
-// Components by size of directions between two places, multiples of a vector's width; false when their signs differ.
-RT_ALWAYS_INLINE bool component_range(const double values[TILE_RAYS], unsigned end, double *least, double *greatest)
+// The least and the greatest of some numbers; `end` is a multiple of a vector's width.
+RT_ALWAYS_INLINE void values_range(const double values[TILE_RAYS], unsigned end, double *least, double *greatest)
 {
-    Doubles low_values = doubles_load(values);
-    Doubles high_values = low_values;
+    Doubles low = doubles_load(values), high = low;
     for (unsigned i = DOUBLES; i < end; i += DOUBLES) {
-        low_values = doubles_min(low_values, doubles_load(&values[i]));
-        high_values = doubles_max(high_values, doubles_load(&values[i]));
+        low = doubles_min(low, doubles_load(&values[i]));
+        high = doubles_max(high, doubles_load(&values[i]));
     }
-    double low = doubles_least(low_values);
-    double high = doubles_greatest(high_values);
-    bool is_negative = high < 0.0;
-    *least = is_negative ? high : low;
-    *greatest = is_negative ? low : high;
-    return low > 0.0 || is_negative;
+    *least = doubles_least(low);
+    *greatest = doubles_greatest(high);
 }
 
-// The same for all three; false when a component's signs differ.
-RT_ALWAYS_INLINE bool direction_range(const double direction[3][TILE_RAYS], unsigned end, Vec3 *least, Vec3 *greatest)
+// Between what the components of some directions lie.
+typedef struct DirectionRange {
+    double low[3], high[3];
+} DirectionRange;
+
+RT_ALWAYS_INLINE void direction_range(const double direction[3][TILE_RAYS], unsigned end, DirectionRange *range)
 {
-    bool x = component_range(direction[0], end, &least->x, &greatest->x);
-    bool y = component_range(direction[1], end, &least->y, &greatest->y);
-    bool z = component_range(direction[2], end, &least->z, &greatest->z);
-    return x && y && z;
+    for (int axis = 0; axis < 3; axis++) {
+        values_range(direction[axis], end, &range->low[axis], &range->high[axis]);
+    }
+}
+
+enum { OCTANTS = 8 };
+
+// The part of it in an octant, whose bits are set for axes along which it is negative: components least and greatest by
+// size. False when there is none.
+RT_ALWAYS_INLINE bool direction_octant(const DirectionRange *range, unsigned octant, Vec3 *least, Vec3 *greatest)
+{
+    double near[3], far[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double low = range->low[axis], high = range->high[axis];
+        bool is_negative = octant >> axis & 1;
+        if (is_negative ? !(low < 0.0) : !(high > 0.0 || low >= 0.0)) {
+            return false;
+        }
+        near[axis] = is_negative ? (high < 0.0 ? high : -0.0) : (low > 0.0 ? low : 0.0);
+        far[axis] = is_negative ? low : high;
+    }
+    *least = vec3(near[0], near[1], near[2]);
+    *greatest = vec3(far[0], far[1], far[2]);
+    return true;
 }
 
 #endif

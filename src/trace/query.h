@@ -307,6 +307,28 @@ RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features
     query_tile_closest(g, features, tile, is_usable, hits);
 }
 
+// What rays that go on from surfaces of spheres and planes meet, as geometry_closest says of each; there is at least one.
+RT_ALWAYS_INLINE void geometry_closest_onward(const Geometry *g, unsigned features, OnwardRays *rays, TileHits *hits)
+{
+    uint64_t open = ~UINT64_C(0) >> (TILE_RAYS - rays->count);
+    hits->met = hits->inside = 0;
+    bool has_plane = query_has_one_plane(g, features);
+    bool has_others = (features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) || ((features & TRACE_PLANES) && g->plane_count > 1);
+    if (!has_others && !((features & TRACE_SPHERE_BVH) && g->spheres.bvh.nodes)) {
+        open &= ~g->kernels->closest_onward(&g->spheres, has_plane ? &g->planes[0].shape : NULL,
+                                            shape_id(SHAPE_PLANE, 0), rays, hits);
+    }
+    for (; open; open &= open - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(open);
+        RayStart start = {rays->start[i], rays->inward >> i & 1, HIDDEN_MIRROR};
+        Hit hit;
+        if (!geometry_closest(g, features, onward_ray(rays, i), start, (double)INFINITY, &hit)) {
+            hit = (Hit){(double)INFINITY, SHAPE_NONE, false};
+        }
+        tile_hit_set(hits, i, &hit);
+    }
+}
+
 RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
                                             double start_error, double t_max)
 {
@@ -423,10 +445,8 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
     return (Surface){point, normal, g->spheres.info[index].material, g->spheres.info[index].order, 0};
 }
 
-// The surfaces that a tile's rays of `wanted` have met, and their materials.
-RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned features, const SphereTile *tile,
-                                             const TileHits *hits, uint64_t wanted, TileSurfaces *surfaces,
-                                             MaterialIndex material[TILE_RAYS])
+// Begins with the rays of `wanted`, in their order.
+RT_ALWAYS_INLINE void query_surfaces_begin(TileSurfaces *surfaces, const TileHits *hits, uint64_t wanted)
 {
     surfaces->count = 0;
     surfaces->inside = 0;
@@ -435,18 +455,45 @@ RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned feature
         surfaces->inside |= (hits->inside >> ray & 1) << surfaces->count;
         surfaces->ray[surfaces->count++] = (uint8_t)ray;
     }
+}
+
+// The material of surface i, which `is_done` but for that, or which a ray has met.
+RT_ALWAYS_INLINE MaterialIndex query_surface_end(const Geometry *g, unsigned features, bool is_done, Ray ray,
+                                                 const TileHits *hits, TileSurfaces *surfaces, int i)
+{
+    if (RT_LIKELY(is_done)) {
+        return g->spheres.info[shape_index(surfaces->shape[i])].material;
+    }
+    unsigned from = surfaces->ray[i];
+    Hit hit = {hits->t[from], hits->shape[from], hits->inside >> from & 1};
+    Surface surface = geometry_surface(g, features, ray, hit);
+    tile_surface_set(surfaces, i, surface.point, surface.normal);
+    return surface.material;
+}
+
+// The surfaces that a tile's rays of `wanted`, one at least, have met, and their materials.
+RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned features, const SphereTile *tile,
+                                             const TileHits *hits, uint64_t wanted, TileSurfaces *surfaces,
+                                             MaterialIndex material[TILE_RAYS])
+{
+    query_surfaces_begin(surfaces, hits, wanted);
     uint64_t done = g->kernels->surfaces(&g->spheres, tile, hits, surfaces);
     for (int i = 0; i < surfaces->count; i++) {
-        if (RT_LIKELY(done >> i & 1)) {
-            material[i] = g->spheres.info[shape_index(surfaces->shape[i])].material;
-            continue;
-        }
-        unsigned ray = surfaces->ray[i];
-        Hit hit = {hits->t[ray], hits->shape[ray], hits->inside >> ray & 1};
-        SphereRay own = sphere_tile_ray(tile, ray);
-        Surface surface = geometry_surface(g, features, (Ray){own.origin, own.direction}, hit);
-        material[i] = surface.material;
-        tile_surface_set(surfaces, i, surface.point, surface.normal);
+        SphereRay ray = sphere_tile_ray(tile, surfaces->ray[i]);
+        material[i] = query_surface_end(g, features, done >> i & 1, (Ray){ray.origin, ray.direction}, hits, surfaces, i);
+    }
+}
+
+// Those that rays which go on have met, one at least.
+RT_ALWAYS_INLINE void geometry_onward_surfaces(const Geometry *g, unsigned features, const OnwardRays *rays,
+                                               const TileHits *hits, TileSurfaces *surfaces,
+                                               MaterialIndex material[TILE_RAYS])
+{
+    query_surfaces_begin(surfaces, hits, hits->met);
+    uint64_t done = g->kernels->surfaces_onward(&g->spheres, rays, hits, surfaces);
+    for (int i = 0; i < surfaces->count; i++) {
+        Ray ray = onward_ray(rays, surfaces->ray[i]);
+        material[i] = query_surface_end(g, features, done >> i & 1, ray, hits, surfaces, i);
     }
 }
 

@@ -200,6 +200,34 @@ RT_ALWAYS_INLINE double doubles_greatest(Doubles a)
     return -doubles_least(-a);
 }
 
+// Bit i is set where mask[i] is, each being 0 or -1.
+RT_ALWAYS_INLINE unsigned doubles_mask_bits(DoublesMask mask)
+{
+#if defined(__AVX512DQ__)
+    return _mm512_movepi64_mask((__m512i)mask);
+#elif defined(__AVX__) && !defined(__AVX512F__)
+    return (unsigned)_mm256_movemask_pd((__m256d)mask);
+#elif defined(__SSE2__) && !defined(__AVX__)
+    return (unsigned)_mm_movemask_pd((__m128d)mask);
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < DOUBLES; i++) {
+        bits |= (unsigned)(mask[i] & 1) << i;
+    }
+    return bits;
+#endif
+}
+
+// The bits as a mask, as many as a vector has components.
+RT_ALWAYS_INLINE DoublesMask doubles_bits_mask(uint64_t bits)
+{
+    DoublesMask own = {0};
+    for (int k = 0; k < DOUBLES; k++) {
+        own[k] = 1 << k;
+    }
+    return (((DoublesMask){0} + (int64_t)bits) & own) != 0;
+}
+
 RT_ALWAYS_INLINE Doubles doubles_abs(Doubles a)
 {
     return (Doubles)((DoublesMask)a & INT64_MAX);

@@ -84,6 +84,15 @@ typedef struct SurfaceRays {
     double distance[TILE_RAYS];
 } SurfaceRays;
 
+// Rays that go on from surfaces of a tile, each from its own point.
+typedef struct OnwardRays {
+    int count;
+    uint64_t inward; // a bit for each: into the shape that it starts on
+    ShapeId start[TILE_RAYS];
+    _Alignas(64) double origin[3][TILE_RAYS];
+    double direction[3][TILE_RAYS]; // of about unit length
+} OnwardRays;
+
 // Rays of one point: towards direction + u right - v up.
 typedef struct TileView {
     Vec3 origin, direction, right, up;
@@ -103,6 +112,14 @@ typedef struct SphereKernels {
     // them up to a whole vector. Returns those that are spheres and done; the others' points and normals are open.
     uint64_t (*surfaces)(const SphereTable *table, const SphereTile *tile, const TileHits *hits,
                          TileSurfaces *surfaces);
+    // What rays that go on meet of the loose spheres and of a plane that nothing coincides with (NULL: there is none).
+    // Returns those for which that is decided; `hits` mean nothing for the others, nor where there is a tree. Writes
+    // what is after the rays up to a whole vector.
+    uint64_t (*closest_onward)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
+                               OnwardRays *rays, TileHits *hits);
+    // `surfaces` for such rays.
+    uint64_t (*surfaces_onward)(const SphereTable *table, const OnwardRays *rays, const TileHits *hits,
+                                TileSurfaces *surfaces);
     // Of the surfaces `asked` for, those with a sphere, the loose ones too, before the ray's end, as `occluded` would say
     // of each. What does not pay, or cannot be done, for some together is `left` to be asked one by one.
     uint64_t (*occluded_surfaces)(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays,
@@ -177,6 +194,26 @@ RT_ALWAYS_INLINE void tile_surface_set(TileSurfaces *surfaces, int i, Vec3 point
     surfaces->outward[0][i] = outward.x;
     surfaces->outward[1][i] = outward.y;
     surfaces->outward[2][i] = outward.z;
+}
+
+// Adds a ray.
+RT_ALWAYS_INLINE void onward_ray_add(OnwardRays *rays, Vec3 origin, Vec3 direction, ShapeId start, bool is_inward)
+{
+    int i = rays->count++;
+    rays->start[i] = start;
+    rays->inward |= (uint64_t)is_inward << i;
+    rays->origin[0][i] = origin.x;
+    rays->origin[1][i] = origin.y;
+    rays->origin[2][i] = origin.z;
+    rays->direction[0][i] = direction.x;
+    rays->direction[1][i] = direction.y;
+    rays->direction[2][i] = direction.z;
+}
+
+RT_ALWAYS_INLINE Ray onward_ray(const OnwardRays *rays, unsigned i)
+{
+    return (Ray){{rays->origin[0][i], rays->origin[1][i], rays->origin[2][i]},
+                 {rays->direction[0][i], rays->direction[1][i], rays->direction[2][i]}};
 }
 
 RT_ALWAYS_INLINE Ball sphere_table_ball(const SphereTable *table, uint32_t slot)

@@ -103,26 +103,42 @@ static uint64_t group_block(const SphereTable *table, const RayGroup *group, con
     return occluded;
 }
 
-// The spheres of the tree. False when the group cannot walk it, or had better not.
-static bool group_tree(const SphereTable *table, const RayGroup *group, const RayCone *cone, uint64_t *occluded)
+// What one walk meets, of directions in an octant, before `blocks` are used up; false when they are.
+static bool group_walk(const SphereTable *table, const RayGroup *group, const RayCone *cone, BvhWalk *walk,
+                       unsigned *blocks, uint64_t *occluded)
 {
-    BvhWalk walk;
     BvhChild leaf;
-    Vec3 least, greatest;
-    bool is_too_far;
-    if (!direction_range(group->seen, group->whole, &least, &greatest)) {
-        return false;
-    }
-    if (!bvh_walk_start_beam(&walk, &table->bvh, group->end, group->aside, least, greatest, &is_too_far)) {
-        return !is_too_far;
-    }
-    float limit = bvh_walk_limit(&walk, group->farthest);
-    unsigned blocks = GROUP_BLOCKS * group->count;
-    while (~*occluded && bvh_walk_next(&walk, limit, &leaf)) {
-        if (blocks-- == 0) {
+    float limit = bvh_walk_limit(walk, group->farthest);
+    while (~*occluded && bvh_walk_next(walk, limit, &leaf)) {
+        if ((*blocks)-- == 0) {
             return false;
         }
         *occluded = group_block(table, group, cone, leaf & ~BVH_LEAF, *occluded);
+    }
+    return true;
+}
+
+// The spheres of the tree: a walk for each octant in which the rays start, as seen from their end. False when the group
+// cannot walk it, or had better not.
+static bool group_tree(const SphereTable *table, const RayGroup *group, const RayCone *cone, uint64_t *occluded)
+{
+    DirectionRange range;
+    unsigned blocks = GROUP_BLOCKS * group->count;
+    direction_range(group->seen, group->whole, &range);
+    for (unsigned octant = 0; octant < OCTANTS && ~*occluded; octant++) {
+        BvhWalk walk;
+        Vec3 least, greatest;
+        bool is_too_far;
+        if (!direction_octant(&range, octant, &least, &greatest)) {
+            continue;
+        }
+        if (!bvh_walk_start_beam(&walk, &table->bvh, group->end, group->aside, least, greatest, &is_too_far)) {
+            if (is_too_far) {
+                return false;
+            }
+        } else if (!group_walk(table, group, cone, &walk, &blocks, occluded)) {
+            return false;
+        }
     }
     return true;
 }

@@ -10,6 +10,7 @@
 #include "trace/simd.h"
 #include "trace/spheres.h"
 #include "trace/spheres_group.h"
+#include "trace/spheres_onward.h"
 #include "trace/spheres_surface.h"
 #include "trace/spheres_tile.h"
 
@@ -178,6 +179,8 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .occluded = spheres_occluded,
     .closest_tile = tile_closest,
     .surfaces = surfaces_sphere,
+    .closest_onward = closest_onward,
+    .surfaces_onward = surfaces_onward,
     .occluded_surfaces = surfaces_occluded,
     .plane_closest = plane_closest,
     .plane_occluded = plane_occluded,

@@ -9,9 +9,12 @@
 #include "trace/simd.h"
 #include "trace/spheres.h"
 
-static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile, const TileHits *hits,
-                                TileSurfaces *surfaces)
+// Of rays from one point, `apart` = 0, or each from its own, `apart` = 1.
+RT_ALWAYS_INLINE uint64_t surfaces_find(const SphereTable *table, const double *const origin[3], unsigned apart,
+                                        const double direction[3][TILE_RAYS], const TileHits *hits,
+                                        TileSurfaces *surfaces)
 {
+    _Alignas(64) double begin[3][TILE_RAYS];
     _Alignas(64) double centre[3][TILE_RAYS];
     _Alignas(64) double radius_squared[TILE_RAYS];
     _Alignas(64) double t[TILE_RAYS];
@@ -20,9 +23,12 @@ static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile
         unsigned ray = surfaces->ray[i];
         ShapeId shape = hits->shape[ray];
         surfaces->shape[i] = shape;
-        surfaces->direction[0][i] = tile->direction[0][ray];
-        surfaces->direction[1][i] = tile->direction[1][ray];
-        surfaces->direction[2][i] = tile->direction[2][ray];
+        surfaces->direction[0][i] = direction[0][ray];
+        surfaces->direction[1][i] = direction[1][ray];
+        surfaces->direction[2][i] = direction[2][ray];
+        for (int axis = 0; apart && axis < 3; axis++) {
+            begin[axis][i] = origin[axis][ray];
+        }
         t[i] = hits->t[ray];
         Ball ball = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
                                                       : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
@@ -36,11 +42,11 @@ static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile
         for (int axis = 0; axis < 3; axis++) {
             surfaces->direction[axis][i] = surfaces->direction[axis][count - 1];
             centre[axis][i] = centre[axis][count - 1];
+            begin[axis][i] = apart ? begin[axis][count - 1] : 0.0;
         }
         radius_squared[i] = radius_squared[count - 1];
         t[i] = t[count - 1];
     }
-    const double origin[3] = {tile->origin.x, tile->origin.y, tile->origin.z};
     uint64_t done = 0;
     for (unsigned i = 0; i < count; i += DOUBLES) {
         Doubles offset[3], own[3];
@@ -48,8 +54,8 @@ static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; axis++) {
             own[axis] = doubles_load(&centre[axis][i]);
-            offset[axis] =
-                (origin[axis] - own[axis]) + doubles_load(&t[i]) * doubles_load(&surfaces->direction[axis][i]);
+            Doubles from = apart ? doubles_load(&begin[axis][i]) : doubles_splat(*origin[axis]);
+            offset[axis] = (from - own[axis]) + doubles_load(&t[i]) * doubles_load(&surfaces->direction[axis][i]);
         }
         Doubles length_squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
         done |= (uint64_t)doubles_ge(0x1p-20 * square, doubles_abs(length_squared - square)) << i;
@@ -63,6 +69,20 @@ static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile
         }
     }
     return done;
+}
+
+static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile, const TileHits *hits,
+                                TileSurfaces *surfaces)
+{
+    const double *const origin[3] = {&tile->origin.x, &tile->origin.y, &tile->origin.z};
+    return surfaces_find(table, origin, 0, tile->direction, hits, surfaces);
+}
+
+static uint64_t surfaces_onward(const SphereTable *table, const OnwardRays *rays, const TileHits *hits,
+                                TileSurfaces *surfaces)
+{
+    const double *const origin[3] = {rays->origin[0], rays->origin[1], rays->origin[2]};
+    return surfaces_find(table, origin, 1, rays->direction, hits, surfaces);
 }
 
 #endif

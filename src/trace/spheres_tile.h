@@ -13,6 +13,7 @@
 #include "trace/cone_test.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
+#include "trace/spheres_refine.h"
 
 enum { ROWS = TILE_RAYS / TILE_ROW };
 
@@ -71,18 +72,6 @@ static bool view_tile(const TileView *view, const double u[TILE_RAYS], const dou
     return doubles_least(least) > 0x1p-100 && doubles_greatest(greatest) < (double)INFINITY;
 }
 
-// The least and the greatest of 64 places.
-static void places_range(const double places[TILE_RAYS], double range[2])
-{
-    Doubles low = doubles_load(places), high = low;
-    for (unsigned i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
-        low = doubles_min(low, doubles_load(&places[i]));
-        high = doubles_max(high, doubles_load(&places[i]));
-    }
-    range[0] = doubles_least(low);
-    range[1] = doubles_greatest(high);
-}
-
 static Vec3 view_direction(const TileView *view, double u, double v)
 {
     return vec3_add(view->direction, vec3_sub(vec3_scale(u, view->right), vec3_scale(v, view->up)));
@@ -96,8 +85,8 @@ static bool view_passes(const SphereTable *table, const TileView *view, const do
     if (table->bvh.nodes || table->loose_count == 0) {
         return false;
     }
-    places_range(u, across);
-    places_range(v, down);
+    values_range(u, TILE_RAYS, &across[0], &across[1]);
+    values_range(v, TILE_RAYS, &down[0], &down[1]);
     double u_middle = 0.5 * (across[0] + across[1]), v_middle = 0.5 * (down[0] + down[1]);
     RayCone cone = {.origin = view->origin, .axis = vec3_normalize(view_direction(view, u_middle, v_middle))};
     for (int i = 0; i < 4; i++) {
@@ -270,60 +259,6 @@ static double beam_limit(const TileBeam *beam)
     return nearest_limit(doubles_greatest(last));
 }
 
-typedef struct DoubleWords {
-    Doubles hi, lo;
-} DoubleWords;
-
-RT_ALWAYS_INLINE DoubleWords two_sums(Doubles a, Doubles b)
-{
-    Doubles sum = a + b;
-    Doubles b_part = sum - a;
-    Doubles a_part = sum - b_part;
-    return (DoubleWords){sum, (a - a_part) + (b - b_part)};
-}
-
-RT_ALWAYS_INLINE DoubleWords two_products(Doubles a, Doubles b)
-{
-    Doubles product = a * b;
-    return (DoubleWords){product, doubles_product_error(a, b, product)};
-}
-
-// sphere_refine for some rays at once, operation by operation; those of them for which it is certain.
-static unsigned tile_refine(const SphereTile *tile, const double ball[4][DOUBLES], unsigned at, double t[DOUBLES])
-{
-    const double o[3] = {tile->origin.x, tile->origin.y, tile->origin.z};
-    Doubles root = doubles_load(t);
-    Doubles f_squared = doubles_splat(0.0);
-    Doubles slope = doubles_splat(0.0);
-    Doubles low = doubles_splat(0.0);
-    DoubleWords square[3];
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; i++) {
-        Doubles d = doubles_load(&tile->direction[i][at]);
-        DoubleWords f = two_sums(doubles_splat(o[i]), -doubles_load(ball[i]));
-        DoubleWords along = two_products(root, d);
-        DoubleWords p = two_sums(f.hi, along.hi);
-        square[i] = two_products(p.hi, p.hi);
-        low += square[i].lo + 2.0 * p.hi * (p.lo + (f.lo + along.lo));
-        slope += p.hi * d;
-        f_squared += f.hi * f.hi;
-    }
-    Doubles radius_squared = doubles_load(ball[3]);
-    Doubles radius = doubles_sqrt(radius_squared);
-    DoubleWords r = two_products(radius, radius);
-    DoubleWords xy = two_sums(square[0].hi, square[1].hi);
-    DoubleWords xyz = two_sums(xy.hi, square[2].hi);
-    DoubleWords all = two_sums(xyz.hi, -r.hi);
-    Doubles residual = all.hi + (all.lo + (xyz.lo + (xy.lo + (low - r.lo))));
-    Doubles step = residual / (2.0 * slope);
-    Doubles reach = 2.0 * root * doubles_abs(slope);
-    Doubles sum = f_squared + radius_squared;
-    doubles_store(t, root - step);
-    return ~doubles_ge(sum, doubles_splat(0x1p900)) & ~doubles_ge(doubles_splat(0x1p-900), sum) &
-           doubles_ge(reach, 0x1p-46 * sum) &
-           doubles_ge(reach * doubles_load(&tile->inverse_square[at]), step * step * 0x1p56);
-}
-
 // Makes the roots right that are rough, a vector at a time.
 static void beam_settle(const TileBeam *beam)
 {
@@ -344,7 +279,14 @@ static void beam_settle(const TileBeam *beam)
             ball[3][i] = own.radius_squared;
             t[i] = hits->t[from];
         }
-        unsigned certain = tile_refine(beam->tile, ball, at, t);
+        Doubles root = doubles_load(t);
+        const SphereTile *tile = beam->tile;
+        const Doubles origin[3] = {doubles_splat(tile->origin.x), doubles_splat(tile->origin.y),
+                                   doubles_splat(tile->origin.z)};
+        const Doubles direction[3] = {doubles_load(&tile->direction[0][at]), doubles_load(&tile->direction[1][at]),
+                                      doubles_load(&tile->direction[2][at])};
+        unsigned certain = roots_refine(origin, direction, doubles_load(&tile->inverse_square[at]), ball, &root);
+        doubles_store(t, root);
         for (; rough; rough &= rough - 1) {
             unsigned i = (unsigned)__builtin_ctz(rough);
             if (RT_UNLIKELY(!(certain >> i & 1))) {
@@ -358,26 +300,37 @@ static void beam_settle(const TileBeam *beam)
     }
 }
 
-// The spheres of the tree. False when the tile cannot walk it.
-static bool beam_tree(TileBeam *beam)
+// What one walk meets, of directions in an octant.
+static void beam_walk(TileBeam *beam, BvhWalk *walk)
 {
-    const Bvh *bvh = &beam->table->bvh;
-    BvhWalk walk;
     BvhChild leaf;
-    Vec3 least, greatest;
-    bool is_too_far;
-    if (!direction_range(beam->tile->direction, TILE_RAYS, &least, &greatest)) {
-        return false;
-    }
-    if (!bvh_walk_start_beam(&walk, bvh, beam->tile->origin, 0.0, least, greatest, &is_too_far)) {
-        return !is_too_far;
-    }
-    float limit = bvh_walk_limit(&walk, beam_limit(beam));
-    while (bvh_walk_next(&walk, limit, &leaf)) {
+    float limit = bvh_walk_limit(walk, beam_limit(beam));
+    while (bvh_walk_next(walk, limit, &leaf)) {
         beam->has_news = false;
         beam_block(beam, leaf & ~BVH_LEAF);
         if (beam->has_news) {
-            limit = bvh_walk_limit(&walk, beam_limit(beam));
+            limit = bvh_walk_limit(walk, beam_limit(beam));
+        }
+    }
+}
+
+// The spheres of the tree: a walk for each octant into which there are rays, mostly one. False when the tile cannot
+// walk it.
+static bool beam_tree(TileBeam *beam)
+{
+    DirectionRange range;
+    direction_range(beam->tile->direction, TILE_RAYS, &range);
+    for (unsigned octant = 0; octant < OCTANTS; octant++) {
+        BvhWalk walk;
+        Vec3 least, greatest;
+        bool is_too_far;
+        if (!direction_octant(&range, octant, &least, &greatest)) {
+            continue;
+        }
+        if (bvh_walk_start_beam(&walk, &beam->table->bvh, beam->tile->origin, 0.0, least, greatest, &is_too_far)) {
+            beam_walk(beam, &walk);
+        } else if (is_too_far) {
+            return false;
         }
     }
     return true;

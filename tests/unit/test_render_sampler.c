@@ -246,6 +246,38 @@ static void test_places(const char *isa)
     tap_ok(wrong == 0, "%s: many places at once are those of single samples: %d differ", isa, wrong);
 }
 
+// The next points of some streams, in whatever pixel, sample and pair they are, are those of each by itself.
+static void test_streams(const char *isa)
+{
+    const SobolKernel *kernel = sobol_kernel_choose(isa);
+    int wrong = kernel == NULL;
+    for (SamplerKind kind = 0; kernel != NULL && kind < SAMPLER_COUNT; kind++) {
+        for (uint32_t count = 0; count <= SAMPLE_STREAMS_MOST; count += count < 9 ? 1 : 11) {
+            SampleStream streams[SAMPLE_STREAMS_MOST], before[SAMPLE_STREAMS_MOST];
+            uint8_t which[SAMPLE_STREAMS_MOST];
+            double x[SAMPLE_STREAMS_MOST + SAMPLE_WORDS_MOST], y[SAMPLE_STREAMS_MOST + SAMPLE_WORDS_MOST];
+            for (uint32_t i = 0; i < SAMPLE_STREAMS_MOST; i++) {
+                uint32_t index = i * i * i * 7919;
+                streams[i] = (SampleStream){.kind = kind,
+                                            .seed = sampler_pixel_seed(count, i, 5),
+                                            .index = index,
+                                            .first = index,
+                                            .count = 3,
+                                            .pair = (i ^ count) % 7};
+                which[i] = (uint8_t)(SAMPLE_STREAMS_MOST - 1 - i);
+            }
+            memcpy(before, streams, sizeof streams);
+            sample_next_of(kernel, streams, which, count, x, y);
+            for (uint32_t i = 0; i < SAMPLE_STREAMS_MOST; i++) {
+                SampleStream *own = &before[which[i]];
+                SamplePoint place = i < count ? sample_next(own) : (SamplePoint){0.0, 0.0};
+                wrong += (i < count && (place.x != x[i] || place.y != y[i])) || own->pair != streams[which[i]].pair;
+            }
+        }
+    }
+    tap_ok(wrong == 0, "%s: the next points of many streams are those of each: %d differ", isa, wrong);
+}
+
 int main(void)
 {
     test_sobol();
@@ -257,6 +289,7 @@ int main(void)
     test_rows();
     for (size_t i = 0; geometry_isa(i); i++) {
         test_places(geometry_isa(i));
+        test_streams(geometry_isa(i));
     }
     return tap_done();
 }

@@ -25,7 +25,17 @@ static void tile_of(Random *random, Vec3 eye, Vec3 towards, double step, SphereT
     }
 }
 
-// The surfaces that differ from those of single rays.
+// Whether a surface is not what a single ray finds.
+static bool surface_differs(const Geometry *g, Ray ray, Hit hit, const TileSurfaces *surfaces,
+                            const MaterialIndex *material, int i)
+{
+    Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit);
+    Vec3 point = tile_surface_point(surfaces, i), outward = tile_surface_outward(surfaces, i);
+    return memcmp(&point, &surface.point, sizeof point) != 0 || memcmp(&outward, &surface.normal, sizeof outward) != 0 ||
+           surface.material != material[i] || surfaces->shape[i] != hit.shape ||
+           (surfaces->inside >> i & 1) != hit.inside;
+}
+
 static int surfaces_differing(const Geometry *g, const SphereTile *tile, const TileHits *hits,
                               const TileSurfaces *surfaces, const MaterialIndex *material)
 {
@@ -34,11 +44,7 @@ static int surfaces_differing(const Geometry *g, const SphereTile *tile, const T
         unsigned ray = surfaces->ray[i];
         SphereRay own = sphere_tile_ray(tile, ray);
         Hit hit = {hits->t[ray], hits->shape[ray], hits->inside >> ray & 1};
-        Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, (Ray){own.origin, own.direction}, hit);
-        Vec3 point = tile_surface_point(surfaces, i), outward = tile_surface_outward(surfaces, i);
-        different += memcmp(&point, &surface.point, sizeof point) != 0 ||
-                     memcmp(&outward, &surface.normal, sizeof outward) != 0 || surface.material != material[i] ||
-                     surfaces->shape[i] != hit.shape || (surfaces->inside >> i & 1) != hit.inside;
+        different += surface_differs(g, (Ray){own.origin, own.direction}, hit, surfaces, material, i);
     }
     return different;
 }
@@ -78,6 +84,97 @@ static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces
     }
 }
 
+// The rays whose hits differ from what single rays meet, or the surfaces there.
+static int onward_differing(const Geometry *g, unsigned features, OnwardRays *rays, int *met)
+{
+    TileHits hits;
+    TileSurfaces surfaces;
+    MaterialIndex material[TILE_RAYS];
+    int different = 0;
+    geometry_closest_onward(g, features, rays, &hits);
+    for (int i = 0; i < rays->count; i++) {
+        RayStart start = {rays->start[i], rays->inward >> i & 1, HIDDEN_MIRROR};
+        Hit hit;
+        bool is_met = geometry_closest(g, features, onward_ray(rays, (unsigned)i), start, (double)INFINITY, &hit);
+        different += is_met != (hits.met >> i & 1) ||
+                     (is_met && (hit.t != hits.t[i] || hit.shape != hits.shape[i] || hit.inside != (hits.inside >> i & 1)));
+        *met += is_met;
+    }
+    if (hits.met) {
+        geometry_onward_surfaces(g, features, rays, &hits, &surfaces, material);
+        for (int i = 0; i < surfaces.count; i++) {
+            unsigned ray = surfaces.ray[i];
+            Hit hit = {hits.t[ray], hits.shape[ray], hits.inside >> ray & 1};
+            different += surface_differs(g, onward_ray(rays, ray), hit, &surfaces, material, i);
+        }
+    }
+    return different;
+}
+
+// A direction in which a ray from a point grazes a sphere, but for rounding.
+static Vec3 grazing(Random *random, Vec3 point, const Ball *ball)
+{
+    Vec3 offset = vec3_sub(ball->centre, point);
+    double distance = vec3_length(offset), sine = sqrt(ball->radius_squared) / distance;
+    if (!(sine < 1.0)) {
+        return random_direction(random);
+    }
+    Vec3 towards = vec3_normalize(offset), aside = random_perpendicular(random, towards);
+    return vec3_normalize(vec3_add_scaled(vec3_scale(sqrt(1.0 - sine * sine), towards), sine, aside));
+}
+
+// Rays that go on from surfaces: anywhere, in or out, or along other spheres.
+static int onward_try(const Geometry *g, unsigned features, const TileSurfaces *from, Random *random, int *met,
+                      int *together)
+{
+    OnwardRays rays = {.count = 0};
+    for (int i = 0; i < from->count; i++) {
+        Vec3 point = tile_surface_point(from, i), direction = random_direction(random);
+        if (random_bits(random) % 4 == 0) {
+            Ball ball = sphere_table_ball(&g->spheres, (uint32_t)(random_bits(random) % g->spheres.count));
+            direction = grazing(random, point, &ball);
+        }
+        onward_ray_add(&rays, point, direction, from->shape[i],
+                       vec3_dot(tile_surface_outward(from, i), direction) < 0.0);
+    }
+    int different = onward_differing(g, features, &rays, met);
+    if (!g->spheres.bvh.nodes && g->plane_count < 2) {
+        TileHits hits;
+        const PlaneShape *plane = g->plane_count == 1 ? &g->planes[0].shape : NULL;
+        *together += __builtin_popcountll(
+            g->kernels->closest_onward(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), &rays, &hits));
+    }
+    return different;
+}
+
+// From within shells that lie next to one another, or on one another, in any order.
+static void test_onward_ties(uint64_t seed)
+{
+    int different = 0, met = 0;
+    Random random = {seed};
+    for (int turn = 0; turn < 100; turn++) {
+        Scene scene;
+        scene_init(&scene);
+        for (int i = 0; i < 7; i++) {
+            double radius = 2.0 + (double)(random_bits(&random) % 4) * (turn % 2 ? 1e-15 : 1e-5);
+            add_sphere(&scene, (Vec3){0.0, 0.0, 0.0}, radius);
+        }
+        Geometry *g = prepare(&scene, 0);
+        for (size_t isa = 0; geometry_isa(isa); isa++) {
+            OnwardRays rays = {.count = 0};
+            g->kernels = sphere_kernels_choose(geometry_isa(isa));
+            for (int i = 0; i < 61; i++) {
+                onward_ray_add(&rays, random_point(&random, 1), random_direction(&random), SHAPE_NONE, false);
+            }
+            different += onward_differing(g, geometry_features(g), &rays, &met);
+        }
+        geometry_free(g);
+        scene_fini(&scene);
+    }
+    tap_ok(different == 0 && met > 6000, "rays that go on meet the first of shells about equally near: %d of %d do not",
+           different, met);
+}
+
 // A light anywhere: among the spheres, near a surface, or far away.
 static Vec3 light_place(Random *random, const TraceFamily *family, const TileSurfaces *surfaces)
 {
@@ -99,7 +196,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
     }
     Geometry *g = prepare(&scene, 0);
     unsigned features = geometry_features(g);
-    int surfaces_different = 0, met = 0;
+    int surfaces_different = 0, met = 0, onward_different = 0, onward_met = 0, together = 0;
     Shadows shadows = {0};
     for (int turn = 0; turn < 200; turn++) {
         SphereTile tile;
@@ -121,6 +218,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
                 Vec3 light = light_place(&same, family, &surfaces);
                 double aside = turn % 2 ? family->size * pow(10.0, random_between(&same, -3, 0)) : 0.0;
                 shadows_try(g, features, &surfaces, light, aside, asked, &same, &shadows);
+                onward_different += onward_try(g, features, &surfaces, &same, &onward_met, &together);
             }
         }
     }
@@ -129,6 +227,10 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
     tap_ok(shadows.different == 0 && shadows.dark + shadows.lit > 500,
            "%s, %d, %d planes: shadows too (%d of %d dark and %d lit differ; %d traced together)", family->name, count,
            planes, shadows.different, shadows.dark, shadows.lit, shadows.together);
+    bool may_together = !g->spheres.bvh.nodes && planes < 2;
+    tap_ok(onward_different == 0 && onward_met > 100 && (together > 1000) == may_together,
+           "%s, %d, %d planes: rays that go on meet what single rays do (%d of %d not; %d traced together)",
+           family->name, count, planes, onward_different, onward_met, together);
     geometry_free(g);
     scene_fini(&scene);
 }
@@ -201,8 +303,36 @@ static void random_light(Random *random, int kinds, Scene *scene)
     }
 }
 
+// A checkered material, whose one layer may stand on another that is not seen.
+static bool add_checkered(Scene *scene, Random *random, const Finish *finish, bool is_doubled, MaterialIndex *material)
+{
+    uint32_t last, first, pattern, below = RECORD_NONE, texture;
+    PigmentEntry entry = {.at = 1.0, .pigment = pigment_of((Rgbft){0.1, 0.9, 0.3, 0, 0}), .next = RECORD_NONE};
+    bool is_fine = scene_add_pigment_entry(scene, &entry, &last);
+    entry = (PigmentEntry){.pigment = pigment_of((Rgbft){random_between(random, 0, 1), 0.2, 0.7, 0, 0}), .next = last};
+    is_fine = is_fine && scene_add_pigment_entry(scene, &entry, &first);
+    PatternedPigment checker = {
+        .to_world = transform_identity(), .pattern = {.type = PATTERN_CHECKER}, .entries = first};
+    checker.to_world.m[3][0] = random_between(random, 0, 1);
+    is_fine = is_fine && scene_add_pattern(scene, &checker, &pattern);
+    Texture top = {.to_world = transform_identity(), .entries = RECORD_NONE, .below = RECORD_NONE, .normal = RECORD_NONE};
+    top.pigment.pattern = RECORD_NONE;
+    is_fine = is_fine && scene_add_finish(scene, finish, &top.finish) &&
+              (!is_doubled || scene_add_texture(scene, &top, &below));
+    top.pigment.pattern = pattern;
+    top.below = below;
+    is_fine = is_fine && scene_add_texture(scene, &top, &texture);
+    Compound compound = {.texture = texture, .interior = RECORD_NONE};
+    return is_fine && scene_add_compound(scene, &compound, material);
+}
+
+// What a scene may have beside spheres of plain colours, planes and point lights.
+typedef struct Extras {
+    bool any_lights, patterns, doubled; // the last: of layers
+} Extras;
+
 // Spheres of few finishes, some of them touching the eye's surroundings, lights, planes.
-static void random_scene(Random *random, int kinds, Scene *scene)
+static void random_scene(Random *random, const Extras *extras, Scene *scene)
 {
     Finish finishes[4];
     int count = random_bits(random) % 2 ? 6 : 60;
@@ -213,15 +343,18 @@ static void random_scene(Random *random, int kinds, Scene *scene)
     for (int i = 0; i < count; i++) {
         MaterialIndex material;
         Rgbft pigment = {random_between(random, -0.1, 1), 0.5, random_between(random, 0, 1), 0, 0};
-        bool is_added = scene_add_material(scene, pigment, &finishes[random_bits(random) % 4], &material);
+        const Finish *finish = &finishes[random_bits(random) % 4];
+        bool is_added = extras->patterns && random_bits(random) % 2
+                            ? add_checkered(scene, random, finish, extras->doubled, &material)
+                            : scene_add_material(scene, pigment, finish, &material);
         Vec3 place = random_point(random, 5);
-        if (!is_added || (i % 9 == 8 ? !scene_add_plane(scene, random_direction(random), -6, material, 0)
+        if (!is_added || (i % 9 == 5 ? !scene_add_plane(scene, random_direction(random), -6, material, 0)
                                      : !scene_add_sphere(scene, place, random_between(random, 0.2, 2), material, 0))) {
             abort();
         }
     }
     for (uint64_t i = random_bits(random) % 4; i-- > 0;) {
-        random_light(random, kinds, scene);
+        random_light(random, extras->any_lights ? 2 : 1, scene);
     }
     scene->camera = (Camera){.type = CAMERA_PERSPECTIVE,
                              .location = {0.0, 0.0, -9.0},
@@ -250,8 +383,13 @@ static Film picture(const Scene *scene, const char *isa, unsigned features, cons
     return film;
 }
 
+static bool films_differ(const Film *a, const Film *b)
+{
+    return memcmp(a->rgb, b->rgb, 3 * sizeof(float) * (size_t)a->width * (size_t)a->height) != 0;
+}
+
 // A kernel that has textures shades ray by ray.
-static void test_light(uint64_t first, int kinds, const SamplingOptions *sampling)
+static void test_light(uint64_t first, const Extras *extras, const SamplingOptions *sampling)
 {
     int different = 0, pictures = 0;
     uint64_t shadow_rays = 0, reflected_rays = 0;
@@ -259,12 +397,11 @@ static void test_light(uint64_t first, int kinds, const SamplingOptions *samplin
         Random random = {seed};
         Scene scene;
         RenderStatistics single, tiled;
-        random_scene(&random, kinds, &scene);
+        random_scene(&random, extras, &scene);
         Film expected = picture(&scene, NULL, RENDER_TEXTURES, sampling, &single);
         for (size_t isa = 0; geometry_isa(isa); isa++, pictures++) {
             Film film = picture(&scene, geometry_isa(isa), 0, sampling, &tiled);
-            size_t bytes = 3 * sizeof(float) * (size_t)film.width * (size_t)film.height;
-            different += memcmp(film.rgb, expected.rgb, bytes) != 0 || memcmp(&single, &tiled, sizeof single) != 0;
+            different += films_differ(&film, &expected) || memcmp(&single, &tiled, sizeof single) != 0;
             film_fini(&film);
         }
         shadow_rays += single.shadow_rays;
@@ -273,9 +410,31 @@ static void test_light(uint64_t first, int kinds, const SamplingOptions *samplin
         scene_fini(&scene);
     }
     tap_ok(different == 0 && shadow_rays > 30000 && reflected_rays > 3000,
-           "light by tiles is light by rays, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored)",
-           kinds > 1 ? "any lights" : "point lights", sampling ? "sampled" : "one ray a pixel", different, pictures,
-           (unsigned long long)shadow_rays, (unsigned long long)reflected_rays);
+           "light by tiles is light by rays, %s, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored)",
+           extras->any_lights ? "any lights" : "point lights", extras->patterns ? "patterns" : "plain colours",
+           sampling ? "sampled" : "one ray a pixel", different, pictures, (unsigned long long)shadow_rays,
+           (unsigned long long)reflected_rays);
+}
+
+// A layer that lets nothing through looks the same by itself, which is done by tiles, and over another, which is walked.
+static void test_one_layer(uint64_t first)
+{
+    int different = 0;
+    for (uint64_t seed = first; seed < first + 60; seed++) {
+        Film films[2];
+        for (int doubled = 0; doubled < 2; doubled++) {
+            Random random = {seed};
+            Scene scene;
+            RenderStatistics statistics;
+            random_scene(&random, &(Extras){.patterns = true, .doubled = doubled}, &scene);
+            films[doubled] = picture(&scene, NULL, 0, NULL, &statistics);
+            scene_fini(&scene);
+        }
+        different += films_differ(&films[0], &films[1]);
+        film_fini(&films[0]);
+        film_fini(&films[1]);
+    }
+    tap_ok(different == 0, "a layer by itself is that layer over another: %d of 60 pictures differ", different);
 }
 
 int main(void)
@@ -285,10 +444,13 @@ int main(void)
         test_geometry(seed, family, 8, (int)family % 3);
         test_geometry(seed, family, 3000, (int)(family + 1) % 3);
     }
+    test_onward_ties(seed);
     SamplingOptions sampling = {.seed = seed, .samples = 5};
-    test_light(seed, 1, NULL);
-    test_light(seed, 2, NULL);
-    test_light(seed, 1, &sampling);
-    test_light(seed, 2, &sampling);
+    for (int kind = 0; kind < 4; kind++) {
+        Extras extras = {.any_lights = kind & 1, .patterns = kind & 2};
+        test_light(seed, &extras, NULL);
+        test_light(seed, &extras, &sampling);
+    }
+    test_one_layer(seed);
     return tap_done();
 }

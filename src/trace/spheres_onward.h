@@ -1,0 +1,185 @@
+// Rays that go on from surfaces against few spheres and a plane: part of spheres_kernel.c.
+//
+// Some rays at once against one sphere after the other: sphere_test, operation by operation, so the answers are those of
+// single rays. A ray for which one of them is doubtful, or two are about equally near, is left to be asked by itself.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SPHERES_ONWARD_H
+#define TRACE_SPHERES_ONWARD_H
+
+#include "trace/plane.h"
+#include "trace/simd.h"
+#include "trace/spheres.h"
+#include "trace/spheres_refine.h"
+
+// A vector of rays, and what they have met so far.
+typedef struct OnwardVector {
+    Doubles origin[3], direction[3], dual[3], inverse_square;
+    Doubles t;                  // INFINITY where nothing is met
+    DoublesMask shape;          // ShapeId
+    DoublesMask inside, is_open; // -1 where it is; the ray is to be asked by itself
+} OnwardVector;
+
+// Rays that start on each of the spheres, or on one equal to it.
+static void onward_starts(const SphereTable *table, const OnwardRays *rays, uint64_t starts[SPHERE_BLOCK])
+{
+    uint64_t own[SPHERE_BLOCK] = {0};
+    for (int i = 0; i < rays->count; i++) {
+        ShapeId start = rays->start[i];
+        if (start != SHAPE_NONE && shape_kind(start) == SHAPE_SPHERE && shape_index(start) < SPHERE_BLOCK) {
+            own[shape_index(start)] |= UINT64_C(1) << i;
+        }
+    }
+    for (uint32_t i = 0; i < table->loose_count; i++) {
+        Ball ball = sphere_table_ball(table, i);
+        starts[i] = own[i];
+        for (uint32_t j = 0; j < table->loose_count; j++) {
+            Ball other = sphere_table_ball(table, j);
+            starts[i] |= ball_equal(&ball, &other) ? own[j] : 0;
+        }
+    }
+}
+
+// False when one of the rays is not usable.
+RT_ALWAYS_INLINE bool onward_load(OnwardVector *v, const OnwardRays *rays, int at)
+{
+    Doubles square = doubles_splat(0.0);
+    for (int axis = 0; axis < 3; axis++) {
+        v->origin[axis] = doubles_load(&rays->origin[axis][at]);
+        v->direction[axis] = doubles_load(&rays->direction[axis][at]);
+    }
+    square = v->direction[0] * v->direction[0] + v->direction[1] * v->direction[1] + v->direction[2] * v->direction[2];
+    v->inverse_square = 1.0 / square;
+    for (int axis = 0; axis < 3; axis++) {
+        v->dual[axis] = v->inverse_square * v->direction[axis];
+    }
+    v->t = doubles_splat((double)INFINITY);
+    v->shape = (DoublesMask){0} + (int64_t)SHAPE_NONE;
+    v->inside = v->is_open = (DoublesMask){0};
+    unsigned usable = doubles_gt(v->inverse_square, doubles_splat(0x1p-100)) &
+                      doubles_gt(doubles_splat((double)INFINITY), v->inverse_square);
+    return usable == (1u << DOUBLES) - 1;
+}
+
+// One sphere. The rays of `starts` leave it.
+RT_ALWAYS_INLINE void onward_sphere(OnwardVector *v, const Ball *ball, uint32_t slot, unsigned starts)
+{
+    Doubles fx = v->origin[0] - ball->centre.x;
+    Doubles fy = v->origin[1] - ball->centre.y;
+    Doubles fz = v->origin[2] - ball->centre.z;
+    Doubles t_middle = -(fx * v->dual[0] + fy * v->dual[1] + fz * v->dual[2]);
+    Doubles lx = fx + t_middle * v->direction[0];
+    Doubles ly = fy + t_middle * v->direction[1];
+    Doubles lz = fz + t_middle * v->direction[2];
+    Doubles discriminant = ball->radius_squared - (lx * lx + ly * ly + lz * lz);
+    Doubles f_squared = fx * fx + fy * fy + fz * fz;
+    Doubles sum = f_squared + ball->radius_squared;
+    Doubles rounding = -SPHERE_ROUNDING * sum;
+    if (!(doubles_ge(discriminant, rounding) & ~starts)) {
+        return;
+    }
+    Doubles c = f_squared - ball->radius_squared;
+    Doubles doubt = SPHERE_DOUBT * sum;
+    Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * v->inverse_square);
+    Doubles near_side = doubles_abs(c) * v->inverse_square / far_side;
+    Doubles is_far = (Doubles)(~(DoublesMask)t_middle & (DoublesMask)c); // by its sign
+    Doubles root = doubles_if_negative(is_far, far_side, near_side);
+    DoublesMask possible = (discriminant >= rounding) & ((t_middle >= 0.0) | ~(c >= doubt));
+    possible = starts ? possible & ~doubles_bits_mask(starts) : possible;
+    DoublesMask certain = (discriminant >= doubt) & (doubles_abs(c) >= doubt);
+    DoublesMask nearest = possible & certain & ~(root >= v->t * (1.0 - SPHERE_ROOT_SLACK)) & (root > 0.0);
+    v->is_open |= possible & ~nearest & (~certain | (v->t + SPHERE_ROOT_SLACK * v->t >= root));
+    v->t = doubles_choose(nearest, root, v->t);
+    v->shape = (nearest & (int64_t)shape_id(SHAPE_SPHERE, slot)) | (~nearest & v->shape);
+    v->inside = (nearest & (c < 0.0)) | (~nearest & v->inside);
+}
+
+// Makes the roots right.
+static void onward_settle(const SphereTable *table, OnwardVector *v)
+{
+    _Alignas(64) double balls[4][DOUBLES];
+    DoublesMask met = v->t < (double)INFINITY;
+    unsigned any = doubles_mask_bits(met);
+    if (!any) {
+        return;
+    }
+    for (unsigned i = 0; i < DOUBLES; i++) {
+        unsigned from = any >> i & 1 ? i : (unsigned)__builtin_ctz(any);
+        Ball ball = sphere_table_ball(table, shape_index((ShapeId)v->shape[from]));
+        balls[0][i] = ball.centre.x;
+        balls[1][i] = ball.centre.y;
+        balls[2][i] = ball.centre.z;
+        balls[3][i] = ball.radius_squared;
+    }
+    Doubles t = v->t;
+    unsigned certain = roots_refine(v->origin, v->direction, v->inverse_square, balls, &t);
+    v->t = doubles_choose(met, t, v->t);
+    v->is_open |= any & ~certain ? met & ~doubles_bits_mask(certain) : (DoublesMask){0};
+}
+
+// A plane. The rays of `starts` leave it.
+RT_ALWAYS_INLINE void onward_plane(OnwardVector *v, const PlaneShape *plane, ShapeId shape, unsigned starts)
+{
+    Vec3 n = plane->normal;
+    Doubles along = n.x * v->direction[0] + n.y * v->direction[1] + n.z * v->direction[2];
+    Doubles root = (plane->distance - (n.x * v->origin[0] + n.y * v->origin[1] + n.z * v->origin[2])) / along;
+    DoublesMask ahead = root > 0.0;
+    ahead = starts ? ahead & ~doubles_bits_mask(starts) : ahead;
+    DoublesMask nearer = ahead & (root < v->t);
+    v->is_open |= ahead & (root == v->t) & (root < (double)INFINITY);
+    v->t = doubles_choose(nearer, root, v->t);
+    v->shape = (nearer & (int64_t)shape) | (~nearer & v->shape);
+    v->inside = (nearer & (along > 0.0)) | (~nearer & v->inside);
+}
+
+// Fills the last vector up with copies of its last ray.
+static void onward_fill(OnwardRays *rays)
+{
+    for (int i = rays->count; i % DOUBLES != 0; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            rays->origin[axis][i] = rays->origin[axis][rays->count - 1];
+            rays->direction[axis][i] = rays->direction[axis][rays->count - 1];
+        }
+    }
+}
+
+static uint64_t closest_onward(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
+                               OnwardRays *rays, TileHits *hits)
+{
+    uint64_t starts[SPHERE_BLOCK], on_plane = 0, is_open = rays->inward;
+    onward_starts(table, rays, starts);
+    onward_fill(rays);
+    for (int i = 0; plane && i < rays->count; i++) {
+        on_plane |= (uint64_t)(rays->start[i] == plane_shape) << i;
+    }
+    hits->met = hits->inside = 0;
+    for (int at = 0; at < rays->count; at += DOUBLES) {
+        const unsigned all = (1u << DOUBLES) - 1;
+        OnwardVector v;
+        if (!onward_load(&v, rays, at)) {
+            is_open |= (uint64_t)all << at;
+            continue;
+        }
+        for (uint32_t i = 0; i < table->loose_count; i++) {
+            Ball ball = sphere_table_ball(table, i);
+            onward_sphere(&v, &ball, i, (unsigned)(starts[i] >> at) & all);
+        }
+        onward_settle(table, &v);
+        if (plane) {
+            onward_plane(&v, plane, plane_shape, (unsigned)(on_plane >> at) & all);
+        }
+        doubles_store(&hits->t[at], v.t);
+        for (int i = 0; i < DOUBLES; i++) {
+            hits->shape[at + i] = (ShapeId)v.shape[i];
+        }
+        is_open |= (uint64_t)doubles_mask_bits(v.is_open) << at;
+        hits->met |= (uint64_t)doubles_mask_bits(v.t < (double)INFINITY) << at;
+        hits->inside |= (uint64_t)doubles_mask_bits(v.inside) << at;
+    }
+    uint64_t decided = ~is_open & ~UINT64_C(0) >> (TILE_RAYS - rays->count);
+    hits->met &= decided;
+    hits->inside &= decided;
+    return decided;
+}
+
+#endif
