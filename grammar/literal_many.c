@@ -1,4 +1,4 @@
-// Long runs of literal spheres, read on several threads.
+// Long runs of literal spheres, read piece by piece on all threads, if only one.
 //
 // The source's text is cut into pieces, one for each thread. A piece begins where the first statement `sphere {` stands,
 // and each is read as if all before it were fine; then the pieces' spheres are handed to the evaluator in order, up to
@@ -18,8 +18,9 @@
 
 enum {
     PIECE_BYTES = 1 << 20,
+    PIECE_BYTES_ALONE = 256 << 10, // of one thread: text and spheres stay in its cache
     READERS_MOST = 64,
-    PIECES_LEAST = 2,     // of less, one thread reads as fast
+    MISSES_FEW = 32,      // so many statements in a row that are of no form: from then on few are taken apart
     STATEMENT_LEAST = 16, // bytes; `sphere{<0,0,0>,1}` has 17
 };
 
@@ -51,20 +52,48 @@ static const char *find_statement(const char *at, const char *end)
     return end;
 }
 
+// Statements of the form of the last one of their pattern are read by that.
+typedef struct Forms {
+    LiteralForm items[LITERAL_PATTERNS];
+    unsigned last;   // the one used last
+    unsigned misses; // statements in a row that were of no such form
+} Forms;
+
+// Reads the statement that begins here; NULL: it is no literal that can be taken.
+static const char *read_statement(const Readers *readers, Forms *forms, const char *at, const char *end,
+                                  GrammarLiteral *literal)
+{
+    LiteralPattern *const *patterns = readers->state->literals;
+    const char *text, *after = literal_form_read(&forms->items[forms->last], at, end, literal);
+    if (RT_LIKELY(after != NULL)) {
+        forms->misses = 0;
+        return after;
+    }
+    unsigned which;
+    after = literal_read(patterns, at, end, literal, &which, &text);
+    if (after == NULL || !patterns[which]->is_used) {
+        return NULL;
+    }
+    // Where numbers are set in columns no form lasts.
+    if (++forms->misses < MISSES_FEW || forms->misses % MISSES_FEW == 0) {
+        literal_form_learn(&forms->items[which], patterns[which], at, end);
+    }
+    forms->last = which;
+    return after;
+}
+
 // Reads the statements that begin in a piece.
 static void piece_scan(const Readers *readers, Piece *piece, size_t length, size_t limit, bool is_first)
 {
     const char *end = piece->text + length, *at = plain_skip_blanks(piece->text);
     at = is_first ? at : find_statement(at, end);
-    LiteralPattern *const *patterns = readers->state->literals;
+    Forms forms = {.last = 0};
     piece->begin = (size_t)(at - piece->text);
     piece->count = piece->changes = 0;
     while (at < piece->text + limit) {
         GrammarLiteral *literal = &piece->literals[piece->count];
-        const char *text;
-        unsigned which;
-        const char *after = literal_read(patterns, at, end, literal, &which, &text);
-        if (after == NULL || !patterns[which]->is_used) {
+        const char *after = read_statement(readers, &forms, at, end, literal);
+        if (after == NULL) {
             break;
         }
         literal->span = (Span){(uint64_t)(at - piece->text), (uint64_t)(after - piece->text)};
@@ -202,7 +231,7 @@ static bool read_round(GrammarState *state, Readers *readers)
     uint64_t start = state->offset;
     readers->position = start - source_base(state->source);
     readers->count = pieces_left(readers->size, readers->position, readers->bytes, readers->count);
-    if (readers->count < PIECES_LEAST) {
+    if (readers->count == 0) {
         return false;
     }
     parallel_share(readers->count, (size_t)readers->count, 1, readers_work, readers);
@@ -223,11 +252,12 @@ bool grammar_literals_read_many(GrammarState *state)
 {
     const GrammarHooks *hooks = state->context->hooks;
     uint64_t base = source_base(state->source), before = state->offset;
-    size_t bytes = hooks->literal_piece > 0 ? hooks->literal_piece : PIECE_BYTES;
-    uint64_t size = source_extent(state->source).end - base;
     int threads = hooks->literal_threads < READERS_MOST ? hooks->literal_threads : READERS_MOST;
+    threads = threads < 1 ? 1 : threads;
+    size_t bytes = hooks->literal_piece > 0 ? hooks->literal_piece : threads > 1 ? PIECE_BYTES : PIECE_BYTES_ALONE;
+    uint64_t size = source_extent(state->source).end - base;
     int count = pieces_left(size, before - base, bytes, threads);
-    Readers *readers = count < PIECES_LEAST ? NULL : readers_new(state, bytes, count);
+    Readers *readers = count == 0 ? NULL : readers_new(state, bytes, count);
     if (readers == NULL) {
         return false; // they are read one by one
     }

@@ -37,11 +37,10 @@ bool array_reserve(void **items, size_t *capacity, size_t wanted, size_t element
     size_t grown = *capacity > greatest / 2 ? greatest : *capacity * 2;
     grown = grown < CAPACITY_LEAST && CAPACITY_LEAST <= greatest ? CAPACITY_LEAST : grown;
     grown = grown < wanted ? wanted : grown;
-    void *moved = realloc(pointer_load(items), grown * element_size);
+    void *moved = pages_grow(pointer_load(items), *capacity * element_size, grown * element_size);
     if (!moved) {
         return false;
     }
-    pages_prefer_huge(moved, grown * element_size);
     pointer_store(items, moved);
     *capacity = grown;
     return true;

@@ -10,4 +10,8 @@
 // and addresses stay as they are. NULL is allowed.
 void pages_prefer_huge(void *memory, size_t bytes);
 
+// Memory that is grown to `bytes`: as realloc, but that large memory is moved at once, to where all of it can be huge
+// pages.
+void *pages_grow(void *memory, size_t old_bytes, size_t bytes);
+
 #endif

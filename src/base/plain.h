@@ -83,32 +83,43 @@ static inline const char *plain_read_any(const char *at, const char *end, double
     return plain_is_digit(at[-1]) || at[-1] == '.' ? at : NULL;
 }
 
-// Powers of ten that are integers and doubles.
+// Powers of ten that are integers and doubles; and what divides a number with a minus sign.
 static const struct {
     int64_t integer;
-    double real;
-} plain_tens[] = {{1, 1e0}, {10, 1e1}, {100, 1e2}, {1000, 1e3}, {10000, 1e4}, {100000, 1e5}, {1000000, 1e6},
-                  {10000000, 1e7}, {100000000, 1e8}, {1000000000, 1e9}, {10000000000, 1e10}, {100000000000, 1e11},
-                  {1000000000000, 1e12}, {10000000000000, 1e13}, {100000000000000, 1e14}};
+    double real[2];
+} plain_tens[] = {{1, {1e0, -1e0}},
+                  {10, {1e1, -1e1}},
+                  {100, {1e2, -1e2}},
+                  {1000, {1e3, -1e3}},
+                  {10000, {1e4, -1e4}},
+                  {100000, {1e5, -1e5}},
+                  {1000000, {1e6, -1e6}},
+                  {10000000, {1e7, -1e7}},
+                  {100000000, {1e8, -1e8}},
+                  {1000000000, {1e9, -1e9}},
+                  {10000000000, {1e10, -1e10}},
+                  {100000000000, {1e11, -1e11}},
+                  {1000000000000, {1e12, -1e12}},
+                  {10000000000000, {1e13, -1e13}},
+                  {100000000000000, {1e14, -1e14}}};
 
 // After `whole` and the point there are `count` digits, which the eight bytes begin with: NULL when the number goes on.
 RT_ALWAYS_INLINE const char *plain_end_number(const char *point, int64_t whole, uint64_t chunk, unsigned count,
-                                              double sign, double *number)
+                                              bool is_negative, double *number)
 {
     whole = whole * plain_tens[count].integer + (int64_t)plain_join_digits(chunk, count);
-    *number = sign * ((double)whole / plain_tens[count].real);
+    *number = (double)whole / plain_tens[count].real[is_negative];
     return plain_goes_on(point[1 + count]) ? NULL : point + 1 + count;
 }
 
 // A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
 // A number that is cut off by the end of the buffer is read as if it ended there.
-// Signs are multiplied with, since they come as they like and a branch would be foretold badly. How many digits a number
+// Signs come as they like, and a branch on them would be foretold badly: they are in what is divided by. How many digits a number
 // has is mostly as before: branches on that are foretold well, and reading goes on behind it before it is counted.
 RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, double *number)
 {
-    static const double signs[] = {1.0, -1.0};
-    double sign = signs[*at == '-'];
-    at += *at == '-';
+    bool is_negative = *at == '-';
+    at += is_negative;
 #if defined __BYTE_ORDER__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     enum { DIGITS_FEW = 8, DIGITS_EXACT = 15, AHEAD = 32 };
     // An integer of up to 15 digits is a double, and so is the power of ten that divides it: one rounding.
@@ -122,13 +133,13 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
         memcpy(&chunk, point + 1, sizeof chunk);
         unsigned count = *point == '.' ? plain_count_digits(chunk) : 0;
         switch (count) {
-        case 1: after = plain_end_number(point, whole, chunk, 1, sign, number); break;
-        case 2: after = plain_end_number(point, whole, chunk, 2, sign, number); break;
-        case 3: after = plain_end_number(point, whole, chunk, 3, sign, number); break;
-        case 4: after = plain_end_number(point, whole, chunk, 4, sign, number); break;
-        case 5: after = plain_end_number(point, whole, chunk, 5, sign, number); break;
-        case 6: after = plain_end_number(point, whole, chunk, 6, sign, number); break;
-        case 7: after = plain_end_number(point, whole, chunk, 7, sign, number); break;
+        case 1: after = plain_end_number(point, whole, chunk, 1, is_negative, number); break;
+        case 2: after = plain_end_number(point, whole, chunk, 2, is_negative, number); break;
+        case 3: after = plain_end_number(point, whole, chunk, 3, is_negative, number); break;
+        case 4: after = plain_end_number(point, whole, chunk, 4, is_negative, number); break;
+        case 5: after = plain_end_number(point, whole, chunk, 5, is_negative, number); break;
+        case 6: after = plain_end_number(point, whole, chunk, 6, is_negative, number); break;
+        case 7: after = plain_end_number(point, whole, chunk, 7, is_negative, number); break;
         default: break;
         }
         if (RT_LIKELY(after != NULL)) {
@@ -142,12 +153,12 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
             if (more > 0 && (size_t)(point - at) + fraction <= DIGITS_EXACT && !plain_goes_on(after[more])) {
                 whole = whole * plain_tens[count].integer + (int64_t)plain_join_digits(chunk, count);
                 whole = whole * plain_tens[more].integer + (int64_t)plain_join_digits(next, more);
-                *number = sign * ((double)whole / plain_tens[fraction].real);
+                *number = (double)whole / plain_tens[fraction].real[is_negative];
                 return after + more;
             }
         }
         if (!plain_goes_on(*point)) {
-            *number = sign * (double)whole;
+            *number = is_negative ? -(double)whole : (double)whole;
             return point;
         }
     }
@@ -157,7 +168,7 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
     if (at == NULL || plain_goes_on(*at)) {
         return NULL;
     }
-    *number = sign * size;
+    *number = is_negative ? -size : size;
     return at;
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "eval/blocks.h"
+#include "scene/many.h"
 
 // Beyond this a colour is left to the statements that say what is wrong with it.
 #define COLOUR_GREATEST 1e30f
@@ -197,39 +198,41 @@ static void batches_place(Batches *batches, const GrammarLiterals *lists)
     }
 }
 
-// Whether there is room for them, in all limits; if the lists must grow, for those that seem to follow, too.
-static bool reserve(Eval *ev, const Batches *batches, size_t more)
+static bool grows(size_t wanted, size_t capacity)
+{
+    return wanted > capacity;
+}
+
+// Whether there is room for so many, in all limits; if the lists must grow, for those that seem to follow, too, of which
+// each takes a `share` of a material.
+static bool reserve(Eval *ev, size_t spheres, size_t materials, size_t more, double share)
 {
     Scene *scene = ev->scene;
-    size_t spheres = batches->spheres, materials = batches->materials;
-    bool grows = scene->spheres.capacity - scene->spheres.count < spheres ||
-                 scene->materials.capacity - scene->materials.count < materials;
     if (scene_shapes_in_all(scene) + spheres > ev->options.limits->objects) {
         return false;
     }
     // A little more than that, since it is a guess. Where it is too much, they grow as they need to.
-    double share = (double)materials / (double)spheres, all = (double)spheres + 1.02 * (double)more;
-    size_t bytes = (size_t)(all * ((double)sizeof(Sphere) + share * (double)sizeof(Material)));
-    if (grows && memory_has(ev, bytes) && !scene_reserve_spheres(scene, (size_t)all, (size_t)(all * share) + 1)) {
+    double all = (double)spheres + 1.02 * (double)more;
+    size_t all_spheres = grows(scene->spheres.count + spheres, scene->spheres.capacity) ? (size_t)all : 0;
+    size_t all_materials =
+        grows(scene->materials.count + materials, scene->materials.capacity) ? (size_t)(all * share) + 1 : 0;
+    if (memory_has(ev, all_spheres * sizeof(Sphere) + all_materials * sizeof(Material)) &&
+        !scene_reserve_spheres(scene, all_spheres, all_materials)) {
         return false;
     }
     return scene_reserve_spheres(scene, spheres, materials) && memory_has(ev, 0);
 }
 
-// The same records in the same order as one by one. What may come to a fault is left to that.
-static bool take_many(void *client, const GrammarLiterals *lists, size_t count, size_t more)
+// Where each differing material is added.
+static bool take_side_by_side(Eval *ev, const GrammarLiterals *lists, size_t count, size_t more)
 {
-    Eval *ev = eval_of(client);
-    Batches batches = {.scene = ev->scene, .count = count};
-    if (!scene_materials_add_up(ev->scene) || eval_cancelled(ev)) {
-        return false;
-    }
-    batches.items = malloc(count * sizeof *batches.items);
+    Batches batches = {.scene = ev->scene, .count = count, .items = malloc(count * sizeof *batches.items)};
     if (batches.items == NULL) {
         return false;
     }
     batches_place(&batches, lists);
-    bool is_taken = reserve(ev, &batches, more);
+    double share = (double)batches.materials / (double)batches.spheres;
+    bool is_taken = reserve(ev, batches.spheres, batches.materials, more, share);
     if (is_taken) {
         parallel_share(ev->options.threads, count, 1, batches_work, &batches);
         is_taken = !atomic_load(&batches.has_odd);
@@ -239,6 +242,74 @@ static bool take_many(void *client, const GrammarLiterals *lists, size_t count, 
     }
     free(batches.items);
     return is_taken;
+}
+
+static bool list_has_odd(const GrammarLiterals *list)
+{
+    Material material;
+    bool is_fine = true;
+    for (size_t i = 0; i < list->count; i++) {
+        is_fine = literal_material(&list->items[i], &material) && is_fine;
+    }
+    return !is_fine;
+}
+
+// Writes a list's records behind the end of the scene's list. False when out of memory.
+static bool list_fill(Scene *scene, const GrammarLiterals *list, Sphere *sphere, uint32_t order)
+{
+    MaterialIndex index = 0;
+    Material material;
+    size_t repeated = 0;
+    for (size_t i = 0; i < list->count; i++) {
+        const GrammarLiteral *literal = &list->items[i];
+        bool is_like = i > 0 && memcmp(&literal->kind, &literal[-1].kind, sizeof literal->kind) == 0;
+        repeated += is_like;
+        if (!is_like) {
+            scene_repeat_material(scene, repeated);
+            repeated = 0;
+            (void)literal_material(literal, &material);
+            if (!scene_add_material_record(scene, &material, &index)) {
+                return false;
+            }
+        }
+        sphere[i] = (Sphere){literal_centre(literal), literal->radius, index, order + (uint32_t)i,
+                             list->base + literal->span.begin};
+    }
+    scene_repeat_material(scene, repeated);
+    return true;
+}
+
+// Where materials are looked for among those that there are: one after the other.
+static bool take_in_order(Eval *ev, const GrammarLiterals *lists, size_t count, size_t more)
+{
+    Scene *scene = ev->scene;
+    size_t spheres = 0, changes = 0;
+    for (size_t i = 0; i < count; i++) {
+        spheres += lists[i].count;
+        changes += lists[i].changes;
+        if (list_has_odd(&lists[i])) {
+            return false;
+        }
+    }
+    if (!reserve(ev, spheres, changes, more, 0.0)) {
+        return false;
+    }
+    for (size_t i = 0, done = 0; i < count; done += lists[i++].count) {
+        if (!list_fill(scene, &lists[i], &scene->spheres.items[scene->spheres.count + done],
+                       scene->shape_count + (uint32_t)done)) {
+            return false; // one by one it will be told
+        }
+    }
+    scene_commit_spheres(scene, spheres, 0);
+    return true;
+}
+
+// The same records in the same order as one by one. What may come to a fault is left to that.
+static bool take_many(void *client, const GrammarLiterals *lists, size_t count, size_t more)
+{
+    Eval *ev = eval_of(client);
+    return !eval_cancelled(ev) && (scene_materials_add_up(ev->scene) ? take_side_by_side(ev, lists, count, more)
+                                                                     : take_in_order(ev, lists, count, more));
 }
 
 void literal_hooks(Eval *ev, GrammarHooks *hooks)

@@ -6,7 +6,6 @@
 #include <float.h>
 #include <math.h>
 #include <pthread.h>
-#include <stdatomic.h>
 
 #include "base/parallel.h"
 #include "scene/part.h"
@@ -59,33 +58,77 @@ static void range_add_part(LengthRange *range, const Part *part)
     }
 }
 
-typedef struct SphereLengths {
-    const Scene *scene;
-    LengthRange range;
-    pthread_mutex_t lock; // of the range
-} SphereLengths;
+// ---- all spheres
 
-static void add_spheres(void *client, size_t begin, size_t end)
+bool scene_has_material(const Scene *scene, MaterialIndex index)
 {
-    SphereLengths *lengths = client;
-    LengthRange range = {INFINITY, 0.0};
-    for (size_t i = begin; i < end; i++) {
-        const Sphere *sphere = &lengths->scene->spheres.items[i];
-        range_add(&range, max_abs(sphere->centre));
-        range_add(&range, sphere->radius);
-    }
-    pthread_mutex_lock(&lengths->lock);
-    range_add(&lengths->range, range.least);
-    range_add(&lengths->range, range.greatest);
-    pthread_mutex_unlock(&lengths->lock);
+    return index & MATERIAL_COMPOUND ? (index & ~MATERIAL_COMPOUND) < scene->compounds.count
+                                     : index < scene->materials.count;
 }
 
-int scene_exponent(const Scene *scene, int threads)
+typedef struct Surveying {
+    const Scene *scene;
+    SphereSurvey *survey;
+    pthread_mutex_t lock; // of the survey
+} Surveying;
+
+static void survey_add(SphereSurvey *survey, const SphereSurvey *more)
 {
-    SphereLengths lengths = {scene, {INFINITY, 0.0}, PTHREAD_MUTEX_INITIALIZER};
-    parallel_share(threads, scene->spheres.count, SPHERE_RUN, add_spheres, &lengths);
-    pthread_mutex_destroy(&lengths.lock);
-    LengthRange range = lengths.range;
+    survey->least_length = fmin(survey->least_length, more->least_length);
+    survey->greatest_length = fmax(survey->greatest_length, more->greatest_length);
+    survey->least_radius = fmin(survey->least_radius, more->least_radius);
+    survey->greatest_radius = fmax(survey->greatest_radius, more->greatest_radius);
+    survey->greatest_place = fmax(survey->greatest_place, more->greatest_place);
+    survey->is_valid = survey->is_valid && more->is_valid;
+}
+
+static const SphereSurvey nothing_surveyed = {INFINITY, 0.0, INFINITY, 0.0, 0.0, true};
+
+static void survey_some(void *client, size_t begin, size_t end)
+{
+    Surveying *surveying = client;
+    const Scene *scene = surveying->scene;
+    double least = INFINITY, greatest = 0.0, place = 0.0, least_place = INFINITY;
+    bool has_materials = true;
+    double nothing = 0.0; // as long as all is finite
+    for (size_t i = begin; i < end; i++) {
+        const Sphere *sphere = &scene->spheres.items[i];
+        Vec3 centre = sphere->centre;
+        double radius = sphere->radius, at = max_abs(centre), counted = at > 0.0 ? at : INFINITY;
+        nothing += (centre.x - centre.x) + (centre.y - centre.y) + (centre.z - centre.z) + (radius - radius);
+        has_materials = has_materials & scene_has_material(scene, sphere->material);
+        least = radius < least ? radius : least;
+        greatest = radius > greatest ? radius : greatest;
+        place = at > place ? at : place;
+        least_place = counted < least_place ? counted : least_place;
+    }
+    SphereSurvey some = {
+        .least_length = least_place < least ? least_place : least,
+        .greatest_length = place > greatest ? place : greatest,
+        .least_radius = least,
+        .greatest_radius = greatest,
+        .greatest_place = place,
+        .is_valid = nothing == 0.0 && least > 0.0 && has_materials,
+    };
+    pthread_mutex_lock(&surveying->lock);
+    survey_add(surveying->survey, &some);
+    pthread_mutex_unlock(&surveying->lock);
+}
+
+void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey)
+{
+    Surveying surveying = {scene, survey, PTHREAD_MUTEX_INITIALIZER};
+    *survey = nothing_surveyed;
+    parallel_share(threads, scene->spheres.count, SPHERE_RUN, survey_some, &surveying);
+    pthread_mutex_destroy(&surveying.lock);
+}
+
+// The exponent of the whole scene.
+static int exponent_with(const Scene *scene, const SphereSurvey *spheres)
+{
+    LengthRange range = {INFINITY, 0.0};
+    range_add(&range, spheres->least_length);
+    range_add(&range, spheres->greatest_length);
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
         for (int row = 0; row < 4; row++) {
             range_add(&range, row_size(&scene->ellipsoids.items[i].to_world, row));
@@ -106,6 +149,13 @@ int scene_exponent(const Scene *scene, int threads)
     }
     int sum = ilogb(range.least) + ilogb(range.greatest);
     return (sum - (sum < 0)) / 2; // rounded down, also below 0
+}
+
+int scene_exponent(const Scene *scene, int threads)
+{
+    SphereSurvey survey;
+    scene_survey_spheres(scene, threads, &survey);
+    return exponent_with(scene, &survey);
 }
 
 // ---- what lies beyond
@@ -288,45 +338,24 @@ static bool nothing_to_tell(const Watch *watch, double least, double greatest, d
            place + max_abs(watch->eye) <= RANGE_RADII * least;
 }
 
-typedef struct SphereRange {
-    const Scene *scene;
-    const Watch *watch;
-    atomic_bool has_some;
-} SphereRange;
-
-static void look_at_spheres(void *client, size_t begin, size_t end)
+// Spheres are seldom worth a look at each.
+static void check_spheres(const Scene *scene, const SphereSurvey *survey, const Watch *watch)
 {
-    SphereRange *range = client;
-    double least = INFINITY, greatest = 0.0, place = 0.0;
-    for (size_t i = begin; i < end; i++) {
-        const Sphere *sphere = &range->scene->spheres.items[i];
-        double at = max_abs(sphere->centre);
-        least = sphere->radius < least ? sphere->radius : least;
-        greatest = sphere->radius > greatest ? sphere->radius : greatest;
-        place = at > place ? at : place;
+    if (nothing_to_tell(watch, survey->least_radius, survey->greatest_radius, survey->greatest_place)) {
+        return;
     }
-    if (!nothing_to_tell(range->watch, least, greatest, place)) {
-        atomic_store(&range->has_some, true);
-    }
-}
-
-// Runs of spheres are seldom worth a look at each.
-static void check_spheres(const Scene *scene, const Watch *watch, int threads)
-{
-    SphereRange range = {.scene = scene, .watch = watch};
-    parallel_share(threads, scene->spheres.count, SPHERE_RUN, look_at_spheres, &range);
-    for (size_t i = 0; atomic_load(&range.has_some) && i < scene->spheres.count; i++) {
+    for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         // ball_make (trace/sphere.h) leaves out spheres whose squares are beyond.
         check_extent(watch, &(Extent){sphere->radius, sphere->centre, sphere->source, "sphere"}, "it is not drawn");
     }
 }
 
-void scene_warn_of_range(const Scene *scene, DiagSink *diags, int threads)
+void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags)
 {
-    int exponent = scene_exponent(scene, threads);
+    int exponent = exponent_with(scene, survey);
     Watch watch = {diags, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
-    check_spheres(scene, &watch, threads);
+    check_spheres(scene, survey, &watch);
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
         const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
         Extent extent = transform_extent(&ellipsoid->to_world, ellipsoid->source, "stretched sphere");

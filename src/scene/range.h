@@ -20,6 +20,16 @@ enum { RANGE_LEAST = -480, RANGE_END = 511 };
 // u, rounded down to a power of two.
 #define RANGE_RADII 0x1p46
 
+// What is asked of all spheres, by one look at each.
+typedef struct SphereSurvey {
+    double least_length, greatest_length; // of radii and greatest coordinates; those that are 0 do not count
+    double least_radius, greatest_radius, greatest_place;
+    bool is_valid; // all numbers are finite, all radii > 0, all materials there; else the rest means nothing
+} SphereSurvey;
+
+void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey);
+bool scene_has_material(const Scene *scene, MaterialIndex index);
+
 // The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of
 // the greatest and the least are as far from overflow as from underflow. A scene times 2^k has an exponent greater by
 // k, so both become the same numbers. (The direction and screen of a perspective camera have no length that matters.)
@@ -27,7 +37,7 @@ int scene_exponent(const Scene *scene, int threads);
 
 // Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and
 // of lights and cameras beyond the range. One pass.
-void scene_warn_of_range(const Scene *scene, DiagSink *diags, int threads);
+void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags);
 
 // Warns of equal shapes that some ray could see both of. Linear in the number of shapes. False when out of memory.
 bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;

@@ -141,24 +141,42 @@ static bool item_is_alone(const Twins *twins, size_t item)
 }
 
 // As in scene/unique.c, eight bytes at a time.
+static inline uint64_t hash_add(uint64_t hash, double number)
+{
+    uint64_t word;
+    memcpy(&word, &number, sizeof word);
+    hash = (hash ^ word) * UINT64_C(0xff51afd7ed558ccd);
+    return hash ^ hash >> 33;
+}
+
 static uint32_t key_hash(const Key *key)
 {
     uint64_t hash = key->kind;
     for (uint32_t i = 0; i < key->count; i++) {
-        uint64_t word;
-        memcpy(&word, &key->numbers[i], sizeof word);
-        hash = (hash ^ word) * UINT64_C(0xff51afd7ed558ccd);
-        hash ^= hash >> 33;
+        hash = hash_add(hash, key->numbers[i]);
     }
     return (uint32_t)hash;
+}
+
+// The same of a sphere's key, which is what nearly all keys are.
+static inline uint32_t sphere_hash(const Sphere *sphere)
+{
+    uint64_t hash = hash_add(KIND_SPHERE_KEY, sphere->centre.x + 0.0);
+    hash = hash_add(hash, sphere->centre.y + 0.0);
+    hash = hash_add(hash, sphere->centre.z + 0.0);
+    return (uint32_t)hash_add(hash, sphere->radius);
 }
 
 // Of the shapes from begin to end, whose slots are asked for.
 static void hash_some(const Twins *twins, size_t begin, size_t end, uint32_t *hashes)
 {
     for (size_t item = begin; item < end; item++) {
-        Key key = item_key(twins, item);
-        hashes[item - begin] = key_hash(&key);
+        if (item < twins->ellipsoids) {
+            hashes[item - begin] = sphere_hash(&twins->scene->spheres.items[item]);
+        } else {
+            Key key = item_key(twins, item);
+            hashes[item - begin] = key_hash(&key);
+        }
         __builtin_prefetch(&twins->slots[hashes[item - begin] & twins->mask], 1);
     }
 }

@@ -97,58 +97,38 @@ static bool materials_are_valid(const Scene *scene, DiagSink *diags, int threads
     return finite || fault(diags, DIAG_E0412, 0, "a texture has a number that is not finite");
 }
 
-static bool has_material(const Scene *scene, MaterialIndex index)
-{
-    return index & MATERIAL_COMPOUND ? (index & ~MATERIAL_COMPOUND) < scene->compounds.count
-                                     : index < scene->materials.count;
-}
-
 static bool sphere_is_valid(const Scene *scene, const Sphere *sphere)
 {
     return vec3_is_finite(sphere->centre) && isfinite(sphere->radius) && sphere->radius > 0.0 &&
-           has_material(scene, sphere->material);
+           scene_has_material(scene, sphere->material);
 }
 
-static void check_spheres(void *client, size_t begin, size_t end)
+// If there is one that is not valid, all are looked at in order.
+static bool spheres_are_valid(const Scene *scene, const SphereSurvey *survey, DiagSink *diags)
 {
-    Check *check = client;
-    bool valid = true;
-    for (size_t i = begin; i < end; i++) {
-        valid = sphere_is_valid(check->scene, &check->scene->spheres.items[i]) && valid;
-    }
-    if (!valid) {
-        atomic_store(&check->has_invalid, true);
-    }
-}
-
-// All are looked at for any that is not valid; if there is one, once more, in order.
-static bool spheres_are_valid(const Scene *scene, DiagSink *diags, int threads)
-{
-    Check check = {.scene = scene};
-    parallel_share(threads, scene->spheres.count, SPHERE_RUN, check_spheres, &check);
-    for (size_t i = 0; atomic_load(&check.has_invalid) && i < scene->spheres.count; i++) {
+    for (size_t i = 0; !survey->is_valid && i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         if (!sphere_is_valid(scene, sphere)) {
             fault(diags, DIAG_E0413, sphere->source, "the sphere cannot be represented");
         }
     }
-    return !atomic_load(&check.has_invalid);
+    return survey->is_valid;
 }
 
-static bool shapes_are_valid(const Scene *scene, DiagSink *diags, int threads)
+static bool shapes_are_valid(const Scene *scene, const SphereSurvey *survey, DiagSink *diags)
 {
-    bool valid = spheres_are_valid(scene, diags, threads);
+    bool valid = spheres_are_valid(scene, survey, diags);
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {
         const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
         if (!transform_is_finite(&ellipsoid->to_world) || !transform_is_finite(&ellipsoid->to_object) ||
-            !has_material(scene, ellipsoid->material)) {
+            !scene_has_material(scene, ellipsoid->material)) {
             valid = fault(diags, DIAG_E0413, ellipsoid->source, "the stretched sphere cannot be represented");
         }
     }
     for (size_t i = 0; i < scene->planes.count; i++) {
         const Plane *plane = &scene->planes.items[i];
         if (!vec3_is_finite(plane->normal) || !isfinite(plane->distance) ||
-            vec3_equal(plane->normal, vec3(0.0, 0.0, 0.0)) || !has_material(scene, plane->material)) {
+            vec3_equal(plane->normal, vec3(0.0, 0.0, 0.0)) || !scene_has_material(scene, plane->material)) {
             valid = fault(diags, DIAG_E0413, plane->source, "the plane cannot be represented");
         }
     }
@@ -165,7 +145,7 @@ static bool parts_are_valid(const Scene *scene, DiagSink *diags)
             is_finite = is_finite && vec3_is_finite(part->data[k]);
         }
         bool is_seen = !(part->flags & PART_UNSEEN);
-        if (!is_finite || (is_seen && !has_material(scene, part->material)) ||
+        if (!is_finite || (is_seen && !scene_has_material(scene, part->material)) ||
             (part->node != NODE_NONE && part->node >= scene->nodes.count)) {
             valid = fault(diags, DIAG_E0413, part->source, "the shape cannot be represented");
         }
@@ -188,16 +168,18 @@ static void warn_of_what_is_missing(const Scene *scene, DiagSink *diags)
 
 bool scene_validate(const Scene *scene, DiagSink *diags, int threads)
 {
+    SphereSurvey survey;
     warn_of_what_is_missing(scene, diags);
     bool valid = camera_is_valid(&scene->camera, diags);
     valid = lights_are_valid(scene, diags) && valid;
     valid = materials_are_valid(scene, diags, threads) && valid;
     valid = parts_are_valid(scene, diags) && valid;
-    valid = shapes_are_valid(scene, diags, threads) && valid;
+    scene_survey_spheres(scene, threads, &survey);
+    valid = shapes_are_valid(scene, &survey, diags) && valid;
     if (!valid) {
         return false;
     }
-    scene_warn_of_range(scene, diags, threads);
+    scene_warn_of_range(scene, &survey, diags);
     if (!scene_warn_of_twins(scene, diags, threads) || !scene_warn_of_faces(scene, diags)) {
         diag_report(diags, DIAG_E0602, SPAN_NONE, "out of memory looking for shapes that coincide");
         return false;
