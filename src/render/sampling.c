@@ -15,6 +15,15 @@ enum {
     PIXELS_MANY = 16384, // of a picture, from which some tell of its error as well as all
 };
 
+// What is known of the time that rounds take, for what is shown. Rays of one pixel go together, those of others less:
+// the rays through corners go together as those of one pixel do, those of the pilot's pixels are the least together.
+typedef struct Cost {
+    double sample, pixel;     // seconds of the pilot for each sample, and for each pixel that takes part
+    double seconds, by_pilot; // of the rounds since, and as the pilot lets expect; the last counts most
+} Cost;
+
+static const double COST_FADE = 0.8; // of what is known from earlier rounds
+
 typedef struct Sampling {
     const Prepared *prepared;
     const RenderOptions *options;
@@ -25,11 +34,17 @@ typedef struct Sampling {
     Round round;
     Estimate estimate;
     Choice choice;
+    Predictor *predictor;  // NULL: nobody asks
+    Cost cost;
     float *corners;        // owned by the caller; NULL: there is no such pilot
     double start;          // by the clock
+    double round_end;      // when the last one had been traced
     double sample_seconds; // of a sample, as the last round had it
     double round_samples;  // of this round
     double all_samples;    // of the run, as far as can be told; 0: not
+    double round_pixels;   // that take part, if anybody asks
+    double round_seconds;  // predicted of this round
+    double later_seconds;  // and of those after it
 } Sampling;
 
 static double clock_seconds(void)
@@ -37,6 +52,23 @@ static double clock_seconds(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double cost_by_pilot(const Cost *cost, double samples, double pixels)
+{
+    return cost->sample * samples + cost->pixel * pixels;
+}
+
+static double cost_of(const Cost *cost, double samples, double pixels)
+{
+    double seconds = cost_by_pilot(cost, samples, pixels);
+    return cost->by_pilot > 0.0 ? seconds * cost->seconds / cost->by_pilot : seconds;
+}
+
+static void cost_add(Cost *cost, double samples, double pixels, double seconds)
+{
+    cost->seconds = COST_FADE * cost->seconds + seconds;
+    cost->by_pilot = COST_FADE * cost->by_pilot + cost_by_pilot(cost, samples, pixels);
 }
 
 static double pixel_count(const Sampling *s)
@@ -48,9 +80,9 @@ static void forward_progress(void *client, double done)
 {
     const Sampling *s = client;
     double now = (double)s->estimate.samples + done * s->round_samples;
-    bool is_known = s->all_samples > 0.0;
+    bool is_known = s->all_samples > 0.0, has_time = is_known && s->sample_seconds > 0.0;
     RenderProgress progress = {is_known ? fmin(now / s->all_samples, 1.0) : 0.0, s->error,
-                               is_known ? fmax(s->all_samples - now, 0.0) * s->sample_seconds : -1.0};
+                               has_time ? s->later_seconds + (1.0 - done) * s->round_seconds : -1.0};
     s->options->progress(s->options->client, &progress);
 }
 
@@ -86,8 +118,9 @@ static bool trace_round(Sampling *s)
     TileWork work = {s, s->film->width + more, s->film->height + more, trace_tile,
                      s->options->progress ? forward_progress : NULL};
     bool is_whole = tiles_run(&work, s->options, s->statistics);
+    s->round_end = clock_seconds();
     if (is_whole) {
-        s->sample_seconds = (clock_seconds() - start) / s->round_samples;
+        s->sample_seconds = (s->round_end - start) / s->round_samples;
     }
     return is_whole;
 }
@@ -106,20 +139,30 @@ static bool run_round(Sampling *s)
     return is_whole;
 }
 
-// What is left of a goal, in samples of the whole run.
-static double predict(const Sampling *s)
+// What is left of a goal: samples of the whole run, and seconds.
+static void predict(Sampling *s)
 {
     const SamplingOptions *wanted = s->wanted;
+    double had = (double)s->estimate.samples, round = s->round_samples;
     double all = wanted->samples > 0.0 ? wanted->samples * pixel_count(s) : HUGE_VAL;
     if (wanted->time_limit > 0.0 && s->sample_seconds > 0.0) {
         double left = fmax(wanted->time_limit - (clock_seconds() - s->start), 0.0);
-        all = fmin(all, (double)s->estimate.samples + left / s->sample_seconds);
+        all = fmin(all, had + left / s->sample_seconds);
     }
-    if (wanted->target_error > 0.0 && s->choice.power > 0.0) {
-        double samples = choice_predict(&s->choice, &s->estimate, &s->round, s->error, wanted->target_error);
-        all = samples > 0.0 ? fmin(all, samples) : all;
+    s->round_seconds = fmin(round, fmax(all - had, 0.0)) * s->sample_seconds;
+    s->later_seconds = fmax(all - had - round, 0.0) * s->sample_seconds;
+    if (s->predictor && s->choice.power > 0.0) {
+        Forecast to_goal = predictor_run(s->predictor, &s->choice, &s->estimate, &s->round, wanted->target_error);
+        double between = clock_seconds() - s->round_end;
+        s->round_pixels = to_goal.round_pixels;
+        if (to_goal.samples > 0.0 && to_goal.samples <= all) {
+            all = to_goal.samples;
+            s->round_seconds = cost_of(&s->cost, round, to_goal.round_pixels);
+            s->later_seconds = cost_of(&s->cost, all - had - round, to_goal.pixels - to_goal.round_pixels) +
+                               to_goal.rounds * between;
+        }
     }
-    return isfinite(all) ? all : 0.0;
+    s->all_samples = isfinite(all) ? all : 0.0;
 }
 
 // Whether one of the goals is reached, or a round more would miss one.
@@ -164,7 +207,7 @@ static bool run_alike(Sampling *s, uint32_t all)
         uint32_t next = next_count(s, count, all);
         s->round.count = next;
         s->round_samples = (double)(next - count) * pixel_count(s);
-        s->all_samples = predict(s);
+        predict(s);
         if (count > 0 && is_enough(s)) {
             return false;
         }
@@ -192,20 +235,26 @@ static bool run_pilot(Sampling *s)
                      .is_corners = true,
                      .is_pilot = true};
     s->round_samples = s->estimate.corners = (s->film->width + 1.0) * (s->film->height + 1.0);
-    s->all_samples = predict(s);
+    predict(s);
     if (!trace_round(s)) {
         return false;
     }
-    pilot_sort(round, s->choice.of_pixel, s->choice.memory);
+    s->cost.sample = s->sample_seconds;
+    uint32_t probes = pilot_sort(round, s->choice.of_pixel, s->choice.memory);
     round->is_corners = false;
     round->count = 0;
     round->buckets = s->choice.of_pixel;
     round->least_bucket = PILOT_PROBE;
+    s->round_samples = START_SAMPLES * (double)probes;
     if (!trace_round(s)) {
         return false;
     }
     round->is_pilot = false;
+    s->cost.pixel = START_SAMPLES * fmax(s->sample_seconds - s->cost.sample, 0.0);
     pilot_judge(&s->estimate, s->film, s->choice.of_pixel);
+    if (s->predictor) {
+        predictor_keep_sorts(s->predictor, s->choice.of_pixel, (size_t)pixel_count(s));
+    }
     estimate_now(&s->estimate, s->film, round, s->error);
     find_bias(s);
     return true;
@@ -215,11 +264,15 @@ static void run_adaptive(Sampling *s)
 {
     s->round.buckets = s->choice.of_pixel;
     s->round.count = 0;
-    for (;;) {
+    s->cost.sample = s->corners ? s->cost.sample : s->sample_seconds;
+    for (bool is_first = true;; is_first = false) {
         choice_make(&s->choice, &s->estimate, &s->round);
+        if (is_first && s->predictor && s->corners) {
+            predictor_see_starts(s->predictor, &s->choice, s->film);
+        }
         s->round.least_bucket = s->choice.least_bucket;
         s->round_samples = s->choice.spent;
-        s->all_samples = predict(s);
+        predict(s);
         if (is_enough(s)) {
             return;
         }
@@ -227,6 +280,7 @@ static void run_adaptive(Sampling *s)
             s->error->end = s->round_samples == 0.0 ? SAMPLING_DONE : SAMPLING_INTERRUPTED;
             return;
         }
+        cost_add(&s->cost, s->round_samples, s->round_pixels, s->round_samples * s->sample_seconds);
     }
 }
 
@@ -252,15 +306,17 @@ static void sampling_free(Sampling *s)
         free(s->choice.of_pixel);
         free(s->choice.memory);
         free(s->corners);
+        predictor_free(s->predictor);
         free(s);
     }
 }
 
 // NULL when out of memory. The film keeps its records.
-static Sampling *sampling_new(const SamplingOptions *wanted, Film *film)
+static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, Film *film)
 {
     size_t width = (size_t)film->width, height = (size_t)film->height;
     bool has_pilot = wanted->is_adaptive && wanted->filter == FILTER_BOX;
+    bool predicts = wanted->is_adaptive && wanted->target_error > 0.0 && has_progress;
     Sampling *s = calloc(1, sizeof *s);
     film->records = calloc(width * height, sizeof *film->records);
     if (s && wanted->is_adaptive) {
@@ -270,7 +326,10 @@ static Sampling *sampling_new(const SamplingOptions *wanted, Film *film)
     if (s && has_pilot) {
         s->corners = calloc((width + 1) * (height + 1), 3 * sizeof *s->corners);
     }
-    bool is_whole = s && film->records && (!has_pilot || s->corners) &&
+    if (s && predicts) {
+        s->predictor = predictor_new(width * height);
+    }
+    bool is_whole = s && film->records && (!has_pilot || s->corners) && (!predicts || s->predictor) &&
                     (!wanted->is_adaptive || (s->choice.of_pixel && s->choice.memory));
     if (!is_whole) {
         sampling_free(s);
@@ -285,7 +344,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     const SamplingOptions *wanted = options->sampling;
     size_t pixels = (size_t)film->width * (size_t)film->height;
     uint32_t alike = wanted->is_adaptive ? ALIKE_SAMPLES : (uint32_t)wanted->samples;
-    Sampling *s = sampling_new(wanted, film);
+    Sampling *s = sampling_new(wanted, options->progress != NULL, film);
     if (!s) {
         return RENDER_NO_MEMORY;
     }
@@ -295,7 +354,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->film = film;
     s->statistics = statistics;
     s->error = error;
-    s->start = clock_seconds();
+    s->start = s->round_end = clock_seconds();
     s->round = (Round){.prepared = prepared,
                        .sampling = wanted,
                        .film = film,

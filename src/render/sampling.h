@@ -74,6 +74,7 @@ enum { LEVELS = 33, PILOT_SORTS = 32 };
 // Sums over pixels that have between 2^level and 2^(level+1) - 1 samples.
 typedef struct LevelSums {
     double outer, inner;             // of pixels that came to it, as they came: nothing was chosen by these
+    double squares;                  // of these outer ones
     double outer_now, outer_squares; // of those that are there now
     double inner_now;
 } LevelSums;
@@ -87,6 +88,8 @@ typedef struct Estimate {
     // Of pixels that have their corners only, by sort: the sum of what they are taken to be off by, and its relative
     // variance.
     double sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
+    // Of the logarithm of the error told, by chance: that in pixels with corners only, and that in all others.
+    double corners_variance, others_variance;
 } Estimate;
 
 // Before the first round: which pixels tell of the error.
@@ -98,6 +101,9 @@ void estimate_update(Estimate *estimate, const Film *film, const Round *round, b
 
 // The same after pixels were judged otherwise.
 void estimate_now(Estimate *estimate, const Film *film, const Round *round, SamplingError *error);
+
+// By how much the law of the ratios may be wrong at a level, as a share of the error.
+double estimate_law_error(const Round *round, int level);
 
 // The level of a pixel with so many samples.
 static inline int estimate_level(uint32_t count)
@@ -128,16 +134,21 @@ void near_take(Near *near, int y);
 // Makes pixels from their corners, and sorts them by how much these differ from what those around let expect.
 // Of each square of pixels one is chosen by chance: those have buckets from PILOT_PROBE on, the others below.
 enum { PILOT_PROBE = 0x8000 };
-void pilot_sort(const Round *round, uint16_t *buckets, double *memory);
+// Returns the number of those.
+uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory);
 
 // When the chosen ones have started: what they differ from their corners by is taken for what those of their sort are
 // off by.
 void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
 
-// ---- sampling_choice.c: where the next samples go, and how many it will take
+// ---- sampling_choice.c: where the next samples go
 
 // Pixels in classes of like priority, four for a factor of two: exponent and two bits of a float.
-enum { BUCKETS = 1020 };
+enum { BUCKETS = 1020, BUCKET_FINE = 4 };
+
+// A round takes about this share of all samples taken before it: what a run may spend too much.
+static const double ROUND_SHARE = 0.25;
+
 typedef struct Choice {
     uint16_t *of_pixel;                         // width * height; owned by the caller
     double *memory;                             // NEAR_ROWS * width; owned by the caller
@@ -148,11 +159,38 @@ typedef struct Choice {
     uint16_t least_bucket;                      // of the next round
 } Choice;
 
+// Samples that the pixels of a bucket get next.
+static inline double choice_cost(const Choice *choice, int bucket)
+{
+    return choice->cost[bucket] + choice->corner_cost[bucket];
+}
+
 // Sorts all pixels and chooses the next round's.
 void choice_make(Choice *choice, const Estimate *estimate, const Round *round);
 
-// Samples in all that it takes to bring `high` to the target, predicted; 0 when it cannot be told.
-double choice_predict(const Choice *choice, const Estimate *estimate, const Round *round, const SamplingError *error,
-                      double target);
+// ---- sampling_predict.c: how many samples it will take
+
+typedef struct Predictor Predictor;
+
+// NULL when out of memory.
+Predictor *predictor_new(size_t pixels);
+void predictor_free(Predictor *predictor);
+
+// After pilot_judge: keeps the sorts of all pixels.
+void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t pixels);
+
+// When the first round after that is chosen: what pixels become that start.
+void predictor_see_starts(Predictor *predictor, const Choice *choice, const Film *film);
+
+typedef struct Forecast {
+    double samples;      // of the whole run; 0: it cannot be told
+    double pixels;       // each as often as it will take part in a round still to come
+    double round_pixels; // that take part in the next
+    double rounds;       // after that
+} Forecast;
+
+// What it takes to bring `high` to the target, before a round that is chosen.
+Forecast predictor_run(Predictor *predictor, const Choice *choice, const Estimate *estimate, const Round *round,
+                       double target);
 
 #endif

@@ -10,11 +10,8 @@
 
 #include "render/sampling.h"
 
-enum { BUCKET_FINE = 4, BUCKET_SHIFT = 21 };    // buckets for a factor of two; bits of a float below a bucket's
+enum { BUCKET_SHIFT = 21 };                     // bits of a float below a bucket's
 enum { SPREAD_SHIFT = 23, SPREAD_SORTS = 256 }; // by exponent
-
-// A round takes about this share of all samples taken before it: what a run may spend too much.
-static const double ROUND_SHARE = 0.25;
 
 // Where nothing has been seen, something may be: of the mean of all pixels.
 static const double PRIORITY_FLOOR = 1e-3;
@@ -25,10 +22,6 @@ static const double SORT_COUNT = 2.0;
 // As many samples as the neighbours of a pixel count for.
 static const double NEIGHBOURS_COUNT = 8.0;
 
-// What is predicted is taken between what was seen, which is told with caution, and what hard edges mostly have, or
-// points of more dimensions; the interval gets narrower on the way, to this power of its width now. Measured.
-static const double USUAL_POWER = 1.5, INDEPENDENT_POWER = 1.0, WIDTH_POWER = 0.7;
-
 static double mean_log_ratio(const Estimate *estimate)
 {
     double sum = 0.0, weight = 0.0;
@@ -37,16 +30,6 @@ static double mean_log_ratio(const Estimate *estimate)
         sum += estimate->levels[level].outer_now * log2(estimate->ratio[level]);
     }
     return weight > 0.0 ? sum / weight : 1.0;
-}
-
-// The middle of a bucket.
-static double bucket_priority(int bucket)
-{
-    union {
-        uint32_t bits;
-        float value;
-    } number = {.bits = (uint32_t)bucket << BUCKET_SHIFT | 1u << (BUCKET_SHIFT - 1)};
-    return (double)number.value;
 }
 
 static inline uint16_t bucket_of(double priority)
@@ -135,11 +118,6 @@ static void choose_row(Choice *choice, const Constants *constants, const Round *
     }
 }
 
-static double choice_cost(const Choice *choice, int bucket)
-{
-    return choice->cost[bucket] + choice->corner_cost[bucket];
-}
-
 void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
 {
     const Film *film = round->film;
@@ -177,56 +155,4 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
     }
     choice->least_bucket = (uint16_t)least;
     choice->spent = spent;
-}
-
-// Pixels by bucket while the coming rounds are played: the samples that they get next, and their share of the error.
-typedef struct Play {
-    double cost[BUCKETS], square[BUCKETS];
-    double known; // sum of the squares
-} Play;
-
-static double play_begin(Play *play, const double costs[BUCKETS], double scale)
-{
-    play->known = 0.0;
-    for (int i = 0; i < BUCKETS; i++) {
-        play->cost[i] = costs[i];
-        play->square[i] = scale * costs[i] * bucket_priority(i);
-        play->known += play->square[i];
-    }
-    return play->known;
-}
-
-// A bucket's pixels get their samples: a share of their error stays, and they go down by `fall` buckets.
-static double play_bucket(Play *from, Play *to, int bucket, int fall, double times, double share)
-{
-    double cost = from->cost[bucket], square = from->square[bucket];
-    from->cost[bucket] = from->square[bucket] = 0.0;
-    from->known -= square;
-    to->cost[bucket - fall] += times * cost;
-    to->square[bucket - fall] += share * square;
-    to->known += share * square;
-    return cost;
-}
-
-double choice_predict(const Choice *choice, const Estimate *estimate, const Round *round, const SamplingError *error,
-                      double target)
-{
-    Play corners, others;
-    double samples = (double)estimate->samples, usual = round->draws_more ? INDEPENDENT_POWER : USUAL_POWER;
-    double power = 0.5 * (choice->power + usual);
-    // Of corners, priority is the error times this, for each sample that they start with.
-    double corner_scale = 1.0 / (START_SAMPLES * choice->corner_priority);
-    double known = play_begin(&corners, choice->corner_cost, corner_scale);
-    known += play_begin(&others, choice->cost, 1.0);
-    // In units of what is known now.
-    double high = error->rmse * pow(error->high / error->rmse, WIDTH_POWER);
-    double goal = known * (target / high) * (target / high), share = exp2(-power);
-    int fall = (int)lround(BUCKET_FINE * (power + 1.0));
-    int corner_fall = (int)lround(BUCKET_FINE * (2.0 * (power + 1.0) + log2(choice->corner_priority)));
-    for (int least = BUCKETS - 1; corners.known + others.known > goal && least > 2 * fall; least--) {
-        samples += play_bucket(&corners, &others, least, corner_fall, 1.0, share * share);
-        samples += play_bucket(&others, &others, least, fall, 2.0, share);
-    }
-    bool is_enough = corners.known + others.known <= goal;
-    return is_enough ? samples * (1.0 + 0.5 * ROUND_SHARE) : 0.0; // the last round goes beyond
 }

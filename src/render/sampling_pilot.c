@@ -88,9 +88,10 @@ static inline uint16_t sort_of(float square)
     return (uint16_t)(sort < 0 ? 0 : sort >= PILOT_SORTS ? PILOT_SORTS - 1 : sort);
 }
 
-// Marks them.
-static void probes_choose(const Film *film, uint64_t seed, uint16_t *buckets)
+// Marks them, and counts them.
+static uint32_t probes_choose(const Film *film, uint64_t seed, uint16_t *buckets)
 {
+    uint32_t count = 0;
     int first_x = film->left - film->left % PROBE_SQUARE, first_y = film->top - film->top % PROBE_SQUARE;
     for (int top = first_y - film->top; top < film->height; top += PROBE_SQUARE) {
         for (int left = first_x - film->left; left < film->width; left += PROBE_SQUARE) {
@@ -98,12 +99,14 @@ static void probes_choose(const Film *film, uint64_t seed, uint16_t *buckets)
             int x = left + (int)(chosen % PROBE_SQUARE), y = top + (int)(chosen / PROBE_SQUARE % PROBE_SQUARE);
             if (x >= 0 && x < film->width && y >= 0 && y < film->height) {
                 buckets[(size_t)y * (size_t)film->width + (size_t)x] |= PILOT_PROBE;
+                count++;
             }
         }
     }
+    return count;
 }
 
-void pilot_sort(const Round *round, uint16_t *buckets, double *memory)
+uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory)
 {
     const double of_near = 1.0 / 64.0;
     const Film *film = round->film;
@@ -126,7 +129,7 @@ void pilot_sort(const Round *round, uint16_t *buckets, double *memory)
             }
         }
     }
-    probes_choose(film, round->sampling->seed, buckets);
+    return probes_choose(film, round->sampling->seed, buckets);
 }
 
 // What the probes of a sort were off by: the square of the distance of what the corners gave from the mean of the
@@ -187,6 +190,7 @@ void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets)
         if (buckets[i] & PILOT_PROBE) {
             started->outer += record->outer;
             started->inner += record->inner;
+            started->squares += (double)record->outer * record->outer;
         } else {
             record->outer = record->inner = (float)mean[buckets[i]];
             record->fresh = buckets[i];

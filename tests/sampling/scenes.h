@@ -5,6 +5,7 @@
 #define SAMPLING_SCENES_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +57,31 @@ static const SamplingScene scene_glass = {
     "#for (I, -1, 1) sphere { <I*2, 0, 0>, 0.9 pigment { rgbf <0.95,0.9,1,0.9> }\n"
     "finish { ambient 0 diffuse 0.1 phong 0.5 } interior { ior 1.4 } } #end\n"};
 
+// A wide lens before a patterned plane: everything is blurred, samples draw four numbers.
+__attribute__((unused)) static const SamplingScene scene_lens = {
+    "lens", SCENE_HEAD
+    "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 aperture 0.8 blur_samples 50\n"
+    "focal_point <0,0,-1> } light_source { <-8,12,-10> rgb 1 } background { rgb <0.2,0.3,0.5> }\n"
+    "plane { y, -1 pigment { gradient x color_map { [0 rgb 0.2] [1 rgb <0.9,0.8,0.6>] } scale 0.7 } }\n"
+    "#for (I, -2, 2) sphere { <I*1.5, 0, I*1.5>, 0.8 pigment { rgb <0.8,0.4,0.3> } finish { phong 0.6 } } #end\n"};
+
+// Smooth detail as large as pixels: noise in colours and normals.
+__attribute__((unused)) static const SamplingScene scene_noise = {
+    "noise", SCENE_HEAD SCENE_CAMERA
+    "light_source { <-8,12,-10> rgb 1 } background { rgb <0.2,0.3,0.5> }\n"
+    "plane { y, -1.5 pigment { bozo turbulence 0.5 color_map { [0 rgb 0.1] [0.6 rgb <0.9,0.7,0.4>] [1 rgb 1] }\n"
+    "scale 0.4 } } sphere { 0, 1.4 pigment { rgb <0.9,0.5,0.3> } normal { bumps 0.5 scale 0.15 }\n"
+    "finish { ambient 0.1 diffuse 0.6 phong 0.8 phong_size 40 } }\n"};
+
+// Thin things, each in few pixels, and their shadows.
+__attribute__((unused)) static const SamplingScene scene_rods = {
+    "rods",
+    SCENE_HEAD SCENE_CAMERA "light_source { <-8,12,-10> rgb 1 } plane { y, -2 pigment { rgb 0.8 } }\n"
+                            "#declare S = seed(11);\n"
+                            "#macro Place() <rand(S)*8-4, rand(S)*4-2, rand(S)*6-3> #end\n"
+                            "#for (I, 1, 60) cylinder { Place(), Place(), 0.03\n"
+                            "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.2 diffuse 0.7 } } #end\n"};
+
 // Even light almost everywhere.
 __attribute__((unused)) static const SamplingScene scene_even = {
     "even light",
@@ -72,8 +98,8 @@ typedef struct Picture {
     rt_error error;
     double seconds; // by the clock
     size_t reports;
-    double report_samples[4096], report_all[4096]; // taken, and predicted of the whole run
-    double report_at[4096], report_left[4096];     // seconds since the run began, and predicted to be left
+    double report_samples[4096], report_done[4096]; // before the round on its way; done of the run, as predicted
+    double report_at[4096], report_left[4096];      // seconds since the run began, and predicted to be left
 } Picture;
 
 typedef struct Running {
@@ -99,8 +125,24 @@ __attribute__((unused)) static void on_progress(void *client, double done)
         picture->report_at[picture->reports] = clock_seconds() - running->start;
         picture->report_left[picture->reports] = error.seconds_left;
         picture->report_samples[picture->reports] = error.samples;
-        picture->report_all[picture->reports++] = error.samples / done; // about: a round may be on its way
+        picture->report_done[picture->reports++] = done;
     }
+}
+
+// Samples of the whole run as they were predicted when a tenth of them had been taken; 0: no word then. With one thread
+// reports come at equal steps of a round: two tell what was done when it began.
+__attribute__((unused)) static double picture_predicted(const Picture *picture)
+{
+    size_t k = 0;
+    while (k < picture->reports && picture->report_samples[k] < 0.1 * picture->error.samples) {
+        k++;
+    }
+    if (k + 1 >= picture->reports) {
+        return 0.0;
+    }
+    bool is_one = picture->report_samples[k + 1] == picture->report_samples[k];
+    double begin = is_one ? 2.0 * picture->report_done[k] - picture->report_done[k + 1] : picture->report_done[k];
+    return picture->report_samples[k] / begin;
 }
 
 static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
@@ -110,12 +152,12 @@ static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
 }
 
 // Aborts on failure: the scenes are right.
-__attribute__((unused)) static Picture *picture_make(const SamplingScene *scene, int width, int height,
-                                                     const rt_sampling *sampling, int threads)
+__attribute__((unused)) static Picture *picture_make_as(const SamplingScene *scene, int width, int height,
+                                                        const rt_sampling *sampling, int threads, bool has_progress)
 {
     Picture *picture = calloc(1, sizeof *picture);
     Running running = {.picture = picture};
-    rt_callbacks callbacks = {&running, on_diagnostic, NULL, on_progress};
+    rt_callbacks callbacks = {&running, on_diagnostic, NULL, has_progress ? on_progress : NULL};
     rt_session *session = running.session = rt_session_new(&callbacks);
     if (!picture || !session || rt_set_size(session, width, height) || rt_set_sampling(session, sampling) ||
         rt_load_text(session, scene->name, scene->text, strlen(scene->text))) {
@@ -133,6 +175,12 @@ __attribute__((unused)) static Picture *picture_make(const SamplingScene *scene,
     rt_get_error(session, &picture->error);
     rt_session_free(session);
     return picture;
+}
+
+__attribute__((unused)) static Picture *picture_make(const SamplingScene *scene, int width, int height,
+                                                     const rt_sampling *sampling, int threads)
+{
+    return picture_make_as(scene, width, height, sampling, threads, true);
 }
 
 __attribute__((unused)) static void picture_free(Picture *picture)
