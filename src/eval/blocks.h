@@ -67,6 +67,9 @@ void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record);
 RepeatStep repeat_step(Eval *ev, const AstNode *sphere) RT_MUST_CHECK;
 void repeat_learn(Eval *ev, const AstNode *sphere, bool is_plain_object);
 bool repeat_place(Eval *ev, const AstNode *sphere, bool *is_fine) RT_MUST_CHECK;
+// At the end of a body of a loop that is spheres and names only: goes on with its turns as long as they are known. The
+// cursor then stands where it would by itself.
+void repeat_turns(Cursor *cursor);
 
 // block.c
 

@@ -327,6 +327,10 @@ bool loop_continues(Eval *ev, CursorFrame *frame)
     const AstNode *node = frame->node;
     if (frame->kind == FRAME_WHILE) {
         bool holds;
+        double number;
+        if (quick_number(ev, node->a, &number)) {
+            return number_is_true(number) && eval_step(ev, node->span);
+        }
         ArenaMark mark = scratch_mark(ev);
         bool fine = eval_condition(ev, node->a, &holds);
         scratch_rewind(ev, mark);

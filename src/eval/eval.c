@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/blocks.h"
 
 // Levels of native recursion for each level that a text may nest: room for calls within calls.
 enum { DEEPENING_PER_AST_LEVEL = 6 };
@@ -62,6 +62,7 @@ void eval_item(Eval *ev, const AstNode *item)
     while ((found = cursor_peek(&cursor)) != NULL) {
         place(ev, found);
         cursor_skip(&cursor);
+        repeat_turns(&cursor);
     }
     cursor_close(&cursor);
 }

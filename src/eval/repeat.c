@@ -57,6 +57,15 @@ static bool is_fixed(const AstNode *finish)
     return true;
 }
 
+static bool is_constant(const AstNode *colour)
+{
+    bool is_fine = colour->kind == AST_NUMBER || colour->kind == AST_VECTOR;
+    for (const AstNode *part = colour->kind == AST_VECTOR ? colour->a : NULL; part && is_fine; part = part->next) {
+        is_fine = part->kind == AST_NUMBER;
+    }
+    return is_fine;
+}
+
 // Finds the expressions of a statement. False: it is of another form.
 static bool take_apart(const AstNode *sphere, Repeat *repeat)
 {
@@ -116,6 +125,7 @@ void repeat_learn(Eval *ev, const AstNode *sphere, bool is_plain_object)
     MaterialIndex material = scene->spheres.items[repeat->spheres].material;
     repeat->is_known = !(material & MATERIAL_COMPOUND);
     repeat->material = repeat->is_known ? scene->materials.items[material] : repeat->material;
+    repeat->colour = repeat->colour && is_constant(repeat->colour) ? NULL : repeat->colour; // the material has it
     repeat->is_quick = quick_is_flat(repeat->centre) && quick_is_flat(repeat->radius) &&
                        (!repeat->colour || quick_is_flat(repeat->colour));
 }
@@ -245,4 +255,61 @@ bool repeat_place(Eval *ev, const AstNode *sphere, bool *is_fine)
     Vec3 at = {turn.centre[0] + 0.0, turn.centre[1] + 0.0, turn.centre[2] + 0.0};
     *is_fine = sphere_place_plain(ev, at, turn.radius, &material, sphere->span);
     return true;
+}
+
+// ---- turns of loops
+
+// Whether a loop's body is nothing but spheres and what gives names their values.
+static bool is_simple(const AstNode *body)
+{
+    for (const AstNode *item = body; item; item = item->next) {
+        bool is_sphere = item->kind == AST_BLOCK && item->symbol == W_sphere;
+        if (!is_sphere && item->kind != AST_READ && item->kind != AST_DECLARE) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// False: nothing was done, or the evaluation stops.
+static bool run_item(Cursor *cursor, const AstNode *item)
+{
+    Eval *ev = cursor->ev;
+    if (item->kind != AST_BLOCK) {
+        return directive_run(cursor, item);
+    }
+    const Repeat *repeat = place_of(ev, item);
+    bool is_known = repeat->node == item && repeat->begin == item->span.begin && repeat->state == ev->literal.state &&
+                    repeat->is_known;
+    bool is_fine;
+    if (!is_known || !repeat_place(ev, item, &is_fine)) {
+        return false;
+    }
+    ev->has_stray = false;
+    ev->faulty = ev->faulty || !is_fine;
+    return true;
+}
+
+void repeat_turns(Cursor *cursor)
+{
+    Eval *ev = cursor->ev;
+    CursorFrame *frame = cursor->frame;
+    bool is_loop = frame && (frame->kind == FRAME_WHILE || frame->kind == FRAME_FOR) && !frame->next && !frame->stream;
+    const AstNode *body = !is_loop ? NULL : frame->kind == FRAME_WHILE ? frame->node->b : frame->node->c;
+    if (!body || ev->options.no_literals || !is_simple(body)) {
+        return;
+    }
+    while (!ev->stop) {
+        if (!loop_continues(ev, frame)) {
+            cursor_pop(cursor);
+            return;
+        }
+        for (const AstNode *item = body; item; item = item->next) {
+            frame->next = item->next;
+            if (ev->stop || !run_item(cursor, item)) {
+                frame->next = item;
+                return;
+            }
+        }
+    }
 }

@@ -174,7 +174,8 @@ bool scene_add_compound(Scene *scene, const Compound *compound, MaterialIndex *i
 bool scene_add_material_record(Scene *scene, const Material *material, MaterialIndex *index)
 {
     size_t count = scene->materials.count;
-    return count < MATERIAL_COMPOUND && ARRAY_RESERVE(&scene->materials, count + 1) &&
+    return count < MATERIAL_COMPOUND &&
+           (count < scene->materials.capacity || ARRAY_RESERVE(&scene->materials, count + 1)) &&
            unique_place_if_worth(&scene->material_index, scene->materials.items, count, sizeof *material, material,
                                  index) &&
            (*index < count || ARRAY_PUSH(&scene->materials, *material));

@@ -54,10 +54,29 @@ static bool grow(UniqueIndex *index, const void *records, size_t count, size_t s
     return true;
 }
 
+// The record that was told last, which most are like; compared word by word, for they are short.
+static inline bool is_last(const UniqueIndex *index, const void *records, size_t count, size_t size, const void *record)
+{
+    if (index->last >= count) {
+        return false;
+    }
+    const char *one = (const char *)records + index->last * size, *other = record;
+    size_t at = 0;
+    for (; at + sizeof(uint64_t) <= size; at += sizeof(uint64_t)) {
+        uint64_t a, b;
+        memcpy(&a, one + at, sizeof a);
+        memcpy(&b, other + at, sizeof b);
+        if (a != b) {
+            return false;
+        }
+    }
+    return at == size || memcmp(one + at, other + at, size - at) == 0;
+}
+
 bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
                   uint32_t *place)
 {
-    if (index->last < count && memcmp((const char *)records + index->last * size, record, size) == 0) {
+    if (is_last(index, records, count, size, record)) {
         *place = index->last;
         return true;
     }
@@ -80,6 +99,11 @@ bool unique_place_if_worth(UniqueIndex *index, const void *records, size_t count
 {
     if (!index->is_given_up) {
         if (count < TRIED_LEAST || index->found >= count / FOUND_SHARE) {
+            if (is_last(index, records, count, size, record)) {
+                index->found++;
+                *place = index->last;
+                return true;
+            }
             bool is_placed = unique_place(index, records, count, size, record, place);
             index->found += is_placed && *place < count;
             return is_placed;
@@ -87,11 +111,14 @@ bool unique_place_if_worth(UniqueIndex *index, const void *records, size_t count
         ARRAY_FREE(&index->slots);
         index->is_given_up = true;
     }
-    bool is_last = index->last < count && memcmp((const char *)records + index->last * size, record, size) == 0;
-    if (!is_last && count >= UINT32_MAX - 1) {
+    if (is_last(index, records, count, size, record)) {
+        *place = index->last;
+        return true;
+    }
+    if (count >= UINT32_MAX - 1) {
         return false;
     }
-    *place = index->last = is_last ? index->last : (uint32_t)count;
+    *place = index->last = (uint32_t)count;
     return true;
 }
 
