@@ -113,12 +113,22 @@ static double remainder_of(double x, double period)
     return x - period * floor(x / period);
 }
 
+// floor of a number that is not too large for it.
+static inline int64_t whole_below(double x)
+{
+    int64_t whole = (int64_t)x;
+    return whole - ((double)whole > x);
+}
+
 static double checker(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
     (void)source;
-    double sum = floor(p.x) + floor(p.y) + floor(p.z);
-    return remainder_of(sum, 2.0); // whole, as fmod has it in five times the time
+    const double most = 0x1p52; // beyond, the sum may be no whole number of 64 bits
+    if (fabs(p.x) < most && fabs(p.y) < most && fabs(p.z) < most) {
+        return (double)((whole_below(p.x) + whole_below(p.y) + whole_below(p.z)) & 1);
+    }
+    return remainder_of(floor(p.x) + floor(p.y) + floor(p.z), 2.0);
 }
 
 // The middles are at q <3/2, 0, sqrt(3)/2> + r <0, 0, sqrt(3)>. A point belongs to the one that its fractional q, r and

@@ -121,6 +121,8 @@ static PreparedFinish prepare_finish(const Finish *finish, const Settings *setti
         .reflection_weight = fmax(rgb_max(finish->reflection_min), rgb_max(finish->reflection_max)),
         .shines = finish->phong > 0.0 || finish->specular > 0.0,
         .reflects = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max),
+        .reflects_evenly = rgb_is_black(rgb_add_scaled(finish->reflection_max, -1.0, finish->reflection_min)) &&
+                           !(finish->reflection_metallic > 0.0),
         .refraction = finish->refraction,
         .conserves_energy = finish->flags & FINISH_CONSERVE_ENERGY,
         .is_fresnel = finish->flags & FINISH_FRESNEL,

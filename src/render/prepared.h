@@ -55,6 +55,7 @@ typedef struct PreparedFinish {
     double reflection_weight; // the greatest component of both
     double refraction;        // share of what is let through that goes on
     bool shines, reflects, conserves_energy, is_fresnel;
+    bool reflects_evenly; // the same at all angles, and not metallic
 } PreparedFinish;
 
 struct Prepared {

@@ -168,43 +168,26 @@ const SobolKernel *sobol_kernel_choose(const char *name)
     return NULL;
 }
 
-void sample_places(const SobolKernel *kernel, const SampleStream *stream, uint32_t count, double *x, double *y)
-{
-    bool is_second = stream->pair & 1; // in an order of its own
-    if (stream->kind == SAMPLER_SOBOL && !is_second) {
-        kernel->places(stream->seed, stream->pair, stream->index, count, x, y);
-        return;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        SampleStream one = *stream;
-        one.index += i;
-        SamplePoint point = sample_next(&one);
-        x[i] = point.x;
-        y[i] = point.y;
-    }
-}
-
 void sample_next_of(const SobolKernel *kernel, SampleStream *streams, const uint8_t *which, uint32_t count, double *x,
                     double *y)
 {
     uint32_t seeds[SAMPLE_STREAMS_MOST], pairs[SAMPLE_STREAMS_MOST], indices[SAMPLE_STREAMS_MOST];
-    if (count > 0 && streams[which[0]].kind == SAMPLER_SOBOL) {
-        uint32_t whole = (count + SAMPLE_WORDS_MOST - 1) / SAMPLE_WORDS_MOST * SAMPLE_WORDS_MOST;
-        for (uint32_t i = 0; i < whole; i++) {
-            SampleStream *stream = &streams[which[i < count ? i : count - 1]];
-            seeds[i] = stream->seed;
-            pairs[i] = stream->pair;
-            indices[i] = stream->index;
-        }
+    if (count == 0 || streams[which ? which[0] : 0].kind != SAMPLER_SOBOL) {
         for (uint32_t i = 0; i < count; i++) {
-            streams[which[i]].pair++;
+            SamplePoint point = sample_next(&streams[which ? which[i] : i]);
+            x[i] = point.x;
+            y[i] = point.y;
         }
-        kernel->points(seeds, pairs, indices, count, x, y);
         return;
     }
     for (uint32_t i = 0; i < count; i++) {
-        SamplePoint point = sample_next(&streams[which[i]]);
-        x[i] = point.x;
-        y[i] = point.y;
+        SampleStream *stream = &streams[which ? which[i] : i];
+        seeds[i] = stream->seed;
+        pairs[i] = stream->pair++;
+        indices[i] = stream->index;
     }
+    for (uint32_t i = count; i % SAMPLE_WORDS_MOST != 0; i++) {
+        seeds[i] = pairs[i] = indices[i] = 0;
+    }
+    kernel->points(seeds, pairs, indices, count, x, y);
 }

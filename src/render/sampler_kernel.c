@@ -3,6 +3,7 @@
 // Shifts, products and sums are those of single words, so the bits are the same.
 //
 // SPDX-License-Identifier: MIT
+#include <stdbool.h>
 #include <string.h>
 
 #include "base/isa.h"
@@ -48,22 +49,6 @@ RT_ALWAYS_INLINE void put_units(double *to, Words words)
     }
 }
 
-static void places(uint32_t stream_seed, uint32_t pair, uint32_t index, uint32_t count, double *x, double *y)
-{
-    uint32_t seed = sample_hash_add(stream_seed, pair);
-    const Words none = {0}, first = none + sample_hash_add(seed, 1), second = none + sample_hash_add(seed, 2);
-    Words indices = {0};
-    for (uint32_t i = 0; i < WORDS; i++) {
-        indices[i] = index + i;
-    }
-    for (uint32_t i = 0; i < count; i += WORDS, indices += WORDS) {
-        Words shuffled = words_scramble_reversed(words_reverse_bits(indices), none + seed);
-        put_units(x + i, words_scramble_reversed(shuffled, first));
-        PASCAL_TRIANGLE(shuffled);
-        put_units(y + i, words_scramble_reversed(shuffled, second));
-    }
-}
-
 RT_ALWAYS_INLINE Words words_hash(Words x)
 {
     SAMPLE_HASH(x);
@@ -82,24 +67,40 @@ RT_ALWAYS_INLINE Words words_load(const uint32_t *from)
     return words;
 }
 
-// sobol_point of each.
-static void points(const uint32_t *seeds, const uint32_t *pairs, const uint32_t *indices, uint32_t count, double *x,
-                   double *y)
+// sobol_point of each; `has_seconds` when some pairs are odd.
+RT_ALWAYS_INLINE void points_of(bool has_seconds, const uint32_t *seeds, const uint32_t *pairs, const uint32_t *indices,
+                                uint32_t count, double *x, double *y)
 {
     const Words none = {0};
     for (uint32_t i = 0; i < count; i += WORDS) {
         Words stream_seed = words_load(seeds + i), pair = words_load(pairs + i), index = words_load(indices + i);
         Words seed = words_hash_add(stream_seed, pair);
-        Words shuffled =
-            words_scramble_reversed(words_reverse_bits(index), words_hash_add(stream_seed, pair & ~UINT32_C(1)));
-        Words low = none, is_second = none - (pair & 1);
-        OTHER_ORDER(shuffled, low);
-        shuffled = (is_second & ((shuffled & UINT32_MAX << OTHER_ORDER_BITS) ^ low)) | (~is_second & shuffled);
+        Words order = has_seconds ? words_hash_add(stream_seed, pair & ~UINT32_C(1)) : seed;
+        Words shuffled = words_scramble_reversed(words_reverse_bits(index), order);
+        if (has_seconds) {
+            Words low = none, is_second = none - (pair & 1);
+            OTHER_ORDER(shuffled, low);
+            shuffled = (is_second & ((shuffled & UINT32_MAX << OTHER_ORDER_BITS) ^ low)) | (~is_second & shuffled);
+        }
         put_units(x + i, words_scramble_reversed(shuffled, words_hash_add(seed, none + 1)));
         PASCAL_TRIANGLE(shuffled);
         put_units(y + i, words_scramble_reversed(shuffled, words_hash_add(seed, none + 2)));
     }
 }
 
+static void points(const uint32_t *seeds, const uint32_t *pairs, const uint32_t *indices, uint32_t count, double *x,
+                   double *y)
+{
+    uint32_t all = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        all |= pairs[i];
+    }
+    if (all & 1) {
+        points_of(true, seeds, pairs, indices, count, x, y);
+    } else {
+        points_of(false, seeds, pairs, indices, count, x, y);
+    }
+}
+
 extern const SobolKernel ISA_NAMED(sobol_kernel_);
-const SobolKernel ISA_NAMED(sobol_kernel_) = {ISA_TEXT, places, points};
+const SobolKernel ISA_NAMED(sobol_kernel_) = {ISA_TEXT, points};

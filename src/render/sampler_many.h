@@ -10,9 +10,7 @@ enum { SAMPLE_WORDS_MOST = 8 }; // samples that are made in one step
 
 typedef struct SobolKernel {
     const char *name; // of the instruction set, as that of SphereKernels
-    // The places of samples from `index` on. x and y have room for a whole number of steps.
-    void (*places)(uint32_t seed, uint32_t pair, uint32_t index, uint32_t count, double *x, double *y);
-    // Those of samples of different pixels and pairs. All arrays hold a whole number of steps.
+    // Points of samples of any pixels, in any of their pairs of dimensions. All arrays hold a whole number of steps.
     void (*points)(const uint32_t *seeds, const uint32_t *pairs, const uint32_t *indices, uint32_t count, double *x,
                    double *y);
 } SobolKernel;
@@ -20,12 +18,11 @@ typedef struct SobolKernel {
 // That of an instruction set by name; NULL when there is none.
 const SobolKernel *sobol_kernel_choose(const char *name);
 
-// The next two dimensions of `count` samples from stream->index on; there is room for SAMPLE_WORDS_MOST - 1 more.
-void sample_places(const SobolKernel *kernel, const SampleStream *stream, uint32_t count, double *x, double *y);
-
-// The next two dimensions of some of the streams, all of one kind: of those that `which` lists, SAMPLE_STREAMS_MOST at
-// most. There is room for SAMPLE_WORDS_MOST - 1 more points.
 enum { SAMPLE_STREAMS_MOST = 64 };
+_Static_assert(SAMPLE_STREAMS_MOST % SAMPLE_WORDS_MOST == 0, "so many fill steps");
+
+// The next two dimensions of some of the streams, all of one kind: of those that `which` lists, or, where that is NULL,
+// of the first; SAMPLE_STREAMS_MOST at most. x and y have room for a whole number of steps.
 void sample_next_of(const SobolKernel *kernel, SampleStream *streams, const uint8_t *which, uint32_t count, double *x,
                     double *y);
 

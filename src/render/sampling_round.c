@@ -32,6 +32,7 @@ typedef struct Batch {
     KernelPlaces places;
     Vec3 lens[KERNEL_RAYS];
     SampleStream streams[KERNEL_RAYS];
+    int x[KERNEL_RAYS], y[KERNEL_RAYS]; // their pixels
     double weights[KERNEL_RAYS]; // where they are not all 1
     Rgb light[KERNEL_RAYS];
     double clear[KERNEL_RAYS];
@@ -93,11 +94,35 @@ static void run_add(const Round *round, const Batch *batch, const Run *run, int 
     }
 }
 
+// Where in their pixels, and on the lens, the samples are.
+static void batch_place(const Round *round, Batch *batch)
+{
+    const Film *film = round->film;
+    double x[KERNEL_RAYS], y[KERNEL_RAYS];
+    sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
+    for (int i = 0; i < batch->count; i++) {
+        FilterSample at = {x[i] - 0.5, y[i] - 0.5, 1.0};
+        if (!batch->is_box) {
+            at = filter_sample(&round->filter, (SamplePoint){x[i], y[i]});
+            batch->weights[i] = at.weight;
+        }
+        batch->places.u[i] = film_u(film, batch->x[i], at.x);
+        batch->places.v[i] = film_v(film, batch->y[i], at.y);
+    }
+    if (batch->places.lens) {
+        sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
+    }
+    for (int i = 0; batch->places.lens && i < batch->count; i++) {
+        batch->lens[i] = camera_lens_point(&round->prepared->camera, (SamplePoint){x[i], y[i]});
+    }
+}
+
 static void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
 {
     if (batch->count == 0) {
         return;
     }
+    batch_place(round, batch);
     for (int i = batch->count; i < KERNEL_RAYS; i++) {
         batch->places.u[i] = batch->places.u[batch->count - 1];
         batch->places.v[i] = batch->places.v[batch->count - 1];
@@ -141,33 +166,17 @@ static void batch_add_runs(Batch *batch, const Chosen *pixel, Parts *parts, uint
 }
 
 // Some samples of a pixel; there is room for them. `stream` is that of the first, which is `begin` among the new ones.
-static void batch_add(const Round *round, Batch *batch, const Chosen *pixel, const SampleStream *stream, uint32_t begin,
-                      uint32_t count, Parts *parts)
+static void batch_add(Batch *batch, const Chosen *pixel, const SampleStream *stream, uint32_t begin, uint32_t count,
+                      Parts *parts)
 {
-    const Film *film = round->film;
-    double x[KERNEL_RAYS + SAMPLE_WORDS_MOST], y[KERNEL_RAYS + SAMPLE_WORDS_MOST];
-    double *u = &batch->places.u[batch->count], *v = &batch->places.v[batch->count];
-    sample_places(round->prepared->points, stream, count, x, y);
     batch_add_runs(batch, pixel, parts, begin, count);
     for (uint32_t j = 0; j < count; j++) {
-        FilterSample at = {x[j] - 0.5, y[j] - 0.5, 1.0};
-        if (!batch->is_box) {
-            at = filter_sample(&round->filter, (SamplePoint){x[j], y[j]});
-            batch->weights[batch->count + (int)j] = at.weight;
-        }
-        u[j] = film_u(film, pixel->x, at.x);
-        v[j] = film_v(film, pixel->y, at.y);
+        int i = batch->count++;
+        batch->streams[i] = *stream;
+        batch->streams[i].index += j;
+        batch->x[i] = pixel->x;
+        batch->y[i] = pixel->y;
     }
-    for (uint32_t j = 0; batch->draws && j < count; j++) {
-        SampleStream *own = &batch->streams[batch->count + (int)j];
-        *own = *stream;
-        own->index += j;
-        own->pair++;
-        if (batch->places.lens) {
-            batch->lens[batch->count + (int)j] = camera_lens_point(&round->prepared->camera, sample_next(own));
-        }
-    }
-    batch->count += (int)count;
 }
 
 static uint32_t pixel_seed(const Round *round, int x, int y)
@@ -186,7 +195,7 @@ static void pixel_add(const Round *round, Batch *batch, const Chosen *pixel, Par
     for (uint32_t i = 0; i < count;) {
         uint32_t room = (uint32_t)(KERNEL_RAYS - batch->count), some = count - i < room ? count - i : room;
         stream.index = before + i;
-        batch_add(round, batch, pixel, &stream, i, some, parts);
+        batch_add(batch, pixel, &stream, i, some, parts);
         if (batch->count == KERNEL_RAYS) {
             batch_flush(round, batch, counted);
         }

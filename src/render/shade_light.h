@@ -271,6 +271,9 @@ RT_ALWAYS_INLINE Rgb shade_reflectance(unsigned features, const ShadeMaterial *m
                                        double ior_ratio)
 {
     const PreparedFinish *finish = material->finish;
+    if (finish->reflects_evenly) {
+        return finish->reflection_min;
+    }
     double grazing = (features & RENDER_INTERIORS) && finish->is_fresnel
                          ? inside_fresnel(features & RENDER_NORMALS ? fmax(cosine, 0.0) : cosine, ior_ratio)
                          : shade_power(fmax(1.0 - cosine, 0.0), finish->reflection_falloff);

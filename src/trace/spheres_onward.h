@@ -35,7 +35,7 @@ static void onward_starts(const SphereTable *table, const OnwardRays *rays, uint
         starts[i] = own[i];
         for (uint32_t j = 0; j < table->loose_count; j++) {
             Ball other = sphere_table_ball(table, j);
-            starts[i] |= ball_equal(&ball, &other) ? own[j] : 0;
+            starts[i] |= own[j] && ball_equal(&ball, &other) ? own[j] : 0;
         }
     }
 }
