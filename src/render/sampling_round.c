@@ -296,13 +296,11 @@ static void shares_set(const Round *round, Shares *shares, uint32_t had, uint32_
                        .outer = apart_factor(before, count)};
 }
 
-// What the samples of a pixel say of its error; `old` and `mean` are the means of those that it had and of the new.
-static inline void pixel_judge(const Round *round, const Shares *shares, size_t pixel, const Parts *parts, Rgb old,
-                               Rgb mean)
+// What the samples of a pixel say of its error; `old` and `mean` are the means of those that it had and of the new. It is
+// the cost of the estimate, so each caller's `slope` makes a copy of its own.
+RT_ALWAYS_INLINE void pixel_judge_by(const Round *round, const Shares *shares, PixelRecord *record, const Parts *parts,
+                                     Rgb old, Rgb mean, const Rgb *slope)
 {
-    PixelRecord *record = &round->film->records[pixel];
-    Rgb place;
-    const Rgb *slope = shares->is_linear ? NULL : slope_at(round, &round->film->rgb[3 * pixel], &place);
     Rgb apart = rgb_add_scaled(rgb_scale(shares->first, parts->sum[0]), -shares->second, parts->sum[1]);
     float fresh = square_apart(apart, slope, shares->fresh), outer = fresh, inner = 0.0f;
     if (shares->before > 0) {
@@ -316,6 +314,18 @@ static inline void pixel_judge(const Round *round, const Shares *shares, size_t 
     record->fresh = fresh;
     record->inner = inner;
     record->outer = outer;
+}
+
+static inline void pixel_judge(const Round *round, const Shares *shares, size_t pixel, const Parts *parts, Rgb old,
+                               Rgb mean)
+{
+    PixelRecord *record = &round->film->records[pixel];
+    Rgb place;
+    if (shares->is_linear) {
+        pixel_judge_by(round, shares, record, parts, old, mean, NULL);
+    } else {
+        pixel_judge_by(round, shares, record, parts, old, mean, slope_at(round, &round->film->rgb[3 * pixel], &place));
+    }
 }
 
 static inline void pixel_finish(const Round *round, Shares *shares, const Chosen *chosen, const Parts *parts)
