@@ -143,7 +143,7 @@ void grammar_scan_end(GrammarState *state);
 void grammar_scan_literals(GrammarState *state);
 // The same for the scanner's buffer, which ends with a zero: returns where reading goes on, and moves `offset` there.
 const char *grammar_literals_read(GrammarState *state, const char *at, const char *end);
-// After that, where the source is long: goes on from `offset` on several threads. False: nothing was read. True: reading
+// After that, where the source is long: goes on from `offset` piece by piece. False: nothing was read. True: reading
 // goes on in the source at `offset`, and the scanner's buffer is out of date.
 bool grammar_literals_read_many(GrammarState *state);
 void grammar_literals_forget(GrammarState *state);

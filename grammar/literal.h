@@ -11,7 +11,7 @@
 enum {
     LITERAL_TEXT_LONGEST = 4096,      // of what follows the radius
     LITERAL_STATEMENT_LONGEST = 8192, // with its numbers and as many blanks as there are usually
-    LITERALS_MANY = 128,              // so many in a buffer: it is worth while to look for more on several threads
+    LITERALS_MANY = 128,              // so many in a buffer: it is worth while to look for more piece by piece
 };
 
 struct LiteralPattern {
