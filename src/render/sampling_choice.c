@@ -11,6 +11,10 @@
 #include "render/sampling.h"
 
 enum { BUCKET_SHIFT = 21 };                     // bits of a float below a bucket's
+// A round that would take less than this of its share takes the next bucket, too, however many pixels are in it: it
+// costs a look at all pixels.
+static const double ROUND_LEAST = 0.5;
+
 enum { SPREAD_SHIFT = 23, SPREAD_SORTS = 256 }; // by exponent
 
 // Where nothing has been seen, something may be: of the mean of all pixels.
@@ -149,8 +153,8 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
         }
     }
     int least = BUCKETS;
-    while (least > 1 &&
-           (spent == 0.0 || spent + choice_cost(choice, least - 1) <= ROUND_SHARE * (double)estimate->samples)) {
+    double most = ROUND_SHARE * (double)estimate->samples;
+    while (least > 1 && (spent < ROUND_LEAST * most || spent + choice_cost(choice, least - 1) <= most)) {
         spent += choice_cost(choice, --least);
     }
     choice->least_bucket = (uint16_t)least;

@@ -127,6 +127,23 @@ static void test_even(void)
     picture_free(four);
 }
 
+// Each round looks at all pixels, so none is nearly empty.
+static void test_rounds(void)
+{
+    rt_sampling sampling = {.samples = 24.0, .adaptive = 1, .seed = 8};
+    Picture *picture = picture_make(&scene_soft, WIDTH, HEIGHT, &sampling, 1);
+    double least = HUGE_VAL;
+    int rounds = 0;
+    for (size_t i = 1; i < picture->reports; i++) {
+        double grown = picture->report_samples[i] / picture->report_samples[i - 1];
+        rounds += grown > 1.0;
+        least = grown > 1.0 && grown < least ? grown : least;
+    }
+    tap_ok(rounds >= 5 && least >= 1.12, "soft shadow: %d rounds, of which the least adds %.0f %% to the samples", rounds,
+           100.0 * (least - 1.0));
+    picture_free(picture);
+}
+
 // How often the interval holds the true error.
 static void test_coverage(void)
 {
@@ -376,6 +393,7 @@ int main(int argc, char **argv)
     test_area_grid();
     test_slopes();
     test_adaptive();
+    test_rounds();
     test_even();
     test_coverage();
     test_targets();
