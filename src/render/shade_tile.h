@@ -91,10 +91,7 @@ RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile
         Vec3 aside = light_area_sample(light, point, (SamplePoint){x[k], y[k]});
         Vec3 offset = vec3_sub(vec3_add(light->position, aside), point);
         rays->distance[i] = vec3_length(offset);
-        Vec3 towards = vec3_scale(1.0 / rays->distance[i], offset);
-        rays->towards[0][i] = towards.x;
-        rays->towards[1][i] = towards.y;
-        rays->towards[2][i] = towards.z;
+        lane_set(rays->towards, (unsigned)i, vec3_scale(1.0 / rays->distance[i], offset));
     }
 }
 
@@ -199,7 +196,7 @@ RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, Li
                 p->tile_lights->mirror(tile, mirrored);
             }
             own[rays.count] = surfaces->ray[i];
-            onward_ray_add(&rays, tile_surface_point(surfaces, i), vec3(mirrored[0][i], mirrored[1][i], mirrored[2][i]),
+            onward_ray_add(&rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
                            surfaces->shape[i], surfaces->inside >> i & 1);
         }
     }

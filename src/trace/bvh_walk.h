@@ -139,8 +139,8 @@ RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin,
 }
 
 // The same for all rays from one origin whose directions have components between `least` and `greatest`, least and
-// greatest by size and of the same signs (zeros have one), and for all that is no farther than `aside` from one of them. False when there
-// are no such leaves, or when the origin is too far away for boxes in float (then ask ray by ray).
+// greatest by size and of the same signs (zeros have one), and for all that is no farther than `aside` from one of them.
+// False when there are no such leaves, or when the origin is too far away for boxes in float (then ask ray by ray).
 RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 origin, double aside, Vec3 least,
                                           Vec3 greatest, bool *is_too_far)
 {

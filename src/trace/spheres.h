@@ -148,23 +148,29 @@ const SphereKernels *sphere_kernels_at(size_t i);
 bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads) RT_MUST_CHECK;
 void sphere_table_fini(SphereTable *table);
 
+// One of the vectors whose components stand apart, and back.
+RT_ALWAYS_INLINE void lane_set(double lanes[3][TILE_RAYS], unsigned i, Vec3 a)
+{
+    lanes[0][i] = a.x;
+    lanes[1][i] = a.y;
+    lanes[2][i] = a.z;
+}
+
+RT_ALWAYS_INLINE Vec3 lane_get(const double lanes[3][TILE_RAYS], unsigned i)
+{
+    return vec3(lanes[0][i], lanes[1][i], lanes[2][i]);
+}
+
 RT_ALWAYS_INLINE void sphere_tile_set(SphereTile *tile, unsigned i, const SphereRay *ray)
 {
-    tile->direction[0][i] = ray->direction.x;
-    tile->direction[1][i] = ray->direction.y;
-    tile->direction[2][i] = ray->direction.z;
-    tile->dual[0][i] = ray->dual.x;
-    tile->dual[1][i] = ray->dual.y;
-    tile->dual[2][i] = ray->dual.z;
+    lane_set(tile->direction, i, ray->direction);
+    lane_set(tile->dual, i, ray->dual);
     tile->inverse_square[i] = ray->inverse_square;
 }
 
 RT_ALWAYS_INLINE SphereRay sphere_tile_ray(const SphereTile *tile, unsigned i)
 {
-    return (SphereRay){tile->origin,
-                       {tile->direction[0][i], tile->direction[1][i], tile->direction[2][i]},
-                       {tile->dual[0][i], tile->dual[1][i], tile->dual[2][i]},
-                       tile->inverse_square[i]};
+    return (SphereRay){tile->origin, lane_get(tile->direction, i), lane_get(tile->dual, i), tile->inverse_square[i]};
 }
 
 RT_ALWAYS_INLINE void tile_hit_set(TileHits *hits, unsigned i, const Hit *hit)
@@ -178,42 +184,33 @@ RT_ALWAYS_INLINE void tile_hit_set(TileHits *hits, unsigned i, const Hit *hit)
 
 RT_ALWAYS_INLINE Vec3 tile_surface_point(const TileSurfaces *surfaces, int i)
 {
-    return vec3(surfaces->point[0][i], surfaces->point[1][i], surfaces->point[2][i]);
+    return lane_get(surfaces->point, (unsigned)i);
 }
 
 RT_ALWAYS_INLINE Vec3 tile_surface_outward(const TileSurfaces *surfaces, int i)
 {
-    return vec3(surfaces->outward[0][i], surfaces->outward[1][i], surfaces->outward[2][i]);
+    return lane_get(surfaces->outward, (unsigned)i);
 }
 
 RT_ALWAYS_INLINE void tile_surface_set(TileSurfaces *surfaces, int i, Vec3 point, Vec3 outward)
 {
-    surfaces->point[0][i] = point.x;
-    surfaces->point[1][i] = point.y;
-    surfaces->point[2][i] = point.z;
-    surfaces->outward[0][i] = outward.x;
-    surfaces->outward[1][i] = outward.y;
-    surfaces->outward[2][i] = outward.z;
+    lane_set(surfaces->point, (unsigned)i, point);
+    lane_set(surfaces->outward, (unsigned)i, outward);
 }
 
 // Adds a ray.
 RT_ALWAYS_INLINE void onward_ray_add(OnwardRays *rays, Vec3 origin, Vec3 direction, ShapeId start, bool is_inward)
 {
-    int i = rays->count++;
+    unsigned i = (unsigned)rays->count++;
     rays->start[i] = start;
     rays->inward |= (uint64_t)is_inward << i;
-    rays->origin[0][i] = origin.x;
-    rays->origin[1][i] = origin.y;
-    rays->origin[2][i] = origin.z;
-    rays->direction[0][i] = direction.x;
-    rays->direction[1][i] = direction.y;
-    rays->direction[2][i] = direction.z;
+    lane_set(rays->origin, i, origin);
+    lane_set(rays->direction, i, direction);
 }
 
 RT_ALWAYS_INLINE Ray onward_ray(const OnwardRays *rays, unsigned i)
 {
-    return (Ray){{rays->origin[0][i], rays->origin[1][i], rays->origin[2][i]},
-                 {rays->direction[0][i], rays->direction[1][i], rays->direction[2][i]}};
+    return (Ray){lane_get(rays->origin, i), lane_get(rays->direction, i)};
 }
 
 RT_ALWAYS_INLINE Ball sphere_table_ball(const SphereTable *table, uint32_t slot)

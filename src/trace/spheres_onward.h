@@ -43,12 +43,12 @@ static void onward_starts(const SphereTable *table, const OnwardRays *rays, uint
 // False when one of the rays is not usable.
 RT_ALWAYS_INLINE bool onward_load(OnwardVector *v, const OnwardRays *rays, int at)
 {
-    Doubles square = doubles_splat(0.0);
     for (int axis = 0; axis < 3; axis++) {
         v->origin[axis] = doubles_load(&rays->origin[axis][at]);
         v->direction[axis] = doubles_load(&rays->direction[axis][at]);
     }
-    square = v->direction[0] * v->direction[0] + v->direction[1] * v->direction[1] + v->direction[2] * v->direction[2];
+    Doubles square =
+        v->direction[0] * v->direction[0] + v->direction[1] * v->direction[1] + v->direction[2] * v->direction[2];
     v->inverse_square = 1.0 / square;
     for (int axis = 0; axis < 3; axis++) {
         v->dual[axis] = v->inverse_square * v->direction[axis];

@@ -30,15 +30,10 @@ typedef struct TileBeam {
     _Alignas(64) double row_spread[ROWS];
 } TileBeam;
 
-static Vec3 tile_direction(const SphereTile *tile, unsigned i)
-{
-    return vec3(tile->direction[0][i], tile->direction[1][i], tile->direction[2][i]);
-}
-
 // A unit vector between two rays.
 static Vec3 tile_between(const SphereTile *tile, unsigned a, unsigned b)
 {
-    return vec3_normalize(vec3_add(tile_direction(tile, a), tile_direction(tile, b)));
+    return vec3_normalize(vec3_add(lane_get(tile->direction, a), lane_get(tile->direction, b)));
 }
 
 static bool view_tile(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile)
