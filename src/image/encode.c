@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/attributes.h"
+#include "math/colour.h"
 
 static const ImageEncoding stored_as_is = {.depth = IMAGE_DEPTH_16, .already_encoded = true};
 
@@ -65,17 +66,33 @@ unsigned encode_code(const ImageEncoding *encoding, float linear)
     return (unsigned)(scaled + 0.5f);
 }
 
-// The least float from `low` up to 1, as bits, whose code is at least `code`: floats are ordered as their bits.
+// Linear light whose code is about so much, as bits.
+static uint32_t threshold_guess(const ImageEncoding *encoding, unsigned code)
+{
+    double value = ((double)code - 0.5) / (double)code_max(encoding->depth);
+    if (value <= 0.0) {
+        return 0;
+    }
+    if (!encoding->already_encoded) {
+        value = encoding->transfer == IMAGE_TRANSFER_SRGB ? rgb_srgb_decode(value) : pow(value, encoding->gamma);
+    }
+    return float_bits((float)value);
+}
+
+// The least float from `low` up to 1, as bits, whose code is at least `code`: floats are ordered as their bits. It is
+// looked for farther and farther from where it should be, then between.
 static uint32_t threshold_find(const ImageEncoding *encoding, unsigned code, uint32_t low)
 {
-    uint32_t high = float_bits(1.0f);
+    uint32_t high = float_bits(1.0f), middle = threshold_guess(encoding, code);
 
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
+    middle = middle < low ? low : middle >= high ? high - 1 : middle;
+    for (uint32_t step = 16; low < high; step *= 4) {
         if (encode_code(encoding, float_from_bits(middle)) >= code) {
             high = middle;
+            middle = high - low > step ? high - step : low + (high - low) / 2;
         } else {
             low = middle + 1;
+            middle = high - low > step ? low + step : low + (high - low) / 2;
         }
     }
     return low;
@@ -137,20 +154,22 @@ RT_ALWAYS_INLINE uint8_t encode_8(const Encoder *encoder, unsigned steps, float 
 // Values that are looked at together: whole pixels of 1, 2, 3 or 4 channels.
 enum { CHUNK = 24 };
 
+typedef uint64_t Bits __attribute__((vector_size(16)));
+
 // Where the bits of eight values are not those of the pixel before.
-RT_ALWAYS_INLINE uint64_t bits_apart(const float *values, size_t channels)
+RT_ALWAYS_INLINE Bits bits_apart(const float *values, size_t channels)
 {
-    uint64_t here[4], before[4];
+    Bits here[2], before[2];
     memcpy(here, values, sizeof here);
     memcpy(before, values - channels, sizeof before);
-    return (here[0] ^ before[0]) | (here[1] ^ before[1]) | (here[2] ^ before[2]) | (here[3] ^ before[3]);
+    return (here[0] ^ before[0]) | (here[1] ^ before[1]);
 }
 
 // Whether the values of a chunk are those of the pixel before it.
 RT_ALWAYS_INLINE bool is_chunk_even(const float *values, size_t channels)
 {
-    return bits_apart(values, channels) == 0 &&
-           (bits_apart(values + 8, channels) | bits_apart(values + 16, channels)) == 0;
+    Bits apart = bits_apart(values, channels) | bits_apart(values + 8, channels) | bits_apart(values + 16, channels);
+    return (apart[0] | apart[1]) == 0;
 }
 
 RT_ALWAYS_INLINE void run_8_steps(const Encoder *encoder, unsigned steps, const float *values, size_t count,

@@ -17,10 +17,17 @@ typedef struct PngStrips PngStrips;
 PngStrips *png_strips_new(const Image *image, const Encoder *encoder);
 void png_strips_free(PngStrips *strips);
 
-// Makes the next strips, if there are any: false at the end, or when out of memory (*failed).
-bool png_strips_next(PngStrips *strips, bool *failed);
+// How many strips the picture has.
+int png_strips_count(const PngStrips *strips);
 
-// What was made, piece by piece in order: false when there is no more.
-bool png_strips_piece(PngStrips *strips, const unsigned char **bytes, size_t *size);
+// Makes strips until there are no more to begin, or nobody wants them: for all threads but the one that asks for pieces.
+void png_strips_work(PngStrips *strips);
+
+// The next piece of the stream, which lives until the next call; makes strips while that one is not there. False at the
+// end, or when out of memory (*failed).
+bool png_strips_piece(PngStrips *strips, const unsigned char **bytes, size_t *size, bool *failed);
+
+// No further piece will be asked for.
+void png_strips_stop(PngStrips *strips);
 
 #endif

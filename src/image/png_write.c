@@ -11,10 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "image/png_fault.h"
 #include "image/png_strips.h"
 
-enum { SRGB_GAMMA = 45455, IDAT_MOST = 1 << 30, BUFFER_BYTES = 8192 };
+enum { SRGB_GAMMA = 45455, IDAT_MOST = 1 << 30, BUFFER_BYTES = 32768 };
 
 typedef struct PngWriter {
     const Image *image;
@@ -24,7 +25,7 @@ typedef struct PngWriter {
     png_structp png;
     png_infop info;
     PngStrips *strips;
-    bool no_memory;
+    bool no_memory, is_whole;
     size_t held; // bytes that are not written yet: pieces of even pictures are short, and many
     unsigned char buffer[BUFFER_BYTES];
 } PngWriter;
@@ -103,10 +104,8 @@ static void pixels_write(PngWriter *writer)
     const unsigned char *bytes;
     size_t size;
 
-    while (png_strips_next(writer->strips, &writer->no_memory)) {
-        while (png_strips_piece(writer->strips, &bytes, &size)) {
-            piece_write(writer, bytes, size);
-        }
+    while (png_strips_piece(writer->strips, &bytes, &size, &writer->no_memory)) {
+        piece_write(writer, bytes, size);
     }
 }
 
@@ -125,6 +124,19 @@ static bool write_guarded(PngWriter *writer)
     return !writer->no_memory;
 }
 
+// The first thread writes what all of them make.
+static void thread_run(void *client, int number)
+{
+    PngWriter *writer = client;
+
+    if (number == 0) {
+        writer->is_whole = write_guarded(writer);
+        png_strips_stop(writer->strips);
+    } else {
+        png_strips_work(writer->strips);
+    }
+}
+
 ImageStatus png_write(const Image *image, const Encoder *encoder, const AtomicFile *file, ImageError *error)
 {
     PngWriter writer = {.image = image, .encoder = encoder, .file = file, .error = error};
@@ -135,7 +147,9 @@ ImageStatus png_write(const Image *image, const Encoder *encoder, const AtomicFi
     writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
     if (writer.strips != NULL && writer.info != NULL) {
         png_set_write_fn(writer.png, &writer, on_write, on_flush);
-        status = write_guarded(&writer) ? IMAGE_OK : writer.no_memory ? IMAGE_NO_MEMORY : IMAGE_IO;
+        int strips = png_strips_count(writer.strips), threads = encoder->encoding.threads;
+        parallel_run(threads < strips ? threads : strips, thread_run, &writer);
+        status = writer.is_whole ? IMAGE_OK : writer.no_memory ? IMAGE_NO_MEMORY : IMAGE_IO;
     }
     png_destroy_write_struct(&writer.png, &writer.info);
     png_strips_free(writer.strips);

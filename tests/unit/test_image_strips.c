@@ -3,12 +3,14 @@
 // SPDX-License-Identifier: MIT
 #include "image/image.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "image/encode.h"
+#include "image/png_strips.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 
@@ -92,8 +94,60 @@ static void check_size(int width, int height, int channels, ImageDepth depth)
     unlink(path);
 }
 
+static void *work(void *strips)
+{
+    png_strips_work(strips);
+    return NULL;
+}
+
+// All pieces, one after the other. With a thread that may run ahead after the first of them is given.
+static Bytes stream_of(const Image *image, const Encoder *encoder, bool has_thread)
+{
+    Bytes stream = {malloc(1 << 24), 0};
+    PngStrips *strips = png_strips_new(image, encoder);
+    pthread_t thread;
+    const unsigned char *piece;
+    size_t size;
+    bool failed = false;
+    for (int i = 0; png_strips_piece(strips, &piece, &size, &failed); i++) {
+        if (has_thread && i == 1) {
+            pthread_create(&thread, NULL, work, strips);
+            usleep(200000); // it is as far ahead as it may be
+        }
+        memcpy(stream.items + stream.count, piece, size);
+        stream.count += size;
+    }
+    png_strips_stop(strips);
+    if (has_thread) {
+        pthread_join(thread, NULL);
+    }
+    png_strips_free(strips);
+    return stream;
+}
+
+// A piece stays until the next one is asked for, however many more are made meanwhile.
+static void check_ahead(void)
+{
+    const ImageEncoding encoding = {.depth = IMAGE_DEPTH_8, .already_encoded = true};
+    static Encoder encoder;
+    Random random = {7};
+    Image image;
+    if (image_init(&image, 14000, 400, 3)) { // a strip is a row
+        fill(&image, &random);
+    }
+    encoder_init(&encoder, &encoding, 3);
+    alarm(60);
+    Bytes alone = stream_of(&image, &encoder, false), ahead = stream_of(&image, &encoder, true);
+    alarm(0);
+    tap_ok(alone.count == ahead.count && memcmp(alone.items, ahead.items, alone.count) == 0, "a thread that runs ahead");
+    free(alone.items);
+    free(ahead.items);
+    image_fini(&image);
+}
+
 int main(void)
 {
+    check_ahead();
     check_size(1, 1, 1, IMAGE_DEPTH_8);
     check_size(3, 64, 3, IMAGE_DEPTH_8);
     check_size(65, 65, 3, IMAGE_DEPTH_16);
