@@ -82,26 +82,28 @@ static const char *read_statement(const Readers *readers, Forms *forms, const ch
     return after;
 }
 
-// Reads the statements that begin in a piece.
+// Reads the statements that begin in a piece. Counted apart, since pieces lie side by side and each has its own thread.
 static void piece_scan(const Readers *readers, Piece *piece, size_t length, size_t limit, bool is_first)
 {
     const char *end = piece->text + length, *at = plain_skip_blanks(piece->text);
     at = is_first ? at : find_statement(at, end);
     Forms forms = {.last = 0};
+    GrammarLiteral *literal = piece->literals;
+    size_t changes = 0;
     piece->begin = (size_t)(at - piece->text);
-    piece->count = piece->changes = 0;
     while (at < piece->text + limit) {
-        GrammarLiteral *literal = &piece->literals[piece->count];
         const char *after = read_statement(readers, &forms, at, end, literal);
         if (after == NULL) {
             break;
         }
         literal->span = (Span){(uint64_t)(at - piece->text), (uint64_t)(after - piece->text)};
-        bool is_like = piece->count > 0 && memcmp(&literal->kind, &literal[-1].kind, sizeof literal->kind) == 0;
-        piece->changes += !is_like;
-        piece->count++;
+        bool is_like = literal > piece->literals && memcmp(&literal->kind, &literal[-1].kind, sizeof literal->kind) == 0;
+        changes += !is_like;
+        literal++;
         at = plain_skip_blanks(after);
     }
+    piece->count = (size_t)(literal - piece->literals);
+    piece->changes = changes;
     piece->end = (size_t)(at - piece->text);
 }
 
