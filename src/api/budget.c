@@ -14,7 +14,8 @@ static rt_budget budget_of(const rt_session *session)
 {
     const Scene *records = &session->scene;
     uint64_t scene = scene_bytes(records), pictures = scene_picture_bytes(records);
-    uint64_t plain = records->spheres.capacity * sizeof(Sphere) + records->materials.capacity * sizeof(Material);
+    uint64_t plain = records->spheres.capacity * sizeof(Sphere) +
+                     records->sphere_runs.capacity * sizeof(SphereRun) + records->materials.capacity * sizeof(Material);
     uint64_t objects = session->scene.shape_count;
     int width = session_film_width(session), height = session_film_height(session);
     return (rt_budget){

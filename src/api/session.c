@@ -204,7 +204,7 @@ rt_status rt_load_file(rt_session *session, const char *path)
 {
     double start = session_clock();
     Source *source;
-    if (session->loaded) {
+    if (session->loaded || session->is_spent) {
         return RT_FAULT_USAGE;
     }
     if (!session_open(session, path, &source)) {
@@ -216,7 +216,7 @@ rt_status rt_load_file(rt_session *session, const char *path)
 rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length)
 {
     double start = session_clock();
-    if (session->loaded) {
+    if (session->loaded || session->is_spent) {
         return RT_FAULT_USAGE;
     }
     Source *source = source_open_text(session->sources, name, text, length);
@@ -303,7 +303,9 @@ static rt_status render_scene(rt_session *session, int threads)
     double start = session_clock();
     threads = threads ? threads : render_default_threads();
     session->threads = threads;
-    GeometryOptions geometry = {.threads = threads, .isa = session->isa};
+    bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
+                    session->precision == RT_PRECISION_DOUBLE;
+    GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL};
     if (session->max_trace_level > 0) {
         session->scene.settings.max_trace_level = session->max_trace_level;
     }
@@ -397,8 +399,15 @@ rt_status rt_render(rt_session *session, int threads)
     }
     Vec3 origin = scene_move_near(&session->scene);
     status = render_scene(session, threads);
+    session->is_spent = session->is_last;
+    session->loaded = !session->is_spent;
     scene_move_back(&session->scene, origin);
     return status;
+}
+
+void rt_spend_scene(rt_session *session)
+{
+    session->is_last = true;
 }
 
 void rt_cancel(rt_session *session)

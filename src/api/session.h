@@ -45,6 +45,7 @@ struct rt_session {
     const char *isa; // of geometry_isa; NULL for the best
     Scene scene;
     bool loaded; // the scene is complete and valid
+    bool is_last, is_spent; // it is rendered once, and nothing else is asked of it; this is done
     Film film;
     bool rendered; // the film holds a picture in linear light
     int threads;   // that rendered it

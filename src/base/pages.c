@@ -1,4 +1,4 @@
-// Huge pages by madvise, on the whole pages inside of what malloc gave.
+// Huge pages by madvise, on the whole pages inside of what malloc gave or what was mapped.
 //
 // SPDX-License-Identifier: MIT
 #ifndef _GNU_SOURCE
@@ -7,11 +7,11 @@
 #include "base/pages.h"
 
 #include <errno.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 static const size_t huge_page = (size_t)2 << 20;
 
@@ -51,4 +51,64 @@ void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
     }
     free(memory);
     return moved;
+}
+
+static size_t whole_pages(size_t bytes)
+{
+    size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    return (bytes + page - 1) / page * page;
+}
+
+// The memory begins on a huge page, which is looked for in a mapping that is larger by one.
+static bool map_pages(Pages *pages, size_t bytes)
+{
+    size_t whole = whole_pages(bytes);
+    if (whole < bytes || whole > SIZE_MAX - huge_page) {
+        return false;
+    }
+    int before = errno;
+    char *begin = mmap(NULL, whole + huge_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    errno = before;
+    if (begin == MAP_FAILED) {
+        return false;
+    }
+    size_t aside = (huge_page - ((uintptr_t)begin & (huge_page - 1))) & (huge_page - 1);
+    if (aside > 0) {
+        munmap(begin, aside);
+    }
+    if (aside < huge_page) {
+        munmap(begin + aside + whole, huge_page - aside);
+    }
+    *pages = (Pages){begin + aside, whole};
+    pages_prefer_huge(pages->memory, whole);
+    return true;
+}
+
+bool pages_take(Pages *pages, size_t bytes)
+{
+    enum { LINE = 64 };
+    if (is_large(bytes)) {
+        return map_pages(pages, bytes);
+    }
+    *pages = (Pages){.memory = aligned_alloc(LINE, (bytes + LINE - 1) / LINE * LINE)};
+    return pages->memory != NULL;
+}
+
+void pages_trim(Pages *pages, size_t bytes)
+{
+    size_t whole = pages->mapped > 0 ? whole_pages(bytes) : 0;
+    if (whole < pages->mapped) {
+        munmap((char *)pages->memory + whole, pages->mapped - whole);
+        pages->mapped = whole;
+    }
+}
+
+void pages_give(Pages *pages)
+{
+    if (pages->mapped > 0) {
+        munmap(pages->memory, pages->mapped);
+    } else {
+        free(pages->memory);
+    }
+    *pages = (Pages){0};
 }

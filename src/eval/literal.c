@@ -68,11 +68,12 @@ static bool has_colour(const GrammarLiteral *literal, const Material *material)
     return true;
 }
 
-static bool is_same(const Sphere *sphere, const GrammarLiteral *literal)
+static bool is_same(const Scene *scene, size_t number, const GrammarLiteral *literal)
 {
+    const Sphere *sphere = &scene->spheres.items[number];
     const double *centre = literal->centre;
     return sphere->centre.x == centre[0] && sphere->centre.y == centre[1] && sphere->centre.z == centre[2] &&
-           sphere->radius == literal->radius && sphere->source == literal->span.begin;
+           sphere->radius == literal->radius && scene_sphere_source(scene, number) == literal->span.begin;
 }
 
 static bool learn(void *client, GrammarLiteralKind *kind)
@@ -88,7 +89,7 @@ static bool learn(void *client, GrammarLiteralKind *kind)
         return false;
     }
     const Sphere *sphere = &scene->spheres.items[watched->spheres];
-    if ((sphere->material & MATERIAL_COMPOUND) || !is_same(sphere, &watched->literal)) {
+    if ((sphere->material & MATERIAL_COMPOUND) || !is_same(scene, watched->spheres, &watched->literal)) {
         return false;
     }
     const Material *material = &scene->materials.items[sphere->material];
@@ -149,7 +150,6 @@ static bool batch_fill(const Batch *batch, Scene *scene)
 {
     const GrammarLiterals *list = batch->list;
     Sphere *sphere = &scene->spheres.items[batch->first_sphere];
-    uint32_t order = scene->shape_count + (uint32_t)(batch->first_sphere - scene->spheres.count);
     size_t next = batch->first_material;
     MaterialIndex index = batch->before;
     Material material, last;
@@ -161,8 +161,8 @@ static bool batch_fill(const Batch *batch, Scene *scene)
             scene->materials.items[index = (MaterialIndex)next++] = material;
         }
         last = material;
-        sphere[i] = (Sphere){literal_centre(literal), literal->radius, index, order + (uint32_t)i,
-                             list->base + literal->span.begin};
+        sphere[i] = (Sphere){literal_centre(literal), literal->radius, index,
+                             (uint32_t)(list->base + literal->span.begin)};
     }
     return is_fine;
 }
@@ -196,6 +196,19 @@ static void batches_place(Batches *batches, const GrammarLiterals *lists)
         index = batches->materials > 0 ? (MaterialIndex)(scene->materials.count + batches->materials - 1) : index;
         memcpy(&last, &list->items[list->count - 1].kind, sizeof last);
     }
+}
+
+static uint64_t source_of_first(const GrammarLiterals *lists)
+{
+    return lists[0].base + lists[0].items[0].span.begin;
+}
+
+// Whether the places in the text have one upper half.
+static bool sources_are_near(const GrammarLiterals *lists, size_t count)
+{
+    const GrammarLiterals *last = &lists[count - 1];
+    uint64_t end = last->base + last->items[last->count - 1].span.begin;
+    return source_of_first(lists) >> 32 == end >> 32;
 }
 
 static bool grows(size_t wanted, size_t capacity)
@@ -238,7 +251,7 @@ static bool take_side_by_side(Eval *ev, const GrammarLiterals *lists, size_t cou
         is_taken = !atomic_load(&batches.has_odd);
     }
     if (is_taken) {
-        scene_commit_spheres(ev->scene, batches.spheres, batches.materials);
+        scene_commit_spheres(ev->scene, batches.spheres, batches.materials, source_of_first(lists));
     }
     free(batches.items);
     return is_taken;
@@ -255,7 +268,7 @@ static bool list_has_odd(const GrammarLiterals *list)
 }
 
 // Writes a list's records behind the end of the scene's list. False when out of memory.
-static bool list_fill(Scene *scene, const GrammarLiterals *list, Sphere *sphere, uint32_t order)
+static bool list_fill(Scene *scene, const GrammarLiterals *list, Sphere *sphere)
 {
     MaterialIndex index = 0;
     Material material;
@@ -272,8 +285,8 @@ static bool list_fill(Scene *scene, const GrammarLiterals *list, Sphere *sphere,
                 return false;
             }
         }
-        sphere[i] = (Sphere){literal_centre(literal), literal->radius, index, order + (uint32_t)i,
-                             list->base + literal->span.begin};
+        sphere[i] = (Sphere){literal_centre(literal), literal->radius, index,
+                             (uint32_t)(list->base + literal->span.begin)};
     }
     scene_repeat_material(scene, repeated);
     return true;
@@ -295,12 +308,11 @@ static bool take_in_order(Eval *ev, const GrammarLiterals *lists, size_t count, 
         return false;
     }
     for (size_t i = 0, done = 0; i < count; done += lists[i++].count) {
-        if (!list_fill(scene, &lists[i], &scene->spheres.items[scene->spheres.count + done],
-                       scene->shape_count + (uint32_t)done)) {
+        if (!list_fill(scene, &lists[i], &scene->spheres.items[scene->spheres.count + done])) {
             return false; // one by one it will be told
         }
     }
-    scene_commit_spheres(scene, spheres, 0);
+    scene_commit_spheres(scene, spheres, 0, source_of_first(lists));
     return true;
 }
 
@@ -308,8 +320,9 @@ static bool take_in_order(Eval *ev, const GrammarLiterals *lists, size_t count, 
 static bool take_many(void *client, const GrammarLiterals *lists, size_t count, size_t more)
 {
     Eval *ev = eval_of(client);
-    return !eval_cancelled(ev) && (scene_materials_add_up(ev->scene) ? take_side_by_side(ev, lists, count, more)
-                                                                     : take_in_order(ev, lists, count, more));
+    return !eval_cancelled(ev) && sources_are_near(lists, count) &&
+           (scene_materials_add_up(ev->scene) ? take_side_by_side(ev, lists, count, more)
+                                              : take_in_order(ev, lists, count, more));
 }
 
 void literal_hooks(Eval *ev, GrammarHooks *hooks)

@@ -146,8 +146,9 @@ bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *ma
     MaterialIndex index;
     const Scene *scene = ev->scene;
     // Nothing else takes memory before one of these lists is full.
-    bool takes_memory =
-        scene->spheres.count == scene->spheres.capacity || scene->materials.count == scene->materials.capacity;
+    bool takes_memory = scene->spheres.count == scene->spheres.capacity ||
+                        scene->sphere_runs.count == scene->sphere_runs.capacity ||
+                        scene->materials.count == scene->materials.capacity;
     return may_add_one(ev, span) && (!takes_memory || memory_suffices(ev, span)) &&
            ((scene_add_material_record(ev->scene, material, &index) &&
              scene_add_sphere(ev->scene, centre, radius, index, span.begin)) ||

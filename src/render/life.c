@@ -40,12 +40,8 @@ static double spacing(double t)
 
 static uint64_t sphere_source(const Scene *scene, uint32_t order)
 {
-    for (size_t i = 0; i < scene->spheres.count; i++) {
-        if (scene->spheres.items[i].order == order) {
-            return scene->spheres.items[i].source;
-        }
-    }
-    return 0;
+    uint32_t sphere = scene_sphere_at(scene, order);
+    return sphere != RECORD_NONE ? scene_sphere_source(scene, sphere) : 0;
 }
 
 // The quadratic and its roots as a textbook has them. `unit`: what a distance in the ball's space is in the scene's
@@ -232,7 +228,7 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
     switch (shape_kind(at->shape)) {
     case SHAPE_SPHERE:
         out->shape = "sphere";
-        SOURCE_BY_ORDER(scene->spheres, at->order, out->source);
+        out->source = sphere_source(scene, at->order);
         break;
     case SHAPE_ELLIPSOID:
         out->shape = "stretched sphere";

@@ -56,7 +56,7 @@ static uint64_t compound_source(const Scene *scene, size_t compound)
     MaterialIndex material = (MaterialIndex)compound | MATERIAL_COMPOUND;
     for (size_t i = 0; i < scene->spheres.count; i++) {
         if (scene->spheres.items[i].material == material) {
-            return scene->spheres.items[i].source;
+            return scene_sphere_source(scene, i);
         }
     }
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {

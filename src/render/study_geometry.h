@@ -251,7 +251,7 @@ static bool real_closest(const RealScene *s, const RealRay *ray, RealStart start
     for (uint32_t i = 0; i < s->scene->spheres.count; i++) {
         bool inside = false;
         Real t = real_sphere_root(s, i, ray, start, &inside);
-        real_offer(hit, &has_hit, t, inside, SHAPE_SPHERE, i, s->scene->spheres.items[i].order);
+        real_offer(hit, &has_hit, t, inside, SHAPE_SPHERE, i, scene_sphere_order(s->scene, i));
     }
     for (uint32_t i = 0; i < s->scene->ellipsoids.count; i++) {
         bool inside = false;

@@ -274,7 +274,7 @@ static void dump_shapes(const Scene *scene, TextBuffer *out)
         close_bodies(&open, order, out);
         open_bodies(&open, order, out);
         const uint32_t *around = interior_around(&open, order);
-        if (sphere < scene->spheres.count && scene->spheres.items[sphere].order == order) {
+        if (sphere < scene->spheres.count && scene_sphere_order(scene, sphere) == order) {
             dump_sphere(scene, &scene->spheres.items[sphere++], around, out);
         } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
             dump_plane(scene, &scene->planes.items[plane++], around, out);

@@ -347,7 +347,8 @@ static void check_spheres(const Scene *scene, const SphereSurvey *survey, const 
     for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         // ball_make (trace/sphere.h) leaves out spheres whose squares are beyond.
-        check_extent(watch, &(Extent){sphere->radius, sphere->centre, sphere->source, "sphere"}, "it is not drawn");
+        Extent extent = {sphere->radius, sphere->centre, scene_sphere_source(scene, i), "sphere"};
+        check_extent(watch, &extent, "it is not drawn");
     }
 }
 

@@ -70,6 +70,7 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->interiors);
     ARRAY_FREE(&scene->compounds);
     ARRAY_FREE(&scene->spheres);
+    ARRAY_FREE(&scene->sphere_runs);
     ARRAY_FREE(&scene->ellipsoids);
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
@@ -229,7 +230,8 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->slope_entries) +
            LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) + LIST_BYTES(scene->texture_entries) +
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
-           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->ellipsoids) + LIST_BYTES(scene->planes) +
+           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) + LIST_BYTES(scene->ellipsoids) +
+           LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
            LIST_BYTES(scene->bodies) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
@@ -252,14 +254,74 @@ bool scene_add_light(Scene *scene, const Light *light)
     return ARRAY_PUSH(&scene->lights, *light);
 }
 
+// Whether the next sphere goes on with the last run.
+static bool run_goes_on(const Scene *scene, uint64_t source)
+{
+    if (scene->sphere_runs.count == 0) {
+        return false;
+    }
+    const SphereRun *last = &scene->sphere_runs.items[scene->sphere_runs.count - 1];
+    return last->source == source >> 32 &&
+           scene->shape_count - last->order == (uint32_t)scene->spheres.count - last->first;
+}
+
+// Of the next sphere, if it is not in the last one. One that is then not added does no harm.
+static bool add_run(Scene *scene, uint64_t source)
+{
+    SphereRun run = {(uint32_t)scene->spheres.count, scene->shape_count, (uint32_t)(source >> 32)};
+    return run_goes_on(scene, source) || ARRAY_PUSH(&scene->sphere_runs, run);
+}
+
 bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex material, uint64_t source)
 {
-    Sphere sphere = {centre, radius, material, scene->shape_count, source};
-    if (scene->shape_count == UINT32_MAX || !ARRAY_PUSH(&scene->spheres, sphere)) {
+    Sphere sphere = {centre, radius, material, (uint32_t)source};
+    if (scene->shape_count == UINT32_MAX || !add_run(scene, source) || !ARRAY_PUSH(&scene->spheres, sphere)) {
         return false;
     }
     scene->shape_count++;
     return true;
+}
+
+static const SphereRun *run_of(const Scene *scene, size_t sphere)
+{
+    const SphereRun *runs = scene->sphere_runs.items;
+    size_t low = 0, high = scene->sphere_runs.count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        *(runs[middle].first <= sphere ? &low : &high) = middle;
+    }
+    return &runs[low];
+}
+
+uint32_t scene_sphere_order(const Scene *scene, size_t sphere)
+{
+    const SphereRun *run = run_of(scene, sphere);
+    return run->order + ((uint32_t)sphere - run->first);
+}
+
+uint64_t scene_sphere_source(const Scene *scene, size_t sphere)
+{
+    return (uint64_t)run_of(scene, sphere)->source << 32 | scene->spheres.items[sphere].source;
+}
+
+uint32_t scene_sphere_at(const Scene *scene, uint32_t order)
+{
+    const SphereRun *runs = scene->sphere_runs.items;
+    size_t low = 0, high = scene->sphere_runs.count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (runs[middle].order <= order) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    if (low == 0) {
+        return RECORD_NONE;
+    }
+    size_t sphere = (size_t)runs[low - 1].first + (order - runs[low - 1].order);
+    size_t end = low < scene->sphere_runs.count ? runs[low].first : scene->spheres.count;
+    return sphere < end ? (uint32_t)sphere : RECORD_NONE;
 }
 
 bool scene_materials_add_up(const Scene *scene)
@@ -271,11 +333,13 @@ bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials)
 {
     return spheres < UINT32_MAX - scene->shape_count && materials < MATERIAL_COMPOUND - scene->materials.count &&
            ARRAY_RESERVE(&scene->spheres, scene->spheres.count + spheres) &&
+           ARRAY_RESERVE(&scene->sphere_runs, scene->sphere_runs.count + 1) &&
            ARRAY_RESERVE(&scene->materials, scene->materials.count + materials);
 }
 
-void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials)
+void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials, uint64_t source)
 {
+    (void)add_run(scene, source); // there is room for it
     scene->spheres.count += spheres;
     scene->shape_count += (uint32_t)spheres;
     scene->materials.count += materials;

@@ -198,13 +198,19 @@ typedef uint32_t MaterialIndex;
 
 #define MATERIAL_COMPOUND (UINT32_C(1) << 31)
 
+// A scene may have many millions of them, so that what they have in common is kept in Scene.sphere_runs.
 typedef struct Sphere {
     Vec3 centre;
     double radius; // > 0
     MaterialIndex material;
-    uint32_t order; // place in the order of declaration over all shapes
-    uint64_t source;
+    uint32_t source; // lower half: scene_sphere_source tells all of it
 } Sphere;
+
+// Spheres that follow each other in the order of declaration over all shapes, up to the next run.
+typedef struct SphereRun {
+    uint32_t first, order; // Scene.spheres; its place in the order of declaration
+    uint32_t source;       // upper half, of all of them
+} SphereRun;
 
 // The unit sphere at the origin under an affine transform that is not a similarity.
 typedef struct Ellipsoid {
@@ -373,6 +379,7 @@ typedef struct Scene {
     ARRAY(Interior) interiors;
     ARRAY(Compound) compounds;
     ARRAY(Sphere) spheres;
+    ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
     ARRAY(Ellipsoid) ellipsoids;
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
@@ -458,12 +465,17 @@ bool scene_add_light(Scene *scene, const Light *light) RT_MUST_CHECK;
 bool scene_add_fog(Scene *scene, const Fog *fog) RT_MUST_CHECK;
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer) RT_MUST_CHECK; // below the others
 bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex material, uint64_t source) RT_MUST_CHECK;
+// A sphere's place in the order of declaration and where it was written; the one at a place, or RECORD_NONE.
+uint32_t scene_sphere_order(const Scene *scene, size_t sphere);
+uint64_t scene_sphere_source(const Scene *scene, size_t sphere);
+uint32_t scene_sphere_at(const Scene *scene, uint32_t order);
 // Many plain spheres at once. When it no longer pays to look for equal materials, each that differs from the one before
 // is added, and that can be done for many spheres side by side: behind the lists' ends, after `scene_reserve_spheres`,
 // until scene_commit_spheres says that they are there. The last of these materials, if any, is that of the last sphere.
+// Their sources have one upper half, which is that of `source`.
 bool scene_materials_add_up(const Scene *scene);
 bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials) RT_MUST_CHECK;
-void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials);
+void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials, uint64_t source);
 // The one that the next material is compared with, and where it stands; NULL: none.
 const Material *scene_last_material(const Scene *scene, MaterialIndex *index);
 

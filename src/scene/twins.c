@@ -112,8 +112,8 @@ static Key item_key(const Twins *twins, size_t item)
     key.hidden = 0;
     if (item < twins->ellipsoids) {
         const Sphere *sphere = &scene->spheres.items[item];
-        key.source = sphere->source;
-        key.order = sphere->order;
+        key.source = scene_sphere_source(scene, item);
+        key.order = scene_sphere_order(scene, item);
         key_sphere(&key, sphere->centre, sphere->radius);
     } else if (item < twins->planes) {
         const Ellipsoid *ellipsoid = &scene->ellipsoids.items[item - twins->ellipsoids];

@@ -109,7 +109,7 @@ static bool spheres_are_valid(const Scene *scene, const SphereSurvey *survey, Di
     for (size_t i = 0; !survey->is_valid && i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         if (!sphere_is_valid(scene, sphere)) {
-            fault(diags, DIAG_E0413, sphere->source, "the sphere cannot be represented");
+            fault(diags, DIAG_E0413, scene_sphere_source(scene, i), "the sphere cannot be represented");
         }
     }
     return survey->is_valid;

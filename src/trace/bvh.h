@@ -10,11 +10,14 @@
 #ifndef TRACE_BVH_H
 #define TRACE_BVH_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "base/attributes.h"
+#include "base/pages.h"
 #include "math/vec3.h"
 
 enum {
@@ -53,8 +56,9 @@ typedef struct BvhNode {
 } BvhNode;
 
 typedef struct Bvh {
-    BvhNode *nodes; // the root first, parents before children; owned; NULL in a tree of nothing
+    BvhNode *nodes; // the root first, parents before children; in `pages`; NULL in a tree of nothing
     uint32_t node_count;
+    Pages pages;  // owned
     Vec3 centre;  // tree coordinates are (p - centre) * scale
     double scale; // a power of two
     Vec3 half;    // half the size of the root box, in tree coordinates
@@ -67,14 +71,40 @@ typedef struct BvhRef {
     float high[4];
 } BvhRef;
 
-uint32_t bvh_ref_index(const BvhRef *ref);
+static inline uint32_t bvh_ref_index(const BvhRef *ref)
+{
+    const float parts[2] = {ref->low[3], ref->high[3]};
+    uint32_t bits[2];
+    memcpy(bits, parts, sizeof(bits));
+    return (bits[0] & 0x7fffffu) | (bits[1] & 0x1ffu) << 23;
+}
 
 // Chooses the coordinates of a tree whose things all lie within low..high, which are finite.
 void bvh_place(Bvh *bvh, Vec3 low, Vec3 high);
 
+// Rounded outward: a conversion to float is off by at most 2^-24 of the value.
+static inline float bvh_float_below(double x)
+{
+    return (float)(x - fabs(x) * 0x1p-23);
+}
+
+static inline float bvh_float_above(double x)
+{
+    return (float)(x + fabs(x) * 0x1p-23);
+}
+
 // The ref of a thing within low..high. A box of centre ± radius may be given as rounded; see bvh_walk.h for what is
 // added to make up for that.
-BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index);
+static inline BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index)
+{
+    Vec3 a = vec3_scale(bvh->scale, vec3_sub(low, bvh->centre));
+    Vec3 b = vec3_scale(bvh->scale, vec3_sub(high, bvh->centre));
+    uint32_t bits[2] = {0x3f800000u | (index & 0x7fffffu), 0x3f800000u | index >> 23};
+    float parts[2];
+    memcpy(parts, bits, sizeof(parts));
+    return (BvhRef){{bvh_float_below(a.x), bvh_float_below(a.y), bvh_float_below(a.z), parts[0]},
+                    {bvh_float_above(b.x), bvh_float_above(b.y), bvh_float_above(b.z), parts[1]}};
+}
 
 // Builds the tree of a placed *bvh over 1 <= count < 2^28 refs and puts them into its order, in which leaves are runs
 // and follow each other as their nodes do. The result does not depend on the number of threads. False when out of

@@ -1,23 +1,22 @@
 // Builds the tree of boxes, on several threads when it is large.
 //
 // Every step is bounded: the depth (ranges are halved when the heuristic has gone deep enough or cannot separate its
-// things), and the time, n log n for any input, a million coincident boxes among them. Threads take whole ranges from a
-// common stack and make nodes in pools of their own; in the end the nodes are numbered in depth-first order, so that
-// the tree does not show who built what.
+// things), and the time, n log n for any input, a million coincident boxes among them. The first node's range is cut by
+// all threads together; then they take whole ranges from a common stack. In the end the nodes are moved into depth-first
+// order, in place, so that the tree does not show who built what.
 //
 // SPDX-License-Identifier: MIT
 #include <float.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "base/pages.h"
 #include "base/parallel.h"
 #include "trace/bvh_split.h"
 
 enum {
-    POOL_CHUNK_NODES = 256,
+    SUPPLY_NODES = 64,
     // A range this small is built by one thread; a whole tree this small on one alone.
     TASK_REFS_LEAST = 4096,
     BUILDERS_MOST = 16,
@@ -29,19 +28,21 @@ typedef struct Task {
     BvhChild *place; // where the number of its node goes
 } Task;
 
-typedef struct Pool {
-    BvhNode **chunks;
-    uint32_t count, room; // nodes made; chunks there is room for
-} Pool;
+// The nodes that a thread may make next; apart from those of the others.
+typedef struct Supply {
+    uint32_t next, end;
+    char line_of_cache[56];
+} Supply;
 
 typedef struct Builder {
     BvhRef *refs;
-    Pool pools[BUILDERS_MOST];
+    BvhNode *nodes;
+    Supply supplies[BUILDERS_MOST];
+    atomic_uint next_node; // the first that is in no supply
     pthread_mutex_t lock; // of all below
     pthread_cond_t changed;
     Task tasks[TASKS_MOST];
     unsigned waiting, busy; // tasks; threads that have one
-    bool failed;
 } Builder;
 
 // ---- coordinates
@@ -56,65 +57,25 @@ void bvh_place(Bvh *bvh, Vec3 low, Vec3 high)
     bvh->half = vec3_scale(bvh->scale, half);
 }
 
-// Rounded outward: a conversion to float is off by at most 2^-24 of the value.
-static inline float float_below(double x)
-{
-    return (float)(x - fabs(x) * 0x1p-23);
-}
-
-static inline float float_above(double x)
-{
-    return (float)(x + fabs(x) * 0x1p-23);
-}
-
-BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index)
-{
-    Vec3 a = vec3_scale(bvh->scale, vec3_sub(low, bvh->centre));
-    Vec3 b = vec3_scale(bvh->scale, vec3_sub(high, bvh->centre));
-    uint32_t bits[2] = {0x3f800000u | (index & 0x7fffffu), 0x3f800000u | index >> 23};
-    float parts[2];
-    memcpy(parts, bits, sizeof(parts));
-    return (BvhRef){{float_below(a.x), float_below(a.y), float_below(a.z), parts[0]},
-                    {float_above(b.x), float_above(b.y), float_above(b.z), parts[1]}};
-}
-
-uint32_t bvh_ref_index(const BvhRef *ref)
-{
-    const float parts[2] = {ref->low[3], ref->high[3]};
-    uint32_t bits[2];
-    memcpy(bits, parts, sizeof(bits));
-    return (bits[0] & 0x7fffffu) | (bits[1] & 0x1ffu) << 23;
-}
-
 // ---- nodes
 
-// A new node of the pool and its number for now, thread and place; NULL when out of memory.
-static BvhNode *pool_node(Pool *pool, int thread, BvhChild *number)
+// How many nodes a tree may have. A node that is not full has leaves only, so that one with k nodes below it has 8 - k
+// leaves, and all but the root hold more things than a leaf: by induction n things have at most (n - 2) / 7 nodes, or the
+// root. What is left of each thread's supply comes to that.
+static size_t nodes_most(uint32_t count, int builders)
 {
-    uint32_t chunk = pool->count / POOL_CHUNK_NODES;
-    if (chunk == pool->room) {
-        uint32_t room = pool->room ? 2 * pool->room : 16;
-        BvhNode **chunks = realloc(pool->chunks, room * sizeof(*chunks));
-        if (!chunks) {
-            return NULL;
-        }
-        pool->chunks = chunks;
-        pool->room = room;
-    }
-    if (pool->count % POOL_CHUNK_NODES == 0) {
-        pool->chunks[chunk] = aligned_alloc(_Alignof(BvhNode), POOL_CHUNK_NODES * sizeof(BvhNode));
-        if (!pool->chunks[chunk]) {
-            return NULL;
-        }
-    }
-    *number = (uint32_t)thread << 26 | pool->count;
-    return &pool->chunks[chunk][pool->count++ % POOL_CHUNK_NODES];
+    return 1 + count / 7 + (size_t)builders * SUPPLY_NODES;
 }
 
-static const BvhNode *builder_node(const Builder *builder, BvhChild number)
+// The number of a new node, for now.
+static BvhChild builder_node(Builder *builder, int thread)
 {
-    uint32_t place = number & ((1u << 26) - 1);
-    return &builder->pools[number >> 26].chunks[place / POOL_CHUNK_NODES][place % POOL_CHUNK_NODES];
+    Supply *supply = &builder->supplies[thread];
+    if (supply->next == supply->end) {
+        supply->next = atomic_fetch_add(&builder->next_node, SUPPLY_NODES);
+        supply->end = supply->next + SUPPLY_NODES;
+    }
+    return supply->next++;
 }
 
 static void node_clear(BvhNode *node)
@@ -130,7 +91,7 @@ static void node_clear(BvhNode *node)
 }
 
 // Splits the child of the largest box, again and again, until there are eight or all are leaves.
-static int node_split(BvhRef *refs, const Range *range, Range children[BVH_WIDTH])
+static int node_split(BvhRef *refs, const Range *range, int threads, Range children[BVH_WIDTH])
 {
     int count = 1;
     children[0] = *range;
@@ -148,7 +109,7 @@ static int node_split(BvhRef *refs, const Range *range, Range children[BVH_WIDTH
             break;
         }
         Range parent = children[largest];
-        range_split(refs, &parent, &children[largest], &children[count++]);
+        range_split(refs, &parent, threads, &children[largest], &children[count++]);
     }
     return count;
 }
@@ -168,16 +129,14 @@ static bool builder_push(Builder *builder, const Task *task)
 
 // Makes the node of a range and all below it; large ranges are left for whichever thread is free. The recursion is no
 // deeper than the tree.
-static bool builder_make(Builder *builder, int thread, const Task *task)
+static void builder_make(Builder *builder, int thread, int splitters, const Task *task)
 {
-    BvhNode *node = pool_node(&builder->pools[thread], thread, task->place);
-    if (!node) {
-        return false;
-    }
+    BvhChild number = builder_node(builder, thread);
+    BvhNode *node = &builder->nodes[number];
+    *task->place = number;
     node_clear(node);
     Range children[BVH_WIDTH];
-    int count = node_split(builder->refs, &task->range, children);
-    bool done = true;
+    int count = node_split(builder->refs, &task->range, splitters, children);
     for (int i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             node->box[axis][0][i] = children[i].box.low[axis];
@@ -188,17 +147,16 @@ static bool builder_make(Builder *builder, int thread, const Task *task)
         if (refs <= BVH_LEAF_MOST) {
             node->child[i] = bvh_leaf(children[i].begin, refs);
         } else if (refs <= TASK_REFS_LEAST || !builder_push(builder, &below)) {
-            done = done && builder_make(builder, thread, &below);
+            builder_make(builder, thread, 1, &below);
         }
     }
-    return done;
 }
 
 static void builder_work(void *client, int thread)
 {
     Builder *builder = client;
     pthread_mutex_lock(&builder->lock);
-    while (!builder->failed && (builder->waiting > 0 || builder->busy > 0)) {
+    while (builder->waiting > 0 || builder->busy > 0) {
         if (builder->waiting == 0) {
             pthread_cond_wait(&builder->changed, &builder->lock);
             continue;
@@ -206,73 +164,94 @@ static void builder_work(void *client, int thread)
         Task task = builder->tasks[--builder->waiting];
         builder->busy++;
         pthread_mutex_unlock(&builder->lock);
-        bool done = builder_make(builder, thread, &task);
+        builder_make(builder, thread, 1, &task);
         pthread_mutex_lock(&builder->lock);
         builder->busy--;
-        builder->failed = builder->failed || !done;
     }
     pthread_cond_broadcast(&builder->changed);
     pthread_mutex_unlock(&builder->lock);
 }
 
-// Copies a node and all below it, depth first.
-static void builder_copy(const Builder *builder, Bvh *bvh, BvhChild from)
+// ---- the order of nodes
+
+// Numbers a node and all below it, depth first; `from`: which node goes to each place.
+static void number_nodes(Bvh *bvh, uint32_t *from, BvhChild node)
 {
-    BvhNode *node = &bvh->nodes[bvh->node_count++];
-    *node = *builder_node(builder, from);
+    from[bvh->node_count++] = node;
     for (int i = 0; i < BVH_WIDTH; i++) {
-        BvhChild child = node->child[i];
+        BvhChild *place = &bvh->nodes[node].child[i], child = *place;
         if (!(child & BVH_LEAF) && child != BVH_CHILD_NONE) {
-            node->child[i] = bvh->node_count;
-            builder_copy(builder, bvh, child);
+            *place = bvh->node_count;
+            number_nodes(bvh, from, child);
         }
     }
 }
 
-static void builder_fini(Builder *builder)
+// Moves each node to its place. What stood in a place that is done has gone where the node for that place came from.
+static void move_nodes(const Bvh *bvh, const uint32_t *from)
 {
-    for (int i = 0; i < BUILDERS_MOST; i++) {
-        Pool *pool = &builder->pools[i];
-        for (uint32_t chunk = 0; chunk * POOL_CHUNK_NODES < pool->count; chunk++) {
-            free(pool->chunks[chunk]);
+    for (uint32_t to = 0; to < bvh->node_count; to++) {
+        uint32_t at = from[to];
+        while (at < to) {
+            at = from[at];
         }
-        free(pool->chunks);
+        if (at != to) {
+            BvhNode kept = bvh->nodes[to];
+            bvh->nodes[to] = bvh->nodes[at];
+            bvh->nodes[at] = kept;
+        }
     }
-    pthread_cond_destroy(&builder->changed);
-    pthread_mutex_destroy(&builder->lock);
-    free(builder);
+}
+
+// Depth first, with nothing between them.
+static bool order_nodes(Bvh *bvh, uint32_t made, BvhChild root)
+{
+    uint32_t *from = malloc(made * sizeof *from);
+    if (from) {
+        number_nodes(bvh, from, root);
+        move_nodes(bvh, from);
+        pages_trim(&bvh->pages, bvh->node_count * sizeof(BvhNode));
+    }
+    free(from);
+    return from != NULL;
+}
+
+// ---- the whole
+
+static void builder_run(Builder *builder, uint32_t count, int threads, BvhChild *root)
+{
+    Task task = {range_measure(builder->refs, 0, count, 0, threads), root};
+    builder_make(builder, 0, threads, &task);
+    parallel_run(threads, builder_work, builder);
 }
 
 bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads)
 {
     Builder *builder = calloc(1, sizeof(*builder));
-    if (!builder) {
+    int builders = count <= 4 * TASK_REFS_LEAST ? 1 : threads < BUILDERS_MOST ? threads : BUILDERS_MOST;
+    if (!builder || !pages_take(&bvh->pages, nodes_most(count, builders) * sizeof(BvhNode))) {
+        free(builder);
         return false;
     }
+    BvhChild root;
     builder->refs = refs;
+    builder->nodes = bvh->nodes = bvh->pages.memory;
+    bvh->node_count = 0;
     pthread_mutex_init(&builder->lock, NULL);
     pthread_cond_init(&builder->changed, NULL);
-    BvhChild root = 0;
-    builder->tasks[builder->waiting++] = (Task){range_measure(refs, 0, count, 0), &root};
-    int builders = threads < BUILDERS_MOST ? threads : BUILDERS_MOST;
-    parallel_run(count > 4 * TASK_REFS_LEAST ? builders : 1, builder_work, builder);
-    size_t node_count = 0;
-    for (int i = 0; i < BUILDERS_MOST; i++) {
-        node_count += builder->pools[i].count;
+    builder_run(builder, count, builders, &root);
+    bool done = order_nodes(bvh, atomic_load(&builder->next_node), root);
+    pthread_cond_destroy(&builder->changed);
+    pthread_mutex_destroy(&builder->lock);
+    free(builder);
+    if (!done) {
+        bvh_fini(bvh);
     }
-    BvhNode *nodes = builder->failed ? NULL : aligned_alloc(_Alignof(BvhNode), node_count * sizeof(BvhNode));
-    pages_prefer_huge(nodes, node_count * sizeof(BvhNode));
-    if (nodes) {
-        bvh->nodes = nodes;
-        bvh->node_count = 0;
-        builder_copy(builder, bvh, root);
-    }
-    builder_fini(builder);
-    return nodes != NULL;
+    return done;
 }
 
 void bvh_fini(Bvh *bvh)
 {
-    free(bvh->nodes);
+    pages_give(&bvh->pages);
     *bvh = (Bvh){0};
 }

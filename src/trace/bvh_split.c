@@ -10,12 +10,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/parallel.h"
+
 enum {
     BIN_MOST = 16,
     SAMPLES = 512,             // a range of more than SHORT_MOST is binned by about so many of its refs
     SHORT_MOST = 2 * SAMPLES - 1,
     MOVE_BLOCK = 64,           // refs that are looked at before some are moved
     TURNS = 2,                 // places where boxes are summed up
+    VERY_LONG = 1 << 16,       // a range of more refs is moved by pieces, several at once when there are threads
+    PIECES = 8,
 };
 
 typedef int32_t Int4 __attribute__((vector_size(16)));
@@ -82,13 +86,40 @@ static inline void sum_join(Sum *sum, const Sum *other)
     box_join(&sum->centres, &other->centres);
 }
 
-Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth)
+// A long range is measured by pieces, which are joined in their order.
+typedef struct Measuring {
+    const BvhRef *refs;
+    uint32_t begin, piece; // refs of a piece
+    Sum sums[PIECES];
+} Measuring;
+
+static Sum refs_sum(const BvhRef *refs, uint32_t begin, uint32_t end)
 {
     Sum sum = EMPTY_SUM;
     for (uint32_t i = begin; i < end; i++) {
         sum_add(&sum, &refs[i]);
     }
-    return (Range){sum.box, sum.centres, begin, end, depth};
+    return sum;
+}
+
+static void measure_piece(void *client, size_t begin, size_t end)
+{
+    Measuring *measuring = client;
+    uint32_t first = measuring->begin + (uint32_t)begin;
+    measuring->sums[begin / measuring->piece] = refs_sum(measuring->refs, first, first + (uint32_t)(end - begin));
+}
+
+Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth, int threads)
+{
+    Measuring measuring = {.refs = refs, .begin = begin, .piece = (end - begin) / PIECES + 1};
+    for (int i = 0; i < PIECES; i++) {
+        measuring.sums[i] = EMPTY_SUM;
+    }
+    parallel_share(end - begin > VERY_LONG ? threads : 1, end - begin, measuring.piece, measure_piece, &measuring);
+    for (int i = 1; i < PIECES; i++) {
+        sum_join(&measuring.sums[0], &measuring.sums[i]);
+    }
+    return (Range){measuring.sums[0].box, measuring.sums[0].centres, begin, end, depth};
 }
 
 // ---- bins
@@ -226,7 +257,7 @@ static bool short_split(BvhRef *refs, const Range *range, const Binning *binning
     return true;
 }
 
-// ---- long ranges: some refs are binned; all are measured while they are moved
+// ---- moving refs, and measuring them while they are moved
 
 typedef struct Mover {
     BvhRef *refs;
@@ -249,38 +280,194 @@ static inline void refs_swap(BvhRef *a, BvhRef *b)
     *b = kept;
 }
 
+// Two stretches of refs, of which the left parts are to come first: `begin` to `front_end`, then from `back_begin` to
+// `end`. They are the same, or apart. `begin` and `end` go towards each other over what is done.
+typedef struct Stretch {
+    uint32_t begin, front_end, back_begin, end;
+} Stretch;
+
+// Whether there is a block left at either end.
+static inline bool has_blocks(const Stretch *s)
+{
+    return s->front_end <= s->back_begin
+               ? s->front_end - s->begin >= MOVE_BLOCK && s->end - s->back_begin >= MOVE_BLOCK
+               : s->end - s->begin > 2 * MOVE_BLOCK;
+}
+
 // Refs on the wrong side are noted for a block at either end, then changed in pairs (Edelkamp and Weiss,
-// "BlockQuicksort", 2016). *begin, *end: what is left, less than two blocks and the one that has been begun; refs of
+// "BlockQuicksort", 2016). What is left at one end is less than a block, and perhaps one that has been begun; refs of
 // which are measured again, which changes nothing.
-static void move_blocks(Mover *mover, uint32_t *begin, uint32_t *end)
+static void move_blocks(Mover *mover, Stretch *s)
 {
     uint8_t wrong_left[MOVE_BLOCK], wrong_right[MOVE_BLOCK];
     uint32_t lefts = 0, rights = 0, left = 0, right = 0; // noted, and the first of them not changed yet
-    while (*end - *begin > 2 * MOVE_BLOCK) {
+    while (has_blocks(s)) {
         if (left == lefts) {
             left = lefts = 0;
             for (uint32_t i = 0; i < MOVE_BLOCK; i++) {
                 wrong_left[lefts] = (uint8_t)i;
-                lefts += mover_side(mover, &mover->refs[*begin + i], i);
+                lefts += mover_side(mover, &mover->refs[s->begin + i], i);
             }
         }
         if (right == rights) {
             right = rights = 0;
             for (uint32_t i = 0; i < MOVE_BLOCK; i++) {
                 wrong_right[rights] = (uint8_t)i;
-                rights += 1 - mover_side(mover, &mover->refs[*end - 1 - i], i);
+                rights += 1 - mover_side(mover, &mover->refs[s->end - 1 - i], i);
             }
         }
         for (; left < lefts && right < rights; left++, right++) {
-            refs_swap(&mover->refs[*begin + wrong_left[left]], &mover->refs[*end - 1 - wrong_right[right]]);
+            refs_swap(&mover->refs[s->begin + wrong_left[left]], &mover->refs[s->end - 1 - wrong_right[right]]);
         }
-        *begin += left == lefts ? MOVE_BLOCK : 0;
-        *end -= right == rights ? MOVE_BLOCK : 0;
+        s->begin += left == lefts ? MOVE_BLOCK : 0;
+        s->end -= right == rights ? MOVE_BLOCK : 0;
     }
 }
 
-// False when it cannot be cut so.
-static bool long_split(BvhRef *refs, const Range *range, const Binning *binning, Range *left, Range *right)
+// Moves the refs from begin to end; returns where the right ones begin.
+static uint32_t move_run(Mover *mover, uint32_t begin, uint32_t end)
+{
+    Stretch s = {begin, end, begin, end};
+    move_blocks(mover, &s);
+    while (s.begin < s.end) {
+        if (mover_side(mover, &mover->refs[s.begin], 0) == 0) {
+            s.begin++;
+        } else {
+            refs_swap(&mover->refs[s.begin], &mover->refs[--s.end]);
+        }
+    }
+    return s.begin;
+}
+
+static Mover mover_new(BvhRef *refs, int axis, float edge)
+{
+    Mover mover = {.refs = refs, .axis = axis, .edge = edge};
+    for (int turn = 0; turn < TURNS; turn++) {
+        mover.sums[turn][0] = mover.sums[turn][1] = EMPTY_SUM;
+    }
+    return mover;
+}
+
+// All in the first place.
+static void mover_sum_up(Mover *mover)
+{
+    for (int turn = 1; turn < TURNS; turn++) {
+        sum_join(&mover->sums[0][0], &mover->sums[turn][0]);
+        sum_join(&mover->sums[0][1], &mover->sums[turn][1]);
+    }
+}
+
+// ---- very long ranges: by pieces, of two stretches each, one before the middle that is expected and one behind it
+
+typedef struct Piece {
+    uint32_t begin[2], middle[2], end[2]; // of both stretches; the right refs of each begin at its middle
+    Sum sums[2];                          // of left and right
+} Piece;
+
+typedef struct Pieces {
+    BvhRef *refs;
+    int axis;
+    float edge;
+    Piece items[PIECES];
+} Pieces;
+
+static void pieces_cut(Pieces *pieces, const Range *range, uint32_t expected)
+{
+    uint32_t ends[3] = {range->begin, expected, range->end};
+    for (unsigned i = 0; i < PIECES; i++) {
+        for (unsigned side = 0; side < 2; side++) {
+            uint64_t length = ends[side + 1] - ends[side];
+            pieces->items[i].begin[side] = ends[side] + (uint32_t)(length * i / PIECES);
+            pieces->items[i].end[side] = ends[side] + (uint32_t)(length * (i + 1) / PIECES);
+        }
+    }
+}
+
+static void move_piece(void *client, size_t begin, size_t end)
+{
+    Pieces *pieces = client;
+    for (size_t i = begin; i < end; i++) {
+        Piece *piece = &pieces->items[i];
+        Mover mover = mover_new(pieces->refs, pieces->axis, pieces->edge);
+        Stretch s = {piece->begin[0], piece->end[0], piece->begin[1], piece->end[1]};
+        move_blocks(&mover, &s);
+        piece->middle[0] = move_run(&mover, s.begin, s.front_end);
+        piece->middle[1] = move_run(&mover, s.back_begin, s.end);
+        mover_sum_up(&mover);
+        memcpy(piece->sums, mover.sums[0], sizeof piece->sums);
+    }
+}
+
+// Refs that stand on the wrong side of the middle, one after the other through all stretches.
+typedef struct Wrong {
+    const Pieces *pieces;
+    unsigned stretch; // the next one
+    uint32_t at, end; // what is left of the last one
+} Wrong;
+
+// The next right ref before the middle, or the next left one behind it; there must be one.
+static BvhRef *wrong_next(Wrong *wrong, uint32_t middle, bool is_right)
+{
+    while (wrong->at >= wrong->end) {
+        const Piece *piece = &wrong->pieces->items[wrong->stretch % PIECES];
+        unsigned side = wrong->stretch++ / PIECES;
+        uint32_t begin = is_right ? piece->middle[side] : piece->begin[side];
+        uint32_t end = is_right ? piece->end[side] : piece->middle[side];
+        wrong->at = is_right || begin > middle ? begin : middle;
+        wrong->end = is_right && end > middle ? middle : end;
+    }
+    return &wrong->pieces->refs[wrong->at++];
+}
+
+// Changes the right refs before the middle with the left ones behind it: few, as far as the sample was right.
+static uint32_t pieces_join(const Pieces *pieces, uint32_t begin)
+{
+    uint32_t middle = begin, count = 0;
+    for (unsigned i = 0; i < 2 * PIECES; i++) {
+        const Piece *piece = &pieces->items[i % PIECES];
+        middle += piece->middle[i / PIECES] - piece->begin[i / PIECES];
+    }
+    for (unsigned i = 0; i < 2 * PIECES; i++) {
+        const Piece *piece = &pieces->items[i % PIECES];
+        uint32_t first = piece->middle[i / PIECES], end = piece->end[i / PIECES];
+        count += first < middle ? (end < middle ? end : middle) - first : 0;
+    }
+    Wrong rights = {.pieces = pieces}, lefts = {.pieces = pieces};
+    for (; count > 0; count--) {
+        refs_swap(wrong_next(&rights, middle, true), wrong_next(&lefts, middle, false));
+    }
+    return middle;
+}
+
+// Moves the refs of a very long range, of which so many are expected to be left ones; returns where the right ones begin.
+static uint32_t move_pieces(Mover *mover, const Range *range, uint32_t expected, int threads)
+{
+    Pieces pieces = {.refs = mover->refs, .axis = mover->axis, .edge = mover->edge};
+    pieces_cut(&pieces, range, range->begin + expected);
+    parallel_share(threads, PIECES, 1, move_piece, &pieces);
+    for (int i = 0; i < PIECES; i++) {
+        sum_join(&mover->sums[0][0], &pieces.items[i].sums[0]);
+        sum_join(&mover->sums[0][1], &pieces.items[i].sums[1]);
+    }
+    return pieces_join(&pieces, range->begin);
+}
+
+// ---- long ranges
+
+// How many refs of a range are in the bins before the cut, as far as the sample tells.
+static uint32_t bins_expect(const Bin *bins, const Binning *binning, int cut, uint32_t count)
+{
+    uint64_t lefts = 0, all = 0;
+    for (int i = 0; i < binning->count; i++) {
+        lefts += i < cut ? bins[i].count : 0;
+        all += bins[i].count;
+    }
+    return (uint32_t)(count * lefts / all);
+}
+
+// Some refs are binned; all are measured while they are moved. False when it cannot be cut so.
+static bool long_split(BvhRef *refs, const Range *range, const Binning *binning, int threads, Range *left,
+                       Range *right)
 {
     Bin bins[BIN_MOST];
     bins_clear(bins, binning);
@@ -293,53 +480,41 @@ static bool long_split(BvhRef *refs, const Range *range, const Binning *binning,
         return false;
     }
     float edge = binning->low + (float)cut / binning->bins_per_unit;
-    Mover mover = {.refs = refs, .axis = binning->axis, .edge = edge};
-    for (int turn = 0; turn < TURNS; turn++) {
-        mover.sums[turn][0] = mover.sums[turn][1] = EMPTY_SUM;
-    }
-    uint32_t begin = range->begin, end = range->end;
-    move_blocks(&mover, &begin, &end);
-    while (begin < end) {
-        if (mover_side(&mover, &refs[begin], 0) == 0) {
-            begin++;
-        } else {
-            refs_swap(&refs[begin], &refs[--end]);
-        }
-    }
-    for (int turn = 1; turn < TURNS; turn++) {
-        sum_join(&mover.sums[0][0], &mover.sums[turn][0]);
-        sum_join(&mover.sums[0][1], &mover.sums[turn][1]);
-    }
-    if (begin == range->begin || begin == range->end) {
+    Mover mover = mover_new(refs, binning->axis, edge);
+    uint32_t middle = range_count(range) > VERY_LONG
+                          ? move_pieces(&mover, range, bins_expect(bins, binning, cut, range_count(range)), threads)
+                          : move_run(&mover, range->begin, range->end);
+    mover_sum_up(&mover);
+    if (middle == range->begin || middle == range->end) {
         return false; // bins were too narrow for their edges
     }
     const Sum *sums = mover.sums[0];
-    *left = (Range){sums[0].box, sums[0].centres, range->begin, begin, range->depth + 1};
-    *right = (Range){sums[1].box, sums[1].centres, begin, range->end, range->depth + 1};
+    *left = (Range){sums[0].box, sums[0].centres, range->begin, middle, range->depth + 1};
+    *right = (Range){sums[1].box, sums[1].centres, middle, range->end, range->depth + 1};
     return true;
 }
 
 // ---- both
 
 // Between two bins, where they tell the refs apart and the heuristic has not gone too deep.
-static bool cut_between_bins(BvhRef *refs, const Range *range, Range *left, Range *right)
+static bool cut_between_bins(BvhRef *refs, const Range *range, int threads, Range *left, Range *right)
 {
     Binning binning;
     if (range->depth >= BVH_SAH_DEPTH_MOST || !binning_init(&binning, range)) {
         return false;
     }
     return range_count(range) <= SHORT_MOST ? short_split(refs, range, &binning, left, right)
-                                            : long_split(refs, range, &binning, left, right);
+                                            : long_split(refs, range, &binning, threads, left, right);
 }
 
-void range_split(BvhRef *refs, const Range *range, Range *left, Range *right)
+void range_split(BvhRef *refs, const Range *range, int threads, Range *left, Range *right)
 {
-    if (cut_between_bins(refs, range, left, right)) {
+    if (cut_between_bins(refs, range, threads, left, right)) {
         return;
     }
     // In half by full leaves.
     uint32_t leaves = (range_count(range) + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST;
     uint32_t middle = range->begin + leaves / 2 * BVH_LEAF_MOST;
-    *left = range_measure(refs, range->begin, middle, range->depth + 1);
-    *right = range_measure(refs, middle, range->end, range->depth + 1);
+    *left = range_measure(refs, range->begin, middle, range->depth + 1, threads);
+    *right = range_measure(refs, middle, range->end, range->depth + 1, threads);
 }

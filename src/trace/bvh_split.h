@@ -35,9 +35,10 @@ static inline uint32_t range_count(const Range *range)
 }
 
 // The box and centres of a range, from its refs.
-Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth);
+Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth, int threads);
 
-// Cuts a range of more than a leaf in two. The order of the refs in both parts depends on the order before alone.
-void range_split(BvhRef *refs, const Range *range, Range *left, Range *right);
+// Cuts a range of more than a leaf in two. The order of the refs in both parts depends on the order before alone, not on
+// the number of threads, of which very long ranges only take more than one.
+void range_split(BvhRef *refs, const Range *range, int threads, Range *left, Range *right);
 
 #endif

@@ -160,7 +160,8 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
         return NULL;
     }
     geometry->kernels = sphere_kernels_choose(options->isa);
-    if (!geometry->kernels || !sphere_table_init(&geometry->spheres, scene, exponent, options->threads) ||
+    if (!geometry->kernels ||
+        !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent) ||
         !ellipsoids_init(geometry, scene, exponent) || !planes_init(geometry, scene, exponent) ||
         !shapes_init(&geometry->shapes, scene, exponent, options->threads) || !twins_init(geometry)) {
         geometry_free(geometry);

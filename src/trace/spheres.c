@@ -60,11 +60,12 @@ typedef struct Maker {
     double scale[2]; // lengths are multiplied by both
     double limit;    // spheres whose radius squared is above are large, and loose
     Chunk *chunks;
-    BvhRef *refs;           // of the spheres for the tree, while it is built
-    uint32_t *numbers;      // of the spheres in the tree's order
+    Scene *spent;           // the scene, if its spheres may be given up
+    BvhRef *refs;           // of the spheres for the tree; in `ref_pages`
+    Pages ref_pages;
     uint32_t tree_count;    // of those
     uint32_t *first_blocks; // of each chunk of nodes
-    uint32_t loose[LOOSE_SPHERES_MOST];
+    SphereBlock loose;
 } Maker;
 
 static double maker_length(const Maker *maker, double length)
@@ -78,6 +79,14 @@ static inline Ball maker_ball(const Maker *maker, size_t number)
     Vec3 c = sphere->centre;
     return ball_make(vec3(maker_length(maker, c.x), maker_length(maker, c.y), maker_length(maker, c.z)),
                      maker_length(maker, sphere->radius));
+}
+
+static inline ShapeInfo maker_info(const Maker *maker, uint32_t number)
+{
+    const Scene *scene = maker->scene;
+    const SphereRun *first = scene->sphere_runs.items;
+    uint32_t order = scene->sphere_runs.count == 1 ? first->order + number : scene_sphere_order(scene, number);
+    return (ShapeInfo){scene->spheres.items[number].material, order};
 }
 
 static size_t chunk_count(const Maker *maker)
@@ -195,71 +204,130 @@ static void refs_work(void *client, size_t begin, size_t end)
     }
 }
 
-static void maker_list_loose(Maker *maker)
+static inline void block_put(SphereBlock *block, uint32_t at, const Ball *ball)
+{
+    block->x[at] = ball->centre.x;
+    block->y[at] = ball->centre.y;
+    block->z[at] = ball->centre.z;
+    block->radius_squared[at] = ball->radius_squared;
+}
+
+static void block_clear(SphereBlock *block, uint32_t begin)
+{
+    for (uint32_t at = begin; at < SPHERE_BLOCK; at++) {
+        block_put(block, at, &(Ball){.radius_squared = (double)NAN});
+    }
+}
+
+// The first block, if there are loose spheres.
+static void maker_take_loose(Maker *maker)
 {
     uint32_t count = 0;
     for (size_t chunk = 0; chunk < chunk_count(maker); chunk++) {
         for (size_t i = chunk * CHUNK; maker->chunks[chunk].large > 0 && i < chunk_end(maker, chunk); i++) {
             Ball ball = maker_ball(maker, i);
             if (ball_is_usable(&ball) && ball.radius_squared > maker->limit) {
-                maker->loose[count++] = (uint32_t)i;
+                block_put(&maker->loose, count, &ball);
+                maker->table->info[count++] = maker_info(maker, (uint32_t)i);
+            }
+        }
+    }
+    block_clear(&maker->loose, count);
+    for (uint32_t at = count; count > 0 && at < SPHERE_BLOCK; at++) {
+        maker->table->info[at] = (ShapeInfo){0, 0};
+    }
+}
+
+// ---- from the tree's order to blocks
+//
+// Leaves follow each other as their nodes do, but the scene's spheres stand anywhere. First each slot learns which sphere
+// it holds; then the blocks are filled. Where the scene's spheres are given up, they are put in order in the memory of the
+// refs, and are gone before there are blocks: neither way has all three in memory at once.
+
+// Asks for a sphere before it is needed.
+static inline void fetch(const Maker *maker, uint32_t number)
+{
+    const Sphere *sphere = &maker->scene->spheres.items[number];
+    __builtin_prefetch(sphere);
+    __builtin_prefetch((const char *)(sphere + 1) - 1); // it may lie across two lines
+}
+
+static inline void place_fetch(const Maker *maker, uint32_t place)
+{
+    if (place < maker->tree_count) {
+        fetch(maker, bvh_ref_index(&maker->refs[place]));
+    }
+}
+
+_Static_assert(sizeof(BvhRef) == sizeof(Ball), "a ball takes the place of a ref");
+
+// Puts the spheres of a leaf in the place of their refs, and says what their slots hold.
+static void leaf_take(const Maker *maker, uint32_t first, uint32_t count, ShapeInfo *info)
+{
+    for (uint32_t at = 0; at < count; at++) {
+        place_fetch(maker, first + at + AHEAD);
+        uint32_t number = bvh_ref_index(&maker->refs[first + at]);
+        Ball ball = maker_ball(maker, number);
+        memcpy(&maker->refs[first + at], &ball, sizeof ball);
+        info[at] = maker_info(maker, number);
+    }
+}
+
+static void leaf_number(const Maker *maker, uint32_t first, uint32_t count, ShapeInfo *info)
+{
+    for (uint32_t at = 0; at < count; at++) {
+        info[at] = (ShapeInfo){0, bvh_ref_index(&maker->refs[first + at])};
+    }
+}
+
+static void leaf_fill(const Maker *maker, uint32_t first, uint32_t count, uint32_t block)
+{
+    SphereBlock *spheres = &maker->table->blocks[block];
+    ShapeInfo *info = &maker->table->info[block * SPHERE_BLOCK];
+    uint32_t end = maker->table->block_count * SPHERE_BLOCK - block * SPHERE_BLOCK;
+    for (uint32_t at = 0; at < count; at++) {
+        Ball ball;
+        if (maker->refs) {
+            memcpy(&ball, &maker->refs[first + at], sizeof ball);
+        } else {
+            uint32_t number = info[at].order, ahead = at + AHEAD < end ? info[at + AHEAD].order : 0;
+            fetch(maker, ahead < maker->scene->spheres.count ? ahead : 0); // another thread may have been there
+            ball = maker_ball(maker, number);
+            info[at] = maker_info(maker, number);
+        }
+        block_put(spheres, at, &ball);
+    }
+    block_clear(spheres, count);
+}
+
+static void slots_work(void *client, size_t begin, size_t end)
+{
+    const Maker *maker = client;
+    const Bvh *bvh = &maker->table->bvh;
+    uint32_t block = maker->first_blocks[begin / NODES_CHUNK];
+    for (size_t i = begin * BVH_WIDTH; i < end * BVH_WIDTH; i++) {
+        BvhChild leaf = bvh->nodes[i / BVH_WIDTH].child[i % BVH_WIDTH];
+        if (leaf & BVH_LEAF) {
+            ShapeInfo *info = &maker->table->info[block++ * SPHERE_BLOCK];
+            uint32_t count = bvh_leaf_count(leaf);
+            (maker->spent ? leaf_take : leaf_number)(maker, bvh_leaf_first(leaf), count, info);
+            for (uint32_t at = count; at < SPHERE_BLOCK; at++) {
+                info[at] = (ShapeInfo){0, 0};
             }
         }
     }
 }
 
-static void slot_fill(const Maker *maker, uint32_t slot, uint32_t number)
-{
-    SphereBlock *block = &maker->table->blocks[slot / SPHERE_BLOCK];
-    uint32_t at = slot % SPHERE_BLOCK;
-    Ball ball = maker_ball(maker, number);
-    block->x[at] = ball.centre.x;
-    block->y[at] = ball.centre.y;
-    block->z[at] = ball.centre.z;
-    block->radius_squared[at] = ball.radius_squared;
-    const Sphere *sphere = &maker->scene->spheres.items[number];
-    maker->table->info[slot] = (ShapeInfo){sphere->material, sphere->order};
-}
-
-static void slots_clear(const Maker *maker, uint32_t block, uint32_t begin)
-{
-    SphereBlock *spheres = &maker->table->blocks[block];
-    for (uint32_t at = begin; at < SPHERE_BLOCK; at++) {
-        spheres->x[at] = spheres->y[at] = spheres->z[at] = 0.0;
-        spheres->radius_squared[at] = (double)NAN;
-        maker->table->info[block * SPHERE_BLOCK + at] = (ShapeInfo){0, 0};
-    }
-}
-
-// Leaves follow each other as their nodes do, but the scene's spheres stand anywhere.
-static inline void fetch_ahead(const Maker *maker, uint32_t place)
-{
-    if (place < maker->tree_count) {
-        const Sphere *sphere = &maker->scene->spheres.items[maker->numbers[place]];
-        __builtin_prefetch(sphere);
-        __builtin_prefetch(sphere + 1); // it may lie across two lines
-    }
-}
-
-// Turns the leaves of a chunk of nodes into blocks.
 static void blocks_work(void *client, size_t begin, size_t end)
 {
     const Maker *maker = client;
     Bvh *bvh = &maker->table->bvh;
     uint32_t block = maker->first_blocks[begin / NODES_CHUNK];
-    for (size_t i = begin; i < end; i++) {
-        for (int child = 0; child < BVH_WIDTH; child++) {
-            BvhChild leaf = bvh->nodes[i].child[child];
-            if (!(leaf & BVH_LEAF)) {
-                continue;
-            }
-            uint32_t count = bvh_leaf_count(leaf), first = bvh_leaf_first(leaf);
-            for (uint32_t at = 0; at < count; at++) {
-                fetch_ahead(maker, first + at + AHEAD);
-                slot_fill(maker, block * SPHERE_BLOCK + at, maker->numbers[first + at]);
-            }
-            slots_clear(maker, block, count);
-            bvh->nodes[i].child[child] = BVH_LEAF | block++;
+    for (size_t i = begin * BVH_WIDTH; i < end * BVH_WIDTH; i++) {
+        BvhChild *leaf = &bvh->nodes[i / BVH_WIDTH].child[i % BVH_WIDTH];
+        if (*leaf & BVH_LEAF) {
+            leaf_fill(maker, bvh_leaf_first(*leaf), bvh_leaf_count(*leaf), block);
+            *leaf = BVH_LEAF | block++;
         }
     }
 }
@@ -283,49 +351,49 @@ static bool maker_count_blocks(Maker *maker)
     return true;
 }
 
-static bool table_reserve(SphereTable *table)
-{
-    size_t slots = (size_t)table->block_count * SPHERE_BLOCK;
-    table->blocks = aligned_alloc(_Alignof(SphereBlock), table->block_count * sizeof(SphereBlock));
-    table->info = malloc(slots * sizeof(*table->info));
-    pages_prefer_huge(table->blocks, table->block_count * sizeof(SphereBlock));
-    pages_prefer_huge(table->info, slots * sizeof(*table->info));
-    return table->blocks && table->info;
-}
-
-static void numbers_work(void *client, size_t begin, size_t end)
-{
-    const Maker *maker = client;
-    for (size_t i = begin; i < end; i++) {
-        maker->numbers[i] = bvh_ref_index(&maker->refs[i]);
-    }
-}
-
-// Keeps of the refs the numbers only, since the blocks take as much memory as the boxes do.
-static bool maker_keep_numbers(Maker *maker, int threads)
-{
-    maker->numbers = malloc(maker->tree_count * sizeof *maker->numbers);
-    if (maker->numbers) {
-        parallel_share(threads, maker->tree_count, CHUNK, numbers_work, maker);
-    }
-    free(maker->refs);
-    maker->refs = NULL;
-    return maker->numbers != NULL;
-}
-
 // The tree over all but the loose spheres.
 static bool maker_plant(Maker *maker, uint32_t count, int threads)
 {
     maker->tree_count = count;
-    maker->refs = malloc(count * sizeof(*maker->refs));
-    pages_prefer_huge(maker->refs, count * sizeof(*maker->refs));
-    if (!maker->refs) {
+    if (!pages_take(&maker->ref_pages, count * sizeof(*maker->refs))) {
         return false;
     }
+    maker->refs = maker->ref_pages.memory;
     maker_place(maker);
     maker_share(maker, threads, refs_work);
-    return bvh_build(&maker->table->bvh, maker->refs, count, threads) && maker_keep_numbers(maker, threads) &&
-           maker_count_blocks(maker);
+    return bvh_build(&maker->table->bvh, maker->refs, count, threads) && maker_count_blocks(maker);
+}
+
+static bool maker_number_slots(Maker *maker, int threads)
+{
+    SphereTable *table = maker->table;
+    if (!pages_take(&table->info_pages, (size_t)table->block_count * SPHERE_BLOCK * sizeof(*table->info))) {
+        return false;
+    }
+    table->info = table->info_pages.memory;
+    maker_take_loose(maker);
+    parallel_share(threads, table->bvh.node_count, NODES_CHUNK, slots_work, maker);
+    if (maker->spent) {
+        ARRAY_FREE(&maker->spent->spheres);
+    } else {
+        pages_give(&maker->ref_pages);
+        maker->refs = NULL;
+    }
+    return true;
+}
+
+static bool maker_fill_blocks(Maker *maker, int threads)
+{
+    SphereTable *table = maker->table;
+    if (!pages_take(&table->block_pages, table->block_count * sizeof(SphereBlock))) {
+        return false;
+    }
+    table->blocks = table->block_pages.memory;
+    if (table->loose_count > 0) {
+        table->blocks[0] = maker->loose;
+    }
+    parallel_share(threads, table->bvh.node_count, NODES_CHUNK, blocks_work, maker);
+    return true;
 }
 
 static bool maker_make(Maker *maker, int threads)
@@ -337,24 +405,10 @@ static bool maker_make(Maker *maker, int threads)
     if (count > 0 && !maker_plant(maker, count, threads)) {
         return false;
     }
-    if (table->block_count == 0) {
-        return true;
-    }
-    if (!table_reserve(table)) {
-        return false;
-    }
-    if (table->loose_count > 0) {
-        maker_list_loose(maker);
-        for (uint32_t i = 0; i < table->loose_count; i++) {
-            slot_fill(maker, i, maker->loose[i]);
-        }
-        slots_clear(maker, 0, table->loose_count);
-    }
-    parallel_share(threads, table->bvh.node_count, NODES_CHUNK, blocks_work, maker);
-    return true;
+    return table->block_count == 0 || (maker_number_slots(maker, threads) && maker_fill_blocks(maker, threads));
 }
 
-bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads)
+bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent)
 {
     *table = (SphereTable){0};
     if (scene->spheres.count == 0) {
@@ -363,20 +417,20 @@ bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int
     // In two steps, each of which is in range for any exponent that a double can have.
     Maker maker = {.table = table,
                    .scene = scene,
+                   .spent = spent,
                    .scale = {ldexp(1.0, -(exponent / 2)), ldexp(1.0, -(exponent - exponent / 2))}};
     maker.chunks = malloc(chunk_count(&maker) * sizeof(*maker.chunks));
     bool done = maker.chunks && maker_make(&maker, threads);
     free(maker.chunks);
-    free(maker.refs);
-    free(maker.numbers);
+    pages_give(&maker.ref_pages);
     free(maker.first_blocks);
     return done;
 }
 
 void sphere_table_fini(SphereTable *table)
 {
-    free(table->blocks);
-    free(table->info);
+    pages_give(&table->block_pages);
+    pages_give(&table->info_pages);
     bvh_fini(&table->bvh);
     *table = (SphereTable){0};
 }

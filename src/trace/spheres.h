@@ -9,6 +9,7 @@
 #define TRACE_SPHERES_H
 
 #include "base/attributes.h"
+#include "base/pages.h"
 #include "scene/scene.h"
 #include "trace/bvh.h"
 #include "trace/plane.h"
@@ -32,8 +33,9 @@ typedef struct ShapeInfo {
 } ShapeInfo;
 
 typedef struct SphereTable {
-    SphereBlock *blocks; // owned
-    ShapeInfo *info;     // of each slot; owned
+    SphereBlock *blocks;
+    ShapeInfo *info;                // of each slot
+    Pages block_pages, info_pages;  // which they are in; owned
     uint32_t block_count;
     uint32_t count;       // spheres
     uint32_t loose_count; // of them not in the tree; slots 0 <= i < loose_count
@@ -144,8 +146,9 @@ const SphereKernels *sphere_kernels_choose(const char *name);
 // The kernels in their order from plain to best, whether this processor has them or not; NULL past the end.
 const SphereKernels *sphere_kernels_at(size_t i);
 
-// All usable spheres of the scene, lengths times 2^-exponent. False when out of memory; fini is to be called anyway.
-bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads) RT_MUST_CHECK;
+// All usable spheres of the scene, lengths times 2^-exponent; `spent` as in GeometryOptions. False when out of memory;
+// fini is to be called anyway.
+bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent) RT_MUST_CHECK;
 void sphere_table_fini(SphereTable *table);
 
 // One of the vectors whose components stand apart, and back.

@@ -83,6 +83,8 @@ typedef struct Geometry Geometry;
 typedef struct GeometryOptions {
     int threads;     // >= 1, for building; the result does not depend on it
     const char *isa; // name of the instruction set to use; NULL for the best that this processor has
+    Scene *spent;    // the scene itself, when nobody asks for its spheres later: they are freed as soon as the geometry
+                     // has what it needs, and their list is empty then; NULL: they stay
 } GeometryOptions;
 
 // Names of the instruction sets that this processor has and that were built, from plain to best; NULL past the end.

@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/array.h"
+#include "base/pages.h"
 #include "unit/tap.h"
 
 enum { KIB = 1024, PIECES = 2000 };
@@ -193,6 +194,26 @@ static void test_array(void)
     ARRAY_FREE(&records);
 }
 
+static void test_pages(size_t bytes, size_t kept)
+{
+    Pages pages = {0};
+    bool is_intact = true, is_taken = pages_take(&pages, bytes);
+    tap_ok(is_taken && (uintptr_t)pages.memory % 64 == 0, "%zu bytes on a line of cache", bytes);
+    if (is_taken) {
+        memset(pages.memory, 7, bytes);
+        pages_trim(&pages, kept);
+    }
+    for (size_t i = 0; is_taken && i < kept; i++) {
+        is_intact = is_intact && ((unsigned char *)pages.memory)[i] == 7;
+    }
+    tap_ok(is_intact && pages.mapped <= bytes + 65536 && (pages.mapped == 0 || pages.mapped >= kept),
+           "%zu of them are kept", kept);
+    pages_give(&pages);
+    tap_ok(!pages.memory && pages.mapped == 0, "and given back");
+    pages_give(&pages);
+    tap_ok(!pages_take(&pages, SIZE_MAX) && !pages_take(&pages, SIZE_MAX / 2), "too many are refused");
+}
+
 int main(void)
 {
     test_pieces_are_apart();
@@ -207,5 +228,9 @@ int main(void)
     }
     test_nested_marks();
     test_array();
+    static const size_t sizes[][2] = {{1, 1}, {100000, 100}, {5000001, 5000000}, {9000000, 4500000}, {20000000, 3}};
+    for (size_t i = 0; i < RT_COUNT_OF(sizes); i++) {
+        test_pages(sizes[i][0], sizes[i][1]);
+    }
     return tap_done();
 }

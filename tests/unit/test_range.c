@@ -103,14 +103,14 @@ static bool look_up(rt_session *session, Told *told)
     const SphereTable *table = geometry ? &geometry->spheres : NULL;
     for (size_t i = 0; table && i < scene->spheres.count; i++) {
         SourceLocation at;
-        if (!source_locate(session->sources, scene_source_span(scene->spheres.items[i].source), &at)) {
+        if (!source_locate(session->sources, scene_source_span(scene_sphere_source(scene, i)), &at)) {
             continue;
         }
         Written *sphere = &told->spheres[at.line - HEAD_LINES - 1];
         sphere->is_record = true;
         for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
             Ball ball = sphere_table_ball(table, slot);
-            if (!isnan(ball.radius_squared) && table->info[slot].order == scene->spheres.items[i].order) {
+            if (!isnan(ball.radius_squared) && table->info[slot].order == scene_sphere_order(scene, i)) {
                 sphere->is_held = true;
                 sphere->is_met = is_met(eye, &ball);
             }

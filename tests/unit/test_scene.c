@@ -55,7 +55,7 @@ static void test_order_and_dump(void)
     Scene scene;
     TextBuffer out;
     text_init(&out);
-    tap_ok(build_scene(&scene) && scene.shape_count == 4 && scene.spheres.items[1].order == 3 &&
+    tap_ok(build_scene(&scene) && scene.shape_count == 4 && scene_sphere_order(&scene, 1) == 3 &&
                scene.planes.items[0].order == 1 && scene.ellipsoids.items[0].order == 2,
            "shapes are numbered in the order of declaration over all kinds");
     scene.settings.version = 3.7;
@@ -186,6 +186,45 @@ static void test_validation(void)
     }
 }
 
+// Spheres in turn with planes, from places in the text on both sides of 2^32.
+static void test_runs(void)
+{
+    enum { SPHERES = 40 };
+    Scene scene;
+    uint32_t orders[SPHERES];
+    uint64_t sources[SPHERES];
+    scene_init(&scene);
+    bool is_fine = true, is_told = true;
+    for (uint32_t i = 0; i < SPHERES; i++) {
+        for (uint32_t k = 0; i % 7 == 3 && k < i % 3; k++) {
+            is_fine = is_fine && scene_add_plane(&scene, vec3(0.0, 1.0, 0.0), i, 0, 1);
+        }
+        orders[i] = scene.shape_count;
+        sources[i] = i % 5 == 4 ? 0 : ((uint64_t)(i / 10) << 32) + 10 * i;
+        is_fine = is_fine && scene_add_sphere(&scene, vec3(i, 0.0, 0.0), 1.0, 0, sources[i]);
+    }
+    for (uint32_t i = 0, at = 0; i < scene.shape_count; i++) {
+        bool is_sphere = at < SPHERES && orders[at] == i;
+        is_told = is_told && scene_sphere_at(&scene, i) == (is_sphere ? at : RECORD_NONE);
+        is_told = is_told && (!is_sphere || (scene_sphere_order(&scene, at) == i &&
+                                             scene_sphere_source(&scene, at) == sources[at]));
+        at += is_sphere;
+    }
+    tap_ok(is_fine && is_told && scene_sphere_at(&scene, scene.shape_count) == RECORD_NONE,
+           "each sphere's place among all shapes, and where it was written");
+    // Many at once, as grammar and evaluator add them.
+    is_fine = scene_reserve_spheres(&scene, 2, 0);
+    if (is_fine) {
+        Sphere *sphere = &scene.spheres.items[SPHERES];
+        sphere[0] = sphere[1] = (Sphere){{0.0, 0.0, 0.0}, 2.0, 0, 77};
+        scene_commit_spheres(&scene, 2, 0, (UINT64_C(9) << 32) + 5);
+    }
+    tap_ok(is_fine && scene_sphere_source(&scene, SPHERES + 1) == (UINT64_C(9) << 32) + 77 &&
+               scene_sphere_order(&scene, SPHERES + 1) == scene.shape_count - 1,
+           "and of many at once");
+    scene_fini(&scene);
+}
+
 static void test_reach(void)
 {
     Scene scene;
@@ -215,6 +254,7 @@ int main(void)
     test_order_and_dump();
     test_gamma_dump();
     test_validation();
+    test_runs();
     test_reach();
     return tap_done();
 }

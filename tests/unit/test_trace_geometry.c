@@ -82,7 +82,7 @@ static void test_equal_distances(void)
     bool met = closest(geometry, ray, RAY_START_FREE, (double)INFINITY, &hit);
     tap_ok(met && hit.shape == shape_id(SHAPE_PLANE, 0), "the plane, declared first, is seen");
     geometry_free(geometry);
-    scene.spheres.items[1].order = 0;
+    scene.sphere_runs.items[1].order = 0;
     scene.planes.items[0].order = 4;
     geometry = prepare(&scene, 0);
     met = closest(geometry, ray, RAY_START_FREE, (double)INFINITY, &hit);

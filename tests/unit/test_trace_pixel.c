@@ -158,6 +158,35 @@ static void check_terms(void)
     rt_session_free(session);
 }
 
+// A scene that nothing else is asked of gives the same picture, and is then gone.
+static void check_spent(void)
+{
+    static const char scene[] = "camera { location -9 * z look_at 0 } light_source { <5, 9, -9>, 1 } plane { y, -3 }\n"
+                                "#for (I, 0, 99) sphere { <mod(I, 10) - 5, I / 10 - 5, 0>, 0.6 pigment { rgb I / 99 } }"
+                                "#end sphere { <0, 0, 400>, 200 }\n";
+    rt_session *kept = rt_session_new(NULL), *spent = rt_session_new(NULL), *sessions[] = {kept, spent};
+    const char *text;
+    bool is_rendered = true;
+    rt_spend_scene(spent);
+    for (int i = 0; i < 2; i++) {
+        is_rendered = is_rendered && rt_set_size(sessions[i], 40, 30) == RT_OK &&
+                      rt_load_text(sessions[i], "s.scn", scene, sizeof scene - 1) == RT_OK &&
+                      rt_render(sessions[i], 2) == RT_OK;
+    }
+    int width, height;
+    size_t bytes = sizeof(float) * 40 * 30 * 3;
+    tap_ok(is_rendered && memcmp(rt_pixels(kept, &width, &height), rt_pixels(spent, &width, &height), bytes) == 0,
+           "a scene that is spent gives the same picture");
+    rt_budget budget;
+    tap_ok(rt_trace_pixel(kept, 1, 1, &text) == RT_OK && rt_trace_pixel(spent, 1, 1, &text) == RT_FAULT_USAGE &&
+               rt_dump_scene(spent, &text) == RT_FAULT_USAGE && rt_get_budget(spent, &budget) == RT_FAULT_USAGE &&
+               rt_explain_scene(spent, 1, &text) == RT_FAULT_USAGE && rt_render(spent, 1) == RT_FAULT_USAGE &&
+               rt_load_text(spent, "s.scn", scene, sizeof scene - 1) == RT_FAULT_USAGE,
+           "and nothing is asked of it later");
+    rt_session_free(kept);
+    rt_session_free(spent);
+}
+
 int main(void)
 {
     int every = 1, one_in_five = 5;
@@ -165,6 +194,7 @@ int main(void)
     check_touch();
     check_stretched();
     check_terms();
+    check_spent();
     scenes_try("examples/*.scn", check_scene, &every);
     scenes_try("tests/povray/*.scn", check_scene, &one_in_five);
     return tap_done();

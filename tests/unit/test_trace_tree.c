@@ -25,7 +25,7 @@ static double brute_force(const Scene *scene, const SphereRay *ray, const Ball *
                                             : sphere_hit(ray, &ball, &inside);
         if (t > 0.0 && t < t_best) {
             t_best = t;
-            *order = scene->spheres.items[i].order;
+            *order = scene_sphere_order(scene, i);
         }
     }
     return t_best;
@@ -127,8 +127,31 @@ static void test_tree_is_brute_force(size_t family, int count, int rays)
 
 typedef struct TreeFacts {
     unsigned depth;
-    uint32_t nodes, blocks, spheres;
+    uint32_t nodes, blocks, spheres, outside; // the last: spheres and nodes that reach out of their box
 } TreeFacts;
+
+// Whether a sphere is in a box of the tree, whose sides are rounded outward.
+static bool box_holds(const Bvh *bvh, const BvhNode *node, int child, Vec3 centre, double radius)
+{
+    Vec3 low = vec3_scale(bvh->scale, vec3_sub(vec3_sub(centre, vec3(radius, radius, radius)), bvh->centre));
+    Vec3 high = vec3_scale(bvh->scale, vec3_sub(vec3_add(centre, vec3(radius, radius, radius)), bvh->centre));
+    return node->box[0][0][child] <= low.x && node->box[1][0][child] <= low.y && node->box[2][0][child] <= low.z &&
+           node->box[0][1][child] >= high.x && node->box[1][1][child] >= high.y && node->box[2][1][child] >= high.z;
+}
+
+// Whether all boxes of a node are in that of the child that it is.
+static bool box_holds_node(const BvhNode *node, int child, const BvhNode *below)
+{
+    bool holds = true;
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < BVH_WIDTH; i++) {
+            bool is_none = below->child[i] == BVH_CHILD_NONE;
+            holds = holds && (is_none || (below->box[axis][0][i] >= node->box[axis][0][child] &&
+                                          below->box[axis][1][i] <= node->box[axis][1][child]));
+        }
+    }
+    return holds;
+}
 
 static void tree_walk(const SphereTable *table, uint32_t at, unsigned depth, TreeFacts *facts)
 {
@@ -139,9 +162,14 @@ static void tree_walk(const SphereTable *table, uint32_t at, unsigned depth, Tre
         if (child & BVH_LEAF) {
             facts->blocks++;
             for (uint32_t k = 0; k < SPHERE_BLOCK; k++) {
-                facts->spheres += isnan(table->blocks[child & ~BVH_LEAF].radius_squared[k]) ? 0 : 1;
+                Ball ball = sphere_table_ball(table, (child & ~BVH_LEAF) * SPHERE_BLOCK + k);
+                bool is_there = !isnan(ball.radius_squared);
+                facts->spheres += is_there;
+                facts->outside += is_there && !box_holds(&table->bvh, &table->bvh.nodes[at], i, ball.centre,
+                                                         sqrt(ball.radius_squared));
             }
         } else if (child != BVH_CHILD_NONE) {
+            facts->outside += !box_holds_node(&table->bvh.nodes[at], i, &table->bvh.nodes[child]);
             tree_walk(table, child, depth + 1, facts);
         }
     }
@@ -160,7 +188,7 @@ static void test_tree_shape(size_t family, int count)
     double bytes = (double)geometry_bytes(geometry) / (double)scene.spheres.count;
     tap_ok(facts.depth <= BVH_DEPTH_MOST && facts.nodes == table->bvh.node_count && bytes <= 64.0 &&
                facts.blocks + (table->loose_count > 0) == table->block_count &&
-               facts.spheres + table->loose_count == scene.spheres.count,
+               facts.spheres + table->loose_count == scene.spheres.count && facts.outside == 0,
            "%s, %d: depth %u, %.2f spheres a block, %.0f bytes a sphere", families[family].name, count, facts.depth,
            (double)facts.spheres / facts.blocks, bytes);
     geometry_free(geometry);
@@ -242,11 +270,16 @@ static void test_threads(size_t family)
     Random random = {family + 40};
     Scene scene;
     scene_init(&scene);
-    families[family].make(&scene, &random, 60 * 1000);
+    families[family].make(&scene, &random, 150 * 1000); // so many that ranges are cut by all threads
     Geometry *alone = geometry_new_with(&scene, 0, &(GeometryOptions){.threads = 1});
     Geometry *together = geometry_new_with(&scene, 0, &(GeometryOptions){.threads = 5});
+    Geometry *last = geometry_new_with(&scene, 0, &(GeometryOptions){.threads = 2, .spent = &scene});
     tap_ok(alone && together && same_spheres(&alone->spheres, &together->spheres),
            "%s: five threads build the same tree as one, bit for bit", families[family].name);
+    tap_ok(alone && last && same_spheres(&alone->spheres, &last->spheres) && scene.spheres.count == 0 &&
+               !scene.spheres.items,
+           "%s: the same is built of a scene whose spheres are given up", families[family].name);
+    geometry_free(last);
     geometry_free(alone);
     geometry_free(together);
     scene_fini(&scene);
@@ -345,6 +378,7 @@ int main(void)
         test_tree_is_brute_force(family, 9, 5000);
         test_tree_is_brute_force(family, 2000, 2000);
         test_tree_shape(family, 20 * 1000);
+        test_tree_shape(family, 150 * 1000);
         test_threads(family);
         test_kernels(family);
         test_tiles(family, 8);
