@@ -51,7 +51,7 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
     counted.camera_rays += (uint64_t)__builtin_popcountll(wanted);
     if (camera->type != CAMERA_PERSPECTIVE || places->lens) {
         trace_single(p, features, path, places, streams, wanted, light, &counted);
-    } else if (features & ~(unsigned)SHADE_TILE_FEATURES) {
+    } else if (!shade_tile_may(p, features)) {
         trace_view(p, features, path, &view, places, streams, wanted, light, &counted);
     } else {
         shade_tile(p, features, &view, places, streams, wanted, light, &counted);

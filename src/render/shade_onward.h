@@ -98,20 +98,29 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
     pending->rays[pending->count++] = ray;
 }
 
+// What light that goes straight on is multiplied with, and the weight of its ray; false when that is not followed.
+RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ShadeOnward *onward, double from_weight, int level,
+                                    uint64_t passed, Rgb *through, double *weight)
+{
+    *through = onward->through;
+    *weight = from_weight * (onward->through_weight > 0.0 ? onward->through_weight : rgb_max_abs(*through));
+    if (onward->conserves_energy) {
+        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance);
+        *through = rgb_mul(*through, left);
+        *weight *= rgb_max(left);
+    }
+    return !(level >= p->max_trace_level || *weight < p->adc_bailout || passed >= p->crossings_max ||
+             (onward->through_weight == 0.0 && fabs(rgb_luminance(*through)) < p->adc_bailout));
+}
+
 // The ray that goes straight on, whose share may be below 0. It stays on its level; what bounds it is that a line meets
 // only so many surfaces.
 RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onward, const ShadePoint *at,
                                      const PendingRay *from, Pending *pending)
 {
-    Rgb through = onward->through;
-    double weight = from->weight * (onward->through_weight > 0.0 ? onward->through_weight : rgb_max_abs(through));
-    if (onward->conserves_energy) {
-        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance);
-        through = rgb_mul(through, left);
-        weight *= rgb_max(left);
-    }
-    if (from->level >= p->max_trace_level || weight < p->adc_bailout || from->passed >= p->crossings_max ||
-        (onward->through_weight == 0.0 && fabs(rgb_luminance(through)) < p->adc_bailout)) {
+    Rgb through;
+    double weight;
+    if (!shade_goes_on(p, onward, from->weight, from->level, from->passed, &through, &weight)) {
         return;
     }
     pending->rays[pending->count++] = (PendingRay){

@@ -1,8 +1,9 @@
 // Light along the camera rays of a tile: the same as render/shade.h gives ray by ray, bit for bit, with the arithmetic
 // of the first surface done for some rays at once.
 //
-// For surfaces of one layer that let nothing through. What mirrors send on is traced ray by ray; what all of it meets is
-// the tile's next surfaces. Everything is always-inline and takes the kernel's features as a constant.
+// For surfaces of one layer, and no interiors. What the rays that go on from them meet is the tile's next surfaces: a ray
+// is mirrored first, and what went through waits. Everything is always-inline and takes the kernel's features as a
+// constant.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_TILE_H
@@ -15,20 +16,65 @@
 // What a kernel may have for its tiles to be shaded so.
 enum {
     SHADE_TILE_FEATURES = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
-                          RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_LIGHTS | RENDER_PIGMENTS
+                          RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_LIGHTS |
+                          RENDER_PIGMENTS
 };
 
-// Materials, glow, and normals towards the viewer.
+// Rays of a tile that may wait while what is mirrored is followed; each is on a level of its own.
+enum { SHADE_WAITING_MOST = 12 };
+
+// Whether rays of a scene are shaded by tiles.
+RT_ALWAYS_INLINE bool shade_tile_may(const Prepared *p, unsigned features)
+{
+    bool may_wait = (features & RENDER_TRANSPARENCY) && (features & RENDER_REFLECTION);
+    return !(features & ~(unsigned)SHADE_TILE_FEATURES) && (!may_wait || p->max_trace_level <= SHADE_WAITING_MOST);
+}
+
+// Rays of a tile on their way: as in PendingRay.
+typedef struct TilePaths {
+    Rgb share[TILE_RAYS];
+    double weight[TILE_RAYS];
+} TilePaths;
+
+// A ray through a surface, which waits.
+typedef struct TileWaiting {
+    Ray ray;
+    ShapeId start;
+    bool inward;
+    Rgb share;
+    double weight;
+    int level;
+    uint64_t passed;
+} TileWaiting;
+
+// The same rays where surfaces let light through.
+typedef struct TileClear {
+    Rgb through[TILE_RAYS]; // by the tile's surfaces: what is multiplied with what goes through
+    int level[TILE_RAYS];
+    uint64_t passed[TILE_RAYS];
+    uint64_t resting; // a bit for each ray: it goes on with what waits
+    int count[TILE_RAYS];
+    TileWaiting waiting[SHADE_WAITING_MOST][TILE_RAYS];
+} TileClear;
+
+// Materials, glow, and normals towards the viewer. `through` is set where something may be let through.
 RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, LightTile *tile,
-                                       const MaterialIndex material[TILE_RAYS])
+                                       const MaterialIndex material[TILE_RAYS], Rgb through[TILE_RAYS])
 {
     const TileSurfaces *surfaces = &tile->surfaces;
+    tile->diffuse = features & RENDER_TRANSPARENCY ? tile->opaque : tile->pigment;
+    tile->is_shared = false;
     for (int i = 0; i < surfaces->count; i++) {
         ShadeLayer layer;
         shade_one_layer(p, features, material[i], tile_surface_point(surfaces, i), &layer);
         const PreparedFinish *finish = &p->finishes[layer.finish];
-        Rgb pigment = rgbft_rgb(layer.pigment);
-        Rgb glow = rgb_mul(pigment, finish->glow);
+        Rgb pigment = rgbft_rgb(layer.pigment), opaque = pigment;
+        if (features & RENDER_TRANSPARENCY) {
+            opaque = rgb_scale(texture_pigment_opaque(p->is_old, layer.pigment), pigment);
+            lane_set(tile->opaque, (unsigned)i, vec3(opaque.red, opaque.green, opaque.blue));
+            through[i] = rgb_scale(finish->refraction, texture_pigment_through(layer.pigment));
+        }
+        Rgb glow = rgb_mul(opaque, finish->glow);
         const double colour[3] = {pigment.red, pigment.green, pigment.blue};
         const double light[3] = {glow.red, glow.green, glow.blue};
         double sign = surfaces->inside >> i & 1 ? -1.0 : 1.0;
@@ -65,7 +111,6 @@ RT_ALWAYS_INLINE uint64_t shade_tile_strengths(LightTile *tile, const PreparedLi
         int i = __builtin_ctzll(lit);
         Vec3 offset = vec3_sub(light->position, tile_surface_point(&tile->surfaces, i));
         tile->strength[i] = light_strength(light, offset, tile->rays.distance[i]);
-        tile->share[i] = 1.0;
         left |= (uint64_t)(tile->strength[i] > 0.0) << i;
     }
     return left;
@@ -95,26 +140,90 @@ RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile
     }
 }
 
-// The surfaces of `asked` that nothing of an area light reaches; what reaches the others is noted.
-RT_ALWAYS_INLINE uint64_t shade_tile_area(const Prepared *p, unsigned features, LightTile *tile,
-                                          const PreparedLight *light, uint64_t asked, SampleStream *streams,
-                                          RenderStatistics *statistics)
+// What clear spheres and planes let through on the way to a surface, in the order of a walk.
+RT_ALWAYS_INLINE Rgb shade_tile_crossed(const Prepared *p, unsigned features, const TileCrossings *crossings, int i)
+{
+    Rgb share = rgb_grey(1.0);
+    for (int k = 0; k < crossings->count[i]; k++) {
+        MaterialIndex material = geometry_material(p->geometry, features, crossings->shape[i][k]);
+        Rgb through = texture_pigment_through(material_pigment(&p->materials[material]));
+        if (rgb_is_black(through)) {
+            return through;
+        }
+        share = rgb_mul(share, through);
+    }
+    return share;
+}
+
+RT_ALWAYS_INLINE void shade_tile_set_share(LightTile *tile, int i, Rgb share)
+{
+    lane_set(tile->share, (unsigned)i, vec3(share.red, share.green, share.blue));
+}
+
+// Notes what of the light gets to the surfaces `asked` for; returns those that nothing reaches. Those that nothing is
+// before need no walk, nor those of few spheres.
+RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned features, LightTile *tile,
+                                             const SurfaceRays *rays, bool together, uint64_t asked)
+{
+    const TileSurfaces *from = &tile->surfaces;
+    TileCrossings crossings;
+    uint64_t dark = 0, told = geometry_crossed(p->geometry, features, from, rays, asked, &crossings), clear = 0;
+    if ((features & TRACE_SPHERE_BVH) && !told) {
+        clear = asked & ~geometry_occluded_surfaces(p->geometry, features, from, rays, together, asked);
+    }
+    for (; asked; asked &= asked - 1) {
+        int i = __builtin_ctzll(asked);
+        Rgb share = rgb_grey(1.0);
+        if (told >> i & 1) {
+            share = shade_tile_crossed(p, features, &crossings, i);
+        } else if (!(clear >> i & 1)) {
+            ShadePoint at = shade_tile_point(tile, i, 0, NULL);
+            Ray ray = {at.point, lane_get(rays->towards, (unsigned)i)};
+            RayStart start = {at.shape, vec3_dot(at.outward, ray.direction) < 0.0, HIDDEN_SHADOW};
+            share = shade_light_through(p, features, &at, ray, start, rays->distance[i]);
+        }
+        shade_tile_set_share(tile, i, share);
+        dark |= (uint64_t)rgb_is_black(share) << i;
+    }
+    return dark;
+}
+
+// The surfaces of `asked` that nothing of an area light's grid reaches; what reaches the others is noted.
+RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, LightTile *tile,
+                                          const PreparedLight *light, uint64_t asked, RenderStatistics *statistics)
 {
     uint64_t dark = 0;
-    if (streams) {
-        SurfaceRays rays;
-        shade_tile_places(p, tile, light, asked, streams, &rays);
-        statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
-        return geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, &rays, true, asked);
-    }
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
         ShadePoint at = shade_tile_point(tile, i, 0, NULL);
         Rgb arriving = light->is_plain ? light->colour : rgb_scale(tile->strength[i], light->colour);
-        tile->share[i] = shade_area_grid(p, features, &at, light, arriving, statistics).red; // it is grey
-        dark |= (uint64_t)(tile->share[i] == 0.0) << i;
+        Rgb share = shade_area_grid(p, features, &at, light, arriving, statistics);
+        shade_tile_set_share(tile, i, share);
+        dark |= (uint64_t)rgb_is_black(share) << i;
     }
     return dark;
+}
+
+// The surfaces of `asked` that nothing of a light reaches; what reaches the others is noted where it may not be all.
+RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned features, LightTile *tile,
+                                             const PreparedLight *light, uint64_t asked, SampleStream *streams,
+                                             RenderStatistics *statistics)
+{
+    bool is_area = (features & RENDER_LIGHTS) && light->area.size1 > 0;
+    const SurfaceRays *rays = &tile->rays;
+    SurfaceRays places;
+    if (is_area && !streams) {
+        return shade_tile_grid(p, features, tile, light, asked, statistics);
+    }
+    if (is_area) {
+        shade_tile_places(p, tile, light, asked, streams, &places);
+        rays = &places;
+    }
+    statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
+    bool together = is_area || !light->parallel;
+    return features & RENDER_TRANSPARENCY
+               ? shade_tile_through(p, features, tile, rays, together, asked)
+               : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked);
 }
 
 // What all lights add.
@@ -128,22 +237,17 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Li
             lit = shade_tile_strengths(tile, light, lit);
         }
         uint64_t asked = (features & RENDER_SHADOWS) && !light->shadowless ? lit & tile->before : 0;
-        if (asked && (features & RENDER_LIGHTS) && light->area.size1 > 0) {
-            lit &= ~shade_tile_area(p, features, tile, light, asked, streams, statistics);
-        } else if (asked) {
-            statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
-            lit &= ~geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, &tile->rays, !light->parallel,
-                                               asked);
+        tile->is_shared = asked && ((features & RENDER_TRANSPARENCY) ||
+                                    ((features & RENDER_LIGHTS) && light->area.size1 > 0 && !streams));
+        for (uint64_t whole = tile->is_shared ? lit & ~asked : 0; whole; whole &= whole - 1) {
+            shade_tile_set_share(tile, __builtin_ctzll(whole), rgb_grey(1.0));
+        }
+        if (asked) {
+            lit &= ~shade_tile_shadows(p, features, tile, light, asked, streams, statistics);
         }
         p->tile_lights->add(tile, light, lit);
     }
 }
-
-// Rays of a tile on their way: as in PendingRay.
-typedef struct TilePaths {
-    Rgb share[TILE_RAYS];
-    double weight[TILE_RAYS];
-} TilePaths;
 
 // Adds what the surfaces shine; the first ones, which the camera sees, have all of it.
 RT_ALWAYS_INLINE void shade_tile_gather(const LightTile *tile, const TilePaths *paths, bool is_first, Rgb *light)
@@ -217,6 +321,190 @@ RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, Li
     }
 }
 
+// Adds what the surfaces shine.
+RT_ALWAYS_INLINE void shade_tile_gather_clear(const LightTile *tile, const TilePaths *paths, Rgb *light)
+{
+    for (int i = 0; i < tile->surfaces.count; i++) {
+        unsigned ray = tile->surfaces.ray[i];
+        Rgb own = rgb(tile->light[0][i], tile->light[1][i], tile->light[2][i]);
+        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], own));
+    }
+}
+
+// What a surface sends on: shade_plain says the same of single rays.
+RT_ALWAYS_INLINE ShadeOnward shade_tile_onward(unsigned features, const LightTile *tile, const TileClear *clear, int i)
+{
+    ShadeOnward onward = {.through = clear->through[i],
+                          .reflectance = rgb_grey(0.0),
+                          .reflection_exponent = 1.0,
+                          .part = 1.0,
+                          .conserves_energy = tile->finish[i]->conserves_energy};
+    if ((features & RENDER_REFLECTION) && tile->finish[i]->reflects) {
+        Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
+        ShadeMaterial material = {pigment, pigment, tile->finish[i]};
+        ShadePoint at = shade_tile_point(tile, i, 0, NULL);
+        shade_set_mirror(features, &material, &at, &onward);
+    }
+    return onward;
+}
+
+// Whether light goes on through a surface: then as what waits.
+RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile, const TilePaths *paths,
+                                        const TileClear *clear, int i, const ShadeOnward *onward, TileWaiting *through,
+                                        RenderStatistics *statistics)
+{
+    const TileSurfaces *surfaces = &tile->surfaces;
+    unsigned ray = surfaces->ray[i];
+    Rgb share;
+    if (rgb_is_black(onward->through)) {
+        return false;
+    }
+    if (!shade_goes_on(p, onward, paths->weight[ray], clear->level[ray], clear->passed[ray], &share,
+                       &through->weight)) {
+        shade_note_cut(p, clear->level[ray], rgb_mul(paths->share[ray], onward->through), statistics);
+        return false;
+    }
+    through->ray = (Ray){tile_surface_point(surfaces, i), lane_get(surfaces->direction, (unsigned)i)};
+    through->start = surfaces->shape[i];
+    through->inward = !(surfaces->inside >> i & 1);
+    through->share = rgb_mul(paths->share[ray], share);
+    through->level = clear->level[ray];
+    through->passed = clear->passed[ray] + 1;
+    statistics->transmitted_rays++;
+    return true;
+}
+
+// Whether a surface mirrors its ray and that is followed: then its share and weight are those of what goes on.
+RT_ALWAYS_INLINE bool shade_tile_reflects(const Prepared *p, unsigned ray, const ShadeOnward *onward, TilePaths *paths,
+                                          TileClear *clear, RenderStatistics *statistics)
+{
+    if (onward->reflection_weight == 0.0) {
+        return false;
+    }
+    Rgb share = rgb_mul(paths->share[ray], onward->reflectance);
+    double weight = paths->weight[ray] * onward->reflection_weight;
+    if (!shade_is_followed(p, clear->level[ray], weight)) {
+        shade_note_cut(p, clear->level[ray], share, statistics);
+        return false;
+    }
+    paths->share[ray] = share;
+    paths->weight[ray] = weight;
+    clear->level[ray]++;
+    clear->passed[ray] = 0;
+    statistics->reflected_rays++;
+    return true;
+}
+
+// A ray that goes through a surface now.
+RT_ALWAYS_INLINE void shade_tile_resume(const TileWaiting *through, unsigned ray, TilePaths *paths, TileClear *clear,
+                                        OnwardRays *rays)
+{
+    paths->share[ray] = through->share;
+    paths->weight[ray] = through->weight;
+    clear->level[ray] = through->level;
+    clear->passed[ray] = through->passed;
+    onward_ray_add(rays, through->ray.origin, through->ray.direction, through->start, through->inward);
+}
+
+// The rays that go on from the tile's surfaces, and of those that meet nothing more, what waited last; `own` says which
+// of the tile's they are.
+RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, const LightTile *tile, TilePaths *paths,
+                                      TileClear *clear, OnwardRays *rays, uint8_t own[TILE_RAYS],
+                                      RenderStatistics *statistics)
+{
+    const TileSurfaces *surfaces = &tile->surfaces;
+    _Alignas(64) double mirrored[3][TILE_RAYS];
+    bool has_mirrored = false;
+    for (int i = 0; i < surfaces->count; i++) {
+        unsigned ray = surfaces->ray[i];
+        TileWaiting through;
+        ShadeOnward onward = shade_tile_onward(features, tile, clear, i);
+        bool passes = shade_tile_passes(p, tile, paths, clear, i, &onward, &through, statistics);
+        own[rays->count] = (uint8_t)ray;
+        if ((features & RENDER_REFLECTION) && shade_tile_reflects(p, ray, &onward, paths, clear, statistics)) {
+            if (!has_mirrored) {
+                p->tile_lights->mirror(tile, mirrored);
+                has_mirrored = true;
+            }
+            if (passes) {
+                clear->waiting[clear->count[ray]++][ray] = through;
+            }
+            onward_ray_add(rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i), surfaces->shape[i],
+                           surfaces->inside >> i & 1);
+        } else if (passes) {
+            shade_tile_resume(&through, ray, paths, clear, rays);
+        } else {
+            clear->resting |= UINT64_C(1) << ray;
+        }
+    }
+    for (; (features & RENDER_REFLECTION) && clear->resting; clear->resting &= clear->resting - 1) {
+        unsigned ray = (unsigned)__builtin_ctzll(clear->resting);
+        if (clear->count[ray] > 0) {
+            own[rays->count] = (uint8_t)ray;
+            shade_tile_resume(&clear->waiting[--clear->count[ray]][ray], ray, paths, clear, rays);
+        }
+    }
+}
+
+// Takes what the rays that go on meet for the tile's surfaces. Adds the light of those that meet nothing. False when
+// none goes on.
+RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, LightTile *tile,
+                                      MaterialIndex material[TILE_RAYS], TilePaths *paths, TileClear *clear, Rgb *light,
+                                      RenderStatistics *statistics)
+{
+    TileSurfaces *surfaces = &tile->surfaces;
+    uint8_t own[TILE_RAYS];
+    OnwardRays rays;
+    TileHits hits;
+    rays.count = 0;
+    rays.inward = 0;
+    shade_tile_send(p, features, tile, paths, clear, &rays, own, statistics);
+    surfaces->count = 0;
+    if (rays.count == 0) {
+        return false;
+    }
+    geometry_closest_onward(p->geometry, features, &rays, &hits);
+    clear->resting = 0;
+    for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
+        unsigned ray = own[__builtin_ctzll(missed)];
+        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
+        clear->resting |= UINT64_C(1) << ray;
+    }
+    if (hits.met) {
+        geometry_onward_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+    }
+    for (int i = 0; i < surfaces->count; i++) {
+        surfaces->ray[i] = own[surfaces->ray[i]];
+    }
+    return true;
+}
+
+// The light of what the rays have met where surfaces let light through, and of all that goes on from there.
+RT_ALWAYS_INLINE void shade_tile_clear(const Prepared *p, unsigned features, LightTile *tile,
+                                       MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
+                                       RenderStatistics *statistics)
+{
+    TilePaths paths;
+    TileClear clear;
+    clear.resting = 0;
+    for (int i = 0; i < tile->surfaces.count; i++) {
+        unsigned ray = tile->surfaces.ray[i];
+        light[ray] = rgb_grey(0.0);
+        paths.share[ray] = rgb_grey(1.0);
+        paths.weight[ray] = 1.0;
+        clear.level[ray] = 1;
+        clear.passed[ray] = 0;
+        clear.count[ray] = 0;
+    }
+    do {
+        if (tile->surfaces.count > 0) {
+            shade_tile_begin(p, features, tile, material, clear.through);
+            shade_tile_lights(p, features, tile, streams, statistics);
+            shade_tile_gather_clear(tile, &paths, light);
+        }
+    } while (shade_tile_next(p, features, tile, material, &paths, &clear, light, statistics));
+}
+
 // The light of what the rays have met, and of what mirrors show.
 RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, LightTile *tile,
                                        MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
@@ -224,7 +512,7 @@ RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, Lig
 {
     TilePaths paths;
     for (int level = 1; tile->surfaces.count > 0; level++) {
-        shade_tile_begin(p, features, tile, material);
+        shade_tile_begin(p, features, tile, material, NULL);
         shade_tile_lights(p, features, tile, streams, statistics);
         shade_tile_gather(tile, &paths, level == 1, light);
         if (!(features & RENDER_REFLECTION)) {
@@ -255,7 +543,11 @@ RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const Til
     LightTile tile;
     MaterialIndex material[TILE_RAYS];
     geometry_tile_surfaces(p->geometry, features, &rays, &hits, met, &tile.surfaces, material);
-    shade_tile_paths(p, features, &tile, material, streams, light, statistics);
+    if (features & RENDER_TRANSPARENCY) {
+        shade_tile_clear(p, features, &tile, material, streams, light, statistics);
+    } else {
+        shade_tile_paths(p, features, &tile, material, streams, light, statistics);
+    }
 }
 
 #endif

@@ -14,12 +14,16 @@ typedef struct LightTile {
     TileSurfaces surfaces;
     _Alignas(64) double normal[3][TILE_RAYS]; // towards the viewer
     double pigment[3][TILE_RAYS];
+    double opaque[3][TILE_RAYS];          // the opaque share of that, where something is let through
+    const double (*diffuse)[TILE_RAYS];   // one of the two: what the diffuse light of a finish is multiplied with
     const PreparedFinish *finish[TILE_RAYS];
     // Of the light that was aimed last: unit vectors to it and how far it is; N·L.
     SurfaceRays rays;
     _Alignas(64) double cosine[TILE_RAYS];
-    // Of lights that are not plain: how strong they are there, and the share of an area that is seen from there.
-    double strength[TILE_RAYS], share[TILE_RAYS];
+    // Of lights that are not plain: how strong they are there.
+    _Alignas(64) double strength[TILE_RAYS];
+    double share[3][TILE_RAYS]; // of what arrives, by colour, what gets there; `is_shared`, else all of it
+    bool is_shared;
     uint64_t before; // those on whose side of a parallel light's plane something may throw a shadow
     _Alignas(64) double light[3][TILE_RAYS]; // the sum so far, of linear light
 } LightTile;

@@ -171,7 +171,7 @@ static void tile_add_finish(LightTile *tile, const PreparedLight *light, const P
         DoublesMask front = cosine > 0.0;
         Doubles diffuse = doubles_choose(front, doubles_splat(finish->diffuse), doubles_splat(finish->diffuse_back));
         for (int k = 0; k < 3; k++) {
-            Doubles sum = doubles_load(&falloff[i]) * (diffuse * doubles_load(&tile->pigment[k][i]));
+            Doubles sum = doubles_load(&falloff[i]) * (diffuse * doubles_load(&tile->diffuse[k][i]));
             if (shines) {
                 Doubles spot = doubles_load(&shine[i]);
                 spot = finish->metallic > 0.0 ? spot * doubles_load(&tint[k][i]) : spot;
@@ -180,7 +180,10 @@ static void tile_add_finish(LightTile *tile, const PreparedLight *light, const P
             Doubles before = doubles_load(&tile->light[k][i]);
             Doubles arriving = doubles_splat(colour[k]);
             if (!light->is_plain) {
-                arriving = doubles_load(&tile->strength[i]) * arriving * doubles_load(&tile->share[i]);
+                arriving = doubles_load(&tile->strength[i]) * arriving;
+            }
+            if (tile->is_shared) {
+                arriving = arriving * doubles_load(&tile->share[k][i]);
             }
             Doubles after = before + (Doubles)(reached & (DoublesMask)(sum * arriving));
             doubles_store(&tile->light[k][i], doubles_choose(mine, after, before));

@@ -307,14 +307,20 @@ RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features
     query_tile_closest(g, features, tile, is_usable, hits);
 }
 
+// Whether there are but few spheres, and a plane at most.
+RT_ALWAYS_INLINE bool query_is_few(const Geometry *g, unsigned features)
+{
+    bool has_others = (features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) || ((features & TRACE_PLANES) && g->plane_count > 1);
+    return !has_others && sphere_table_is_few(&g->spheres);
+}
+
 // What rays that go on from surfaces of spheres and planes meet, as geometry_closest says of each; there is at least one.
 RT_ALWAYS_INLINE void geometry_closest_onward(const Geometry *g, unsigned features, OnwardRays *rays, TileHits *hits)
 {
     uint64_t open = ~UINT64_C(0) >> (TILE_RAYS - rays->count);
     hits->met = hits->inside = 0;
     bool has_plane = query_has_one_plane(g, features);
-    bool has_others = (features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) || ((features & TRACE_PLANES) && g->plane_count > 1);
-    if (!has_others && !((features & TRACE_SPHERE_BVH) && g->spheres.bvh.nodes)) {
+    if (query_is_few(g, features)) {
         open &= ~g->kernels->closest_onward(&g->spheres, has_plane ? &g->planes[0].shape : NULL,
                                             shape_id(SHAPE_PLANE, 0), rays, hits);
     }
@@ -418,6 +424,25 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
         occluded |= (uint64_t)query_occluded(g, features, asks_spheres, ray, start, rays->distance[i]) << i;
     }
     return occluded;
+}
+
+// What lies on the ways of surfaces that are asked for; returns those for which that is told. The others are to be
+// walked.
+RT_ALWAYS_INLINE uint64_t geometry_crossed(const Geometry *g, unsigned features, const TileSurfaces *from,
+                                           const SurfaceRays *rays, uint64_t asked, TileCrossings *crossings)
+{
+    if (!query_is_few(g, features)) {
+        return 0;
+    }
+    const PlaneShape *plane = query_has_one_plane(g, features) ? &g->planes[0].shape : NULL;
+    return g->kernels->crossed(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), from, rays, asked, crossings);
+}
+
+// The material of a sphere or plane.
+RT_ALWAYS_INLINE MaterialIndex geometry_material(const Geometry *g, unsigned features, ShapeId shape)
+{
+    bool is_plane = (features & TRACE_PLANES) && shape_kind(shape) == SHAPE_PLANE;
+    return is_plane ? g->planes[shape_index(shape)].info.material : g->spheres.info[shape_index(shape)].material;
 }
 
 // Where the ray hit: the point put back onto the surface, its normal and its material.

@@ -42,6 +42,14 @@ typedef struct SphereTable {
     Bvh bvh;              // of the others; its leaves are BVH_LEAF | block
 } SphereTable;
 
+// Whether some rays are sooner tested against all spheres together, one after the other, than each in the tree.
+enum { SPHERES_FEW_MOST = 4 * SPHERE_BLOCK };
+
+RT_ALWAYS_INLINE bool sphere_table_is_few(const SphereTable *table)
+{
+    return table->block_count * SPHERE_BLOCK <= SPHERES_FEW_MOST;
+}
+
 // The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_rough`, hit.t is a
 // sphere's root as sphere_test gives it; nearest_settle makes it right.
 typedef struct Nearest {
@@ -95,6 +103,15 @@ typedef struct OnwardRays {
     double direction[3][TILE_RAYS]; // of about unit length
 } OnwardRays;
 
+// Crossings of a line with few spheres and a plane.
+enum { CROSSINGS_MOST = 2 * SPHERES_FEW_MOST + 1 };
+
+// What lies on rays from surfaces to their ends, in the order of a walk from one crossing to the next.
+typedef struct TileCrossings {
+    uint8_t count[TILE_RAYS];
+    ShapeId shape[TILE_RAYS][CROSSINGS_MOST];
+} TileCrossings;
+
 // Rays of one point: towards direction + u right - v up.
 typedef struct TileView {
     Vec3 origin, direction, right, up;
@@ -114,9 +131,9 @@ typedef struct SphereKernels {
     // them up to a whole vector. Returns those that are spheres and done; the others' points and normals are open.
     uint64_t (*surfaces)(const SphereTable *table, const SphereTile *tile, const TileHits *hits,
                          TileSurfaces *surfaces);
-    // What rays that go on meet of the loose spheres and of a plane that nothing coincides with (NULL: there is none).
-    // Returns those for which that is decided; `hits` mean nothing for the others, nor where there is a tree. Writes
-    // what is after the rays up to a whole vector.
+    // What rays that go on meet of few spheres and of a plane that nothing coincides with (NULL: there is none).
+    // Returns those for which that is decided; `hits` mean nothing for the others. Writes what is after the rays up to a
+    // whole vector.
     uint64_t (*closest_onward)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
                                OnwardRays *rays, TileHits *hits);
     // `surfaces` for such rays.
@@ -126,6 +143,10 @@ typedef struct SphereKernels {
     // of each. What does not pay, or cannot be done, for some together is `left` to be asked one by one.
     uint64_t (*occluded_surfaces)(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays,
                                   uint64_t asked, uint64_t *left);
+    // All that few spheres and such a plane have on the ways of the surfaces `asked` for. Returns those for which that
+    // is decided, which may be none.
+    uint64_t (*crossed)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape, const TileSurfaces *from,
+                        const SurfaceRays *rays, uint64_t asked, TileCrossings *crossings);
     // Brings hits up to date with a plane that nothing coincides with. Returns the rays that meet it exactly where they
     // meet something else; these are left as they are.
     uint64_t (*plane_closest)(const PlaneShape *plane, ShapeId shape, const SphereTile *tile, TileHits *hits);

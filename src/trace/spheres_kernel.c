@@ -9,6 +9,7 @@
 #include "trace/plane_tile.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
+#include "trace/spheres_crossed.h"
 #include "trace/spheres_group.h"
 #include "trace/spheres_onward.h"
 #include "trace/spheres_surface.h"
@@ -182,6 +183,7 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .closest_onward = closest_onward,
     .surfaces_onward = surfaces_onward,
     .occluded_surfaces = surfaces_occluded,
+    .crossed = spheres_crossed,
     .plane_closest = plane_closest,
     .plane_occluded = plane_occluded,
     .view_tile = view_tile,

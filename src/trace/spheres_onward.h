@@ -18,24 +18,32 @@ typedef struct OnwardVector {
     Doubles t;                  // INFINITY where nothing is met
     DoublesMask shape;          // ShapeId
     DoublesMask inside, is_open; // -1 where it is; the ray is to be asked by itself
+    DoublesMask is_rough;       // t is sphere_test's, to be refined
 } OnwardVector;
 
-// Rays that start on each of the spheres, or on one equal to it.
-static void onward_starts(const SphereTable *table, const OnwardRays *rays, uint64_t starts[SPHERE_BLOCK])
+// Slots of all spheres; some of the last may be empty.
+static uint32_t few_slots(const SphereTable *table)
 {
-    uint64_t own[SPHERE_BLOCK] = {0};
-    for (int i = 0; i < rays->count; i++) {
-        ShapeId start = rays->start[i];
-        if (start != SHAPE_NONE && shape_kind(start) == SHAPE_SPHERE && shape_index(start) < SPHERE_BLOCK) {
-            own[shape_index(start)] |= UINT64_C(1) << i;
+    return table->bvh.nodes ? table->block_count * SPHERE_BLOCK : table->loose_count;
+}
+
+// Rays that start on each of the spheres, or on one equal to it.
+static void onward_starts(const SphereTable *table, const ShapeId *start, int count, uint64_t starts[SPHERES_FEW_MOST])
+{
+    uint64_t own[SPHERES_FEW_MOST];
+    uint32_t slots = few_slots(table);
+    memset(own, 0, slots * sizeof *own);
+    for (int i = 0; i < count; i++) {
+        if (start[i] != SHAPE_NONE && shape_kind(start[i]) == SHAPE_SPHERE) {
+            own[shape_index(start[i])] |= UINT64_C(1) << i;
         }
     }
-    for (uint32_t i = 0; i < table->loose_count; i++) {
-        Ball ball = sphere_table_ball(table, i);
-        starts[i] = own[i];
-        for (uint32_t j = 0; j < table->loose_count; j++) {
-            Ball other = sphere_table_ball(table, j);
-            starts[i] |= own[j] && ball_equal(&ball, &other) ? own[j] : 0;
+    memcpy(starts, own, slots * sizeof *own);
+    for (uint32_t j = 0; j < slots; j++) {
+        Ball other = sphere_table_ball(table, j);
+        for (uint32_t i = 0; own[j] && i < slots; i++) {
+            Ball ball = sphere_table_ball(table, i);
+            starts[i] |= ball_equal(&ball, &other) ? own[j] : 0;
         }
     }
 }
@@ -55,13 +63,38 @@ RT_ALWAYS_INLINE bool onward_load(OnwardVector *v, const OnwardRays *rays, int a
     }
     v->t = doubles_splat((double)INFINITY);
     v->shape = (DoublesMask){0} + (int64_t)SHAPE_NONE;
-    v->inside = v->is_open = (DoublesMask){0};
+    v->inside = v->is_open = v->is_rough = (DoublesMask){0};
     unsigned usable = doubles_gt(v->inverse_square, doubles_splat(0x1p-100)) &
                       doubles_gt(doubles_splat((double)INFINITY), v->inverse_square);
     return usable == (1u << DOUBLES) - 1;
 }
 
-// One sphere. The rays of `starts` leave it.
+// Rays into the spheres that they start on, whose other side they meet: sphere_root_inward.
+RT_ALWAYS_INLINE void onward_inward(const SphereTable *table, const OnwardRays *rays, int at, OnwardVector *v)
+{
+    _Alignas(64) double centre[3][DOUBLES];
+    DoublesMask into = {0}, shape = {0};
+    for (int i = 0; i < DOUBLES; i++) {
+        int ray = at + i < rays->count ? at + i : rays->count - 1;
+        ShapeId start = rays->start[ray];
+        bool is_inward = (rays->inward >> ray & 1) && start != SHAPE_NONE && shape_kind(start) == SHAPE_SPHERE;
+        Ball ball = is_inward ? sphere_table_ball(table, shape_index(start)) : (Ball){{0.0, 0.0, 0.0}, 0.0};
+        into[i] = is_inward ? -1 : 0;
+        shape[i] = (int64_t)start;
+        centre[0][i] = ball.centre.x;
+        centre[1][i] = ball.centre.y;
+        centre[2][i] = ball.centre.z;
+    }
+    Doubles root = -2.0 * ((v->origin[0] - doubles_load(centre[0])) * v->dual[0] +
+                           (v->origin[1] - doubles_load(centre[1])) * v->dual[1] +
+                           (v->origin[2] - doubles_load(centre[2])) * v->dual[2]);
+    DoublesMask met = into & (root > 0.0) & (root < (double)INFINITY);
+    v->t = doubles_choose(met, root, v->t);
+    v->shape = (met & shape) | (~met & v->shape);
+    v->inside = met;
+}
+
+// One sphere. The rays of `starts` leave it, or go into it.
 RT_ALWAYS_INLINE void onward_sphere(OnwardVector *v, const Ball *ball, uint32_t slot, unsigned starts)
 {
     Doubles fx = v->origin[0] - ball->centre.x;
@@ -92,13 +125,14 @@ RT_ALWAYS_INLINE void onward_sphere(OnwardVector *v, const Ball *ball, uint32_t 
     v->t = doubles_choose(nearest, root, v->t);
     v->shape = (nearest & (int64_t)shape_id(SHAPE_SPHERE, slot)) | (~nearest & v->shape);
     v->inside = (nearest & (c < 0.0)) | (~nearest & v->inside);
+    v->is_rough |= nearest;
 }
 
 // Makes the roots right.
 static void onward_settle(const SphereTable *table, OnwardVector *v)
 {
     _Alignas(64) double balls[4][DOUBLES];
-    DoublesMask met = v->t < (double)INFINITY;
+    DoublesMask met = v->is_rough;
     unsigned any = doubles_mask_bits(met);
     if (!any) {
         return;
@@ -146,8 +180,9 @@ static void onward_fill(OnwardRays *rays)
 static uint64_t closest_onward(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
                                OnwardRays *rays, TileHits *hits)
 {
-    uint64_t starts[SPHERE_BLOCK], on_plane = 0, is_open = rays->inward;
-    onward_starts(table, rays, starts);
+    uint64_t starts[SPHERES_FEW_MOST], on_plane = 0, is_open = 0;
+    uint32_t slots = few_slots(table);
+    onward_starts(table, rays->start, rays->count, starts);
     onward_fill(rays);
     for (int i = 0; plane && i < rays->count; i++) {
         on_plane |= (uint64_t)(rays->start[i] == plane_shape) << i;
@@ -160,8 +195,14 @@ static uint64_t closest_onward(const SphereTable *table, const PlaneShape *plane
             is_open |= (uint64_t)all << at;
             continue;
         }
-        for (uint32_t i = 0; i < table->loose_count; i++) {
+        if (rays->inward >> at & all) {
+            onward_inward(table, rays, at, &v);
+        }
+        for (uint32_t i = 0; i < slots; i++) {
             Ball ball = sphere_table_ball(table, i);
+            if (isnan(ball.radius_squared)) {
+                continue;
+            }
             onward_sphere(&v, &ball, i, (unsigned)(starts[i] >> at) & all);
         }
         onward_settle(table, &v);

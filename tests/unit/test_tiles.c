@@ -138,13 +138,120 @@ static int onward_try(const Geometry *g, unsigned features, const TileSurfaces *
                        vec3_dot(tile_surface_outward(from, i), direction) < 0.0);
     }
     int different = onward_differing(g, features, &rays, met);
-    if (!g->spheres.bvh.nodes && g->plane_count < 2) {
+    if (query_is_few(g, features)) {
         TileHits hits;
         const PlaneShape *plane = g->plane_count == 1 ? &g->planes[0].shape : NULL;
         *together += __builtin_popcountll(
             g->kernels->closest_onward(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), &rays, &hits));
     }
     return different;
+}
+
+// The walk from one crossing to the next: whether it meets other shapes than were told.
+static bool crossings_differ(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max,
+                             const TileCrossings *told, int i)
+{
+    Hit hit;
+    int count = 0;
+    for (; geometry_closest(g, features, ray, start, t_max, &hit); count++) {
+        if (count >= told->count[i] || told->shape[i][count] != hit.shape) {
+            return true;
+        }
+        ray.origin = geometry_surface(g, features, ray, hit).point;
+        t_max -= hit.t;
+        start = (RayStart){hit.shape, !hit.inside, HIDDEN_SHADOW};
+    }
+    return count != told->count[i];
+}
+
+typedef struct Crossed {
+    int different, told, asked, shapes;
+} Crossed;
+
+// Ways from surfaces to a place nearby: on and off spheres, along them, or anywhere.
+static void crossed_try(const Geometry *g, unsigned features, const TileSurfaces *from, Random *random, Crossed *found)
+{
+    static TileCrossings crossings;
+    SurfaceRays rays;
+    for (int i = 0; i < from->count; i++) {
+        Vec3 point = tile_surface_point(from, i), direction = random_direction(random);
+        Ball ball = sphere_table_ball(&g->spheres, (uint32_t)(random_bits(random) % g->spheres.count));
+        double distance = sqrt(ball.radius_squared) * pow(10.0, random_between(random, -1, 2));
+        if (ball_is_usable(&ball) && random_bits(random) % 4 == 0) {
+            direction = grazing(random, point, &ball);
+        }
+        if (ball_is_usable(&ball) && random_bits(random) % 8 == 0) { // it ends on a sphere
+            Vec3 end = vec3_add_scaled(ball.centre, sqrt(ball.radius_squared), random_direction(random));
+            distance = vec3_length(vec3_sub(end, point));
+            direction = vec3_scale(1.0 / distance, vec3_sub(end, point));
+        }
+        lane_set(rays.towards, (unsigned)i, direction);
+        rays.distance[i] = distance;
+    }
+    uint64_t asked = random_bits(random) | random_bits(random);
+    asked &= ~UINT64_C(0) >> (TILE_RAYS - from->count);
+    uint64_t told = geometry_crossed(g, features, from, &rays, asked, &crossings);
+    found->asked += __builtin_popcountll(asked);
+    found->told += __builtin_popcountll(told);
+    found->different += (told & ~asked) != 0;
+    for (; told; told &= told - 1) {
+        int i = __builtin_ctzll(told);
+        Ray ray = {tile_surface_point(from, i), lane_get(rays.towards, (unsigned)i)};
+        RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), ray.direction) < 0.0, HIDDEN_SHADOW};
+        found->different += crossings_differ(g, features, ray, start, rays.distance[i], &crossings, i);
+        found->shapes += crossings.count[i];
+    }
+}
+
+// Shells within one another, about touching or equal ones, others beside them, and a plane.
+static void crossed_scene(Random *random, Scene *scene)
+{
+    int count = 2 + (int)(random_bits(random) % 28);
+    Vec3 aside = random_point(random, random_bits(random) % 8 ? 0.0 : 1e4);
+    scene_init(scene);
+    for (int i = 0; i < count; i++) {
+        Vec3 centre = random_bits(random) % 2 ? (Vec3){0.0, 0.0, 0.0} : random_point(random, 3);
+        double radius = random_bits(random) % 40 ? random_between(random, 0.1, 2) : 1.0;
+        add_sphere(scene, vec3_add(centre, aside), radius + (random_bits(random) % 3 ? 0.0 : 1e-9));
+    }
+    if (random_bits(random) % 2) {
+        Vec3 normal = random_direction(random);
+        add_plane(scene, normal, vec3_dot(normal, aside) + random_between(random, -2, 2));
+    }
+}
+
+static void test_crossed(uint64_t seed)
+{
+    Random random = {seed};
+    Crossed found = {0};
+    for (int turn = 0; turn < 300; turn++) {
+        Scene scene;
+        crossed_scene(&random, &scene);
+        Geometry *g = prepare(&scene, 0);
+        unsigned features = geometry_features(g);
+        SphereTile tile;
+        Vec3 at = scene.spheres.items[random_bits(&random) % scene.spheres.count].centre;
+        Vec3 eye = vec3_add(at, random_point(&random, 5));
+        tile_of(&random, eye, vec3_normalize(vec3_sub(at, eye)), 0.05, &tile);
+        uint64_t same = random_bits(&random);
+        for (size_t isa = 0; geometry_isa(isa); isa++) {
+            TileHits hits;
+            TileSurfaces surfaces;
+            MaterialIndex material[TILE_RAYS];
+            Random own = {same};
+            g->kernels = sphere_kernels_choose(geometry_isa(isa));
+            query_tile_closest(g, features, &tile, true, &hits);
+            if (hits.met) {
+                geometry_tile_surfaces(g, features, &tile, &hits, hits.met, &surfaces, material);
+                crossed_try(g, features, &surfaces, &own, &found);
+            }
+        }
+        geometry_free(g);
+        scene_fini(&scene);
+    }
+    tap_ok(found.different == 0 && found.told > found.asked / 4 && found.shapes > found.told / 2,
+           "what lies on a way is what a walk meets: %d of %d differ (%d asked for, %d crossings)", found.different,
+           found.told, found.asked, found.shapes);
 }
 
 // From within shells that lie next to one another, or on one another, in any order.
@@ -198,6 +305,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
     unsigned features = geometry_features(g);
     int surfaces_different = 0, met = 0, onward_different = 0, onward_met = 0, together = 0;
     Shadows shadows = {0};
+    Crossed crossed = {0};
     for (int turn = 0; turn < 200; turn++) {
         SphereTile tile;
         Vec3 eye = vec3_add(family->middle, random_point(&random, 2 * family->size));
@@ -219,6 +327,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
                 double aside = turn % 2 ? family->size * pow(10.0, random_between(&same, -3, 0)) : 0.0;
                 shadows_try(g, features, &surfaces, light, aside, asked, &same, &shadows);
                 onward_different += onward_try(g, features, &surfaces, &same, &onward_met, &together);
+                crossed_try(g, features, &surfaces, &same, &crossed);
             }
         }
     }
@@ -227,10 +336,13 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
     tap_ok(shadows.different == 0 && shadows.dark + shadows.lit > 500,
            "%s, %d, %d planes: shadows too (%d of %d dark and %d lit differ; %d traced together)", family->name, count,
            planes, shadows.different, shadows.dark, shadows.lit, shadows.together);
-    bool may_together = !g->spheres.bvh.nodes && planes < 2;
+    bool may_together = query_is_few(g, features);
     tap_ok(onward_different == 0 && onward_met > 100 && (together > 1000) == may_together,
            "%s, %d, %d planes: rays that go on meet what single rays do (%d of %d not; %d traced together)",
            family->name, count, planes, onward_different, onward_met, together);
+    tap_ok(crossed.different == 0 && (crossed.told == 0 || may_together),
+           "%s, %d, %d planes: what lies on ways to a place, too (%d of %d not; %d asked for)", family->name, count, planes,
+           crossed.different, crossed.told, crossed.asked);
     geometry_free(g);
     scene_fini(&scene);
 }
@@ -246,7 +358,8 @@ static Finish random_finish(Random *random)
 {
     static const double amounts[] = {0, 0, 0.3, 1.2}, exponents[] = {1, 1, 2, 40, 0.5, 7.25, 5000}, levels[] = {0, 0.1};
     double glow = one_of(random, levels, 2), mirror = random_bits(random) % 3 ? 0.0 : 0.4;
-    return (Finish){.ambient = {glow, 0.1, glow},
+    return (Finish){.flags = random_bits(random) % 4 ? 0 : FINISH_CONSERVE_ENERGY,
+                    .ambient = {glow, 0.1, glow},
                     .diffuse = one_of(random, amounts, 4),
                     .diffuse_back = one_of(random, amounts, 4),
                     .brilliance = one_of(random, exponents, 6),
@@ -259,7 +372,7 @@ static Finish random_finish(Random *random)
                     .reflection_max = {mirror, mirror, mirror},
                     .reflection_falloff = 1.0,
                     .reflection_exponent = 1.0,
-                    .refraction = 1.0};
+                    .refraction = random_bits(random) % 4 ? 1.0 : 0.8};
 }
 
 // kinds > 1: of any kind, else points and parallel ones.
@@ -329,14 +442,29 @@ static bool add_checkered(Scene *scene, Random *random, const Finish *finish, bo
 // What a scene may have beside spheres of plain colours, planes and point lights.
 typedef struct Extras {
     bool any_lights, patterns, doubled; // the last: of layers
+    bool clear;                         // some surfaces let light through
 } Extras;
+
+// What a pigment lets through: mostly something.
+static void random_clearness(Random *random, Rgbft *pigment)
+{
+    static const double amounts[] = {0, 0, 0.3, 0.9};
+    pigment->filter = one_of(random, amounts, 4);
+    pigment->transmit = one_of(random, amounts, 4);
+}
 
 // Spheres of few finishes, some of them touching the eye's surroundings, lights, planes.
 static void random_scene(Random *random, const Extras *extras, Scene *scene)
 {
     Finish finishes[4];
-    int count = random_bits(random) % 2 ? 6 : 60;
+    static const int counts[] = {6, 20, 60};
+    int count = counts[random_bits(random) % 3];
     scene_init(scene);
+    if (extras->clear) {
+        scene->settings.max_trace_level = 1 + (int)(random_bits(random) % 14);
+        scene->settings.adc_bailout = random_bits(random) % 2 ? 1.0 / 255 : 0.02;
+        scene->settings.version = random_bits(random) % 4 ? 3.7 : 3.6;
+    }
     for (int i = 0; i < 4; i++) {
         finishes[i] = random_finish(random);
     }
@@ -344,10 +472,13 @@ static void random_scene(Random *random, const Extras *extras, Scene *scene)
         MaterialIndex material;
         Rgbft pigment = {random_between(random, -0.1, 1), 0.5, random_between(random, 0, 1), 0, 0};
         const Finish *finish = &finishes[random_bits(random) % 4];
+        if (extras->clear) {
+            random_clearness(random, &pigment);
+        }
         bool is_added = extras->patterns && random_bits(random) % 2
                             ? add_checkered(scene, random, finish, extras->doubled, &material)
                             : scene_add_material(scene, pigment, finish, &material);
-        Vec3 place = random_point(random, 5);
+        Vec3 place = extras->clear && i % 2 ? (Vec3){0.0, 0.0, 0.0} : random_point(random, 5); // shells
         if (!is_added || (i % 9 == 5 ? !scene_add_plane(scene, random_direction(random), -6, material, 0)
                                      : !scene_add_sphere(scene, place, random_between(random, 0.2, 2), material, 0))) {
             abort();
@@ -392,8 +523,8 @@ static bool films_differ(const Film *a, const Film *b)
 static void test_light(uint64_t first, const Extras *extras, const SamplingOptions *sampling)
 {
     int different = 0, pictures = 0;
-    uint64_t shadow_rays = 0, reflected_rays = 0;
-    for (uint64_t seed = first; seed < first + 60; seed++) {
+    uint64_t shadow_rays = 0, reflected_rays = 0, transmitted_rays = 0;
+    for (uint64_t seed = first; seed < first + (extras->clear ? 20 : 60); seed++) {
         Random random = {seed};
         Scene scene;
         RenderStatistics single, tiled;
@@ -406,14 +537,17 @@ static void test_light(uint64_t first, const Extras *extras, const SamplingOptio
         }
         shadow_rays += single.shadow_rays;
         reflected_rays += single.reflected_rays;
+        transmitted_rays += single.transmitted_rays;
         film_fini(&expected);
         scene_fini(&scene);
     }
-    tap_ok(different == 0 && shadow_rays > 30000 && reflected_rays > 3000,
-           "light by tiles is light by rays, %s, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored)",
-           extras->any_lights ? "any lights" : "point lights", extras->patterns ? "patterns" : "plain colours",
+    tap_ok(different == 0 && shadow_rays > 30000 && reflected_rays > 3000 && (transmitted_rays > 30000) == extras->clear,
+           "light by tiles is light by rays, %s, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored, %llu "
+           "through surfaces)",
+           extras->any_lights ? "any lights" : "point lights",
+           extras->patterns ? "patterns" : extras->clear ? "clear colours" : "plain colours",
            sampling ? "sampled" : "one ray a pixel", different, pictures, (unsigned long long)shadow_rays,
-           (unsigned long long)reflected_rays);
+           (unsigned long long)reflected_rays, (unsigned long long)transmitted_rays);
 }
 
 // A layer that lets nothing through looks the same by itself, which is done by tiles, and over another, which is walked.
@@ -444,10 +578,12 @@ int main(void)
         test_geometry(seed, family, 8, (int)family % 3);
         test_geometry(seed, family, 3000, (int)(family + 1) % 3);
     }
+    test_geometry(seed, 0, 25, 1);
+    test_crossed(seed);
     test_onward_ties(seed);
     SamplingOptions sampling = {.seed = seed, .samples = 5};
-    for (int kind = 0; kind < 4; kind++) {
-        Extras extras = {.any_lights = kind & 1, .patterns = kind & 2};
+    for (int kind = 0; kind < 6; kind++) {
+        Extras extras = {.any_lights = kind & 1, .patterns = kind & 2, .clear = kind & 4};
         test_light(seed, &extras, NULL);
         test_light(seed, &extras, &sampling);
     }
