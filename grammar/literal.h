@@ -33,18 +33,35 @@ typedef struct LiteralGap {
     size_t length;
 } LiteralGap;
 
+// The digits of the number that stood in a place when its form was learnt, `0.731272` or `12`: the next one there mostly
+// has as many, and is read without looking for its point and its end. With its point it has no more than eight bytes.
+typedef struct LiteralDigits {
+    uint64_t text, mask;   // zeros and the point, as eight bytes stand in the text; of those behind them nothing is asked
+    uint64_t whole, point; // the bytes before the point, and that of the point
+    unsigned length, shift; // bytes, 0: digits of another kind; bits of those that are left over
+    double divisor[2];      // of what the digits are together, and of that with a minus sign
+} LiteralDigits;
+
+enum {
+    LITERAL_NUMBERS = 9,   // centre, radius and colour
+    LITERAL_ODD_MOST = 36, // numbers of other digits: the form is learnt again
+};
+
 typedef struct LiteralForm {
     const LiteralPattern *pattern; // NULL: none is known
     char head[32];                 // up to the first number
     size_t head_length;
-    LiteralGap gaps[9];            // between centre and radius, then between the numbers of the colour
-    unsigned colours;              // numbers of the colour
+    LiteralGap gaps[LITERAL_NUMBERS]; // between centre and radius, then between the numbers of the colour
+    LiteralDigits digits[LITERAL_NUMBERS]; // of the numbers in the same order
+    unsigned colours;                 // numbers of the colour
+    bool is_even;                     // the digits are mostly those of before
+    unsigned odd, statements, learnt; // numbers of other digits, and statements, since it was learnt; how often that was
 } LiteralForm;
 
 // Of a statement that was read by literal_read.
 void literal_form_learn(LiteralForm *form, const LiteralPattern *pattern, const char *begin, const char *end);
 // As literal_read, of a statement of this form that the buffer does not end soon after; NULL: it is none.
-const char *literal_form_read(const LiteralForm *form, const char *at, const char *end, GrammarLiteral *literal);
+const char *literal_form_read(LiteralForm *form, const char *at, const char *end, GrammarLiteral *literal);
 
 // A literal that ends here was taken: as if its tokens had been delivered.
 void literal_set_previous(GrammarState *state, uint64_t end);

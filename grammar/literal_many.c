@@ -64,9 +64,14 @@ static const char *read_statement(const Readers *readers, Forms *forms, const ch
                                   GrammarLiteral *literal)
 {
     LiteralPattern *const *patterns = readers->state->literals;
-    const char *text, *after = literal_form_read(&forms->items[forms->last], at, end, literal);
+    LiteralForm *form = &forms->items[forms->last];
+    bool is_due = form->odd > LITERAL_ODD_MOST; // whatever the digits of this one are
+    const char *text, *after = literal_form_read(form, at, end, literal);
     if (RT_LIKELY(after != NULL)) {
         forms->misses = 0;
+        if (RT_UNLIKELY(is_due)) {
+            literal_form_learn(form, form->pattern, at, end);
+        }
         return after;
     }
     unsigned which;

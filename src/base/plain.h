@@ -53,22 +53,32 @@ static inline bool plain_is_in_word(char c)
     return plain_goes_on(c) && c != '.';
 }
 
-// How many digits eight bytes of text begin with: a byte holds a digit when its high half is 3 and adding 6 to the low
+// Of eight bytes less '0' the bits that no digit has: a byte is a digit when its high half is 0 and adding 6 to the low
 // half does not carry.
+static inline uint64_t plain_others(uint64_t digits)
+{
+    return (digits | (digits + UINT64_C(0x0606060606060606))) & UINT64_C(0xf0f0f0f0f0f0f0f0);
+}
+
+// How many digits eight bytes of text begin with.
 static inline unsigned plain_count_digits(uint64_t chunk)
 {
-    uint64_t halves = chunk ^ UINT64_C(0x3030303030303030);
-    uint64_t others = (halves | (halves + UINT64_C(0x0606060606060606))) & UINT64_C(0xf0f0f0f0f0f0f0f0);
+    uint64_t others = plain_others(chunk ^ UINT64_C(0x3030303030303030));
     return others != 0 ? (unsigned)__builtin_ctzll(others) / 8 : 8;
 }
 
-// Their number, of `count` >= 1: pairs, pairs of pairs and so on are put together by multiplication.
+// The number of eight digits: pairs, pairs of pairs and so on are put together by multiplication.
+static inline uint64_t plain_join(uint64_t digits)
+{
+    digits = digits * 10 + (digits >> 8);
+    return ((digits & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x000f424000000064) +
+            (digits >> 16 & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x0000271000000001)) >> 32;
+}
+
+// Of the first `count` >= 1 of them in a text.
 static inline uint64_t plain_join_digits(uint64_t chunk, unsigned count)
 {
-    chunk = (chunk ^ UINT64_C(0x3030303030303030)) << (64 - 8 * count); // zeros before the first digit
-    chunk = chunk * 10 + (chunk >> 8);
-    return ((chunk & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x000f424000000064) +
-            (chunk >> 16 & UINT64_C(0x000000ff000000ff)) * UINT64_C(0x0000271000000001)) >> 32;
+    return plain_join((chunk ^ UINT64_C(0x3030303030303030)) << (64 - 8 * count)); // zeros before the first digit
 }
 
 // A number without its sign, of any form, and where it ends; NULL: it is refused.

@@ -7,7 +7,6 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,7 +27,7 @@ typedef struct Key {
 } Key;
 
 typedef struct Slot {
-    _Alignas(8) uint32_t hash;
+    uint32_t hash;
     uint32_t item; // number of the shape, or after all shapes of the composite, + 1; 0: empty
 } Slot;
 
@@ -167,18 +166,13 @@ static inline uint32_t sphere_hash(const Sphere *sphere)
     return (uint32_t)hash_add(hash, sphere->radius);
 }
 
-// Of the shapes from begin to end, whose slots are asked for.
-static void hash_some(const Twins *twins, size_t begin, size_t end, uint32_t *hashes)
+static uint32_t item_hash(const Twins *twins, size_t item)
 {
-    for (size_t item = begin; item < end; item++) {
-        if (item < twins->ellipsoids) {
-            hashes[item - begin] = sphere_hash(&twins->scene->spheres.items[item]);
-        } else {
-            Key key = item_key(twins, item);
-            hashes[item - begin] = key_hash(&key);
-        }
-        __builtin_prefetch(&twins->slots[hashes[item - begin] & twins->mask], 1);
+    if (item < twins->ellipsoids) {
+        return sphere_hash(&twins->scene->spheres.items[item]);
     }
+    Key key = item_key(twins, item);
+    return key_hash(&key);
 }
 
 static bool keys_are_equal(const Key *a, const Key *b)
@@ -342,59 +336,164 @@ static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diag
     }
 }
 
-// Many spheres on several threads: all are put in, in any order, for it hardly ever happens that two are equal.
-typedef struct Crowd {
+// ---- many spheres: most have a hash of their own, which a map of bits tells, and are not looked up
+
+enum { BITS_PER_SPHERE = 16 }; // at least: one sphere in 16 is looked up in vain
+
+typedef struct Sieve {
     const Twins *twins;
-    atomic_bool has_twins;
-} Crowd;
+    uint32_t *hashes;        // of all spheres; then, run by run, the numbers of those that are to be looked up
+    uint32_t *counts;        // of these, for each run
+    uint64_t *once, *twice;  // bits of hashes that were met, and met again
+    uint32_t mask;           // of hashes
+    bool is_shared;          // by threads
+} Sieve;
 
-// False when its equal is there.
-static bool put_in(const Twins *twins, size_t item, uint32_t hash)
+// Whether it was set.
+static inline bool bit_set(const Sieve *sieve, uint64_t *bits, uint32_t hash)
 {
-    Slot wanted = {hash, (uint32_t)item + 1};
-    for (uint32_t at = hash & twins->mask;; at = (at + 1) & twins->mask) {
-        Slot known = {0};
-        if (__atomic_compare_exchange(&twins->slots[at], &known, &wanted, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-            return true;
+    uint64_t *word = &bits[(hash & sieve->mask) / 64], bit = UINT64_C(1) << hash % 64;
+    uint64_t before = *word;
+    if (sieve->is_shared) {
+        before = __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
+    } else {
+        *word = before | bit;
+    }
+    return before & bit;
+}
+
+static inline bool bit_get(const Sieve *sieve, const uint64_t *bits, uint32_t hash)
+{
+    return bits[(hash & sieve->mask) / 64] >> hash % 64 & 1;
+}
+
+static void sieve_run(void *client, size_t begin, size_t end)
+{
+    const Sieve *sieve = client;
+    const Sphere *spheres = sieve->twins->scene->spheres.items;
+    for (size_t i = begin; i < end + AHEAD; i++) {
+        if (i < end) {
+            sieve->hashes[i] = sphere_hash(&spheres[i]);
+            __builtin_prefetch(&sieve->once[(sieve->hashes[i] & sieve->mask) / 64], 1);
         }
-        if (known.hash == hash) {
-            Key key = item_key(twins, item), other = item_key(twins, known.item - 1);
-            if (keys_are_equal(&key, &other)) {
-                return false;
-            }
+        if (i >= begin + AHEAD && bit_set(sieve, sieve->once, sieve->hashes[i - AHEAD])) {
+            bit_set(sieve, sieve->twice, sieve->hashes[i - AHEAD]);
         }
     }
 }
 
-static void put_in_run(void *client, size_t begin, size_t end)
+static void gather_run(void *client, size_t begin, size_t end)
 {
-    Crowd *crowd = client;
-    for (; begin < end && !atomic_load(&crowd->has_twins); begin += AHEAD) {
+    const Sieve *sieve = client;
+    uint32_t *kept = &sieve->hashes[begin];
+    for (size_t i = begin; i < end; i++) {
+        if (i + AHEAD < end) {
+            __builtin_prefetch(&sieve->twice[(sieve->hashes[i + AHEAD] & sieve->mask) / 64]);
+        }
+        bool is_kept = bit_get(sieve, sieve->twice, sieve->hashes[i]);
+        *kept = is_kept ? (uint32_t)i : *kept;
+        kept += is_kept;
+    }
+    sieve->counts[begin / SPHERE_RUN] = (uint32_t)(kept - &sieve->hashes[begin]);
+}
+
+static size_t sieve_runs(const Twins *twins)
+{
+    return (twins->ellipsoids + SPHERE_RUN - 1) / SPHERE_RUN;
+}
+
+// Shapes that are round in another way are looked up, so that their equals must be in the table.
+static void sieve_others(const Sieve *sieve)
+{
+    const Twins *twins = sieve->twins;
+    for (size_t item = twins->ellipsoids; item < twins->end; item++) {
+        Key key = item_key(twins, item);
+        if (key.kind == KIND_SPHERE_KEY) {
+            bit_set(sieve, sieve->twice, key_hash(&key));
+        }
+    }
+}
+
+static void sieve_fini(Sieve *sieve)
+{
+    free(sieve->hashes);
+    free(sieve->counts);
+    free(sieve->once);
+    free(sieve->twice);
+}
+
+// False when out of memory; fini is to be called anyway. *count: the spheres that are to be looked up.
+static bool sieve_init(Sieve *sieve, const Twins *twins, int threads, size_t *count)
+{
+    size_t spheres = twins->ellipsoids, bits = 64;
+    while (bits < BITS_PER_SPHERE * spheres && bits < (size_t)UINT32_MAX + 1) {
+        bits *= 2;
+    }
+    *sieve = (Sieve){.twins = twins, .mask = (uint32_t)(bits - 1), .is_shared = threads > 1};
+    sieve->hashes = malloc(spheres * sizeof *sieve->hashes);
+    sieve->counts = malloc(sieve_runs(twins) * sizeof *sieve->counts);
+    sieve->once = calloc(bits / 64, sizeof *sieve->once);
+    sieve->twice = calloc(bits / 64, sizeof *sieve->twice);
+    if (!sieve->hashes || !sieve->counts || !sieve->once || !sieve->twice) {
+        return false;
+    }
+    pages_prefer_huge(sieve->hashes, spheres * sizeof *sieve->hashes);
+    pages_prefer_huge(sieve->once, bits / 8);
+    pages_prefer_huge(sieve->twice, bits / 8);
+    parallel_share(threads, spheres, SPHERE_RUN, sieve_run, sieve);
+    sieve_others(sieve);
+    parallel_share(threads, spheres, SPHERE_RUN, gather_run, sieve);
+    *count = 0;
+    for (size_t run = 0; run < sieve_runs(twins); run++) {
+        *count += sieve->counts[run];
+    }
+    return true;
+}
+
+// ---- the whole
+
+static bool table_init(Twins *twins, size_t items)
+{
+    size_t slots = 4;
+    while (slots < 2 * items) {
+        slots *= 2;
+    }
+    twins->mask = (uint32_t)(slots - 1);
+    twins->slots = calloc(slots, sizeof *twins->slots);
+    pages_prefer_huge(twins->slots, slots * sizeof *twins->slots);
+    return twins->slots != NULL;
+}
+
+// `items`: numbers of shapes in their order; NULL: those from `begin` on.
+static void visit_some(const Twins *twins, const uint32_t *items, size_t begin, size_t count, DiagSink *diags)
+{
+    for (size_t done = 0; done < count; done += AHEAD) {
         uint32_t hashes[AHEAD];
-        size_t stop = begin + AHEAD < end ? begin + AHEAD : end;
-        hash_some(crowd->twins, begin, stop, hashes);
-        for (size_t item = begin; item < stop; item++) {
-            if (!put_in(crowd->twins, item, hashes[item - begin])) {
-                atomic_store(&crowd->has_twins, true);
-                return;
+        size_t some = count - done < AHEAD ? count - done : AHEAD;
+        for (size_t i = 0; i < some; i++) {
+            hashes[i] = item_hash(twins, items ? items[done + i] : begin + done + i);
+            __builtin_prefetch(&twins->slots[hashes[i] & twins->mask], 1);
+        }
+        for (size_t i = 0; i < some; i++) {
+            size_t item = items ? items[done + i] : begin + done + i;
+            if (item_is_alone(twins, item)) {
+                visit(twins, item, hashes[i], diags);
             }
         }
     }
 }
 
-// How many of the first shapes are in the table, without an equal: none or all of the spheres.
-static size_t put_in_spheres(const Twins *twins, int threads)
+// False when out of memory.
+static bool visit_many_spheres(Twins *twins, DiagSink *diags, int threads)
 {
-    Crowd crowd = {.twins = twins};
-    if (threads < 2 || twins->ellipsoids <= SPHERE_RUN) {
-        return 0;
+    Sieve sieve;
+    size_t count, others = twins->end - twins->ellipsoids + twins->scene->composites.count;
+    bool done = sieve_init(&sieve, twins, threads, &count) && table_init(twins, count + others);
+    for (size_t run = 0; done && run < sieve_runs(twins); run++) {
+        visit_some(twins, &sieve.hashes[run * SPHERE_RUN], 0, sieve.counts[run], diags);
     }
-    parallel_share(threads, twins->ellipsoids, SPHERE_RUN, put_in_run, &crowd);
-    if (atomic_load(&crowd.has_twins)) {
-        memset(twins->slots, 0, ((size_t)twins->mask + 1) * sizeof *twins->slots);
-        return 0;
-    }
-    return twins->ellipsoids;
+    sieve_fini(&sieve);
+    return done;
 }
 
 bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads)
@@ -406,26 +505,14 @@ bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads)
     if (twins.end < 2 || twins.end >= UINT32_MAX / 4 || !diag_is_on(diags, DIAG_W0444)) {
         return true;
     }
-    uint32_t slots = 4;
-    while (slots < 2 * (twins.end + scene->composites.count)) {
-        slots *= 2;
-    }
-    twins.mask = slots - 1;
-    twins.slots = calloc(slots, sizeof *twins.slots);
-    pages_prefer_huge(twins.slots, slots * sizeof *twins.slots);
-    if (!twins.slots) {
+    bool are_many = twins.ellipsoids > SPHERE_RUN;
+    if (!(are_many ? visit_many_spheres(&twins, diags, threads)
+                   : table_init(&twins, twins.end + scene->composites.count))) {
+        free(twins.slots);
         return false;
     }
-    for (size_t begin = put_in_spheres(&twins, threads); begin < twins.end; begin += AHEAD) {
-        uint32_t hashes[AHEAD];
-        size_t end = begin + AHEAD < twins.end ? begin + AHEAD : twins.end;
-        hash_some(&twins, begin, end, hashes);
-        for (size_t item = begin; item < end; item++) {
-            if (item_is_alone(&twins, item)) {
-                visit(&twins, item, hashes[item - begin], diags);
-            }
-        }
-    }
+    size_t begin = are_many ? twins.ellipsoids : 0;
+    visit_some(&twins, NULL, begin, twins.end - begin, diags);
     for (uint32_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
         visit_composite(&twins, i, diags);

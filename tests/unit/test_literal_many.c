@@ -216,6 +216,30 @@ static void test_left(Random *random)
     text_fini(&text);
 }
 
+// One character of a number is another one: what is nearly a number is told, or read, as the scanner has it.
+static void test_slip(Random *random)
+{
+    static const char slips[] = "/:,.;-+eE 0x\t97<>{}'";
+    TextBuffer text;
+    unsigned form = random_below(random, RT_COUNT_OF(forms)), at = 4000 + random_below(random, 900);
+    text_init(&text);
+    for (unsigned i = 0; i < 5000; i++) { // of more bytes than the scanner reads at once
+        size_t begin = text.length;
+        write_sphere(&text, random, COLOUR_NEW, form);
+        if (i == at) {
+            char *line = (char *)text_get(&text) + begin;
+            size_t place;
+            do {
+                place = random_below(random, (unsigned)(text.length - begin));
+            } while (strchr("0123456789.", line[place]) == NULL);
+            line[place] = slips[random_below(random, sizeof slips - 1)];
+        }
+    }
+    must(!text.failed);
+    compare(&text, 1 + (int)random_below(random, 3), 4000, 1000000, ", with a slip");
+    text_fini(&text);
+}
+
 // Colours that repeat often enough to be looked up for ever, though never but in the next sphere; then some come again.
 static void test_pairs(Random *random)
 {
@@ -235,6 +259,9 @@ int main(int argc, char **argv)
     int texts = argc > 1 ? atoi(argv[1]) : TEXTS;
     for (int i = 0; i < texts; i++) {
         test_text(&random, i % 2 == 1);
+    }
+    for (int i = 0; i < 10 * texts; i++) {
+        test_slip(&random);
     }
     test_left(&random);
     test_pairs(&random);

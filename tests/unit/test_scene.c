@@ -5,9 +5,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/range.h"
 #include "scene/reach.h"
 #include "scene/scene.h"
 #include "tap.h"
+#include "unit/random.h"
 
 static bool add_material(Scene *scene, double red, double diffuse, MaterialIndex *index)
 {
@@ -225,6 +227,65 @@ static void test_runs(void)
     scene_fini(&scene);
 }
 
+enum { CROWD = 50 * 1000, CROWD_TWINS = 6, ROUND_TWINS = 3 };
+
+// Equal spheres here and there among very many, and shapes that are round in another way, alone and in a composite.
+// Each was written at its place in the order of declaration + 1.
+static bool make_crowd(Scene *scene, const uint32_t twins[CROWD_TWINS][2])
+{
+    Random random = {3};
+    bool is_made = true;
+    uint32_t index;
+    for (uint32_t i = 0, twin = 0; i < CROWD && is_made; i++) {
+        Vec3 centre = vec3(random_between(&random, -9.0, 9.0), random_between(&random, -9.0, 9.0), i);
+        if (twin < CROWD_TWINS && twins[twin][1] == i) {
+            centre = scene->spheres.items[twins[twin++][0]].centre;
+        }
+        is_made = scene_add_sphere(scene, centre, 1.0, 0, i + 1);
+    }
+    for (uint32_t i = 0; i < ROUND_TWINS && is_made; i++) { // in the way of the last one stands something else
+        Part part = {.kind = PART_BALL, .node = NODE_NONE, .source = CROWD + i + 1};
+        part.to_world = transform_translate(i == 2 ? vec3(1e6, 0.0, 0.0) : scene->spheres.items[7 + 30000 * i].centre);
+        is_made = scene_add_part(scene, &part);
+    }
+    Part leaf = {.kind = PART_BALL, .source = CROWD + 9};
+    leaf.to_world = transform_translate(scene->spheres.items[CROWD - 3].centre);
+    is_made = is_made && scene_begin_composite(scene, 0, CROWD + 8) &&
+              scene_add_node(scene, NODE_INTERSECTION, false, NODE_NONE, CROWD + 8, &index);
+    leaf.node = index;
+    is_made = is_made && scene_add_leaf(scene, &leaf);
+    if (is_made) {
+        scene_end_composite(scene);
+    }
+    return is_made;
+}
+
+static void test_crowd(int threads)
+{
+    // Numbers of the first and of the second one: in one run of threads and in two, next to each other, three alike.
+    static const uint32_t twins[CROWD_TWINS][2] = {{0, 1},         {5, 16000},      {5, 16384},
+                                                   {16383, 16385}, {40000, 40040}, {0, CROWD - 1}};
+    static const uint64_t round_twins[] = {CROWD + 1, CROWD + 2, CROWD + 9};
+    Scene scene;
+    SourceMap *sources = source_map_new();
+    DiagSink diags;
+    diag_init(&diags, sources);
+    diags.keep_alike = 100;
+    scene_init(&scene);
+    bool is_told = make_crowd(&scene, twins) && scene_warn_of_twins(&scene, &diags, threads) &&
+                   diags.count == CROWD_TWINS + RT_COUNT_OF(round_twins);
+    for (size_t i = 0; is_told && i < diags.count; i++) {
+        const Diag *diag = &diags.items[i];
+        uint64_t wanted = i < CROWD_TWINS ? twins[i][1] + 1 : round_twins[i - CROWD_TWINS];
+        is_told = diag->code == DIAG_W0444 && diag->span.begin == wanted && diag->note_count == 1;
+        is_told = is_told && (i >= CROWD_TWINS || diag->notes[0].span.begin == twins[i][0] + 1);
+    }
+    tap_ok(is_told, "%d thread(s): the few of %d spheres that have an equal are told, in order", threads, (int)CROWD);
+    scene_fini(&scene);
+    diag_fini(&diags);
+    source_map_free(sources);
+}
+
 static void test_reach(void)
 {
     Scene scene;
@@ -255,6 +316,8 @@ int main(void)
     test_gamma_dump();
     test_validation();
     test_runs();
+    test_crowd(1);
+    test_crowd(3);
     test_reach();
     return tap_done();
 }
