@@ -13,18 +13,25 @@
 #include "trace/bvh.h"
 #include "trace/simd.h"
 
+enum { BVH_CHILD_BYTES = sizeof(BvhNode) };
 enum { BVH_STACK = BVH_DEPTH_MOST * (BVH_WIDTH - 1) + BVH_WIDTH };
 
 // x, y, z and something.
 typedef double Axes __attribute__((vector_size(32)));
 typedef float FloatAxes __attribute__((vector_size(16)));
-typedef int64_t AxesMask __attribute__((vector_size(32)));
+typedef int32_t FloatAxesMask __attribute__((vector_size(16)));
+
+// Planes of an axis are met at floats_slab(plane, from[axis], by[axis]), see bvh_walk_start.
+typedef struct BvhSlabs {
+    float from[4], by[4];
+} BvhSlabs;
 
 typedef struct BvhWalk {
     const BvhNode *nodes;
+    const char *leaves; // what leaves lead to, BVH_CHILD_BYTES each; NULL: nothing is fetched ahead
     double scale, skipped; // distance in the tree = parameter of the ray * scale - skipped
-    float origin[2][4], inverse[2][4]; // of near, of far planes: their distance is (plane - origin) * inverse
-    unsigned near_side[3];             // 1 when the ray meets the high plane of an axis first
+    BvhSlabs near, far;
+    unsigned near_side[3]; // 1 when the ray meets the high plane of an axis first
     unsigned waiting;
     uint64_t stack[BVH_STACK]; // bits of the distance above, child below: distances are >= 0, so they order as integers
 } BvhWalk;
@@ -36,63 +43,67 @@ RT_ALWAYS_INLINE float bvh_walk_limit(const BvhWalk *walk, double t_max)
     return (float)(limit + fabs(limit) * 0x1p-22);
 }
 
-RT_ALWAYS_INLINE void axes_store(float to[4], Axes a)
+RT_ALWAYS_INLINE double axes_sum_abs(const Axes *a)
 {
-    FloatAxes narrow = __builtin_convertvector(a, FloatAxes);
-    memcpy(to, &narrow, sizeof(narrow));
-}
-
-RT_ALWAYS_INLINE double axes_sum_abs(Axes a)
-{
-    return fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
+    return fabs((*a)[0]) + fabs((*a)[1]) + fabs((*a)[2]);
 }
 
 // Moves a far origin up to the root box; false when the ray misses that.
-RT_ALWAYS_INLINE bool bvh_walk_approach(BvhWalk *walk, const Bvh *bvh, Axes *origin, Axes direction, Axes inverse,
-                                        double pad)
+RT_ALWAYS_INLINE bool bvh_walk_approach(BvhWalk *walk, const Bvh *bvh, Axes *origin, Vec3 direction, double pad)
 {
     const double u = DBL_EPSILON / 2;
     const double half[3] = {bvh->half.x, bvh->half.y, bvh->half.z};
+    const double d[3] = {direction.x, direction.y, direction.z};
     double enter = 0.0;
     double leave = (double)INFINITY;
     for (int axis = 0; axis < 3; axis++) {
-        double side = copysign(half[axis] + pad, inverse[axis]);
-        double near = (-side - (*origin)[axis]) * inverse[axis];
-        double far = (side - (*origin)[axis]) * inverse[axis];
+        double inverse = 1.0 / copysign(fmax(fabs(d[axis]), 0x1p-60), d[axis]);
+        double side = copysign(half[axis] + pad, d[axis]);
+        double near = (-side - (*origin)[axis]) * inverse;
+        double far = (side - (*origin)[axis]) * inverse;
         enter = near > enter ? near : enter;
         leave = far < leave ? far : leave;
     }
     walk->skipped = enter * (1.0 - 8 * u);
-    *origin += walk->skipped * direction;
+    *origin += walk->skipped * (Axes){d[0], d[1], d[2], 0.0};
     return walk->skipped <= leave * (1.0 + 8 * u);
 }
 
-// What the tests of boxes need: planes moved outward by `pad`, and the inverses for near and for far planes.
-RT_ALWAYS_INLINE void bvh_walk_set(BvhWalk *walk, const Bvh *bvh, Axes origin, double pad, AxesMask signs,
-                                   Axes near_inverse, Axes far_inverse)
+// 1/d, with components of d below 2^-60 taken for that.
+RT_ALWAYS_INLINE FloatAxes axes_invert(FloatAxes d)
 {
-    Axes shift = (Axes)((AxesMask)((Axes){0} + pad) | signs);
-    axes_store(walk->origin[0], origin + shift);
-    axes_store(walk->origin[1], origin - shift);
-    axes_store(walk->inverse[0], near_inverse * (1.0 - 0x1p-21));
-    axes_store(walk->inverse[1], far_inverse * (1.0 + 0x1p-21));
+    FloatAxesMask signs = (FloatAxesMask)d & INT32_MIN;
+    FloatAxes size = (FloatAxes)((FloatAxesMask)d & INT32_MAX);
+    FloatAxesMask small = size < 0x1p-60f;
+    size = (FloatAxes)((small & (FloatAxesMask)((FloatAxes){0} + 0x1p-60f)) | (~small & (FloatAxesMask)size));
+    return 1.0f / (FloatAxes)((FloatAxesMask)size | signs);
+}
+
+RT_ALWAYS_INLINE void bvh_slabs_set(BvhSlabs *slabs, FloatAxes origin, FloatAxes inverse)
+{
+    FloatAxes from = FLOATS_ARE_FUSED ? origin * inverse : origin;
+    memcpy(slabs->from, &from, sizeof(from));
+    memcpy(slabs->by, &inverse, sizeof(inverse));
+    asm("" : "+m"(*slabs)); // so that they are spread over vectors by loads, which cost less than shuffles
+}
+
+// Begins at the root with what the tests of boxes need: planes moved outward by `pad`, and the directions for near and
+// for far planes, which have the same signs.
+RT_ALWAYS_INLINE void bvh_walk_set(BvhWalk *walk, const Bvh *bvh, FloatAxes origin, float pad,
+                                   FloatAxes near_direction, FloatAxes far_direction)
+{
+    FloatAxesMask signs = (FloatAxesMask)near_direction & INT32_MIN;
+    FloatAxes shift = (FloatAxes)((FloatAxesMask)((FloatAxes){0} + pad) | signs);
+    bvh_slabs_set(&walk->near, origin + shift, axes_invert(near_direction) * (1.0f - 0x1p-21f));
+    bvh_slabs_set(&walk->far, origin - shift, axes_invert(far_direction) * (1.0f + 0x1p-21f));
     for (int axis = 0; axis < 3; axis++) {
-        walk->near_side[axis] = signs[axis] != 0;
+        walk->near_side[axis] = (uint32_t)signs[axis] >> 31;
     }
     walk->nodes = bvh->nodes;
+    walk->leaves = NULL;
     walk->scale = bvh->scale;
     walk->waiting = 1;
     walk->stack[0] = 0;
-}
-
-// 1/d, with components of d below 2^-60 taken for that.
-RT_ALWAYS_INLINE void axes_invert(Axes d, Axes *inverse)
-{
-    AxesMask signs = (AxesMask)d & INT64_MIN;
-    Axes size = (Axes)((AxesMask)d & INT64_MAX);
-    AxesMask small = size < 0x1p-60;
-    size = (Axes)((small & (AxesMask)((Axes){0} + 0x1p-60)) | (~small & (AxesMask)size));
-    *inverse = 1.0 / (Axes)((AxesMask)size | signs);
 }
 
 // A point in the coordinates of the tree.
@@ -102,6 +113,29 @@ RT_ALWAYS_INLINE void bvh_walk_point(const Bvh *bvh, Vec3 p, Axes *out)
     *out = ((Axes){p.x, p.y, p.z} - centre) * bvh->scale;
 }
 
+RT_ALWAYS_INLINE FloatAxes axes_narrow(const Axes *a)
+{
+    return __builtin_convertvector(*a, FloatAxes);
+}
+
+RT_ALWAYS_INLINE FloatAxes axes_of_direction(Vec3 d)
+{
+    return axes_narrow(&(Axes){d.x, d.y, d.z, 1.0});
+}
+
+// Whether no component is greater than 4 by size; a NaN is.
+RT_ALWAYS_INLINE bool axes_are_small(FloatAxes a)
+{
+    FloatAxesMask small = (FloatAxes)((FloatAxesMask)a & INT32_MAX) <= 4.0f;
+    return small[0] & small[1] & small[2];
+}
+
+// How far planes are moved for an origin whose D and D', see below, are no more than these.
+RT_ALWAYS_INLINE double bvh_walk_pad(double reach, double near_reach)
+{
+    return 32.0 * (DBL_EPSILON / 2) * reach + 0x1p-22 * near_reach;
+}
+
 // Begins a walk from p(0) on. The direction is about of unit length.
 //
 // Let D be the sum of the coordinates of origin and root box in tree coordinates, which is not less than any difference
@@ -109,33 +143,31 @@ RT_ALWAYS_INLINE void bvh_walk_point(const Bvh *bvh, Vec3 p, Axes *out)
 // away. Planes are moved outward by 32 u D + 2^-22 D', to cover
 //   in u D:     3 for a point reported at a t that is off by an ulp; 3 for centre ± radius in tree coordinates; 1 for the
 //               origin there and 5 for moving it; the rest is spare
-//   in 2^-24 D': 1 for the origin's conversion to float; the rest is spare
-// and distances are multiplied by 1 ∓ 2^-21, where plane - origin, 1/direction and their product are each off by 2^-24.
+//   in 2^-24 D': 1 for the origin's conversion to float, 1 for moving it outward there, 1 for origin / direction where
+//               that is subtracted from plane / direction; the rest is spare
+// and distances are multiplied by 1 ∓ 2^-21, where direction's conversion to float, its inverse and that times 1 ∓ 2^-21,
+// plane - origin and the product of both are each off by 2^-24.
 // A direction's component below 2^-60 is taken for 2^-60: over the length of the tree that is less than u D.
 // (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, with all of it done once a ray instead of once a box.)
 // False when the ray cannot meet the tree.
 RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin, Vec3 direction)
 {
-    Axes o, inverse;
-    Axes d = {direction.x, direction.y, direction.z, 1.0};
+    Axes o;
     bvh_walk_point(bvh, origin, &o);
-    axes_invert(d, &inverse);
-    double half = bvh->half.x + bvh->half.y + bvh->half.z;
-    double reach = axes_sum_abs(o) + half;
-    if (!(reach < (double)INFINITY) || !bvh->nodes) {
-        return false;
-    }
-    double pad = 16.0 * (32.0 * (DBL_EPSILON / 2) + 0x1p-22);
+    double pad = bvh_walk_pad(16.0, 16.0); // D is at most 12 and the root box's 3, where no component is above 4
     walk->skipped = 0.0;
-    if (reach > 16.0) {
-        pad = 32.0 * (DBL_EPSILON / 2) * reach;
-        if (!bvh_walk_approach(walk, bvh, &o, d, inverse, pad)) {
+    if (RT_UNLIKELY(!axes_are_small(axes_narrow(&o)))) {
+        double half = bvh->half.x + bvh->half.y + bvh->half.z;
+        double reach = axes_sum_abs(&o) + half;
+        if (!(reach < (double)INFINITY) ||
+            !bvh_walk_approach(walk, bvh, &o, direction, bvh_walk_pad(reach, 0.0))) {
             return false;
         }
-        pad += 0x1p-22 * (axes_sum_abs(o) + half);
+        pad = bvh_walk_pad(reach, axes_sum_abs(&o) + half);
     }
-    bvh_walk_set(walk, bvh, o, pad, (AxesMask)d & INT64_MIN, inverse, inverse);
-    return true;
+    FloatAxes d = axes_of_direction(direction);
+    bvh_walk_set(walk, bvh, axes_narrow(&o), (float)pad, d, d);
+    return bvh->nodes;
 }
 
 // The same for all rays from one origin whose directions have components between `least` and `greatest`, least and
@@ -144,21 +176,17 @@ RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin,
 RT_ALWAYS_INLINE bool bvh_walk_start_beam(BvhWalk *walk, const Bvh *bvh, Vec3 origin, double aside, Vec3 least,
                                           Vec3 greatest, bool *is_too_far)
 {
-    Axes o, near_inverse, far_inverse;
-    Axes far_direction = {least.x, least.y, least.z, 1.0};
-    Axes near_direction = {greatest.x, greatest.y, greatest.z, 1.0};
+    Axes o;
     bvh_walk_point(bvh, origin, &o);
-    axes_invert(near_direction, &near_inverse);
-    axes_invert(far_direction, &far_inverse);
     double outset = aside * bvh->scale;
-    double reach = axes_sum_abs(o) + bvh->half.x + bvh->half.y + bvh->half.z + outset;
+    double reach = axes_sum_abs(&o) + bvh->half.x + bvh->half.y + bvh->half.z + outset;
     *is_too_far = !(reach < 4096.0);
     if (*is_too_far || !bvh->nodes) {
         return false;
     }
     walk->skipped = 0.0;
-    bvh_walk_set(walk, bvh, o, (32.0 * (DBL_EPSILON / 2) + 0x1p-22) * reach + outset,
-                 (AxesMask)near_direction & INT64_MIN, near_inverse, far_inverse);
+    bvh_walk_set(walk, bvh, axes_narrow(&o), (float)(bvh_walk_pad(reach, reach) + outset), axes_of_direction(greatest),
+                 axes_of_direction(least));
     return true;
 }
 
@@ -175,20 +203,37 @@ RT_ALWAYS_INLINE unsigned bvh_walk_boxes(const BvhWalk *walk, const BvhNode *nod
     unsigned met = 0;
 #pragma GCC unroll 2
     for (int at = 0; at < BVH_WIDTH; at += FLOATS) {
-        Floats enter = floats_splat(0.0f);
-        Floats leave = floats_splat(limit);
+        Floats near[3], far[3];
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; axis++) {
             unsigned side = walk->near_side[axis];
-            Floats near = (floats_load(&node->box[axis][side][at]) - walk->origin[0][axis]) * walk->inverse[0][axis];
-            Floats far = (floats_load(&node->box[axis][side ^ 1][at]) - walk->origin[1][axis]) * walk->inverse[1][axis];
-            enter = floats_max(near, enter);
-            leave = floats_min(far, leave);
+            near[axis] = floats_slab(floats_load(&node->box[axis][side][at]), floats_splat(walk->near.from[axis]),
+                                     floats_splat(walk->near.by[axis]));
+            far[axis] = floats_slab(floats_load(&node->box[axis][side ^ 1][at]), floats_splat(walk->far.from[axis]),
+                                    floats_splat(walk->far.by[axis]));
         }
+        // Two and two, so that one does not wait for the one before.
+        Floats enter = floats_max(floats_max(near[0], near[1]), floats_max(near[2], floats_splat(0.0f)));
+        Floats leave = floats_min(floats_min(far[0], far[1]), floats_min(far[2], floats_splat(limit)));
         floats_store(&enters[at], enter);
         met |= floats_le(enter, leave) << at;
     }
     return met;
+}
+
+// Fetches a child, which has to wait, into the cache.
+RT_ALWAYS_INLINE void bvh_walk_expect(const BvhWalk *walk, uint64_t key)
+{
+    BvhChild child = (BvhChild)key;
+    if (!walk->leaves) {
+        return;
+    }
+    const char *from = child & BVH_LEAF ? walk->leaves : (const char *)walk->nodes;
+    from += (size_t)(child & ~BVH_LEAF) * BVH_CHILD_BYTES;
+#pragma GCC unroll 4
+    for (size_t line = 0; line < BVH_CHILD_BYTES; line += 64) {
+        __builtin_prefetch(from + line);
+    }
 }
 
 // Puts a child and distance among those that wait above `bottom`, far ones first.
@@ -215,11 +260,13 @@ RT_ALWAYS_INLINE BvhChild bvh_walk_choose(BvhWalk *walk, const BvhNode *node, un
     i = (unsigned)__builtin_ctz(met);
     uint64_t other = bvh_walk_key(enters[i], node->child[i]);
     unsigned bottom = walk->waiting;
+    bvh_walk_expect(walk, other > nearest ? other : nearest);
     walk->stack[walk->waiting++] = other > nearest ? other : nearest;
     nearest = other > nearest ? nearest : other;
     while ((met &= met - 1)) {
         i = (unsigned)__builtin_ctz(met);
         other = bvh_walk_key(enters[i], node->child[i]);
+        bvh_walk_expect(walk, other > nearest ? other : nearest);
         bvh_walk_push(walk, bottom, other > nearest ? other : nearest);
         nearest = other > nearest ? nearest : other;
     }
@@ -230,7 +277,10 @@ RT_ALWAYS_INLINE BvhChild bvh_walk_choose(BvhWalk *walk, const BvhNode *node, un
 RT_ALWAYS_INLINE bool bvh_walk_next(BvhWalk *walk, float limit, BvhChild *leaf)
 {
     uint64_t last = bvh_walk_key(limit, UINT32_MAX);
-    while (walk->waiting > 0 && limit >= 0.0f) {
+    if (!(limit >= 0.0f)) {
+        return false;
+    }
+    while (walk->waiting > 0) {
         uint64_t key = walk->stack[--walk->waiting];
         if (key > last) {
             continue;

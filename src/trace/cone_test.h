@@ -74,6 +74,13 @@ RT_ALWAYS_INLINE void direction_range(const double direction[3][TILE_RAYS], unsi
     }
 }
 
+// Whether directions differ so little that one walk for all of them pays; false for NaN.
+RT_ALWAYS_INLINE bool direction_range_is_narrow(const DirectionRange *range)
+{
+    return range->high[0] - range->low[0] < 0.75 && range->high[1] - range->low[1] < 0.75 &&
+           range->high[2] - range->low[2] < 0.75;
+}
+
 enum { OCTANTS = 8 };
 
 // The part of it in an octant, whose bits are set for axes along which it is negative: components least and greatest by

@@ -57,6 +57,24 @@ RT_ALWAYS_INLINE void doubles_store(double *to, Doubles a)
     *(Doubles *)to = a;
 }
 
+// What is so many bytes after `from`, for each component.
+RT_ALWAYS_INLINE Doubles doubles_gather(const double *from, DoublesMask bytes)
+{
+#if defined(__AVX512F__)
+    return _mm512_i64gather_pd((__m512i)bytes, from, 1);
+#elif defined(__AVX2__)
+    return _mm256_i64gather_pd(from, (__m256i)bytes, 1);
+#else
+    Doubles gathered;
+    for (int i = 0; i < DOUBLES; i++) {
+        double own;
+        memcpy(&own, (const char *)from + bytes[i], sizeof(own));
+        gathered[i] = own;
+    }
+    return gathered;
+#endif
+}
+
 RT_ALWAYS_INLINE Floats floats_splat(float a)
 {
     return a - (Floats){0};
@@ -89,6 +107,22 @@ RT_ALWAYS_INLINE Floats floats_max(Floats a, Floats b)
 #else
     FloatsMask more = a > b;
     return (Floats)((more & (FloatsMask)a) | (~more & (FloatsMask)b));
+#endif
+}
+
+// (a - from) * by, or, where that takes one instruction and FLOATS_ARE_FUSED, a * by - from with one rounding.
+#if defined(__FMA__)
+enum { FLOATS_ARE_FUSED = 1 };
+#else
+enum { FLOATS_ARE_FUSED = 0 };
+#endif
+
+RT_ALWAYS_INLINE Floats floats_slab(Floats a, Floats from, Floats by)
+{
+#if defined(__FMA__)
+    return _mm256_fmsub_ps(a, by, from);
+#else
+    return (a - from) * by;
 #endif
 }
 
@@ -182,17 +216,32 @@ RT_ALWAYS_INLINE Doubles doubles_min(Doubles a, Doubles b)
 
 RT_ALWAYS_INLINE Doubles doubles_max(Doubles a, Doubles b)
 {
+#if defined(__AVX512F__)
+    return _mm512_max_pd(a, b);
+#elif defined(__AVX__)
+    return _mm256_max_pd(a, b);
+#elif defined(__SSE2__)
+    return _mm_max_pd(a, b);
+#else
     return -doubles_min(-a, -b);
+#endif
 }
 
-// The least component.
+// The least component; none is NaN.
 RT_ALWAYS_INLINE double doubles_least(Doubles a)
 {
+#if defined(__AVX512F__)
+    a = doubles_min(a, __builtin_shuffle(a, (DoublesMask){4, 5, 6, 7, 0, 1, 2, 3}));
+    a = doubles_min(a, __builtin_shuffle(a, (DoublesMask){2, 3, 0, 1, 6, 7, 4, 5}));
+    a = doubles_min(a, __builtin_shuffle(a, (DoublesMask){1, 0, 3, 2, 5, 4, 7, 6}));
+    return a[0];
+#else
     double least = a[0];
     for (int i = 1; i < DOUBLES; i++) {
         least = a[i] < least ? a[i] : least;
     }
     return least;
+#endif
 }
 
 RT_ALWAYS_INLINE double doubles_greatest(Doubles a)
@@ -253,6 +302,16 @@ RT_ALWAYS_INLINE Doubles doubles_product_error(Doubles a, Doubles b, Doubles pro
 RT_ALWAYS_INLINE Doubles doubles_choose(DoublesMask mask, Doubles a, Doubles b)
 {
     return (Doubles)((mask & (DoublesMask)a) | (~mask & (DoublesMask)b));
+}
+
+// a where the bit is set, else b.
+RT_ALWAYS_INLINE Doubles doubles_choose_bits(unsigned bits, Doubles a, Doubles b)
+{
+#if defined(__AVX512F__)
+    return _mm512_mask_blend_pd((__mmask8)bits, b, a);
+#else
+    return doubles_choose(doubles_bits_mask(bits), a, b);
+#endif
 }
 
 // a where x < 0 or NaN with its sign bit set, else b.

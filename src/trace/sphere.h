@@ -53,10 +53,14 @@ RT_ALWAYS_INLINE bool ball_equal(const Ball *a, const Ball *b)
     return a->radius_squared == b->radius_squared && vec3_equal(a->centre, b->centre);
 }
 
+RT_ALWAYS_INLINE SphereRay sphere_ray_of(Vec3 origin, Vec3 direction, double inverse_square)
+{
+    return (SphereRay){origin, direction, vec3_scale(inverse_square, direction), inverse_square};
+}
+
 RT_ALWAYS_INLINE SphereRay sphere_ray_make(Vec3 origin, Vec3 direction)
 {
-    double inverse_square = 1.0 / vec3_length_squared(direction);
-    return (SphereRay){origin, direction, vec3_scale(inverse_square, direction), inverse_square};
+    return sphere_ray_of(origin, direction, 1.0 / vec3_length_squared(direction));
 }
 
 // True for a ray that can meet anything at all.

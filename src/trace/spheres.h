@@ -25,6 +25,7 @@ typedef struct SphereBlock {
     _Alignas(64) double x[SPHERE_BLOCK];
     double y[SPHERE_BLOCK], z[SPHERE_BLOCK], radius_squared[SPHERE_BLOCK];
 } SphereBlock;
+_Static_assert(sizeof(SphereBlock) == sizeof(BvhNode), "walks fetch blocks and nodes alike");
 
 // What a hit leads to.
 typedef struct ShapeInfo {
@@ -302,23 +303,29 @@ RT_ALWAYS_INLINE double nearest_limit(double t_max)
     return t_max + SPHERE_ROOT_SLACK * t_max;
 }
 
+// A sphere that is met about where another one is, which the roots must tell apart once they are refined.
+RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, uint32_t slot, const Ball *ball, double t,
+                                 bool inside, bool is_rough, Nearest *nearest)
+{
+    nearest_settle(table, ray, nearest);
+    nearest_offer(nearest, is_rough ? sphere_refine(ray, ball, t) : t, shape_id(SHAPE_SPHERE, slot), inside,
+                  table->info[slot].order);
+}
+
 // A sphere that is met, by sphere_test (t is rough) or by sphere_exact. Roots are refined only where rough ones could
 // be taken in the wrong order, so in the end the same sphere is nearest as if all had been.
 RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, uint32_t slot,
                                            const Ball *ball, double t, bool inside, bool is_rough, Nearest *nearest)
 {
-    ShapeId shape = shape_id(SHAPE_SPHERE, slot);
     double slack = SPHERE_ROOT_SLACK * nearest->hit.t;
     if (!(t > 0.0) || t > nearest->hit.t + slack) {
         return;
     }
-    uint32_t order = table->info[slot].order;
-    if (t < nearest->hit.t - slack || isinf(nearest->hit.t)) {
-        *nearest = (Nearest){{t, shape, inside}, order, is_rough, 0.0};
-        return;
+    if (RT_LIKELY(t < nearest->hit.t - slack || isinf(nearest->hit.t))) {
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, is_rough, 0.0};
+    } else {
+        nearest_offer_tie(table, ray, slot, ball, t, inside, is_rough, nearest);
     }
-    nearest_settle(table, ray, nearest);
-    nearest_offer(nearest, is_rough ? sphere_refine(ray, ball, t) : t, shape, inside, order);
 }
 
 // One sphere against the ray, for the nearest hit.
@@ -338,6 +345,11 @@ RT_ALWAYS_INLINE void sphere_slot_closest(const SphereTable *table, uint32_t slo
     nearest_offer_sphere(table, ray, slot, &ball, t, inside, verdict == SPHERE_MET, nearest);
 }
 
+RT_SELDOM bool sphere_refined_is_before(const SphereRay *ray, const Ball *ball, double t, double t_max)
+{
+    return sphere_refine(ray, ball, t) < t_max;
+}
+
 // Whether a rough root is before t_max once it is refined.
 RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const Ball *ball, double t, double t_max)
 {
@@ -345,7 +357,7 @@ RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const Ball *ba
     if (t < t_max - slack || isinf(t_max)) {
         return true;
     }
-    return t <= t_max + slack && sphere_refine(ray, ball, t) < t_max;
+    return t <= t_max + slack && sphere_refined_is_before(ray, ball, t, t_max);
 }
 
 // One sphere against the ray, for any hit.

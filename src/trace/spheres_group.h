@@ -108,6 +108,7 @@ static bool group_walk(const SphereTable *table, const RayGroup *group, const Ra
                        unsigned *blocks, uint64_t *occluded)
 {
     BvhChild leaf;
+    walk->leaves = (const char *)table->blocks;
     float limit = bvh_walk_limit(walk, group->farthest);
     while (~*occluded && bvh_walk_next(walk, limit, &leaf)) {
         if ((*blocks)-- == 0) {

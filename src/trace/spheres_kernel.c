@@ -15,6 +15,13 @@
 #include "trace/spheres_surface.h"
 #include "trace/spheres_tile.h"
 
+// A vector that was stored just now, and not as one: read back as one it would be waited for.
+RT_ALWAYS_INLINE Vec3 by_parts(const Vec3 *a)
+{
+    const volatile Vec3 *parts = a;
+    return vec3(parts->x, parts->y, parts->z);
+}
+
 enum { HALVES = SPHERE_BLOCK / DOUBLES };
 
 // What the test of a block tells of its eight spheres.
@@ -70,13 +77,13 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
     return hits->met != 0;
 }
 
-// Brings `nearest` up to date with a block.
-RT_ALWAYS_INLINE void block_closest(const SphereTable *table, uint32_t block, const SphereRay *ray, const Ball *start,
+// Brings `nearest` up to date with a block. False when all its spheres are missed.
+RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, const SphereRay *ray, const Ball *start,
                                     double limit, Nearest *nearest)
 {
     BlockHits hits;
     if (!block_test(&table->blocks[block], ray, limit, &hits)) {
-        return;
+        return false;
     }
     do {
         unsigned at = (unsigned)__builtin_ctz(hits.met);
@@ -94,6 +101,7 @@ RT_ALWAYS_INLINE void block_closest(const SphereTable *table, uint32_t block, co
         }
         nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, nearest);
     } while (hits.met);
+    return true;
 }
 
 RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, const SphereRay *ray, const Ball *start,
@@ -123,21 +131,24 @@ RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, c
     return false;
 }
 
-static void spheres_closest(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest)
+static void spheres_closest(const SphereTable *table, const SphereRay *ray, const Ball *start,
+                            Nearest *nearest)
 {
     BvhWalk walk;
     BvhChild leaf;
     double limit = nearest_limit(nearest->hit.t);
-    if (table->loose_count > 0) {
-        block_closest(table, 0, ray, start, limit, nearest);
+    if (table->loose_count > 0 && block_closest(table, 0, ray, start, limit, nearest)) {
         limit = nearest_limit(nearest->hit.t);
     }
-    if (table->bvh.nodes && bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
+    if (table->bvh.nodes && bvh_walk_start(&walk, &table->bvh, by_parts(&ray->origin), by_parts(&ray->direction))) {
+        walk.leaves = (const char *)table->blocks;
+        walk.leaves = (const char *)table->blocks;
         float tree_limit = bvh_walk_limit(&walk, limit);
         while (bvh_walk_next(&walk, tree_limit, &leaf)) {
-            block_closest(table, leaf & ~BVH_LEAF, ray, start, limit, nearest);
-            limit = nearest_limit(nearest->hit.t);
-            tree_limit = bvh_walk_limit(&walk, limit);
+            if (block_closest(table, leaf & ~BVH_LEAF, ray, start, limit, nearest)) {
+                limit = nearest_limit(nearest->hit.t);
+                tree_limit = bvh_walk_limit(&walk, limit);
+            }
         }
     }
     nearest_settle(table, ray, nearest); // here, where the processor may have a fused multiply-add
@@ -151,9 +162,10 @@ static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, con
     if (table->loose_count > 0 && block_occludes(table, 0, ray, start, limit, t_max)) {
         return true;
     }
-    if (!table->bvh.nodes || !bvh_walk_start(&walk, &table->bvh, ray->origin, ray->direction)) {
+    if (!table->bvh.nodes || !bvh_walk_start(&walk, &table->bvh, by_parts(&ray->origin), by_parts(&ray->direction))) {
         return false;
     }
+    walk.leaves = (const char *)table->blocks;
     float tree_limit = bvh_walk_limit(&walk, limit);
     while (bvh_walk_next(&walk, tree_limit, &leaf)) {
         if (block_occludes(table, leaf & ~BVH_LEAF, ray, start, limit, t_max)) {

@@ -131,22 +131,14 @@ RT_ALWAYS_INLINE void onward_sphere(OnwardVector *v, const Ball *ball, uint32_t 
 // Makes the roots right.
 static void onward_settle(const SphereTable *table, OnwardVector *v)
 {
-    _Alignas(64) double balls[4][DOUBLES];
     DoublesMask met = v->is_rough;
     unsigned any = doubles_mask_bits(met);
     if (!any) {
         return;
     }
-    for (unsigned i = 0; i < DOUBLES; i++) {
-        unsigned from = any >> i & 1 ? i : (unsigned)__builtin_ctz(any);
-        Ball ball = sphere_table_ball(table, shape_index((ShapeId)v->shape[from]));
-        balls[0][i] = ball.centre.x;
-        balls[1][i] = ball.centre.y;
-        balls[2][i] = ball.centre.z;
-        balls[3][i] = ball.radius_squared;
-    }
+    Balls balls = balls_gather(table, (met & v->shape) | (~met & v->shape[__builtin_ctz(any)]));
     Doubles t = v->t;
-    unsigned certain = roots_refine(v->origin, v->direction, v->inverse_square, balls, &t);
+    unsigned certain = roots_refine(v->origin, v->direction, v->inverse_square, &balls, &t);
     v->t = doubles_choose(met, t, v->t);
     v->is_open |= any & ~certain ? met & ~doubles_bits_mask(certain) : (DoublesMask){0};
 }

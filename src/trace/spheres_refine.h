@@ -27,9 +27,24 @@ RT_ALWAYS_INLINE DoubleWords two_products(Doubles a, Doubles b)
     return (DoubleWords){product, doubles_product_error(a, b, product)};
 }
 
-// Of one ray and one sphere each: centre and squared radius are `ball`. Returns those for which it is certain.
+typedef struct Balls {
+    Doubles centre[3], radius_squared;
+} Balls;
+
+// The spheres of shapes.
+RT_ALWAYS_INLINE Balls balls_gather(const SphereTable *table, DoublesMask shapes)
+{
+    DoublesMask slot = shapes & ((INT64_C(1) << SHAPE_INDEX_BITS) - 1);
+    DoublesMask bytes = slot / SPHERE_BLOCK * (int64_t)sizeof(SphereBlock) +
+                        slot % SPHERE_BLOCK * (int64_t)sizeof(double);
+    const SphereBlock *blocks = table->blocks;
+    return (Balls){{doubles_gather(blocks->x, bytes), doubles_gather(blocks->y, bytes), doubles_gather(blocks->z, bytes)},
+                   doubles_gather(blocks->radius_squared, bytes)};
+}
+
+// Of one ray and one sphere each. Returns those for which it is certain.
 RT_ALWAYS_INLINE unsigned roots_refine(const Doubles origin[3], const Doubles direction[3], Doubles inverse_square,
-                                       const double ball[4][DOUBLES], Doubles *t)
+                                       const Balls *ball, Doubles *t)
 {
     Doubles root = *t;
     Doubles f_squared = doubles_splat(0.0);
@@ -38,7 +53,7 @@ RT_ALWAYS_INLINE unsigned roots_refine(const Doubles origin[3], const Doubles di
     DoubleWords square[3];
 #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
-        DoubleWords f = two_sums(origin[i], -doubles_load(ball[i]));
+        DoubleWords f = two_sums(origin[i], -ball->centre[i]);
         DoubleWords along = two_products(root, direction[i]);
         DoubleWords p = two_sums(f.hi, along.hi);
         square[i] = two_products(p.hi, p.hi);
@@ -46,8 +61,7 @@ RT_ALWAYS_INLINE unsigned roots_refine(const Doubles origin[3], const Doubles di
         slope += p.hi * direction[i];
         f_squared += f.hi * f.hi;
     }
-    Doubles radius_squared = doubles_load(ball[3]);
-    Doubles radius = doubles_sqrt(radius_squared);
+    Doubles radius = doubles_sqrt(ball->radius_squared);
     DoubleWords r = two_products(radius, radius);
     DoubleWords xy = two_sums(square[0].hi, square[1].hi);
     DoubleWords xyz = two_sums(xy.hi, square[2].hi);
@@ -55,7 +69,7 @@ RT_ALWAYS_INLINE unsigned roots_refine(const Doubles origin[3], const Doubles di
     Doubles residual = all.hi + (all.lo + (xyz.lo + (xy.lo + (low - r.lo))));
     Doubles step = residual / (2.0 * slope);
     Doubles reach = 2.0 * root * doubles_abs(slope);
-    Doubles sum = f_squared + radius_squared;
+    Doubles sum = f_squared + ball->radius_squared;
     *t = root - step;
     return ~doubles_ge(sum, doubles_splat(0x1p900)) & ~doubles_ge(doubles_splat(0x1p-900), sum) &
            doubles_ge(reach, 0x1p-46 * sum) & doubles_ge(reach * inverse_square, step * step * 0x1p56);

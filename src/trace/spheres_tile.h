@@ -1,9 +1,10 @@
 // A tile of camera rays against the spheres: part of spheres_kernel.c.
 //
-// The tile walks the tree once, as a beam. What its leaves hold is narrowed by cones: blocks to the spheres that the
-// tile's cone touches, those to the rows whose cones they touch, and only there rays are tested, a row at a time. Cones
-// carry a margin far above their rounding; the test of a ray is sphere_test's, operation by operation, so hits are
-// those of single rays. Roots are refined at the end, some at once.
+// The tile walks the tree once, as a beam. What its leaves hold is narrowed by planes through the origin of the rays:
+// blocks to the spheres that the planes of the tile's rows and columns touch, those to the rows whose planes they touch
+// before all rays of the row have met something, and only there rays are tested, a row at a time. Planes carry a margin
+// far above their rounding; the test of a ray is sphere_test's, operation by operation, so hits are those of single rays.
+// Roots are refined at the end, some at once.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_TILE_H
@@ -17,24 +18,27 @@
 
 enum { ROWS = TILE_RAYS / TILE_ROW };
 
-// A tile on its way: its rays, cones around them, and what they have met so far.
+// A plane through the origin of rays, and how far their directions, of unit length, are from it at most.
+typedef struct RayPlane {
+    Vec3 normal;
+    double spread;
+} RayPlane;
+
+// A tile on its way: its rays, planes through them, and what they have met so far.
 typedef struct TileBeam {
     const SphereTable *table;
     const SphereTile *tile;
     TileHits *hits;
     uint64_t rough; // the rays whose roots are to be refined yet
-    RayCone cone;
-    bool has_rows; // whether the cones of the rows are known; many tiles meet nothing
-    bool has_news; // hits came nearer since the limit was taken
-    _Alignas(64) double row_axis[3][ROWS];
+    double limit;   // up to where a root may yet be the nearest of some ray
+    bool has_planes, has_rows; // whether the planes are known: many tiles come to no leaf, or meet nothing there
+    bool has_news;             // hits came nearer
+    RayPlane along, across;    // the rows; the columns
+    _Alignas(64) double row_normal[3][ROWS];
     _Alignas(64) double row_spread[ROWS];
+    _Alignas(64) double row_limit[ROWS]; // as `limit`, of each row
+    _Alignas(64) int64_t shape[TILE_RAYS]; // of the hits, as wide as their roots
 } TileBeam;
-
-// A unit vector between two rays.
-static Vec3 tile_between(const SphereTile *tile, unsigned a, unsigned b)
-{
-    return vec3_normalize(vec3_add(lane_get(tile->direction, a), lane_get(tile->direction, b)));
-}
 
 static bool view_tile(const TileView *view, const double u[TILE_RAYS], const double v[TILE_RAYS], SphereTile *tile)
 {
@@ -95,34 +99,102 @@ static bool view_passes(const SphereTable *table, const TileView *view, const do
     return is_usable && cone_spheres(&cone, &table->blocks[0]) == 0;
 }
 
+// Some of a tile's rays and the plane of a normal.
+static RayPlane ray_plane(const SphereTile *tile, Vec3 normal, unsigned begin, unsigned end)
+{
+    Doubles greatest = doubles_splat(0.0);
+    for (unsigned i = begin; i < end; i += DOUBLES) {
+        Doubles aside = doubles_load(&tile->direction[0][i]) * normal.x +
+                        doubles_load(&tile->direction[1][i]) * normal.y +
+                        doubles_load(&tile->direction[2][i]) * normal.z;
+        greatest = doubles_max(doubles_abs(aside), greatest);
+    }
+    return (RayPlane){normal, doubles_greatest(greatest) + CONE_MARGIN};
+}
+
+// That of two rays, NaN where they are one.
+static Vec3 tile_normal(const SphereTile *tile, unsigned a, unsigned b)
+{
+    return vec3_normalize(vec3_cross(lane_get(tile->direction, a), lane_get(tile->direction, b)));
+}
+
+static void beam_set_planes(TileBeam *beam)
+{
+    enum { MIDDLE = TILE_RAYS / 2 };
+    const SphereTile *tile = beam->tile;
+    Vec3 normal = tile_normal(tile, MIDDLE, MIDDLE + TILE_ROW - 1);
+    Vec3 axis = vec3_add(lane_get(tile->direction, MIDDLE - TILE_ROW / 2 - 1),
+                         lane_get(tile->direction, MIDDLE + TILE_ROW / 2));
+    beam->along = ray_plane(tile, normal, 0, TILE_RAYS);
+    beam->across = ray_plane(tile, vec3_normalize(vec3_cross(normal, axis)), 0, TILE_RAYS);
+    beam->has_planes = true;
+}
+
 static void beam_set_rows(TileBeam *beam)
 {
     for (unsigned row = 0; row < ROWS; row++) {
-        unsigned begin = row * TILE_ROW;
-        Vec3 axis = tile_between(beam->tile, begin + TILE_ROW / 2 - 1, begin + TILE_ROW / 2);
-        beam->row_spread[row] = cone_spread(beam->tile->direction, begin, begin + TILE_ROW, axis);
-        beam->row_axis[0][row] = axis.x;
-        beam->row_axis[1][row] = axis.y;
-        beam->row_axis[2][row] = axis.z;
+        unsigned begin = row * TILE_ROW, end = begin + TILE_ROW;
+        RayPlane plane = ray_plane(beam->tile, tile_normal(beam->tile, begin, end - 1), begin, end);
+        beam->row_spread[row] = plane.spread;
+        beam->row_normal[0][row] = plane.normal.x;
+        beam->row_normal[1][row] = plane.normal.y;
+        beam->row_normal[2][row] = plane.normal.z;
     }
     beam->has_rows = true;
 }
 
-// The rows whose cones touch a sphere at f from the origin.
-static unsigned beam_rows(TileBeam *beam, Vec3 f, double f_squared, double radius)
+// Bit i is set where spheres at f from the origin do not touch a plane: where the middle of a ray's way through a sphere
+// is no farther from the origin than |f|, f is no farther from the plane than |f| spread + radius.
+RT_ALWAYS_INLINE unsigned planes_apart(const Doubles f[3], const Doubles normal[3], Doubles reach)
 {
-    double distance = sqrt(f_squared);
-    unsigned apart = 0; // never where squares overflow
-    if (!beam->has_rows) {
-        beam_set_rows(beam);
+    return doubles_ge(doubles_abs(f[0] * normal[0] + f[1] * normal[1] + f[2] * normal[2]), reach);
+}
+
+// What a block's spheres are to the origin of a tile.
+typedef struct BlockView {
+    _Alignas(64) double f[3][SPHERE_BLOCK]; // origin - centre
+    double f_squared[SPHERE_BLOCK], distance[SPHERE_BLOCK], radius[SPHERE_BLOCK];
+    double nearest[SPHERE_BLOCK]; // no root is less
+} BlockView;
+
+// The spheres of a block that the tile touches before all its rays have met something, a bit for each; 0 leaves `view`
+// as it was.
+RT_ALWAYS_INLINE unsigned block_view(const TileBeam *beam, const SphereBlock *block, BlockView *view)
+{
+    enum { PARTS = SPHERE_BLOCK / DOUBLES };
+    unsigned touched = 0;
+    Vec3 origin = beam->tile->origin, n = beam->along.normal, m = beam->across.normal;
+    const Doubles along[3] = {doubles_splat(n.x), doubles_splat(n.y), doubles_splat(n.z)};
+    const Doubles across[3] = {doubles_splat(m.x), doubles_splat(m.y), doubles_splat(m.z)};
+    Doubles f[PARTS][3], f_squared[PARTS], distance[PARTS], radius[PARTS], nearest[PARTS];
+#pragma GCC unroll 4
+    for (int i = 0; i < PARTS; i++) {
+        int at = i * DOUBLES;
+        f[i][0] = origin.x - doubles_load(&block->x[at]);
+        f[i][1] = origin.y - doubles_load(&block->y[at]);
+        f[i][2] = origin.z - doubles_load(&block->z[at]);
+        f_squared[i] = f[i][0] * f[i][0] + f[i][1] * f[i][1] + f[i][2] * f[i][2];
+        Doubles radius_squared = doubles_load(&block->radius_squared[at]);
+        distance[i] = doubles_sqrt(f_squared[i]);
+        radius[i] = doubles_sqrt(radius_squared);
+        nearest[i] = doubles_min(distance[i] * (1.0 - 2.0 * CONE_MARGIN) - radius[i], doubles_splat(DBL_MAX));
+        unsigned apart = planes_apart(f[i], along, distance[i] * beam->along.spread + radius[i]) |
+                         planes_apart(f[i], across, distance[i] * beam->across.spread + radius[i]) |
+                         doubles_ge(nearest[i], doubles_splat(beam->limit));
+        touched |= (doubles_ge(radius_squared, doubles_splat(0.0)) & ~apart) << at;
     }
-    for (int i = 0; i < ROWS; i += DOUBLES) {
-        Doubles along = f.x * doubles_load(&beam->row_axis[0][i]) + f.y * doubles_load(&beam->row_axis[1][i]) +
-                        f.z * doubles_load(&beam->row_axis[2][i]);
-        Doubles reach = distance * doubles_load(&beam->row_spread[i]) + radius;
-        apart |= doubles_ge(f_squared - along * along, reach * reach) << i;
+#pragma GCC unroll 4
+    for (int i = 0; touched && i < PARTS; i++) {
+        int at = i * DOUBLES;
+        doubles_store(&view->f[0][at], f[i][0]);
+        doubles_store(&view->f[1][at], f[i][1]);
+        doubles_store(&view->f[2][at], f[i][2]);
+        doubles_store(&view->f_squared[at], f_squared[i]);
+        doubles_store(&view->distance[at], distance[i]);
+        doubles_store(&view->radius[at], radius[i]);
+        doubles_store(&view->nearest[at], nearest[i]);
     }
-    return ~apart & ((1u << ROWS) - 1);
+    return touched;
 }
 
 // What a sphere is to all rays of the tile.
@@ -130,18 +202,39 @@ typedef struct TileSphere {
     Ball ball;
     uint32_t slot;
     Vec3 f;
+    double f_squared, distance, radius;
+    double nearest; // no root is less
     double c, rounding, doubt;
 } TileSphere;
 
-// What sphere_test says of a row of rays.
+// What sphere_test says of a row of rays, but for those that met the sphere so much nearer than what they met before that
+// no root need be refined: they are done.
 typedef struct RowHits {
     _Alignas(64) double t[TILE_ROW]; // rough roots
-    unsigned nearest;                // met, and so much nearer than what was met before that no root need be refined
+    unsigned nearest;                // done
     unsigned other;                  // met about where something was met before, or doubtful
     unsigned doubtful;
 } RowHits;
 
-static void row_test(const TileSphere *sphere, const TileBeam *beam, unsigned begin, RowHits *row)
+// The rows that a sphere touches before all their rays have met something.
+static unsigned beam_rows(TileBeam *beam, const TileSphere *sphere)
+{
+    const Doubles f[3] = {doubles_splat(sphere->f.x), doubles_splat(sphere->f.y), doubles_splat(sphere->f.z)};
+    unsigned apart = 0;
+    if (!beam->has_rows) {
+        beam_set_rows(beam);
+    }
+    for (int i = 0; i < ROWS; i += DOUBLES) {
+        const Doubles normal[3] = {doubles_load(&beam->row_normal[0][i]), doubles_load(&beam->row_normal[1][i]),
+                                   doubles_load(&beam->row_normal[2][i])};
+        Doubles reach = sphere->distance * doubles_load(&beam->row_spread[i]) + sphere->radius;
+        apart |= (planes_apart(f, normal, reach) | doubles_ge(doubles_splat(sphere->nearest), doubles_load(&beam->row_limit[i])))
+                 << i;
+    }
+    return ~apart & ((1u << ROWS) - 1);
+}
+
+static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, RowHits *row)
 {
     const SphereTile *tile = beam->tile;
     row->nearest = row->other = row->doubtful = 0;
@@ -157,7 +250,12 @@ static void row_test(const TileSphere *sphere, const TileBeam *beam, unsigned be
         Doubles ly = sphere->f.y + t_middle * dy;
         Doubles lz = sphere->f.z + t_middle * dz;
         Doubles discriminant = sphere->ball.radius_squared - (lx * lx + ly * ly + lz * lz);
-        unsigned possible = doubles_ge(discriminant, doubles_splat(sphere->rounding));
+        Doubles before = doubles_load(&beam->hits->t[at]);
+        Doubles last = before + SPHERE_ROOT_SLACK * before;
+        // No root is nearer than this, with a margin far above what rounding does to it.
+        Doubles earliest = t_middle - sphere->radius * (1.0 + 2.0 * CONE_MARGIN);
+        unsigned possible =
+            doubles_ge(discriminant, doubles_splat(sphere->rounding)) & doubles_ge(last, earliest);
         if (!possible) {
             continue;
         }
@@ -165,8 +263,6 @@ static void row_test(const TileSphere *sphere, const TileBeam *beam, unsigned be
         Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * inverse_square);
         Doubles near_side = fabs(sphere->c) * inverse_square / far_side;
         Doubles root = sphere->c > 0.0 ? near_side : doubles_if_negative(t_middle, near_side, far_side);
-        Doubles before = doubles_load(&beam->hits->t[at]);
-        doubles_store(&row->t[i], root);
         unsigned ahead = doubles_ge(t_middle, doubles_splat(0.0));
         possible &= sphere->c >= sphere->doubt ? ahead : ~0u;
         unsigned certain = fabs(sphere->c) >= sphere->doubt ? doubles_ge(discriminant, doubles_splat(sphere->doubt))
@@ -174,20 +270,27 @@ static void row_test(const TileSphere *sphere, const TileBeam *beam, unsigned be
         // 1 - slack is exact, so this is nearest_offer_sphere's t < before - slack, which fails where t is infinite.
         unsigned nearest = possible & certain & ~doubles_ge(root, before * (1.0 - SPHERE_ROOT_SLACK)) &
                            ~doubles_ge(doubles_splat(0.0), root);
-        unsigned in_time = doubles_ge(before + SPHERE_ROOT_SLACK * before, root);
+        unsigned other = possible & ~nearest & (~certain | doubles_ge(last, root));
+        DoublesMask *shape = (DoublesMask *)&beam->shape[at];
+        doubles_store(&beam->hits->t[at], doubles_choose_bits(nearest, root, before));
+        *shape = (DoublesMask)doubles_choose_bits(
+            nearest, (Doubles)((DoublesMask){0} + shape_id(SHAPE_SPHERE, sphere->slot)), (Doubles)*shape);
         row->nearest |= nearest << i;
-        row->other |= (possible & ~nearest & (~certain | in_time)) << i;
-        row->doubtful |= (possible & ~certain) << i;
+        if (RT_UNLIKELY(other)) {
+            doubles_store(&row->t[i], root);
+            row->other |= other << i;
+            row->doubtful |= (other & ~certain) << i;
+        }
     }
 }
 
 // A hit that may not be the nearest of its ray.
-static void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, double t, bool is_doubtful)
+RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, double t, bool is_doubtful)
 {
     TileHits *hits = beam->hits;
     uint64_t bit = UINT64_C(1) << i;
     SphereRay ray = sphere_tile_ray(beam->tile, i);
-    ShapeId before = hits->shape[i];
+    ShapeId before = (ShapeId)beam->shape[i];
     Nearest nearest = {{hits->t[i], before, hits->inside & bit},
                        before == SHAPE_NONE ? 0 : beam->table->info[shape_index(before)].order,
                        beam->rough & bit,
@@ -198,99 +301,117 @@ static void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, dou
     }
     nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_doubtful, &nearest);
     tile_hit_set(hits, i, &nearest.hit);
+    beam->shape[i] = nearest.hit.shape;
     beam->has_news = true;
     beam->rough = (beam->rough & ~bit) | (nearest.is_rough ? bit : 0);
 }
 
-// One sphere against the rays of the tile whose rows it touches.
-static void beam_sphere(TileBeam *beam, uint32_t slot)
+// Up to where a root may yet be the nearest of some ray of a row.
+static double row_limit(const TileHits *hits, unsigned begin)
 {
-    TileSphere sphere = {.ball = sphere_table_ball(beam->table, slot), .slot = slot};
-    sphere.f = vec3_sub(beam->tile->origin, sphere.ball.centre);
-    double f_squared = vec3_length_squared(sphere.f);
-    double sum = f_squared + sphere.ball.radius_squared;
-    sphere.c = f_squared - sphere.ball.radius_squared;
-    sphere.rounding = -SPHERE_ROUNDING * sum;
-    sphere.doubt = SPHERE_DOUBT * sum;
-    TileHits *hits = beam->hits;
-    ShapeId shape = shape_id(SHAPE_SPHERE, slot);
-    unsigned rows = beam_rows(beam, sphere.f, f_squared, sqrt(sphere.ball.radius_squared));
-    for (; rows; rows &= rows - 1) {
-        unsigned begin = (unsigned)__builtin_ctz(rows) * TILE_ROW;
-        RowHits row;
-        row_test(&sphere, beam, begin, &row);
-        uint64_t nearest = (uint64_t)row.nearest << begin;
-        hits->inside = sphere.c < 0.0 ? hits->inside | nearest : hits->inside & ~nearest;
-        beam->rough |= nearest;
-        beam->has_news |= nearest != 0;
-        hits->met |= nearest;
-        for (; row.nearest; row.nearest &= row.nearest - 1) {
-            unsigned i = (unsigned)__builtin_ctz(row.nearest);
-            hits->t[begin + i] = row.t[i];
-            hits->shape[begin + i] = shape;
-        }
-        for (; row.other; row.other &= row.other - 1) {
-            unsigned i = (unsigned)__builtin_ctz(row.other);
-            beam_offer(beam, &sphere, begin + i, row.t[i], row.doubtful >> i & 1);
-        }
+    Doubles last = doubles_load(&hits->t[begin]);
+    for (unsigned i = DOUBLES; i < TILE_ROW; i += DOUBLES) {
+        last = doubles_max(last, doubles_load(&hits->t[begin + i]));
     }
+    return nearest_limit(doubles_greatest(last));
 }
 
-static void beam_block(TileBeam *beam, uint32_t block)
+// One sphere against the rays of a row.
+static void beam_row(TileBeam *beam, const TileSphere *sphere, unsigned begin)
 {
-    unsigned touched = cone_spheres(&beam->cone, &beam->table->blocks[block]);
-    for (; touched; touched &= touched - 1) {
-        beam_sphere(beam, block * SPHERE_BLOCK + (unsigned)__builtin_ctz(touched));
+    RowHits row;
+    TileHits *hits = beam->hits;
+    row_test(sphere, beam, begin, &row);
+    if (!(row.nearest | row.other)) {
+        return;
+    }
+    uint64_t nearest = (uint64_t)row.nearest << begin;
+    hits->inside = sphere->c < 0.0 ? hits->inside | nearest : hits->inside & ~nearest;
+    hits->met |= nearest;
+    beam->rough |= nearest;
+    for (; RT_UNLIKELY(row.other); row.other &= row.other - 1) {
+        unsigned i = (unsigned)__builtin_ctz(row.other);
+        beam_offer(beam, sphere, begin + i, row.t[i], row.doubtful >> i & 1);
+    }
+    beam->row_limit[begin / TILE_ROW] = row_limit(hits, begin);
+    beam->has_news = true;
+}
+
+// One sphere against the rays of the tile whose rows it touches.
+static void beam_sphere(TileBeam *beam, uint32_t block, unsigned at, const BlockView *view)
+{
+    TileSphere sphere = {.slot = block * SPHERE_BLOCK + at};
+    sphere.ball = sphere_table_ball(beam->table, sphere.slot);
+    sphere.f = vec3(view->f[0][at], view->f[1][at], view->f[2][at]);
+    sphere.f_squared = view->f_squared[at];
+    sphere.distance = view->distance[at];
+    sphere.radius = view->radius[at];
+    sphere.nearest = view->nearest[at];
+    unsigned rows = beam_rows(beam, &sphere);
+    double sum = sphere.f_squared + sphere.ball.radius_squared;
+    sphere.c = sphere.f_squared - sphere.ball.radius_squared;
+    sphere.rounding = -SPHERE_ROUNDING * sum;
+    sphere.doubt = SPHERE_DOUBT * sum;
+    for (; rows; rows &= rows - 1) {
+        beam_row(beam, &sphere, (unsigned)__builtin_ctz(rows) * TILE_ROW);
     }
 }
 
 // Up to where a root may yet be the nearest of some ray.
 static double beam_limit(const TileBeam *beam)
 {
-    Doubles last = doubles_load(beam->hits->t);
-    for (int i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
-        last = doubles_max(last, doubles_load(&beam->hits->t[i]));
+    Doubles last = doubles_load(beam->row_limit);
+    for (int i = DOUBLES; i < ROWS; i += DOUBLES) {
+        last = doubles_max(last, doubles_load(&beam->row_limit[i]));
     }
-    return nearest_limit(doubles_greatest(last));
+    return doubles_greatest(last);
+}
+
+// True when hits came nearer.
+static bool beam_block(TileBeam *beam, uint32_t block)
+{
+    BlockView view;
+    if (!beam->has_planes) {
+        beam_set_planes(beam);
+    }
+    beam->has_news = false;
+    unsigned touched = block_view(beam, &beam->table->blocks[block], &view);
+    for (; touched; touched &= touched - 1) {
+        beam_sphere(beam, block, (unsigned)__builtin_ctz(touched), &view);
+    }
+    beam->limit = beam->has_news ? beam_limit(beam) : beam->limit;
+    return beam->has_news;
+}
+
+// One root that is right only in double words.
+RT_SELDOM void beam_settle_exact(const TileBeam *beam, unsigned i)
+{
+    SphereRay ray = sphere_tile_ray(beam->tile, i);
+    Ball ball = sphere_table_ball(beam->table, shape_index((ShapeId)beam->shape[i]));
+    bool inside;
+    beam->hits->t[i] = sphere_exact(&ray, &ball, &inside);
 }
 
 // Makes the roots right that are rough, a vector at a time.
 static void beam_settle(const TileBeam *beam)
 {
-    TileHits *hits = beam->hits;
+    const SphereTile *tile = beam->tile;
+    const Doubles origin[3] = {doubles_splat(tile->origin.x), doubles_splat(tile->origin.y),
+                               doubles_splat(tile->origin.z)};
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
         unsigned rough = (unsigned)(beam->rough >> at) & ((1u << DOUBLES) - 1);
         if (!rough) {
             continue;
         }
-        _Alignas(64) double ball[4][DOUBLES], t[DOUBLES];
-        unsigned any = (unsigned)__builtin_ctz(rough);
-        for (unsigned i = 0; i < DOUBLES; i++) {
-            unsigned from = at + (rough >> i & 1 ? i : any);
-            Ball own = sphere_table_ball(beam->table, shape_index(hits->shape[from]));
-            ball[0][i] = own.centre.x;
-            ball[1][i] = own.centre.y;
-            ball[2][i] = own.centre.z;
-            ball[3][i] = own.radius_squared;
-            t[i] = hits->t[from];
-        }
-        Doubles root = doubles_load(t);
-        const SphereTile *tile = beam->tile;
-        const Doubles origin[3] = {doubles_splat(tile->origin.x), doubles_splat(tile->origin.y),
-                                   doubles_splat(tile->origin.z)};
         const Doubles direction[3] = {doubles_load(&tile->direction[0][at]), doubles_load(&tile->direction[1][at]),
                                       doubles_load(&tile->direction[2][at])};
-        unsigned certain = roots_refine(origin, direction, doubles_load(&tile->inverse_square[at]), ball, &root);
-        doubles_store(t, root);
-        for (; rough; rough &= rough - 1) {
-            unsigned i = (unsigned)__builtin_ctz(rough);
-            if (RT_UNLIKELY(!(certain >> i & 1))) {
-                SphereRay ray = sphere_tile_ray(beam->tile, at + i);
-                Ball own = sphere_table_ball(beam->table, shape_index(hits->shape[at + i]));
-                bool inside;
-                t[i] = sphere_exact(&ray, &own, &inside);
-            }
-            hits->t[at + i] = t[i];
+        DoublesMask shape = *(const DoublesMask *)&beam->shape[at], is_rough = doubles_bits_mask(rough);
+        Balls balls = balls_gather(beam->table, (is_rough & shape) | (~is_rough & shape[__builtin_ctz(rough)]));
+        Doubles before = doubles_load(&beam->hits->t[at]), root = before;
+        unsigned certain = roots_refine(origin, direction, doubles_load(&tile->inverse_square[at]), &balls, &root);
+        doubles_store(&beam->hits->t[at], doubles_choose(is_rough, root, before));
+        for (rough &= ~certain; RT_UNLIKELY(rough); rough &= rough - 1) {
+            beam_settle_exact(beam, at + (unsigned)__builtin_ctz(rough));
         }
     }
 }
@@ -299,12 +420,11 @@ static void beam_settle(const TileBeam *beam)
 static void beam_walk(TileBeam *beam, BvhWalk *walk)
 {
     BvhChild leaf;
-    float limit = bvh_walk_limit(walk, beam_limit(beam));
+    walk->leaves = (const char *)beam->table->blocks;
+    float limit = bvh_walk_limit(walk, beam->limit);
     while (bvh_walk_next(walk, limit, &leaf)) {
-        beam->has_news = false;
-        beam_block(beam, leaf & ~BVH_LEAF);
-        if (beam->has_news) {
-            limit = bvh_walk_limit(walk, beam_limit(beam));
+        if (beam_block(beam, leaf & ~BVH_LEAF)) {
+            limit = bvh_walk_limit(walk, beam->limit);
         }
     }
 }
@@ -315,6 +435,9 @@ static bool beam_tree(TileBeam *beam)
 {
     DirectionRange range;
     direction_range(beam->tile->direction, TILE_RAYS, &range);
+    if (!direction_range_is_narrow(&range)) {
+        return false;
+    }
     for (unsigned octant = 0; octant < OCTANTS; octant++) {
         BvhWalk walk;
         Vec3 least, greatest;
@@ -333,23 +456,19 @@ static bool beam_tree(TileBeam *beam)
 
 static bool tile_closest(const SphereTable *table, const SphereTile *tile, TileHits *hits)
 {
-    enum { MIDDLE = TILE_RAYS / 2 - TILE_ROW / 2 };
-    TileBeam beam; // not cleared as a whole: rows are set when they are asked for
+    TileBeam beam; // not cleared as a whole
     beam.table = table;
     beam.tile = tile;
     beam.hits = hits;
     beam.rough = 0;
-    beam.has_rows = beam.has_news = false;
-    beam.cone.origin = tile->origin;
-    beam.cone.aside = 0.0;
-    beam.cone.axis = tile_between(tile, MIDDLE - 1, MIDDLE + TILE_ROW);
-    beam.cone.spread = cone_spread(tile->direction, 0, TILE_RAYS, beam.cone.axis);
-    if (!(beam.cone.spread < 0.5)) {
-        return false;
-    }
+    beam.limit = (double)INFINITY;
+    beam.has_planes = beam.has_rows = beam.has_news = false;
     for (unsigned i = 0; i < TILE_RAYS; i++) {
         hits->t[i] = (double)INFINITY;
-        hits->shape[i] = SHAPE_NONE;
+        beam.shape[i] = SHAPE_NONE;
+    }
+    for (unsigned row = 0; row < ROWS; row++) {
+        beam.row_limit[row] = (double)INFINITY;
     }
     hits->met = hits->inside = 0;
     if (table->loose_count > 0) {
@@ -359,6 +478,9 @@ static bool tile_closest(const SphereTable *table, const SphereTile *tile, TileH
         return false;
     }
     beam_settle(&beam);
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        hits->shape[i] = (ShapeId)beam.shape[i];
+    }
     return true;
 }
 
