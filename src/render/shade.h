@@ -77,15 +77,17 @@ RT_ALWAYS_INLINE void shade_set_mirror(unsigned features, const ShadeMaterial *m
 typedef struct ShadeLayer {
     Rgbft pigment;
     FinishIndex finish;
+    bool is_clear; // light goes through, as through a texture
 } ShadeLayer;
 
-// Looks it up; false where there may be more, or light goes through a texture: shade_compound walks that.
+// Looks it up; false where there may be more, or light goes through what may have bumps: shade_compound and shade_bumpy
+// walk that.
 RT_ALWAYS_INLINE bool shade_one_layer(const Prepared *p, unsigned features, MaterialIndex material, Vec3 point,
                                       ShadeLayer *layer)
 {
     if (!(features & (RENDER_TEXTURES | RENDER_PIGMENTS)) || !(material & MATERIAL_COMPOUND)) {
         const Material *plain = &p->materials[material];
-        *layer = (ShadeLayer){material_pigment(plain), plain->finish};
+        *layer = (ShadeLayer){material_pigment(plain), plain->finish, false};
         return true;
     }
     const Texture *texture = texture_single(&p->textures, p->compounds[material & ~MATERIAL_COMPOUND].texture);
@@ -93,21 +95,49 @@ RT_ALWAYS_INLINE bool shade_one_layer(const Prepared *p, unsigned features, Mate
         return false;
     }
     Vec3 place = vec3_scale(p->textures.scale, point);
-    *layer = (ShadeLayer){texture_pigment(&p->textures, &texture->pigment, place), texture->finish};
-    return !(features & RENDER_TRANSPARENCY) || (layer->pigment.filter == 0.0 && layer->pigment.transmit == 0.0);
+    *layer = (ShadeLayer){texture_pigment(&p->textures, &texture->pigment, place), texture->finish, false};
+    layer->is_clear =
+        (features & RENDER_TRANSPARENCY) && (layer->pigment.filter != 0.0 || layer->pigment.transmit != 0.0);
+    return !((features & RENDER_NORMALS) && layer->is_clear);
+}
+
+// What a texture of one clear layer sends on, for a ray of some weight: as shade_compound has it of all its layers.
+RT_ALWAYS_INLINE void shade_set_clear(const Prepared *p, unsigned features, const ShadeMaterial *material,
+                                      const ShadeLayer *layer, const ShadePoint *at, double weight,
+                                      ShadeOnward *onward)
+{
+    const PreparedFinish *finish = material->finish;
+    Rgb reflectance;
+    if (shade_mirror(features, material, at, &reflectance)) {
+        double own = rgb_luminance(rgb_grey(1.0)) * shade_mirror_weight(features, finish, reflectance);
+        if (!(weight * own < p->adc_bailout)) {
+            onward->reflectance = reflectance;
+            onward->reflection_weight = own;
+            onward->reflection_exponent = finish->reflection_exponent;
+        }
+    }
+    Rgb through = rgb_mul(shade_left_below(features, material, at), texture_pigment_through(layer->pigment));
+    if (!rgb_is_black(through) && !(fabs(rgb_luminance(through)) < p->adc_bailout)) {
+        onward->through = rgb_scale(finish->refraction, through);
+        onward->through_weight = finish->refraction * rgb_max_abs(through);
+    }
 }
 
 // The light of a surface of one layer, and what it sends on.
 RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadeLayer *layer, const ShadePoint *at,
-                                 ShadeOnward *onward, RenderStatistics *statistics)
+                                 double weight, ShadeOnward *onward, RenderStatistics *statistics)
 {
     ShadeMaterial material = shade_material(p, features, layer->pigment, layer->finish);
     *onward =
         (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
-    shade_set_mirror(features, &material, at, onward);
-    if (features & RENDER_TRANSPARENCY) {
-        onward->through = rgb_scale(material.finish->refraction, texture_pigment_through(layer->pigment));
-        onward->conserves_energy = material.finish->conserves_energy;
+    if ((features & RENDER_TEXTURES) && layer->is_clear) {
+        shade_set_clear(p, features, &material, layer, at, weight, onward);
+    } else {
+        shade_set_mirror(features, &material, at, onward);
+        if (features & RENDER_TRANSPARENCY) {
+            onward->through = rgb_scale(material.finish->refraction, texture_pigment_through(layer->pigment));
+            onward->conserves_energy = material.finish->conserves_energy;
+        }
     }
     return shade_local(p, features, &material, at, statistics);
 }
@@ -118,7 +148,7 @@ RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const S
 {
     ShadeLayer layer;
     return shade_one_layer(p, features, at->material, at->point, &layer)
-               ? shade_plain(p, features, &layer, at, onward, statistics)
+               ? shade_plain(p, features, &layer, at, weight, onward, statistics)
                : shade_compound(p, at, weight, onward, statistics);
 }
 
@@ -221,7 +251,7 @@ RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, Pending *
     if (shade_one_layer(p, features, step->at.material, step->at.point, &layer)) {
         ways.count = 1;
         ways.normals[0] = step->at.normal;
-        step->light = shade_plain(p, features, &layer, &step->at, &ways.onward[0], statistics);
+        step->light = shade_plain(p, features, &layer, &step->at, step->ray.weight, &ways.onward[0], statistics);
     } else {
         step->light = shade_bumpy(p, &step->at, step->ray.weight, &ways, statistics);
     }

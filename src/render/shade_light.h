@@ -97,13 +97,58 @@ RT_ALWAYS_INLINE Rgb shade_surface_through(const Prepared *p, unsigned features,
     return texture_pigment_through(material_pigment(&p->materials[surface->material]));
 }
 
+// The same where it depends on neither place nor direction, nor on what light has gone through; false where it may.
+RT_ALWAYS_INLINE bool shade_even_through(const Prepared *p, unsigned features, MaterialIndex material, Rgb *through)
+{
+    if (!(features & RENDER_TEXTURES) || !(material & MATERIAL_COMPOUND)) {
+        *through = texture_pigment_through(material_pigment(&p->materials[material]));
+        return true;
+    }
+    const Compound *compound = &p->compounds[material & ~MATERIAL_COMPOUND];
+    const Texture *texture = texture_single(&p->textures, compound->texture);
+    const Interior *interior = compound->interior != RECORD_NONE ? &p->interiors[compound->interior] : NULL;
+    if (!texture || texture->pigment.pattern != RECORD_NONE ||
+        (interior && (interior->caustics != 0.0 || interior->fade_power != 0.0))) {
+        return false;
+    }
+    *through = texture_pigment_through(pigment_colour(&texture->pigment));
+    return true;
+}
+
+// The share of light along a shadow ray where all that it crosses is told at once, and is even; false elsewhere.
+RT_ALWAYS_INLINE bool shade_even_light(const Prepared *p, unsigned features, Ray ray, RayStart start, double t_max,
+                                       Rgb *share)
+{
+    RayCrossings crossings;
+    if (!geometry_ray_crossed(p->geometry, features, ray, start, t_max, &crossings)) {
+        return false;
+    }
+    *share = rgb_grey(1.0);
+    for (int i = 0; i < crossings.count; i++) {
+        Rgb through;
+        if (!shade_even_through(p, features, geometry_material(p->geometry, features, crossings.shape[i]), &through)) {
+            return false;
+        }
+        if (rgb_is_black(through)) {
+            *share = rgb_grey(0.0);
+            return true;
+        }
+        *share = rgb_mul(*share, through);
+    }
+    return true;
+}
+
 // The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
 // multiplies it, the first that does not ends it. The shadow ray is inside of what the ray was that came to the point,
 // and goes into bodies and out of them as that does. Measured.
 RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, const ShadePoint *at, Ray ray,
                                          RayStart start, double t_max)
 {
-    Rgb share = rgb_grey(1.0);
+    Rgb share;
+    if (shade_even_light(p, features, ray, start, t_max, &share)) {
+        return share;
+    }
+    share = rgb_grey(1.0);
     Hit hit;
     Inside inside;
     inside.count = 0;

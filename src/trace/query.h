@@ -438,6 +438,17 @@ RT_ALWAYS_INLINE uint64_t geometry_crossed(const Geometry *g, unsigned features,
     return g->kernels->crossed(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), from, rays, asked, crossings);
 }
 
+// The same of one ray: whether that is told.
+RT_ALWAYS_INLINE bool geometry_ray_crossed(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max,
+                                           RayCrossings *crossings)
+{
+    if (!query_is_few(g, features)) {
+        return false;
+    }
+    const PlaneShape *plane = query_has_one_plane(g, features) ? &g->planes[0].shape : NULL;
+    return g->kernels->ray_crossed(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), &ray, start, t_max, crossings);
+}
+
 // The material of a sphere or plane.
 RT_ALWAYS_INLINE MaterialIndex geometry_material(const Geometry *g, unsigned features, ShapeId shape)
 {

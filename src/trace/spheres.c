@@ -408,6 +408,21 @@ static bool maker_make(Maker *maker, int threads)
     return table->block_count == 0 || (maker_number_slots(maker, threads) && maker_fill_blocks(maker, threads));
 }
 
+// How far few spheres reach, and the least of them.
+static void table_measure(SphereTable *table)
+{
+    table->radius_least = (double)INFINITY;
+    for (uint32_t i = 0; sphere_table_is_few(table) && i < table->block_count * SPHERE_BLOCK; i++) {
+        Ball ball = sphere_table_ball(table, i);
+        if (!isnan(ball.radius_squared)) {
+            Vec3 c = ball.centre;
+            double radius = sqrt(ball.radius_squared);
+            table->reach = fmax(table->reach, fabs(c.x) + fabs(c.y) + fabs(c.z) + radius);
+            table->radius_least = fmin(table->radius_least, radius);
+        }
+    }
+}
+
 bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int threads, Scene *spent)
 {
     *table = (SphereTable){0};
@@ -424,6 +439,9 @@ bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int
     free(maker.chunks);
     pages_give(&maker.ref_pages);
     free(maker.first_blocks);
+    if (done) {
+        table_measure(table);
+    }
     return done;
 }
 

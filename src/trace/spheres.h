@@ -41,6 +41,7 @@ typedef struct SphereTable {
     uint32_t count;       // spheres
     uint32_t loose_count; // of them not in the tree; slots 0 <= i < loose_count
     Bvh bvh;              // of the others; its leaves are BVH_LEAF | block
+    double reach, radius_least; // of few: no coordinate of one is beyond the first
 } SphereTable;
 
 // Whether some rays are sooner tested against all spheres together, one after the other, than each in the tree.
@@ -113,6 +114,11 @@ typedef struct TileCrossings {
     ShapeId shape[TILE_RAYS][CROSSINGS_MOST];
 } TileCrossings;
 
+typedef struct RayCrossings {
+    int count;
+    ShapeId shape[CROSSINGS_MOST];
+} RayCrossings;
+
 // Rays of one point: towards direction + u right - v up.
 typedef struct TileView {
     Vec3 origin, direction, right, up;
@@ -148,6 +154,9 @@ typedef struct SphereKernels {
     // is decided, which may be none.
     uint64_t (*crossed)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape, const TileSurfaces *from,
                         const SurfaceRays *rays, uint64_t asked, TileCrossings *crossings);
+    // The same of one ray: whether it is decided.
+    bool (*ray_crossed)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape, const Ray *ray,
+                        RayStart start, double t_max, RayCrossings *crossings);
     // Brings hits up to date with a plane that nothing coincides with. Returns the rays that meet it exactly where they
     // meet something else; these are left as they are.
     uint64_t (*plane_closest)(const PlaneShape *plane, ShapeId shape, const SphereTile *tile, TileHits *hits);

@@ -28,127 +28,159 @@ typedef struct CrossedList {
     ShapeId shape[SPHERES_FEW_MOST + 1];
 } CrossedList;
 
-// A vector of rays.
-typedef struct CrossedVector {
+// Lines, some at once.
+typedef struct CrossedLines {
     Doubles origin[3], direction[3], dual[3], inverse_square, end;
     Doubles doubt, apart, graze; // what the names above stand for
     DoublesMask inward;          // into what they start on
-    DoublesMask is_open;         // not certain
+} CrossedLines;
+
+// A vector of rays.
+typedef struct CrossedVector {
+    CrossedLines lines;
+    DoublesMask is_open;                     // not certain
     CrossedList into[DOUBLES], out[DOUBLES]; // the roots of the first rise, those of the second fall
 } CrossedVector;
+
+// Lines and spheres, one of each.
+typedef struct CrossedPairs {
+    DoublesMask into, out, is_open; // where the line goes in before its end, and out; where that is not certain
+    Doubles near_side, far_side;
+} CrossedPairs;
 
 // Beyond every coordinate of spheres and plane. 0: some sphere is so small beside that, that little would be certain.
 static double crossed_reach(const SphereTable *table, const PlaneShape *plane)
 {
-    double reach = plane ? fabs(plane->distance) : 0.0, least = (double)INFINITY;
-    for (uint32_t i = 0; i < few_slots(table); i++) {
-        Ball ball = sphere_table_ball(table, i);
-        if (!isnan(ball.radius_squared)) {
-            Vec3 c = ball.centre;
-            reach = fmax(reach, fabs(c.x) + fabs(c.y) + fabs(c.z) + sqrt(ball.radius_squared));
-            least = fmin(least, ball.radius_squared);
-        }
-    }
-    return least >= 0x1p-18 * reach * reach && reach < 0x1p400 && reach > 0x1p-400 ? reach : 0.0;
+    double reach = fmax(table->reach, plane ? fabs(plane->distance) : 0.0);
+    return table->radius_least >= 0x1p-9 * reach && reach < 0x1p200 && reach > 0x1p-200 ? reach : 0.0;
 }
 
-static void crossed_load(CrossedVector *v, const TileSurfaces *from, const SurfaceRays *rays, int at, double reach)
+// What is worked out of origin, direction and end, where no other coordinate is beyond `reach`.
+RT_ALWAYS_INLINE void crossed_lines_begin(CrossedLines *v, double reach)
 {
-    Doubles square = doubles_splat(0.0), cosine = doubles_splat(0.0), beyond = doubles_splat(reach);
+    Doubles square = doubles_splat(0.0), beyond = doubles_splat(reach);
     for (int axis = 0; axis < 3; axis++) {
-        v->origin[axis] = doubles_load(&from->point[axis][at]);
-        v->direction[axis] = doubles_load(&rays->towards[axis][at]);
         square += v->direction[axis] * v->direction[axis];
-        cosine += doubles_load(&from->outward[axis][at]) * v->direction[axis];
         beyond += doubles_abs(v->origin[axis]);
     }
     v->inverse_square = 1.0 / square;
     for (int axis = 0; axis < 3; axis++) {
         v->dual[axis] = v->inverse_square * v->direction[axis];
     }
-    v->end = doubles_load(&rays->distance[at]);
     v->doubt = CROSSED_DOUBT * beyond * beyond;
     v->apart = CROSSED_APART * (beyond + doubles_abs(v->end));
     v->graze = CROSSED_GRAZE * beyond;
-    v->inward = cosine < 0.0;
-    v->is_open = ~((v->inverse_square > 0.5) & (v->inverse_square < 2.0)) | ~(v->end > v->apart) |
-                 ~(doubles_abs(cosine) > 0x1p-40);
+}
+
+// Those that may be asked for at all.
+RT_ALWAYS_INLINE DoublesMask crossed_lines_usable(const CrossedLines *v)
+{
+    return (v->inverse_square > 0.5) & (v->inverse_square < 2.0) & (v->end > v->apart);
+}
+
+static void crossed_load(CrossedVector *v, const TileSurfaces *from, const SurfaceRays *rays, int at, double reach)
+{
+    Doubles cosine = doubles_splat(0.0);
+    for (int axis = 0; axis < 3; axis++) {
+        v->lines.origin[axis] = doubles_load(&from->point[axis][at]);
+        v->lines.direction[axis] = doubles_load(&rays->towards[axis][at]);
+        cosine += doubles_load(&from->outward[axis][at]) * v->lines.direction[axis];
+    }
+    v->lines.end = doubles_load(&rays->distance[at]);
+    crossed_lines_begin(&v->lines, reach);
+    v->lines.inward = cosine < 0.0;
+    v->is_open = ~(crossed_lines_usable(&v->lines) & (doubles_abs(cosine) > 0x1p-40));
     for (int i = 0; i < DOUBLES; i++) {
         v->into[i].count = v->out[i].count = 0;
     }
 }
 
-// Adds a crossing to the lists of some rays.
+// Adds a crossing where it belongs.
+RT_ALWAYS_INLINE void crossed_insert(CrossedList *list, bool rises, double t, ShapeId shape)
+{
+    int place = list->count++;
+    for (; place > 0 && (rises ? list->t[place - 1] > t : list->t[place - 1] < t); place--) {
+        list->t[place] = list->t[place - 1];
+        list->shape[place] = list->shape[place - 1];
+    }
+    list->t[place] = t;
+    list->shape[place] = shape;
+}
+
+// To the lists of some rays.
 RT_ALWAYS_INLINE void crossed_add(CrossedList *lists, bool rises, unsigned rays, Doubles roots, ShapeId shape)
 {
     _Alignas(64) double t[DOUBLES];
     doubles_store(t, roots);
     for (; rays; rays &= rays - 1) {
         unsigned i = (unsigned)__builtin_ctz(rays);
-        CrossedList *list = &lists[i];
-        int place = list->count++;
-        for (; place > 0 && (rises ? list->t[place - 1] > t[i] : list->t[place - 1] < t[i]); place--) {
-            list->t[place] = list->t[place - 1];
-            list->shape[place] = list->shape[place - 1];
-        }
-        list->t[place] = t[i];
-        list->shape[place] = shape;
+        crossed_insert(&lists[i], rises, t[i], shape);
     }
 }
 
-// Of roots that are met, those before the ray's end.
-RT_ALWAYS_INLINE DoublesMask crossed_before(CrossedVector *v, DoublesMask met, Doubles root)
+// Of roots that are met, those before the line's end.
+RT_ALWAYS_INLINE DoublesMask crossed_before(const CrossedLines *v, DoublesMask met, Doubles root, DoublesMask *is_open)
 {
     DoublesMask before = root < v->end - v->apart;
-    v->is_open |= met & ~before & ~(root > v->end + v->apart);
+    *is_open |= met & ~before & ~(root > v->end + v->apart);
     return met & before;
+}
+
+// Those of `own` start on the sphere. False when none of `asked` has anything to do with it.
+RT_ALWAYS_INLINE bool crossed_pairs(const CrossedLines *v, const Doubles centre[3], Doubles radius_squared,
+                                    DoublesMask own, unsigned asked, CrossedPairs *pairs)
+{
+    Doubles fx = v->origin[0] - centre[0];
+    Doubles fy = v->origin[1] - centre[1];
+    Doubles fz = v->origin[2] - centre[2];
+    Doubles t_middle = -(fx * v->dual[0] + fy * v->dual[1] + fz * v->dual[2]);
+    Doubles lx = fx + t_middle * v->direction[0];
+    Doubles ly = fy + t_middle * v->direction[1];
+    Doubles lz = fz + t_middle * v->direction[2];
+    Doubles discriminant = radius_squared - (lx * lx + ly * ly + lz * lz);
+    Doubles c = (fx * fx + fy * fy + fz * fz) - radius_squared;
+    Doubles half = doubles_sqrt(doubles_abs(discriminant) * v->inverse_square);
+    pairs->near_side = t_middle - half;
+    // What it starts outside of and goes away from, or reaches after its end, is not met.
+    DoublesMask passed = ((c > v->doubt) & ((t_middle < 0.0) | (pairs->near_side > v->end + v->graze))) |
+                         ~(discriminant > -v->doubt);
+    DoublesMask possible = ~own & ~passed, goes_out = possible | (own & v->inward);
+    if (!(doubles_mask_bits(goes_out) & asked)) {
+        return false;
+    }
+    pairs->far_side = doubles_choose(own, 2.0 * t_middle, t_middle + half);
+    pairs->is_open = possible & ~((discriminant > v->doubt) & (doubles_abs(c) > v->doubt));
+    pairs->into = crossed_before(v, possible & (c > 0.0), pairs->near_side, &pairs->is_open);
+    pairs->out = crossed_before(v, goes_out, pairs->far_side, &pairs->is_open);
+    return true;
 }
 
 // One sphere; the rays of `starts` start on it.
 RT_ALWAYS_INLINE void crossed_sphere(CrossedVector *v, const Ball *ball, ShapeId shape, unsigned starts, unsigned asked)
 {
-    Doubles fx = v->origin[0] - ball->centre.x;
-    Doubles fy = v->origin[1] - ball->centre.y;
-    Doubles fz = v->origin[2] - ball->centre.z;
-    Doubles t_middle = -(fx * v->dual[0] + fy * v->dual[1] + fz * v->dual[2]);
-    Doubles lx = fx + t_middle * v->direction[0];
-    Doubles ly = fy + t_middle * v->direction[1];
-    Doubles lz = fz + t_middle * v->direction[2];
-    Doubles discriminant = ball->radius_squared - (lx * lx + ly * ly + lz * lz);
-    Doubles c = (fx * fx + fy * fy + fz * fz) - ball->radius_squared;
+    const Doubles centre[3] = {doubles_splat(ball->centre.x), doubles_splat(ball->centre.y),
+                               doubles_splat(ball->centre.z)};
     DoublesMask own = starts ? doubles_bits_mask(starts) : (DoublesMask){0};
-    // What it starts outside of and goes away from, or reaches after its end, is not met.
-    DoublesMask passed = ((c > v->doubt) & (t_middle < 0.0)) | ~(discriminant > -v->doubt) |
-                         ((c > v->doubt) & (t_middle - doubles_sqrt(doubles_abs(discriminant)) > v->end + v->graze));
-    DoublesMask possible = ~own & ~passed;
-    if (!(doubles_mask_bits(possible | (own & v->inward)) & asked)) {
-        return;
+    CrossedPairs pairs;
+    if (crossed_pairs(&v->lines, centre, doubles_splat(ball->radius_squared), own, asked, &pairs)) {
+        v->is_open |= pairs.is_open;
+        unsigned open = ~doubles_mask_bits(v->is_open) & asked;
+        crossed_add(v->into, true, doubles_mask_bits(pairs.into) & open, pairs.near_side, shape);
+        crossed_add(v->out, false, doubles_mask_bits(pairs.out) & open, pairs.far_side, shape);
     }
-    DoublesMask certain = (discriminant > v->doubt) & (doubles_abs(c) > v->doubt);
-    v->is_open |= possible & ~certain;
-    Doubles half = doubles_sqrt(doubles_abs(discriminant) * v->inverse_square);
-    Doubles far_side = doubles_choose(own, 2.0 * t_middle, t_middle + half), near_side = t_middle - half;
-    DoublesMask into = crossed_before(v, possible & (c > 0.0), near_side);
-    DoublesMask out = crossed_before(v, possible | (own & v->inward), far_side);
-    unsigned open = ~doubles_mask_bits(v->is_open) & asked;
-    crossed_add(v->into, true, doubles_mask_bits(into) & open, near_side, shape);
-    crossed_add(v->out, false, doubles_mask_bits(out) & open, far_side, shape);
 }
 
-// The plane; the rays of `starts` start on it. Where they run along it, only its distance may say that it is not met.
-RT_ALWAYS_INLINE void crossed_plane(CrossedVector *v, const PlaneShape *plane, ShapeId shape, unsigned starts,
-                                    unsigned asked)
+// Lines and a plane; those of `own` start on it. Where they run along it, only its distance may say that it is not met.
+RT_ALWAYS_INLINE DoublesMask crossed_plane(const CrossedLines *v, const PlaneShape *plane, DoublesMask own,
+                                           Doubles *root, DoublesMask *is_open)
 {
     Vec3 n = plane->normal;
     Doubles along = n.x * v->direction[0] + n.y * v->direction[1] + n.z * v->direction[2];
     Doubles height = plane->distance - (n.x * v->origin[0] + n.y * v->origin[1] + n.z * v->origin[2]);
-    Doubles root = height / along;
-    DoublesMask ahead = ~((root < -v->apart) | (doubles_abs(height) > 2.0 * v->end));
-    ahead &= ~doubles_bits_mask(starts);
-    v->is_open |= ahead & ~((root > v->apart) & (doubles_abs(along) > CROSSED_GRAZE));
-    DoublesMask met = crossed_before(v, ahead, root);
-    unsigned open = ~doubles_mask_bits(v->is_open) & asked;
-    crossed_add(v->into, true, doubles_mask_bits(met) & open, root, shape);
+    *root = height / along;
+    DoublesMask ahead = ~own & ~((*root < -v->apart) | (doubles_abs(height) > 2.0 * v->end));
+    *is_open |= ahead & ~((*root > v->apart) & (doubles_abs(along) > CROSSED_GRAZE));
+    return crossed_before(v, ahead, *root, is_open);
 }
 
 // Both lists of a ray in one; false when two crossings are not told apart.
@@ -177,7 +209,7 @@ static unsigned crossed_end(const CrossedVector *v, unsigned asked, int at, Tile
     for (unsigned open = ~doubles_mask_bits(v->is_open) & asked; open; open &= open - 1) {
         unsigned i = (unsigned)__builtin_ctz(open);
         crossings->count[(unsigned)at + i] = (uint8_t)(v->into[i].count + v->out[i].count);
-        told |= (unsigned)crossed_merge(&v->into[i], &v->out[i], v->apart[i], crossings->shape[(unsigned)at + i]) << i;
+        told |= (unsigned)crossed_merge(&v->into[i], &v->out[i], v->lines.apart[i], crossings->shape[(unsigned)at + i]) << i;
     }
     return told;
 }
@@ -210,11 +242,86 @@ static uint64_t spheres_crossed(const SphereTable *table, const PlaneShape *plan
             }
         }
         if (plane) {
-            crossed_plane(&v, plane, plane_shape, (unsigned)(on_plane >> at) & all, own);
+            Doubles root;
+            DoublesMask met = crossed_plane(&v.lines, plane, doubles_bits_mask(on_plane >> at & all), &root, &v.is_open);
+            crossed_add(v.into, true, doubles_mask_bits(met & ~v.is_open) & own, root, plane_shape);
         }
         told |= (uint64_t)crossed_end(&v, own, at, crossings) << at;
     }
     return told;
+}
+
+// One ray against a vector of spheres at once. By itself, for what comes after it is not of vectors: GCC 12 leaves their
+// upper halves in use there, and all code of narrower ones after it is slow. False: something is not certain.
+static __attribute__((noinline)) bool ray_crossed_lists(const SphereTable *table, const PlaneShape *plane,
+                                                        ShapeId plane_shape, const Ray *ray, RayStart start,
+                                                        double t_max, CrossedList *into, CrossedList *out,
+                                                        double *apart)
+{
+    const unsigned all = (1u << DOUBLES) - 1;
+    double reach = crossed_reach(table, plane);
+    bool on_sphere = start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_SPHERE;
+    uint32_t slot = on_sphere ? shape_index(start.shape) : SLOT_NONE;
+    CrossedPairs pairs;
+    if (reach == 0.0) {
+        return false;
+    }
+    CrossedLines v = {.origin = {doubles_splat(ray->origin.x), doubles_splat(ray->origin.y), doubles_splat(ray->origin.z)},
+                      .direction = {doubles_splat(ray->direction.x), doubles_splat(ray->direction.y),
+                                    doubles_splat(ray->direction.z)},
+                      .end = doubles_splat(t_max)};
+    crossed_lines_begin(&v, reach);
+    v.inward = (DoublesMask){0} - (int64_t)start.inward;
+    if (!(doubles_mask_bits(crossed_lines_usable(&v)) & 1)) {
+        return false;
+    }
+    into->count = out->count = 0;
+    for (uint32_t at = 0; at < few_slots(table); at += DOUBLES) {
+        const SphereBlock *block = &table->blocks[at / SPHERE_BLOCK];
+        uint32_t i = at % SPHERE_BLOCK;
+        const Doubles centre[3] = {doubles_load(&block->x[i]), doubles_load(&block->y[i]), doubles_load(&block->z[i])};
+        DoublesMask own = slot - at < DOUBLES ? doubles_bits_mask(1u << (slot - at)) : (DoublesMask){0};
+        if (!crossed_pairs(&v, centre, doubles_load(&block->radius_squared[i]), own, all, &pairs)) {
+            continue;
+        }
+        if (doubles_mask_bits(pairs.is_open)) {
+            return false;
+        }
+        for (unsigned met = doubles_mask_bits(pairs.into); met; met &= met - 1) {
+            unsigned k = (unsigned)__builtin_ctz(met);
+            crossed_insert(into, true, pairs.near_side[k], shape_id(SHAPE_SPHERE, at + k));
+        }
+        for (unsigned met = doubles_mask_bits(pairs.out); met; met &= met - 1) {
+            unsigned k = (unsigned)__builtin_ctz(met);
+            crossed_insert(out, false, pairs.far_side[k], shape_id(SHAPE_SPHERE, at + k));
+        }
+    }
+    if (plane) {
+        Doubles root;
+        DoublesMask is_open = {0}, own = (DoublesMask){0} - (int64_t)(start.shape == plane_shape);
+        DoublesMask met = crossed_plane(&v, plane, own, &root, &is_open);
+        if (doubles_mask_bits(is_open)) {
+            return false;
+        }
+        if (doubles_mask_bits(met)) {
+            crossed_insert(into, true, root[0], plane_shape);
+        }
+    }
+    *apart = v.apart[0];
+    return true;
+}
+
+// All that is crossed by one ray.
+static bool ray_crossed(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape, const Ray *ray,
+                        RayStart start, double t_max, RayCrossings *crossings)
+{
+    CrossedList into, out;
+    double apart;
+    if (!ray_crossed_lists(table, plane, plane_shape, ray, start, t_max, &into, &out, &apart)) {
+        return false;
+    }
+    crossings->count = into.count + out.count;
+    return crossed_merge(&into, &out, apart, crossings->shape);
 }
 
 #endif

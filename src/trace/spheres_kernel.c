@@ -196,6 +196,7 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .surfaces_onward = surfaces_onward,
     .occluded_surfaces = surfaces_occluded,
     .crossed = spheres_crossed,
+    .ray_crossed = ray_crossed,
     .plane_closest = plane_closest,
     .plane_occluded = plane_occluded,
     .view_tile = view_tile,

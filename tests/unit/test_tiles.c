@@ -148,24 +148,24 @@ static int onward_try(const Geometry *g, unsigned features, const TileSurfaces *
 }
 
 // The walk from one crossing to the next: whether it meets other shapes than were told.
-static bool crossings_differ(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max,
-                             const TileCrossings *told, int i)
+static bool crossings_differ(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max, int told,
+                             const ShapeId *shapes)
 {
     Hit hit;
     int count = 0;
     for (; geometry_closest(g, features, ray, start, t_max, &hit); count++) {
-        if (count >= told->count[i] || told->shape[i][count] != hit.shape) {
+        if (count >= told || shapes[count] != hit.shape) {
             return true;
         }
         ray.origin = geometry_surface(g, features, ray, hit).point;
         t_max -= hit.t;
         start = (RayStart){hit.shape, !hit.inside, HIDDEN_SHADOW};
     }
-    return count != told->count[i];
+    return count != told;
 }
 
 typedef struct Crossed {
-    int different, told, asked, shapes;
+    int different, told, told_singly, asked, shapes;
 } Crossed;
 
 // Ways from surfaces to a place nearby: on and off spheres, along them, or anywhere.
@@ -194,12 +194,21 @@ static void crossed_try(const Geometry *g, unsigned features, const TileSurfaces
     found->asked += __builtin_popcountll(asked);
     found->told += __builtin_popcountll(told);
     found->different += (told & ~asked) != 0;
-    for (; told; told &= told - 1) {
-        int i = __builtin_ctzll(told);
+    for (; asked; asked &= asked - 1) {
+        int i = __builtin_ctzll(asked);
+        RayCrossings single;
+        double end = rays.distance[i];
         Ray ray = {tile_surface_point(from, i), lane_get(rays.towards, (unsigned)i)};
         RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), ray.direction) < 0.0, HIDDEN_SHADOW};
-        found->different += crossings_differ(g, features, ray, start, rays.distance[i], &crossings, i);
-        found->shapes += crossings.count[i];
+        if (told >> i & 1) {
+            found->different +=
+                crossings_differ(g, features, ray, start, end, crossings.count[i], crossings.shape[i]);
+            found->shapes += crossings.count[i];
+        }
+        if (geometry_ray_crossed(g, features, ray, start, end, &single)) {
+            found->different += crossings_differ(g, features, ray, start, end, single.count, single.shape);
+            found->told_singly++;
+        }
     }
 }
 
@@ -249,7 +258,8 @@ static void test_crossed(uint64_t seed)
         geometry_free(g);
         scene_fini(&scene);
     }
-    tap_ok(found.different == 0 && found.told > found.asked / 4 && found.shapes > found.told / 2,
+    tap_ok(found.different == 0 && found.told > found.asked / 4 && found.told_singly >= found.told &&
+               found.shapes > found.told / 2,
            "what lies on a way is what a walk meets: %d of %d differ (%d asked for, %d crossings)", found.different,
            found.told, found.asked, found.shapes);
 }
@@ -439,10 +449,27 @@ static bool add_checkered(Scene *scene, Random *random, const Finish *finish, bo
     return is_fine && scene_add_compound(scene, &compound, material);
 }
 
+// A clear layer by itself, around something that bends light, dims it or gathers it.
+static bool add_glass(Scene *scene, Random *random, Rgbft pigment, const Finish *finish, MaterialIndex *material)
+{
+    static const double iors[] = {1, 1.05, 1.5, 0.8}, powers[] = {0, 0, 2, 1001};
+    Texture texture = {.to_world = transform_identity(), .entries = RECORD_NONE, .below = RECORD_NONE,
+                       .normal = RECORD_NONE, .pigment = pigment_of(pigment)};
+    Interior interior = {.ior = one_of(random, iors, 4), .fade_distance = random_bits(random) % 2 ? 3.0 : 0.0,
+                         .fade_power = one_of(random, powers, 4), .fade_colour = {0.3, 0.9, 0.5},
+                         .caustics = random_bits(random) % 4 ? 0.0 : 0.5};
+    Compound compound = {.interior = RECORD_NONE};
+    bool is_fine = scene_add_finish(scene, finish, &texture.finish) &&
+                   scene_add_texture(scene, &texture, &compound.texture) &&
+                   (random_bits(random) % 4 == 0 || scene_add_interior(scene, &interior, &compound.interior));
+    return is_fine && scene_add_compound(scene, &compound, material);
+}
+
 // What a scene may have beside spheres of plain colours, planes and point lights.
 typedef struct Extras {
     bool any_lights, patterns, doubled; // the last: of layers
     bool clear;                         // some surfaces let light through
+    bool glass;                         // some have an interior, too
 } Extras;
 
 // What a pigment lets through: mostly something.
@@ -467,6 +494,7 @@ static void random_scene(Random *random, const Extras *extras, Scene *scene)
     }
     for (int i = 0; i < 4; i++) {
         finishes[i] = random_finish(random);
+        finishes[i].flags |= extras->glass && random_bits(random) % 4 == 0 ? FINISH_FRESNEL : 0;
     }
     for (int i = 0; i < count; i++) {
         MaterialIndex material;
@@ -475,7 +503,9 @@ static void random_scene(Random *random, const Extras *extras, Scene *scene)
         if (extras->clear) {
             random_clearness(random, &pigment);
         }
-        bool is_added = extras->patterns && random_bits(random) % 2
+        bool is_added = extras->glass && random_bits(random) % 4
+                            ? add_glass(scene, random, pigment, finish, &material)
+                        : extras->patterns && random_bits(random) % 2
                             ? add_checkered(scene, random, finish, extras->doubled, &material)
                             : scene_add_material(scene, pigment, finish, &material);
         Vec3 place = extras->clear && i % 2 ? (Vec3){0.0, 0.0, 0.0} : random_point(random, 5); // shells
@@ -519,7 +549,7 @@ static bool films_differ(const Film *a, const Film *b)
     return memcmp(a->rgb, b->rgb, 3 * sizeof(float) * (size_t)a->width * (size_t)a->height) != 0;
 }
 
-// A kernel that has textures shades ray by ray.
+// A kernel of all shapes shades ray by ray, and walks from one crossing to the next.
 static void test_light(uint64_t first, const Extras *extras, const SamplingOptions *sampling)
 {
     int different = 0, pictures = 0;
@@ -529,7 +559,7 @@ static void test_light(uint64_t first, const Extras *extras, const SamplingOptio
         Scene scene;
         RenderStatistics single, tiled;
         random_scene(&random, extras, &scene);
-        Film expected = picture(&scene, NULL, RENDER_TEXTURES, sampling, &single);
+        Film expected = picture(&scene, NULL, TRACE_PARTS | (extras->glass ? RENDER_NORMALS : 0), sampling, &single);
         for (size_t isa = 0; geometry_isa(isa); isa++, pictures++) {
             Film film = picture(&scene, geometry_isa(isa), 0, sampling, &tiled);
             different += films_differ(&film, &expected) || memcmp(&single, &tiled, sizeof single) != 0;
@@ -545,7 +575,7 @@ static void test_light(uint64_t first, const Extras *extras, const SamplingOptio
            "light by tiles is light by rays, %s, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored, %llu "
            "through surfaces)",
            extras->any_lights ? "any lights" : "point lights",
-           extras->patterns ? "patterns" : extras->clear ? "clear colours" : "plain colours",
+           extras->glass ? "glass" : extras->patterns ? "patterns" : extras->clear ? "clear colours" : "plain colours",
            sampling ? "sampled" : "one ray a pixel", different, pictures, (unsigned long long)shadow_rays,
            (unsigned long long)reflected_rays, (unsigned long long)transmitted_rays);
 }
@@ -582,8 +612,8 @@ int main(void)
     test_crossed(seed);
     test_onward_ties(seed);
     SamplingOptions sampling = {.seed = seed, .samples = 5};
-    for (int kind = 0; kind < 6; kind++) {
-        Extras extras = {.any_lights = kind & 1, .patterns = kind & 2, .clear = kind & 4};
+    for (int kind = 0; kind < 8; kind++) {
+        Extras extras = {.any_lights = kind & 1, .patterns = kind == 2 || kind == 3, .clear = kind & 4, .glass = kind > 5};
         test_light(seed, &extras, NULL);
         test_light(seed, &extras, &sampling);
     }
