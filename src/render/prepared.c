@@ -4,8 +4,10 @@
 // SPDX-License-Identifier: MIT
 #include "render/prepared.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 
+#include "base/parallel.h"
 #include "render/sampler_many.h"
 #include "render/tile_light.h"
 #include "scene/range.h"
@@ -140,16 +142,36 @@ static unsigned finish_features(const PreparedFinish *finish)
            (finish->reflects && finish->reflection_exponent != 1.0 ? (unsigned)RENDER_EXPONENT : 0);
 }
 
-static unsigned pigments_features(const Scene *scene, const TextureTable *textures)
+// There may be as many materials as spheres: threads look for a clear one.
+typedef struct MaterialSearch {
+    const Scene *scene;
+    atomic_bool has_clear;
+} MaterialSearch;
+
+static void search_some(void *client, size_t begin, size_t end)
 {
-    if (texture_table_has_transparent_image(textures)) {
-        return RENDER_TRANSPARENCY;
+    MaterialSearch *search = client;
+    bool has_clear = atomic_load(&search->has_clear);
+    for (size_t i = begin; i < end && !has_clear; i++) {
+        const Material *material = &search->scene->materials.items[i];
+        has_clear = material->filter != 0.0F || material->transmit != 0.0F;
     }
-    for (size_t i = 0; i < scene->materials.count; i++) {
-        const Material *material = &scene->materials.items[i];
-        if (material->filter != 0.0F || material->transmit != 0.0F) {
-            return RENDER_TRANSPARENCY;
-        }
+    if (has_clear) {
+        atomic_store(&search->has_clear, true);
+    }
+}
+
+static bool has_clear_material(const Scene *scene, int threads)
+{
+    MaterialSearch search = {.scene = scene};
+    parallel_share(threads, scene->materials.count, SPHERE_RUN, search_some, &search);
+    return atomic_load(&search.has_clear);
+}
+
+static unsigned pigments_features(const Scene *scene, const TextureTable *textures, int threads)
+{
+    if (texture_table_has_transparent_image(textures) || has_clear_material(scene, threads)) {
+        return RENDER_TRANSPARENCY;
     }
     for (size_t i = 0; i < scene->pigment_entries.count; i++) {
         const Pigment *pigment = &scene->pigment_entries.items[i].pigment;
@@ -178,9 +200,9 @@ static unsigned textures_features(const TextureTable *textures, unsigned feature
     return scene->compounds.count > 0 ? needed : 0;
 }
 
-static unsigned needed_features(const Prepared *p, const Scene *scene)
+static unsigned needed_features(const Prepared *p, const Scene *scene, int threads)
 {
-    unsigned features = geometry_features(p->geometry) | pigments_features(scene, &p->textures);
+    unsigned features = geometry_features(p->geometry) | pigments_features(scene, &p->textures, threads);
     for (size_t i = 0; i < p->light_count; i++) {
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
         features |= p->lights[i].is_plain ? 0 : (unsigned)RENDER_LIGHTS;
@@ -239,7 +261,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->crossings_max = 2 * ((uint64_t)scene->shape_count + scene->parts.count);
     prepare_lists(p, scene, exponent);
     prepared_inside(p, p->camera.location, &p->start);
-    p->features = needed_features(p, scene);
+    p->features = needed_features(p, scene, options->threads);
     p->kernel = kernel_choose(p->features);
     p->tile_lights = tile_lights_choose(geometry_isa_name(p->geometry));
     p->points = sobol_kernel_choose(geometry_isa_name(p->geometry));

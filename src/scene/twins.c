@@ -345,6 +345,7 @@ typedef struct Sieve {
     uint32_t *hashes;        // of all spheres; then, run by run, the numbers of those that are to be looked up
     uint32_t *counts;        // of these, for each run
     uint64_t *once, *twice;  // bits of hashes that were met, and met again
+    Pages pages;             // that hashes and bits are in: malloc would keep them while the tree is built
     uint32_t mask;           // of hashes
     bool is_shared;          // by threads
 } Sieve;
@@ -416,10 +417,8 @@ static void sieve_others(const Sieve *sieve)
 
 static void sieve_fini(Sieve *sieve)
 {
-    free(sieve->hashes);
+    pages_give(&sieve->pages);
     free(sieve->counts);
-    free(sieve->once);
-    free(sieve->twice);
 }
 
 // False when out of memory; fini is to be called anyway. *count: the spheres that are to be looked up.
@@ -430,16 +429,14 @@ static bool sieve_init(Sieve *sieve, const Twins *twins, int threads, size_t *co
         bits *= 2;
     }
     *sieve = (Sieve){.twins = twins, .mask = (uint32_t)(bits - 1), .is_shared = threads > 1};
-    sieve->hashes = malloc(spheres * sizeof *sieve->hashes);
     sieve->counts = malloc(sieve_runs(twins) * sizeof *sieve->counts);
-    sieve->once = calloc(bits / 64, sizeof *sieve->once);
-    sieve->twice = calloc(bits / 64, sizeof *sieve->twice);
-    if (!sieve->hashes || !sieve->counts || !sieve->once || !sieve->twice) {
+    if (!sieve->counts || !pages_take(&sieve->pages, bits / 4 + spheres * sizeof *sieve->hashes)) {
         return false;
     }
-    pages_prefer_huge(sieve->hashes, spheres * sizeof *sieve->hashes);
-    pages_prefer_huge(sieve->once, bits / 8);
-    pages_prefer_huge(sieve->twice, bits / 8);
+    sieve->once = sieve->pages.memory;
+    sieve->twice = sieve->once + bits / 64;
+    sieve->hashes = (uint32_t *)(sieve->twice + bits / 64);
+    memset(sieve->once, 0, bits / 4);
     parallel_share(threads, spheres, SPHERE_RUN, sieve_run, sieve);
     sieve_others(sieve);
     parallel_share(threads, spheres, SPHERE_RUN, gather_run, sieve);

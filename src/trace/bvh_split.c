@@ -297,31 +297,33 @@ static inline bool has_blocks(const Stretch *s)
 // Refs on the wrong side are noted for a block at either end, then changed in pairs (Edelkamp and Weiss,
 // "BlockQuicksort", 2016). What is left at one end is less than a block, and perhaps one that has been begun; refs of
 // which are measured again, which changes nothing.
-static void move_blocks(Mover *mover, Stretch *s)
+static void move_blocks(Mover *mover, Stretch *stretch)
 {
     uint8_t wrong_left[MOVE_BLOCK], wrong_right[MOVE_BLOCK];
     uint32_t lefts = 0, rights = 0, left = 0, right = 0; // noted, and the first of them not changed yet
-    while (has_blocks(s)) {
+    Stretch s = *stretch;
+    while (has_blocks(&s)) {
         if (left == lefts) {
             left = lefts = 0;
             for (uint32_t i = 0; i < MOVE_BLOCK; i++) {
                 wrong_left[lefts] = (uint8_t)i;
-                lefts += mover_side(mover, &mover->refs[s->begin + i], i);
+                lefts += mover_side(mover, &mover->refs[s.begin + i], i);
             }
         }
         if (right == rights) {
             right = rights = 0;
             for (uint32_t i = 0; i < MOVE_BLOCK; i++) {
                 wrong_right[rights] = (uint8_t)i;
-                rights += 1 - mover_side(mover, &mover->refs[s->end - 1 - i], i);
+                rights += 1 - mover_side(mover, &mover->refs[s.end - 1 - i], i);
             }
         }
         for (; left < lefts && right < rights; left++, right++) {
-            refs_swap(&mover->refs[s->begin + wrong_left[left]], &mover->refs[s->end - 1 - wrong_right[right]]);
+            refs_swap(&mover->refs[s.begin + wrong_left[left]], &mover->refs[s.end - 1 - wrong_right[right]]);
         }
-        s->begin += left == lefts ? MOVE_BLOCK : 0;
-        s->end -= right == rights ? MOVE_BLOCK : 0;
+        s.begin += left == lefts ? MOVE_BLOCK : 0;
+        s.end -= right == rights ? MOVE_BLOCK : 0;
     }
+    *stretch = s;
 }
 
 // Moves the refs from begin to end; returns where the right ones begin.

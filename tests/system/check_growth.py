@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Nothing costs more than in proportion: messages, names, included files, the length of a line.
+"""Nothing costs more than in proportion: messages, names, included files, the length of a line; and what a sphere takes.
 
 Instructions are counted by valgrind's cachegrind, so that no clock and no other load decides. The cost of ten times as much
 text may be GROWTH times as high; tables that double and caches of the allocator take the rest, and a quadratic part would make it
@@ -7,6 +7,7 @@ text may be GROWTH times as high; tables that double and caches of the allocator
 SPDX-License-Identifier: MIT
 """
 import os
+import random
 import re
 import shutil
 import subprocess
@@ -21,6 +22,7 @@ SIZES = (100_000, 1_000_000) if IS_LONG else (400, 4_000)
 GROWTH = 13
 LINE_BYTES = 100_000_000
 DEEPEST = 31
+SPHERES, SPHERE_BYTES = 200_000, 136
 
 
 def deep_includes(count):
@@ -99,6 +101,29 @@ def check_line(tap, folder):
            "a message in a line of 100 MB", said)
 
 
+def peak(folder, count):
+    """Kilobytes of a picture of so many spheres, each with a colour of its own."""
+    dice = random.Random(1)
+    write_scene(folder, (  # one by one: a child's peak is never told below that of this process
+        "sphere {{ <{:.6f}, {:.6f}, {:.6f}>, 0.003 pigment {{ rgb <{:.4f}, {:.4f}, {:.4f}> }} }}\n".format(
+            *(dice.uniform(-1, 1) for _ in range(3)), *(dice.random() for _ in range(3))) for _ in range(count)))
+    child = subprocess.Popen([PROGRAM, "-q", "-Wno-W0401", "-Wno-W0402", "-t2", "-W8", "-H8", "-o", "s.png", "s.scn"], cwd=folder,
+                             stdin=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    return usage.ru_maxrss if child.returncode == 0 else float("inf")
+
+
+def check_memory(tap, folder):
+    """What a sphere takes at the peak, when its record is in memory beside what the tree is built from."""
+    with open(PROGRAM, "rb") as file:
+        if re.search(rb"__[atm]san_init", file.read()):
+            tap.skip("memory of a sphere", "sanitizers take more")
+            return
+    each = (peak(folder, 2 * SPHERES) - peak(folder, SPHERES)) * 1024 / SPHERES
+    tap.ok(each <= SPHERE_BYTES, f"{SPHERES} more spheres take {each:.0f} bytes each, at most {SPHERE_BYTES}")
+
+
 def main():
     tap = Tap()
     with tempfile.TemporaryDirectory() as folder:
@@ -108,6 +133,7 @@ def main():
                 check_case(tap, name, folder)
             else:
                 tap.skip(name, "valgrind is not installed")
+        check_memory(tap, folder)
         if IS_LONG:
             check_line(tap, folder)
     return tap.done()
