@@ -15,10 +15,10 @@
 
 static const size_t huge_page = (size_t)2 << 20;
 
-// What is smaller gains nothing.
+// What is smaller would waste more memory than the faults are worth, which a huge page saves.
 static bool is_large(size_t bytes)
 {
-    return bytes >= 2 * huge_page;
+    return bytes >= huge_page / 2;
 }
 
 void pages_prefer_huge(void *memory, size_t bytes)
@@ -53,9 +53,11 @@ void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
     return moved;
 }
 
+// The last page of what is not much more than a few of them is a huge one, too.
 static size_t whole_pages(size_t bytes)
 {
-    size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    enum { FEW = 4 };
+    size_t page = bytes < FEW * huge_page ? huge_page : (size_t)sysconf(_SC_PAGESIZE);
     return (bytes + page - 1) / page * page;
 }
 
