@@ -20,7 +20,7 @@
 
 // Packets and tiles are timed in portions that lie in the processor's cache, where a renderer has just made them.
 enum { PORTION = 2048 };
-enum { WIDTH = 1024, HEIGHT = 768, RAYS = WIDTH * HEIGHT, TURNS = 7, BUILD_TURNS = 5 };
+enum { WIDTH = 1920, HEIGHT = 1080, RAYS = WIDTH * HEIGHT, TURNS = 7, BUILD_TURNS = 5 };
 
 static const Vec3 eye = {0, 0, -3.2};
 static const Vec3 light = {6, 8, -10};
@@ -94,7 +94,7 @@ static void make_camera_rays(RaySet *set)
 {
     for (int i = 0; i < RAYS; i++) {
         int tile = i / 64, x = tile % (WIDTH / 8) * 8 + i % 8, y = tile / (WIDTH / 8) * 8 + i / 8 % 8;
-        Vec3 towards = vec3(((x + 0.5) / WIDTH - 0.5) * 4 / 3, 0.5 - (y + 0.5) / HEIGHT, 1);
+        Vec3 towards = vec3(((x + 0.5) / WIDTH - 0.5) * 16 / 9, 0.5 - (y + 0.5) / HEIGHT, 1);
         ray_set_add(set, (Ray){eye, vec3_normalize(towards)}, RAY_START_FREE, (double)INFINITY);
     }
 }

@@ -57,7 +57,7 @@ RT_ALWAYS_INLINE void query_spheres_closest(const Geometry *g, unsigned features
         }
         nearest_settle(&g->spheres, ray, nearest);
     } else {
-        g->kernels->closest(&g->spheres, ray, &on.ball, nearest);
+        g->kernels->closest(&g->spheres, ray, on.slot, nearest);
     }
 }
 
@@ -72,7 +72,7 @@ RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned feature
         }
     }
     if (!query_spheres_are_few(g, features)) {
-        return g->kernels->occluded(&g->spheres, ray, &on.ball, t_max);
+        return g->kernels->occluded(&g->spheres, ray, on.slot, t_max);
     }
     for (uint32_t i = 0; i < g->spheres.loose_count; i++) {
         if (sphere_slot_occludes(&g->spheres, i, ray, &on.ball, t_max)) {

@@ -125,12 +125,12 @@ typedef struct TileView {
 } TileView;
 
 // Brings `nearest` up to date with all spheres, and settles it; tells whether one is met at 0 < t < t_max. Spheres equal
-// to `start` are passed over.
+// to that of the slot `start`, which may be SLOT_NONE, are passed over.
 typedef struct SphereKernels {
     const char *name;
     bool (*is_supported)(void);
-    void (*closest)(const SphereTable *table, const SphereRay *ray, const Ball *start, Nearest *nearest);
-    bool (*occluded)(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max);
+    void (*closest)(const SphereTable *table, const SphereRay *ray, uint32_t start, Nearest *nearest);
+    bool (*occluded)(const SphereTable *table, const SphereRay *ray, uint32_t start, double t_max);
     // What each ray of a tile meets. False when the rays are too far apart, or their origin too far away,
     // to be traced together; `hits` mean nothing then.
     bool (*closest_tile)(const SphereTable *table, const SphereTile *tile, TileHits *hits);

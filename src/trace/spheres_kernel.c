@@ -32,8 +32,26 @@ typedef struct BlockHits {
     unsigned inside;
 } BlockHits;
 
-// sphere_test eight times over. False when all are missed.
-RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray, double limit, BlockHits *hits)
+// The sphere that a ray starts on.
+typedef struct BlockStart {
+    uint32_t slot; // SLOT_NONE: none
+    Ball ball;     // equals none then
+} BlockStart;
+
+RT_ALWAYS_INLINE BlockStart block_start(const SphereTable *table, uint32_t slot)
+{
+    return (BlockStart){slot, slot == SLOT_NONE ? (Ball){{0.0, 0.0, 0.0}, (double)NAN} : sphere_table_ball(table, slot)};
+}
+
+// All of a block but that sphere, a bit for each.
+RT_ALWAYS_INLINE unsigned block_others(uint32_t block, const BlockStart *start)
+{
+    return start->slot / SPHERE_BLOCK == block ? ~(1u << start->slot % SPHERE_BLOCK) : ~0u;
+}
+
+// sphere_test eight times over, of the spheres asked for. False when all are missed.
+RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray, unsigned asked, double limit,
+                                 BlockHits *hits)
 {
     Doubles discriminant[HALVES], t_middle[HALVES], f_squared[HALVES], sum[HALVES];
     unsigned possible = 0;
@@ -52,6 +70,7 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
         sum[i] = f_squared[i] + radius_squared;
         possible |= doubles_ge(discriminant[i], -SPHERE_ROUNDING * sum[i]) << (i * DOUBLES);
     }
+    possible &= asked;
     if (!possible) {
         return false;
     }
@@ -78,11 +97,11 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
 }
 
 // Brings `nearest` up to date with a block. False when all its spheres are missed.
-RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, const SphereRay *ray, const Ball *start,
-                                    double limit, Nearest *nearest)
+RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, const SphereRay *ray,
+                                    const BlockStart *start, double limit, Nearest *nearest)
 {
     BlockHits hits;
-    if (!block_test(&table->blocks[block], ray, limit, &hits)) {
+    if (!block_test(&table->blocks[block], ray, block_others(block, start), limit, &hits)) {
         return false;
     }
     do {
@@ -93,7 +112,7 @@ RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, co
         bool inside = hits.inside >> at & 1;
         double t = hits.t[at];
         bool is_rough = !(hits.doubtful >> at & 1);
-        if (ball_equal(&ball, start)) {
+        if (ball_equal(&ball, &start->ball)) {
             continue;
         }
         if (RT_UNLIKELY(!is_rough)) {
@@ -104,11 +123,11 @@ RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, co
     return true;
 }
 
-RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, const SphereRay *ray, const Ball *start,
-                                     double limit, double t_max)
+RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, const SphereRay *ray,
+                                     const BlockStart *start, double limit, double t_max)
 {
     BlockHits hits;
-    if (!block_test(&table->blocks[block], ray, limit, &hits)) {
+    if (!block_test(&table->blocks[block], ray, block_others(block, start), limit, &hits)) {
         return false;
     }
     do {
@@ -116,7 +135,7 @@ RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, c
         hits.met &= hits.met - 1;
         Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + at);
         bool inside;
-        if (ball_equal(&ball, start)) {
+        if (ball_equal(&ball, &start->ball)) {
             continue;
         }
         if (RT_UNLIKELY(hits.doubtful >> at & 1)) {
@@ -131,21 +150,20 @@ RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, c
     return false;
 }
 
-static void spheres_closest(const SphereTable *table, const SphereRay *ray, const Ball *start,
-                            Nearest *nearest)
+static void spheres_closest(const SphereTable *table, const SphereRay *ray, uint32_t start_slot, Nearest *nearest)
 {
     BvhWalk walk;
     BvhChild leaf;
+    const BlockStart start = block_start(table, start_slot);
     double limit = nearest_limit(nearest->hit.t);
-    if (table->loose_count > 0 && block_closest(table, 0, ray, start, limit, nearest)) {
+    if (table->loose_count > 0 && block_closest(table, 0, ray, &start, limit, nearest)) {
         limit = nearest_limit(nearest->hit.t);
     }
     if (table->bvh.nodes && bvh_walk_start(&walk, &table->bvh, by_parts(&ray->origin), by_parts(&ray->direction))) {
         walk.leaves = (const char *)table->blocks;
-        walk.leaves = (const char *)table->blocks;
         float tree_limit = bvh_walk_limit(&walk, limit);
         while (bvh_walk_next(&walk, tree_limit, &leaf)) {
-            if (block_closest(table, leaf & ~BVH_LEAF, ray, start, limit, nearest)) {
+            if (block_closest(table, leaf & ~BVH_LEAF, ray, &start, limit, nearest)) {
                 limit = nearest_limit(nearest->hit.t);
                 tree_limit = bvh_walk_limit(&walk, limit);
             }
@@ -154,12 +172,13 @@ static void spheres_closest(const SphereTable *table, const SphereRay *ray, cons
     nearest_settle(table, ray, nearest); // here, where the processor may have a fused multiply-add
 }
 
-static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, const Ball *start, double t_max)
+static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, uint32_t start_slot, double t_max)
 {
     BvhWalk walk;
     BvhChild leaf;
+    const BlockStart start = block_start(table, start_slot);
     double limit = nearest_limit(t_max);
-    if (table->loose_count > 0 && block_occludes(table, 0, ray, start, limit, t_max)) {
+    if (table->loose_count > 0 && block_occludes(table, 0, ray, &start, limit, t_max)) {
         return true;
     }
     if (!table->bvh.nodes || !bvh_walk_start(&walk, &table->bvh, by_parts(&ray->origin), by_parts(&ray->direction))) {
@@ -168,7 +187,7 @@ static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, con
     walk.leaves = (const char *)table->blocks;
     float tree_limit = bvh_walk_limit(&walk, limit);
     while (bvh_walk_next(&walk, tree_limit, &leaf)) {
-        if (block_occludes(table, leaf & ~BVH_LEAF, ray, start, limit, t_max)) {
+        if (block_occludes(table, leaf & ~BVH_LEAF, ray, &start, limit, t_max)) {
             return true;
         }
     }
