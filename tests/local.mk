@@ -54,7 +54,6 @@ unit_programs = \
   tests/unit/test_grammar_quick \
   tests/unit/test_grammar_random \
   tests/unit/test_image \
-  tests/unit/test_image_deflate \
   tests/unit/test_image_flip \
   tests/unit/test_image_png \
   tests/unit/test_image_strips \
@@ -119,9 +118,6 @@ tests_unit_test_grammar_random_LDADD = $(UNIT_GRAMMAR)
 tests_unit_test_image_SOURCES = %D%/unit/test_image.c %D%/unit/image_forms.h
 tests_unit_test_image_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
-tests_unit_test_image_deflate_SOURCES = %D%/unit/test_image_deflate.c $(unit_headers)
-tests_unit_test_image_deflate_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
-tests_unit_test_image_deflate_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_image_flip_SOURCES = %D%/unit/test_image_flip.c $(unit_headers)
 tests_unit_test_image_flip_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_flip_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
