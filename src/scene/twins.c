@@ -354,12 +354,11 @@ typedef struct Sieve {
 static inline bool bit_set(const Sieve *sieve, uint64_t *bits, uint32_t hash)
 {
     uint64_t *word = &bits[(hash & sieve->mask) / 64], bit = UINT64_C(1) << hash % 64;
-    uint64_t before = *word;
     if (sieve->is_shared) {
-        before = __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
-    } else {
-        *word = before | bit;
+        return __atomic_fetch_or(word, bit, __ATOMIC_RELAXED) & bit;
     }
+    uint64_t before = *word;
+    *word = before | bit;
     return before & bit;
 }
 

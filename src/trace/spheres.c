@@ -252,20 +252,17 @@ static inline void fetch(const Maker *maker, uint32_t number)
     __builtin_prefetch((const char *)(sphere + 1) - 1); // it may lie across two lines
 }
 
-static inline void place_fetch(const Maker *maker, uint32_t place)
-{
-    if (place < maker->tree_count) {
-        fetch(maker, bvh_ref_index(&maker->refs[place]));
-    }
-}
-
 _Static_assert(sizeof(BvhRef) == sizeof(Ball), "a ball takes the place of a ref");
 
-// Puts the spheres of a leaf in the place of their refs, and says what their slots hold.
-static void leaf_take(const Maker *maker, uint32_t first, uint32_t count, ShapeInfo *info)
+// Puts the spheres of a leaf in the place of their refs, and says what their slots hold. The refs from `end` on are
+// another thread's.
+static void leaf_take(const Maker *maker, uint32_t first, uint32_t count, uint32_t end, ShapeInfo *info)
 {
     for (uint32_t at = 0; at < count; at++) {
-        place_fetch(maker, first + at + AHEAD);
+        uint32_t ahead = first + at + AHEAD;
+        if (ahead < end) {
+            fetch(maker, bvh_ref_index(&maker->refs[ahead]));
+        }
         uint32_t number = bvh_ref_index(&maker->refs[first + at]);
         Ball ball = maker_ball(maker, number);
         memcpy(&maker->refs[first + at], &ball, sizeof ball);
@@ -273,25 +270,27 @@ static void leaf_take(const Maker *maker, uint32_t first, uint32_t count, ShapeI
     }
 }
 
-static void leaf_number(const Maker *maker, uint32_t first, uint32_t count, ShapeInfo *info)
+static void leaf_number(const Maker *maker, uint32_t first, uint32_t count, uint32_t end, ShapeInfo *info)
 {
+    (void)end;
     for (uint32_t at = 0; at < count; at++) {
         info[at] = (ShapeInfo){0, bvh_ref_index(&maker->refs[first + at])};
     }
 }
 
-static void leaf_fill(const Maker *maker, uint32_t first, uint32_t count, uint32_t block)
+// The blocks from `end` on are another thread's.
+static void leaf_fill(const Maker *maker, uint32_t first, uint32_t count, uint32_t block, uint32_t end)
 {
     SphereBlock *spheres = &maker->table->blocks[block];
     ShapeInfo *info = &maker->table->info[block * SPHERE_BLOCK];
-    uint32_t end = maker->table->block_count * SPHERE_BLOCK - block * SPHERE_BLOCK;
+    uint32_t slots = (end - block) * SPHERE_BLOCK;
     for (uint32_t at = 0; at < count; at++) {
         Ball ball;
         if (maker->refs) {
             memcpy(&ball, &maker->refs[first + at], sizeof ball);
         } else {
-            uint32_t number = info[at].order, ahead = at + AHEAD < end ? info[at + AHEAD].order : 0;
-            fetch(maker, ahead < maker->scene->spheres.count ? ahead : 0); // another thread may have been there
+            uint32_t number = info[at].order;
+            fetch(maker, at + AHEAD < slots ? info[at + AHEAD].order : number);
             ball = maker_ball(maker, number);
             info[at] = maker_info(maker, number);
         }
@@ -300,17 +299,30 @@ static void leaf_fill(const Maker *maker, uint32_t first, uint32_t count, uint32
     block_clear(spheres, count);
 }
 
+// Behind the refs of some nodes.
+static uint32_t refs_end(const Bvh *bvh, size_t begin, size_t end)
+{
+    for (size_t i = end * BVH_WIDTH; i-- > begin * BVH_WIDTH;) {
+        BvhChild leaf = bvh->nodes[i / BVH_WIDTH].child[i % BVH_WIDTH];
+        if (leaf & BVH_LEAF) {
+            return bvh_leaf_first(leaf) + bvh_leaf_count(leaf);
+        }
+    }
+    return 0;
+}
+
 static void slots_work(void *client, size_t begin, size_t end)
 {
     const Maker *maker = client;
     const Bvh *bvh = &maker->table->bvh;
+    uint32_t last = refs_end(bvh, begin, end);
     uint32_t block = maker->first_blocks[begin / NODES_CHUNK];
     for (size_t i = begin * BVH_WIDTH; i < end * BVH_WIDTH; i++) {
         BvhChild leaf = bvh->nodes[i / BVH_WIDTH].child[i % BVH_WIDTH];
         if (leaf & BVH_LEAF) {
             ShapeInfo *info = &maker->table->info[block++ * SPHERE_BLOCK];
             uint32_t count = bvh_leaf_count(leaf);
-            (maker->spent ? leaf_take : leaf_number)(maker, bvh_leaf_first(leaf), count, info);
+            (maker->spent ? leaf_take : leaf_number)(maker, bvh_leaf_first(leaf), count, last, info);
             for (uint32_t at = count; at < SPHERE_BLOCK; at++) {
                 info[at] = (ShapeInfo){0, 0};
             }
@@ -323,10 +335,11 @@ static void blocks_work(void *client, size_t begin, size_t end)
     const Maker *maker = client;
     Bvh *bvh = &maker->table->bvh;
     uint32_t block = maker->first_blocks[begin / NODES_CHUNK];
+    uint32_t last = end < bvh->node_count ? maker->first_blocks[end / NODES_CHUNK] : maker->table->block_count;
     for (size_t i = begin * BVH_WIDTH; i < end * BVH_WIDTH; i++) {
         BvhChild *leaf = &bvh->nodes[i / BVH_WIDTH].child[i % BVH_WIDTH];
         if (*leaf & BVH_LEAF) {
-            leaf_fill(maker, bvh_leaf_first(*leaf), bvh_leaf_count(*leaf), block);
+            leaf_fill(maker, bvh_leaf_first(*leaf), bvh_leaf_count(*leaf), block, last);
             *leaf = BVH_LEAF | block++;
         }
     }
