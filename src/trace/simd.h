@@ -65,7 +65,7 @@ RT_ALWAYS_INLINE Doubles doubles_gather(const double *from, DoublesMask bytes)
 #elif defined(__AVX2__)
     return _mm256_i64gather_pd(from, (__m256i)bytes, 1);
 #else
-    Doubles gathered;
+    Doubles gathered = {0};
     for (int i = 0; i < DOUBLES; i++) {
         double own;
         memcpy(&own, (const char *)from + bytes[i], sizeof(own));
