@@ -9,7 +9,7 @@
 const Kernel *kernel_choose(unsigned features)
 {
     // Those with few features first.
-    const KernelList *const lists[] = {&kernels_few, &kernels_many, &kernels_rich, &kernels_any};
+    const KernelList *const lists[] = {&kernels_few, &kernels_many, &kernels_rays, &kernels_any};
     const Kernel *best = &kernels_any.kernels[kernels_any.count - 1];
     for (size_t i = 0; i < RT_COUNT_OF(lists); i++) {
         for (size_t j = 0; j < lists[i]->count; j++) {

@@ -3,11 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/kernel_instance.h"
 
-#define SHADING_FLAT                                                                                                   \
-    (SHADING_ANY | RENDER_EXPONENT | RENDER_PIGMENTS | RENDER_TEXTURES | RENDER_INTERIORS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG)
 #define KERNELS(X)                                                                                                     \
-    X(any_shadows, "all shapes+shadows", GEOMETRY_ANY, SHADING_SHADOWS)                                                \
-    X(any_flat, "everything but bumps", GEOMETRY_ANY, SHADING_FLAT)                                                    \
-    X(any_any, "everything", GEOMETRY_ANY, SHADING_FLAT | RENDER_NORMALS)
+    X(any_flat, "all shapes, no bumps", TRACE_ALL_FEATURES, RENDER_ALL_FEATURES & ~RENDER_NORMALS)                     \
+    X(any, "everything", TRACE_ALL_FEATURES, RENDER_ALL_FEATURES)
 
 DEFINE_KERNELS(kernels_any, KERNELS)

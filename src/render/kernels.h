@@ -13,9 +13,9 @@ typedef struct KernelList {
     size_t count;
 } KernelList;
 
-extern const KernelList kernels_few;  // some spheres, perhaps planes: no tree
-extern const KernelList kernels_many; // trees of spheres, surfaces of one colour
-extern const KernelList kernels_rich; // trees of spheres with textures, glass, bumps, sky or fog
+extern const KernelList kernels_few;  // few spheres, perhaps planes, by tiles: no tree
+extern const KernelList kernels_many; // trees of spheres, by tiles
+extern const KernelList kernels_rays; // spheres and planes, ray by ray
 extern const KernelList kernels_any;  // every shape; the last one does all there is
 
 #endif

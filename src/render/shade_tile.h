@@ -26,7 +26,8 @@ enum { SHADE_WAITING_MOST = 12 };
 // Whether rays of a scene are shaded by tiles.
 RT_ALWAYS_INLINE bool shade_tile_may(const Prepared *p, unsigned features)
 {
-    bool may_wait = (features & RENDER_TRANSPARENCY) && (features & RENDER_REFLECTION);
+    unsigned both = RENDER_TRANSPARENCY | RENDER_REFLECTION;
+    bool may_wait = (features & both) == both && (p->features & both) == both;
     return !(features & ~(unsigned)SHADE_TILE_FEATURES) && (!may_wait || p->max_trace_level <= SHADE_WAITING_MOST);
 }
 
