@@ -37,6 +37,15 @@ def check_options(program, page):
         yield f"--{long} is on the page only, or with another letter than `{short}`"
 
 
+COLUMNS = 120
+
+
+def check_width(name):
+    for number, line in enumerate(read(name).splitlines(), 1):
+        if len(line) > COLUMNS:
+            yield f"line {number} has {len(line)} columns, more than {COLUMNS}"
+
+
 def check_links(name):
     text = re.sub(r"```.*?```", "", read(name), flags=re.DOTALL)
     for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
@@ -84,6 +93,8 @@ def checks():
     yield "rtlang.1 has rtlang's options", check_options(os.environ["RTLANG"], "docs/rtlang.1")
     yield "rtcheck.1 has rtcheck's options", check_options(os.environ["RTCHECK"], "docs/rtcheck.1")
     pages = ["README.md", "CONTRIBUTING.md"] + sorted(glob.glob("docs/*.md", root_dir=TOP))
+    for name in pages + ["CHANGELOG.md"] + sorted(glob.glob("docs/*.1", root_dir=TOP)):
+        yield f"{name}: no line is too long to read", check_width(name)
     for name in pages + (["examples/README.md"] if os.path.exists(os.path.join(TOP, "examples/README.md")) else []):
         yield f"{name}: links lead somewhere", check_links(name)
     for name in pages:

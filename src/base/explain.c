@@ -8,7 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { COLUMNS = 80 };
+enum { TERMINAL_COLUMNS = 80, DOCUMENT_COLUMNS = 120 };
 
 typedef struct Explanation {
     const char *wrong; // a scene, or in words
@@ -35,14 +35,14 @@ bool explain_find(const char *name, DiagCode *code)
     return false;
 }
 
-// Breaks between words, so that no line is longer than COLUMNS if its words are not.
-static void append_wrapped(TextBuffer *out, const char *text)
+// Breaks between words, so that no line is longer than `columns` if its words are not. The first line has `column`
+// characters already.
+static void append_wrapped(TextBuffer *out, const char *text, size_t column, size_t columns)
 {
-    size_t column = 0;
     while (*text != '\0') {
         size_t length = strcspn(text, " ");
         if (column > 0) {
-            bool fits = column + 1 + length <= COLUMNS;
+            bool fits = column + 1 + length <= columns;
             text_append_char(out, fits ? ' ' : '\n');
             column = fits ? column + 1 : 0;
         }
@@ -68,15 +68,18 @@ void explain_write(DiagCode code, TextBuffer *out)
     } else {
         text_printf(out, "    for example: %s\n\n", explanation->wrong);
     }
-    append_wrapped(out, explanation->text);
+    append_wrapped(out, explanation->text, 0, TERMINAL_COLUMNS);
 }
 
 static void append_section(TextBuffer *out, DiagCode code)
 {
     const Explanation *explanation = &explanations[code];
-    text_printf(out, "### %s: %s\n\n*%s, exit code %d%s.* %s\n\n", diag_code_name(code), diag_code_summary(code),
-                severity_name(code), (int)diag_code_class(code), diag_code_is_extra(code) ? ", with `-Wall` only" : "",
-                explanation->text);
+    text_printf(out, "### %s: %s\n\n", diag_code_name(code), diag_code_summary(code));
+    size_t start = out->length;
+    text_printf(out, "*%s, exit code %d%s.*", severity_name(code), (int)diag_code_class(code),
+                diag_code_is_extra(code) ? ", with `-Wall` only" : "");
+    append_wrapped(out, explanation->text, out->length - start, DOCUMENT_COLUMNS);
+    text_append_char(out, '\n');
     if (explanation->right != NULL) {
         text_printf(out, "```\nwrong: %s\nright: %s\n```\n\n", explanation->wrong, explanation->right);
     } else {

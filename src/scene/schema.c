@@ -120,7 +120,7 @@ static const SchemaProperty camera_properties[] = {
     {"panoramic", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_PANORAMIC]), .is_first = true,
      .doc = "half a turn from left to right; heights as on a cylinder"},
     {"spherical", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_SPHERICAL]), .is_first = true,
-     .doc = "longitude and latitude; `angle` across and, after it, upright: 360 and half of that"},
+     .doc = "longitude, latitude; `angle` across, then upright: 360 and half of it"},
     {"location", TYPE_VECTOR, AT(CameraBlueprint, location), .doc = "where the eye is"},
     {"direction", TYPE_VECTOR, AT(CameraBlueprint, direction), .doc = "from the eye to the middle of the picture"},
     {"right", TYPE_VECTOR, AT(CameraBlueprint, right), GIVEN(CameraBlueprint, has_right),
@@ -128,13 +128,12 @@ static const SchemaProperty camera_properties[] = {
     {"up", TYPE_VECTOR, AT(CameraBlueprint, up), GIVEN(CameraBlueprint, has_up), .doc = "the height likewise"},
     {"sky", TYPE_VECTOR, AT(CameraBlueprint, sky), .doc = "what `look_at` turns upward"},
     {"look_at", TYPE_VECTOR, AT(CameraBlueprint, look_at), GIVEN(CameraBlueprint, has_look_at),
-     .doc = "a point in the middle of the picture; `direction`, `right` and `up` keep only their lengths"},
+     .doc = "the middle of the picture; `direction`, `right` and `up` keep their lengths"},
     {"angle", TYPE_ACTION, ACTION_ANGLE, AT(CameraBlueprint, angle_deg), GIVEN(CameraBlueprint, has_angle),
-     .doc = "the field of view from left to right in degrees, of a perspective camera 0 to 180; there it sets the "
-            "length of `direction`"},
+     .doc = "degrees from left to right; of a perspective camera 0 to 180: then it sets `direction`"},
     {"aperture", TYPE_NUMBER, AT(CameraBlueprint, aperture), .doc = "of the lens: four times its radius; 0 is a point"},
     {"blur_samples", TYPE_ACTION, ACTION_BLUR_SAMPLES,
-     .doc = "`[least,] most`: rays a pixel through the lens, unless `--samples` says; without it there is no blur"},
+     .doc = "`[least,] most`: rays a pixel through the lens; `--samples` wins; 0: no blur"},
     {"focal_point", TYPE_VECTOR, AT(CameraBlueprint, focal_point), GIVEN(CameraBlueprint, has_focal_point),
      .doc = "a point as far from the location as what is sharp; without it that is 1 away"},
     {"confidence", TYPE_NUMBER, AT(CameraBlueprint, confidence), .doc = "accepted; all rays are traced"},
@@ -162,30 +161,30 @@ static const SchemaProperty light_properties[] = {
     {"point_at", TYPE_ACTION, ACTION_POINT_AT, AT(LightBlueprint, point_at),
      .doc = "where a `parallel` light, a `spotlight` or a `cylinder` shines"},
     {"radius", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, radius),
-     .doc = "of full light: of a `spotlight` half an angle in degrees, 30; of a `cylinder` a length, 0.75"},
+     .doc = "of full light: of a `spotlight` half an angle, 30; of a `cylinder` a length, 0.75"},
     {"falloff", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, falloff), .doc = "of any light, likewise: 45 and 1"},
     {"tightness", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, tightness),
      .doc = "how the light falls from the axis on: 0 not at all"},
     {"fade_distance", TYPE_NUMBER, AT(LightBlueprint, fade_distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
-     .doc = "where the light has its colour; it is brighter before and darker behind; 0: the same everywhere"},
+     .doc = "of its own colour; nearer it is brighter; 0: no fading"},
     {"fade_power", TYPE_NUMBER, AT(LightBlueprint, fade_power), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "the light falls with this power of the distance; 0: not"},
     {"area_light", TYPE_ACTION, ACTION_AREA_LIGHT,
      .doc = "two vectors, two numbers: so many rows of so many lights, for soft shadows"},
     {"circular", TYPE_FLAG, AT(LightBlueprint, area.circular), .doc = "the lights of `area_light` lie in a disc"},
     {"orient", TYPE_FLAG, AT(LightBlueprint, area.is_oriented),
-     .doc = "the disc of a `circular` light faces each point that it lights; its axes then tell only lengths"},
+     .doc = "the disc of a `circular` light faces each point that it lights; axes give lengths"},
     {"jitter", TYPE_FLAG, AT(LightBlueprint, area.jitter), .doc = "each of them is moved at random"},
     {"adaptive", TYPE_INTEGER, AT(LightBlueprint, area.adaptive), GIVEN(LightBlueprint, area.is_adaptive),
      .range = {RANGE_FAULT, false, 0.0, 20.0},
-     .doc = "not all of them are asked for, where after so many halvings the corners agree"},
+     .doc = "halvings after which equal corners give what is between"},
     {"looks_like", TYPE_BLOCK, ACTION_LOOKS_LIKE,
-     .doc = "an object that is seen where the light is and throws no shadow; what is said before moves it too"},
+     .doc = "an object seen in the light's place, without a shadow; moved by what stands before it"},
     {"media_interaction", TYPE_SWITCH, AT(LightBlueprint, is_ignored), .doc = "accepted; changes no picture"},
     {"media_attenuation", TYPE_SWITCH, AT(LightBlueprint, is_attenuated),
      .doc = "not in fog; changes no picture elsewhere"},
     {"shadowless", TYPE_ACTION, ACTION_SHADOWLESS,
-     .doc = "casts no shadows and makes no highlights; takes back `spotlight` and `cylinder`, and they it"},
+     .doc = "no shadows, no highlights; takes back `spotlight` and `cylinder`, and they it"},
 };
 
 static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {0, 0, 1}, .look_transform = IDENTITY};
@@ -272,7 +271,7 @@ static const SmoothTriangleBlueprint smooth_triangle_defaults = {.part = OBJECT_
 
 static const SchemaProperty union_properties[] = {
     {"split_union", TYPE_SWITCH, AT(ObjectPart, split_union),
-     .doc = "off: `no_image` and the like count for the union alone, not for its members"},
+     .doc = "off: `no_image` and the like hold for the union, not its members"},
 };
 
 static const UnionBlueprint union_defaults = {.part = {.transform = IDENTITY, .split_union = true}};
@@ -293,7 +292,7 @@ static const SkySphereBlueprint sky_sphere_defaults = {.transform = IDENTITY, .e
 
 static const SchemaProperty fog_arguments[] = {
     {"colour", TYPE_COLOUR, AT(FogBlueprint, colour), .is_optional = true, .is_anywhere = true,
-     .doc = "black if left out; begins with a colour word or the name of a colour, and may stand anywhere"},
+     .doc = "begins with a colour word or a colour's name; stands anywhere; else black"},
 };
 
 static const SchemaProperty fog_properties[] = {
@@ -306,7 +305,7 @@ static const SchemaProperty fog_properties[] = {
      .doc = "type 2: how far above that it is half as dense; more than 0"},
     {"up", TYPE_VECTOR, AT(FogBlueprint, up), .doc = "type 2: the direction of height, of any length but 0"},
     {"turb_depth", TYPE_NUMBER, AT(FogBlueprint, turb_depth),
-     .doc = "how much turbulence makes the fog uneven, 0.5; 0 is all that goes with one of the next four"},
+     .doc = "how uneven turbulence makes the fog; with one of the next four only 0"},
     {"turbulence", TYPE_ACTION, ACTION_TURBULENCE, .doc = "makes the fog turbulent, 0 too: only with `turb_depth 0`"},
     {"omega", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
     {"lambda", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
@@ -317,16 +316,16 @@ static const FogBlueprint fog_defaults = {.transform = IDENTITY, .type = 1, .up 
 
 static const SchemaProperty settings_properties[] = {
     {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
-     .doc = "what the scene's colour values mean: a number above 0, or `srgb`; the first one counts"},
+     .doc = "what colour values mean: a number above 0, or `srgb`; the first counts"},
     {"ambient_light", TYPE_RGB, AT(SettingsBlueprint, ambient_light), .doc = "multiplies every `ambient`"},
     {"max_trace_level", TYPE_INTEGER, AT(SettingsBlueprint, max_trace_level), .range = {RANGE_CLAMP, false, 1.0, 256.0},
-     .doc = "generations of mirrored rays, the camera's included"},
+     .doc = "generations of rays, the camera's too"},
     {"adc_bailout", TYPE_NUMBER, AT(SettingsBlueprint, adc_bailout), .range = {RANGE_FAULT, false, -INFINITY, 1.0},
-     .doc = "rays that weigh less are not followed; those of the camera weigh 1"},
+     .doc = "the least weight of a ray; the camera's is 1"},
     {"noise_generator", TYPE_ACTION, ACTION_NOISE_GENERATOR,
-     .doc = "of all patterns that say nothing else: 1, 2 or 3; unless said 2, or 1 before version 3.5"},
+     .doc = "of patterns that name none: 1, 2 or 3; by default 2, before version 3.5 1"},
     {"number_of_waves", TYPE_INTEGER, AT(SettingsBlueprint, number_of_waves),
-     .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of `ripples` and `waves`: points they come from"},
+     .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of waves"},
     {"max_intersections", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
     {"mm_per_unit", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
 };
@@ -410,7 +409,7 @@ static const SchemaProperty finish_properties[] = {
     {"ambient", TYPE_RGB, FINISH_AT(ambient), .doc = "share of the ambient light given back"},
     {"emission", TYPE_RGB, FINISH_AT(emission), .doc = "light given off"},
     {"diffuse", TYPE_SHARE_PAIR, FINISH_AT(diffuse), GIVEN(FinishBlueprint, diffuse_is_albedo),
-     .doc = "light scattered; a second number: scattered to the other side; `albedo` before it: the share in all"},
+     .doc = "light scattered to this and the other side; `albedo`: in all"},
     {"brilliance", TYPE_NUMBER, FINISH_AT(brilliance), .doc = "exponent of the cosine in `diffuse`"},
     {"phong", TYPE_SHARE, FINISH_AT(phong), GIVEN(FinishBlueprint, phong_is_albedo), .doc = "a highlight after Phong"},
     {"phong_size", TYPE_NUMBER, FINISH_AT(phong_size), .doc = "its exponent: greater is smaller"},
@@ -479,7 +478,7 @@ static const SchemaProperty interior_properties[] = {
     {"fade_color", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "what the light fades to"},
     {"fade_colour", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "the same"},
     {"caustics", TYPE_NUMBER, AT(InteriorBlueprint, interior.caustics),
-     .doc = "how narrow the light is that is gathered where its way through the surface is straight; 0: none is"},
+     .doc = "how narrowly light that passes straight through the surface is gathered; 0: none"},
 };
 
 static const InteriorBlueprint interior_defaults = {.interior = {.ior = 1.0}};

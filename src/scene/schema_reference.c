@@ -134,16 +134,24 @@ static bool is_shared(const SchemaList *list)
            list->items == patterns()->items;
 }
 
+// What a kind takes of the shared groups, on a line of their own. Returns what parts it from the next one.
+static const char *append_takes(TextBuffer *out, const char *between, const char *group)
+{
+    text_printf(out, "%sTakes %s.", between, group);
+    return " ";
+}
+
 static void write_kind(TextBuffer *out, const SchemaBlock *kind)
 {
     text_printf(out, "### %s\n\n%s", kind->word, kind->doc);
+    const char *between = "\n";
     for (size_t i = 0; i < SCHEMA_GROUPS; i++) {
         if (kind->groups[i].items == object_modifiers()->items) {
-            text_append(out, " Takes object modifiers.");
+            between = append_takes(out, between, "object modifiers");
         } else if (kind->groups[i].items == patterns()->items) {
-            text_append(out, " Takes patterns.");
+            between = append_takes(out, between, "patterns");
         } else if (kind->groups[i].items == transforms()->items) {
-            text_append(out, " Takes transforms.");
+            between = append_takes(out, between, "transforms");
         }
     }
     text_append(out, "\n\n");
