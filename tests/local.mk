@@ -17,7 +17,6 @@ AM_TESTS_ENVIRONMENT = \
   VALGRIND='$(VALGRIND)'; export VALGRIND; \
   COUNT_SPHERE_TESTS='$(abs_top_builddir)/tests/unit/count_sphere_tests'; export COUNT_SPHERE_TESTS; \
   CC='$(CC)'; export CC; \
-  RTLANG_MODULE_DIR='$(abs_top_builddir)/.libs'; export RTLANG_MODULE_DIR; \
   top_srcdir='$(abs_top_srcdir)'; export top_srcdir; \
   srcdir='$(abs_srcdir)'; export srcdir;
 
@@ -193,6 +192,8 @@ test_scripts = \
   %D%/system/check_messages.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
+  %D%/system/check_install.py \
+  %D%/system/check_library_path.py \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
   %D%/system/check_sampling.py \

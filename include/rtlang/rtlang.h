@@ -75,7 +75,13 @@ RT_API void rt_session_free(rt_session *session);
 
 /* Settings; call before rt_load_*. */
 RT_API rt_status rt_add_include_path(rt_session *session, const char *folder);
-/* Let the scene read files below this folder too. It reads below its own folder and the include paths. */
+/* Whether the include files of an installed POV-Ray are found (1, the default): in its usual folders and where its
+ * povray.ini says. rtlang's own are always found; both after the folders above. */
+RT_API rt_status rt_set_povray_includes(rt_session *session, int on);
+/* Folder number `i`, from 0, of those that are searched after the current one; NULL past the end. Valid until the next
+ * of these calls. */
+RT_API const char *rt_include_path(rt_session *session, size_t i);
+/* Let the scene read files below this folder too. It reads below its own folder and those of rt_include_path. */
 RT_API rt_status rt_allow_read(rt_session *session, const char *folder);
 /* The scene's `clock`, 0 by default; `clock_on` is then true. */
 RT_API rt_status rt_set_clock(rt_session *session, double clock);

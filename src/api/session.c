@@ -95,6 +95,7 @@ void rt_session_free(rt_session *session)
         free((char *)session->declarations.items[i].name);
     }
     ARRAY_FREE(&session->include_paths);
+    library_fini(&session->library);
     ARRAY_FREE(&session->read_folders);
     ARRAY_FREE(&session->declarations);
     film_fini(&session->film);
@@ -173,6 +174,7 @@ static rt_status load(rt_session *session, Source *source, double start)
         .limits = &session->limits,
         .include_paths = (const char *const *)session->include_paths.items,
         .include_path_count = session->include_paths.count,
+        .library = &session->library,
         .read_folders = (const char *const *)session->read_folders.items,
         .read_folder_count = session->read_folders.count,
         .declarations = session->declarations.items,

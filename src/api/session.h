@@ -10,6 +10,7 @@
 #include "base/array.h"
 #include "base/diag.h"
 #include "base/intern.h"
+#include "base/library.h"
 #include "base/limits.h"
 #include "base/source.h"
 #include "base/text.h"
@@ -30,6 +31,7 @@ struct rt_session {
     bool is_json;           // the form of messages
     TextBuffer said;        // in JSON: the scene's own line, not ended yet
     ARRAY(char *) include_paths;
+    Library library; // searched after them
     ARRAY(char *) read_folders;
     ARRAY(EvalDeclaration) declarations; // names are owned
     double clock;

@@ -23,6 +23,25 @@ rt_status rt_add_include_path(rt_session *session, const char *folder)
     return RT_OK;
 }
 
+rt_status rt_set_povray_includes(rt_session *session, int on)
+{
+    if (session->library.is_filled) {
+        return RT_FAULT_USAGE;
+    }
+    session->library.has_no_povray = !on;
+    return RT_OK;
+}
+
+const char *rt_include_path(rt_session *session, size_t i)
+{
+    size_t given = session->include_paths.count;
+    if (i < given) {
+        return session->include_paths.items[i];
+    }
+    bool is_there = library_fill(&session->library) && i - given < session->library.folders.count;
+    return is_there ? session->library.folders.items[i - given] : NULL;
+}
+
 rt_status rt_allow_read(rt_session *session, const char *folder)
 {
     char *copy = strdup(folder);

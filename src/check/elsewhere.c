@@ -71,7 +71,7 @@ static bool place_draw(const ElsewhereJob *job, const char *scene, const char *p
 {
     const Options *options = job->options;
     char log[PATH_MAX], folder[PATH_MAX], detail[256];
-    char **paths = calloc((size_t)options->include_path_count + 1, sizeof *paths);
+    char **paths = calloc((size_t)job->include_path_count + 1, sizeof *paths);
     ImageError error;
 
     if (paths == NULL || realpath(job->scene, folder) == NULL) {
@@ -80,7 +80,7 @@ static bool place_draw(const ElsewhereJob *job, const char *scene, const char *p
     }
     *strrchr(folder, '/') = '\0';
     paths[0] = folder;
-    for (int i = 0; i < options->include_path_count; i++) {
+    for (int i = 0; i < job->include_path_count; i++) {
         paths[i + 1] = job->include_paths[i];
     }
     snprintf(log, sizeof log, "%s/elsewhere.log", job->folder);
@@ -89,7 +89,7 @@ static bool place_draw(const ElsewhereJob *job, const char *scene, const char *p
                      .output = picture,
                      .log = log,
                      .include_paths = paths,
-                     .include_path_count = options->include_path_count + 1,
+                     .include_path_count = job->include_path_count + 1,
                      .width = options->width,
                      .height = options->height,
                      .threads = options->threads};

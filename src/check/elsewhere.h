@@ -16,7 +16,8 @@
 typedef struct ElsewhereJob {
     const Options *options;
     const char *scene, *povray, *folder; // the last for temporary files, absolute
-    char **include_paths;                // absolute; options->include_path_count
+    char **include_paths;                // absolute; of them options->include_path_count were given
+    int include_path_count;
     double threshold;                    // of a channel's difference
 } ElsewhereJob;
 

@@ -38,7 +38,8 @@ enum { EXIT_AGREE = 0, EXIT_DIFFER = 1, EXIT_USAGE = 2, EXIT_NO_TOOL = 3 };
 typedef struct Check {
     const Options *options;
     char *povray;
-    char **include_paths; // absolute
+    char **include_paths; // absolute; of them options->include_path_count were given
+    int include_path_count;
     char folder[PATH_MAX]; // absolute; holds pictures and logs
     bool keeps_folder;
     ScenesReport *report; // NULL: none is asked for
@@ -168,7 +169,7 @@ static bool povray_make(const Check *check, const Files *files, Outcome *outcome
         .output = files->povray,
         .log = files->log,
         .include_paths = check->include_paths,
-        .include_path_count = options->include_path_count,
+        .include_path_count = check->include_path_count,
         .width = options->width,
         .height = options->height,
         .clock = options->clock_given ? &options->clock : NULL,
@@ -293,6 +294,7 @@ static void elsewhere_find(const Check *check, const Image *ours, const Image *t
                         .povray = check->povray,
                         .folder = check->folder,
                         .include_paths = check->include_paths,
+                        .include_path_count = check->include_path_count,
                         .threshold = threshold_between_steps(check->options->threshold)};
 
     outcome->povray_elsewhere = elsewhere_count(&job, ours, theirs);
@@ -430,7 +432,7 @@ static int scenes_study(const Check *check)
     const Options *options = check->options;
     StudySettings settings = {.povray = check->povray,
                               .include_paths = check->include_paths,
-                              .include_path_count = options->include_path_count,
+                              .include_path_count = check->include_path_count,
                               .width = options->width,
                               .height = options->height,
                               .clock = options->clock_given ? &options->clock : NULL,
@@ -480,25 +482,6 @@ static void folder_remove(const Check *check)
     }
     closedir(folder);
     rmdir(check->folder);
-}
-
-// POV-Ray runs in another folder, so that relative paths are made absolute.
-static bool include_paths_resolve(Check *check)
-{
-    const Options *options = check->options;
-
-    check->include_paths = calloc((size_t)options->include_path_count + 1, sizeof *check->include_paths);
-    if (check->include_paths == NULL) {
-        return false;
-    }
-    for (int i = 0; i < options->include_path_count; i++) {
-        check->include_paths[i] = realpath(options->include_paths[i], NULL);
-        if (check->include_paths[i] == NULL) {
-            fprintf(stderr, "rtcheck: %s: %s\n", options->include_paths[i], strerror(errno));
-            return false;
-        }
-    }
-    return true;
 }
 
 #ifdef WITH_STUDY
@@ -566,16 +549,14 @@ static int run(const Options *options)
         fprintf(stderr, "rtcheck: no program `%s` found (Debian: apt-get install povray)\n", options->povray);
         return EXIT_NO_TOOL;
     }
-    if (include_paths_resolve(&check) && folder_make(&check)) {
+    check.include_paths = include_paths_find(options, &check.include_path_count);
+    if (check.include_paths != NULL && folder_make(&check)) {
         exit_code = options->is_stability ? stability_check(&check)
                     : options->study      ? scenes_study(&check)
                                           : scenes_report(&check);
         folder_remove(&check);
     }
-    for (int i = 0; check.include_paths != NULL && i < options->include_path_count; i++) {
-        free(check.include_paths[i]);
-    }
-    free(check.include_paths);
+    include_paths_free(check.include_paths, check.include_path_count);
     free(check.povray);
     return exit_code;
 }

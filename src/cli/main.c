@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -81,26 +80,6 @@ static rt_status fail_argument(rt_session *session, const char *expected, const 
     return fail_usage(session, message);
 }
 
-// Where the shipped include files are: installed, or beside a program that runs in its build folder.
-static bool find_data_folder(char *folder, size_t size)
-{
-    snprintf(folder, size, "%s", PKGDATADIR);
-    if (access(folder, R_OK) == 0) {
-        return true;
-    }
-    char program[PATH_MAX];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0) {
-        return false;
-    }
-    program[length] = '\0';
-    char *slash = strrchr(program, '/');
-    if (slash) {
-        *slash = '\0';
-    }
-    return snprintf(folder, size, "%s/share/rtlang", program) < (int)size && access(folder, R_OK) == 0;
-}
-
 static rt_status configure(rt_session *session, const Options *options)
 {
     const int *crop = options->crop;
@@ -111,10 +90,7 @@ static rt_status configure(rt_session *session, const Options *options)
     for (int i = 0; !status && i < options->include_path_count; i++) {
         status = rt_add_include_path(session, options->include_paths[i]);
     }
-    char data_folder[PATH_MAX];
-    if (!status && find_data_folder(data_folder, sizeof data_folder)) {
-        status = rt_add_include_path(session, data_folder);
-    }
+    status = status ? status : rt_set_povray_includes(session, !options->no_povray_includes);
     for (int i = 0; !status && i < options->read_folder_count; i++) {
         status = rt_allow_read(session, options->read_folders[i]);
     }

@@ -85,6 +85,13 @@ static bool apply_include_path(Options *options, const char *argument, const cha
     return argument[0] != '\0';
 }
 
+static bool apply_no_povray_includes(Options *options, const char *argument, const char **expected)
+{
+    (void)argument;
+    *expected = "";
+    return options->no_povray_includes = true;
+}
+
 static bool apply_declare(Options *options, const char *argument, const char **expected)
 {
     *expected = "NAME=NUMBER, with a NAME that is not reserved";
@@ -459,6 +466,8 @@ static const OptionRow rows[] = {
     {0, "no-literals", NULL, apply_no_literals,
      "parse spheres of nothing but numbers as all else is, not by their text; the scene is the same"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
+    {0, "no-povray-includes", NULL, apply_no_povray_includes,
+     "do not look for #include where an installed POV-Ray has its files"},
     {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
     {'K', "clock", "NUMBER", apply_clock, "the scene's clock (default 0)"},
     {0, "allow-read", "FOLDER", apply_allow_read,

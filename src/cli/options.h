@@ -48,6 +48,7 @@ typedef struct Options {
     const char *error_map; // where the error of each pixel is written; NULL: nowhere
     const char **include_paths; // owned list
     int include_path_count;
+    bool no_povray_includes;
     const char **declarations; // owned list
     int declaration_count;
     const char **warnings; // owned list, as rt_set_warning takes them

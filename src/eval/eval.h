@@ -15,6 +15,7 @@
 
 #include "base/diag.h"
 #include "base/intern.h"
+#include "base/library.h"
 #include "base/limits.h"
 #include "base/source.h"
 #include "scene/scene.h"
@@ -54,6 +55,7 @@ typedef struct EvalOptions {
     const Limits *limits;
     const char *const *include_paths; // folders, searched in order after the current one
     size_t include_path_count;
+    Library *library; // the folders searched after these, filled when they are needed; NULL: none
     const char *const *read_folders; // where files may be read besides the scene's folder and the include paths
     size_t read_folder_count;
     const EvalDeclaration *declarations;

@@ -1,9 +1,9 @@
 // Files that a scene reads: where they are looked for, whether they may be read, and opening them.
 //
-// A name is looked for in the current folder and then in the include paths, never beside the including file, as in
-// POV-Ray. What is found must lie, all links resolved, below the scene's folder, an include path or a folder that was
-// allowed: a scene that somebody else wrote cannot look around. Owns the resolved folders. Knows nothing of what is in
-// the files.
+// A name is looked for in the current folder, then in the include paths, then in the library path, never beside the
+// including file, as in POV-Ray. What is found must lie, all links resolved, below the scene's folder, one of these paths
+// or a folder that was allowed: a scene that somebody else wrote cannot look around. Owns the resolved folders. Knows
+// nothing of what is in the files.
 //
 // SPDX-License-Identifier: MIT
 #include <dirent.h>
@@ -94,6 +94,17 @@ void files_fini(Eval *ev)
     ev->files = NULL;
 }
 
+const char *file_folder(const Eval *ev, size_t i)
+{
+    size_t given = ev->options.include_path_count;
+    Library *library = ev->options.library;
+    if (i < given) {
+        return ev->options.include_paths[i];
+    }
+    bool is_there = library != NULL && library_fill(library) && i - given < library->folders.count;
+    return is_there ? library->folders.items[i - given] : NULL;
+}
+
 static bool lies_below(const char *path, const char *root)
 {
     size_t length = strlen(root);
@@ -115,12 +126,29 @@ static void folder_to_allow(const char *path, const char *real, char *folder, si
     free(resolved);
 }
 
+static bool is_allowed(const Eval *ev, const char *real)
+{
+    const char *folder;
+    for (size_t i = 0; i < ev->files->roots.count; i++) {
+        if (lies_below(real, ev->files->roots.items[i])) {
+            return true;
+        }
+    }
+    for (size_t i = ev->options.include_path_count; (folder = file_folder(ev, i)) != NULL; i++) {
+        if (lies_below(real, folder)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool fault_outside(Eval *ev, const char *path, const char *real, Span span)
 {
     char folder[PATH_MAX];
     if (eval_report(ev, DIAG_E0508, span, "`%s` lies outside the folders that this scene may read", path)) {
-        diag_note(ev->options.diags, SPAN_NONE, "a scene reads below its own folder, the `-I` folders and what "
-                                                "`--allow-read` names, all links resolved");
+        diag_note(ev->options.diags, SPAN_NONE, "a scene reads below its own folder, the `-I` folders, those of the "
+                                                "standard include files and what `--allow-read` names, all links "
+                                                "resolved");
         folder_to_allow(path, real, folder, sizeof folder);
         diag_suggest(ev->options.diags, "pass `--allow-read %s` to allow it", folder);
     }
@@ -140,11 +168,7 @@ static bool may_read(Eval *ev, const char *path, Span span)
         return errno == ENOMEM ? eval_no_memory(ev, span)
                                : eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(errno));
     }
-    bool is_below = false;
-    for (size_t i = 0; i < files->roots.count; i++) {
-        is_below = is_below || lies_below(real, files->roots.items[i]);
-    }
-    is_below = is_below || fault_outside(ev, path, real, span);
+    bool is_below = is_allowed(ev, real) || fault_outside(ev, path, real, span);
     free(real);
     if (!is_below) {
         return false;
@@ -179,12 +203,12 @@ static bool exists(TextBuffer *path, const char *folder, const char *name, const
 
 static bool find_with(const Eval *ev, Search *search, const char *ending)
 {
-    size_t folders = is_absolute(search->name) ? 0 : ev->options.include_path_count;
+    const char *folder;
     if (exists(&search->path, "", search->name, ending)) {
         return true;
     }
-    for (size_t i = 0; i < folders; i++) {
-        if (exists(&search->path, ev->options.include_paths[i], search->name, ending)) {
+    for (size_t i = 0; !is_absolute(search->name) && (folder = file_folder(ev, i)) != NULL; i++) {
+        if (exists(&search->path, folder, search->name, ending)) {
             return true;
         }
     }
@@ -197,12 +221,19 @@ static bool find(const Eval *ev, Search *search, const char *ending)
            (ending != NULL && !has_ending(search->name) && find_with(ev, search, ending));
 }
 
+// Memory ran out, so that a file may not have been found.
+static bool search_failed(const Eval *ev, const Search *search)
+{
+    return search->path.failed || (ev->options.library != NULL && ev->options.library->failed);
+}
+
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there)
 {
     Search search = {.name = name->text};
     text_init(&search.path);
     *is_there = find(ev, &search, NULL);
-    bool fine = !*is_there || may_read(ev, text_get(&search.path), span);
+    bool fine = search_failed(ev, &search) ? eval_no_memory(ev, span)
+                                           : !*is_there || may_read(ev, text_get(&search.path), span);
     text_fini(&search.path);
     return fine;
 }
@@ -229,10 +260,11 @@ static void suggest_near_name(Eval *ev, const char *name, const AstNode *node)
 {
     Suggest suggest;
     ArenaMark mark = arena_mark(&ev->scratch);
+    const char *folder;
     suggest_begin(&suggest, name);
     offer_folder(ev, &suggest, ".");
-    for (size_t i = 0; i < ev->options.include_path_count; i++) {
-        offer_folder(ev, &suggest, ev->options.include_paths[i]);
+    for (size_t i = 0; (folder = file_folder(ev, i)) != NULL; i++) {
+        offer_folder(ev, &suggest, folder);
     }
     if (suggest.best != NULL) {
         diag_suggest(ev->options.diags, "did you mean `%s`?", suggest.best);
@@ -246,10 +278,11 @@ static void suggest_near_name(Eval *ev, const char *name, const AstNode *node)
 static void note_folders(Eval *ev)
 {
     TextBuffer list;
+    const char *folder;
     text_init(&list);
     text_append(&list, "searched in the current folder");
-    for (size_t i = 0; i < ev->options.include_path_count; i++) {
-        text_printf(&list, ", `%s`", ev->options.include_paths[i]);
+    for (size_t i = 0; (folder = file_folder(ev, i)) != NULL; i++) {
+        text_printf(&list, ", `%s`", folder);
     }
     diag_note(ev->options.diags, SPAN_NONE, "%s", text_get(&list));
     text_fini(&list);
@@ -283,7 +316,13 @@ static void report_missing(Eval *ev, Search *search, FileUse use, const AstNode 
         if (!is_absolute(search->name)) {
             note_folders(ev);
         }
-        if (!suggest_own_folder(ev, search, span)) {
+        if (suggest_own_folder(ev, search, span)) {
+            return;
+        }
+        if (use == FILE_INCLUDE && library_is_standard(search->name)) {
+            diag_suggest(ev->options.diags, "it is one of POV-Ray's include files: install them (on Debian: apt-get "
+                                            "install povray-includes), or give their folder with `-I`");
+        } else {
             suggest_near_name(ev, search->name, node);
         }
     }
@@ -332,7 +371,7 @@ bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
     Search search = {.name = name.text};
     text_init(&search.path);
     bool is_found = find(ev, &search, uses[use].ending);
-    if (search.path.failed) {
+    if (search_failed(ev, &search)) {
         eval_no_memory(ev, name_node->span);
     } else if (!is_found) {
         report_missing(ev, &search, use, name_node);
@@ -354,7 +393,7 @@ const char *file_find(Eval *ev, const AstNode *name_node, const char *text, cons
         is_found = find(ev, &search, *endings);
     }
     const char *path = NULL;
-    if (search.path.failed) {
+    if (search_failed(ev, &search)) {
         eval_no_memory(ev, name_node->span);
     } else if (!is_found) {
         report_missing(ev, &search, FILE_IMAGE, name_node);

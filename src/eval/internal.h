@@ -537,6 +537,8 @@ void files_fini(Eval *ev);
 // Opens the file whose name the expression gives. What is not found, outside the folders that may be read, or not
 // readable is reported.
 bool file_open(Eval *ev, const AstNode *name, FileUse use, Source **source) RT_MUST_CHECK;
+// Folder number `i`, from 0, of those that are searched after the current one; NULL past the end.
+const char *file_folder(const Eval *ev, size_t i);
 // Whether there is such a file. False when it may not be asked for; that is reported.
 bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
 

@@ -90,8 +90,9 @@ bool name_find_include(const Eval *ev, const char *name, char *file)
 {
     char *text = malloc(BYTES_MOST);
     bool is_found = false;
-    for (size_t i = 0; text != NULL && !is_found && i < ev->options.include_path_count; i++) {
-        is_found = look_in(ev->options.include_paths[i], name, text, file);
+    const char *folder;
+    for (size_t i = 0; text != NULL && !is_found && (folder = file_folder(ev, i)) != NULL; i++) {
+        is_found = look_in(folder, name, text, file);
     }
     free(text);
     return is_found;

@@ -1,4 +1,4 @@
-// From a list of folders to the table of functions of the first module there that fits.
+// From the places of an installation to the table of functions of the first module there that fits.
 //
 // The loader itself remembers what is loaded, so that nothing has to be kept here.
 //
@@ -8,45 +8,26 @@
 #endif
 #include "image/module.h"
 
+#include "image/image_error.h"
+
+#ifdef WITH_OPENIMAGEIO
+
 #include <dlfcn.h>
 #include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "image/image_error.h"
+#include "base/install.h"
+#include "base/text.h"
 
-#ifndef PKGLIBDIR
-#error "the build names the folder of modules: -DPKGLIBDIR=\"...\""
-#endif
-
-// The folder of the running program; false where it cannot be known.
-static bool program_folder(char folder[static PATH_MAX])
+static const OiioModule *module_load_from(const char *folder, ImageError *error)
 {
-    ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
-    char *slash;
-
-    if (length <= 0) {
-        return false;
-    }
-    folder[length] = '\0';
-    slash = strrchr(folder, '/');
-    if (slash == NULL) {
-        return false;
-    }
-    *slash = '\0';
-    return true;
-}
-
-static const OiioModule *module_load_from(const char *folder, const char *below, ImageError *error)
-{
-    char path[PATH_MAX + sizeof "/.libs/" OIIO_MODULE_FILE];
-    int length = snprintf(path, sizeof path, "%s%s/%s", folder, below, OIIO_MODULE_FILE);
+    char path[PATH_MAX + sizeof "/" OIIO_MODULE_FILE];
     const OiioModule *module;
     void *handle;
 
-    if (length < 0 || (size_t)length >= sizeof path || access(path, R_OK) != 0) {
+    snprintf(path, sizeof path, "%s/%s", folder, OIIO_MODULE_FILE);
+    if (access(path, R_OK) != 0) {
         return NULL;
     }
     // Not unloaded: OpenImageIO keeps threads, and a handle is counted, not copied.
@@ -66,25 +47,33 @@ static const OiioModule *module_load_from(const char *folder, const char *below,
 
 const OiioModule *module_load(ImageError *error)
 {
-    const char *chosen = secure_getenv("RTLANG_MODULE_DIR");
-    char program[PATH_MAX];
     const OiioModule *module = NULL;
+    char folder[PATH_MAX];
+    TextBuffer places;
 
-    image_error_set(error, "no %s found", OIIO_MODULE_FILE);
-    if (chosen != NULL && chosen[0] != '\0') {
-        module = module_load_from(chosen, "", error);
-    }
-    if (module == NULL) {
-        module = module_load_from(PKGLIBDIR, "", error);
-    }
-    if (module == NULL && program_folder(program)) {
-        module = module_load_from(program, "", error);
-        if (module == NULL) {
-            module = module_load_from(program, "/.libs", error);
+    text_init(&places);
+    image_error_clear(error);
+    for (unsigned i = 0; i < INSTALL_PLACES && module == NULL; i++) {
+        if (install_place(INSTALL_MODULES, i, folder)) {
+            module = module_load_from(folder, error);
+            text_printf(&places, "%s%s", places.length > 0 ? ", " : "", folder);
         }
     }
     if (module != NULL) {
         image_error_clear(error);
+    } else if (error->detail[0] == '\0') {
+        image_error_set(error, "no %s in %s", OIIO_MODULE_FILE, text_get(&places));
     }
+    text_fini(&places);
     return module;
 }
+
+#else
+
+const OiioModule *module_load(ImageError *error)
+{
+    image_error_set(error, "this rtlang was built without it");
+    return NULL;
+}
+
+#endif

@@ -51,6 +51,7 @@ sphere { 0, 1 pigment { rgb "red" } }
 
 # Files beside the scenes.
 FILES = {
+    "standard.scn": b'#include "woods.inc"\n#include "shapes"\n#include "wood.inc"\nsphere { 0, 1 texture { T_Wood1 } }\n',
     "good.scn": GOOD,
     "loop_a.inc": b'#include "loop_b.inc"\n',
     "loop_b.inc": b'#include "loop_a.inc"\n',
@@ -65,6 +66,7 @@ DRAWN = {"missing_camera", "empty_file", "messages"}
 
 # Name of the case -> arguments; none of them writes a picture.
 COMMANDS = {
+    "standard_include": ["--no-povray-includes", "standard.scn"],
     "not_laid_out": ["--format", "--check", "good.scn"],
     "scene_is_a_directory": ["folder.png"],
     "scene_not_found": ["nowhere.scn"],
