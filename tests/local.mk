@@ -215,6 +215,7 @@ test_scripts = \
   %D%/povray/check_debug.py \
   %D%/povray/check_programs.py \
   %D%/povray/check_colors.py \
+  %D%/povray/check_own_includes.py \
   %D%/povray/check_exporters.py \
   %D%/povray/check_survey.py
 

@@ -17,7 +17,7 @@ import pictures  # noqa: E402
 
 TOP = os.environ.get("top_srcdir", ".")
 OURS = os.path.abspath(os.path.join(TOP, "share/rtlang"))
-GUARD = "Colors_Inc_Temp"
+FILE, GUARD = "colors.inc", "Colors_Inc_Temp"
 ITEMS = ("red", "green", "blue", "filter", "transmit")
 MACRO_BAR = 2e-6  # formulas of ours, not POV-Ray's, on components of single precision; hues go to 360: relative
 
@@ -30,8 +30,9 @@ HUED = ("<30,0.5,0.4>", "<200,0.7,0.8>", "<-20,1.4,0.5>", "<90,0.4,1.2>", "<400,
 HUE_OF = ("<0.75,0.25,0.5>,0.75,0.5", "<0.75,0.25,0.75>,0.75,0.5", "<0.25,0.5,0.75>,0.9,0.5", "<0.25,0.5,0.75>,0.75,-1")
 
 
-def words(folder, directive):
-    with open(os.path.join(folder, "colors.inc"), encoding="latin-1") as file:
+def words(folder, directive, name=FILE):
+    """What a file declares, or its macros."""
+    with open(os.path.join(folder, name), encoding="latin-1") as file:
         return sorted(set(re.findall(rf"^\s*#\s*{directive}\s+(\w+)", file.read(), re.M)))
 
 
@@ -59,22 +60,29 @@ def macro_program():
 
 INCLUDE = '#include "colors.inc"\n'
 VERSION = '#debug concat("version ", str(version, 0, 3), "\\n")\n'
-EFFECTS = {
-    "version without #version": INCLUDE + VERSION,
-    "version after #version 3.6": "#version 3.6;\n" + INCLUDE + VERSION,
-    "included twice": INCLUDE + "#declare Red = Blue;\n" + INCLUDE + show("Red", ITEMS),
-    "what it keeps of the version": "#version 3.6;\n" + INCLUDE + f'#debug concat(str({GUARD}, 0, 3), "\\n")\n',
-    "its note for View_POV_Include_Stack": "#declare View_POV_Include_Stack = 1;\n" + INCLUDE,
-}
 
 
-def bring(include, folder):
+def effects(name, guard):
+    """Programs that show what including a file does beside declaring names."""
+    include = f'#include "{name}"\n'
+    return {
+        "version without #version": include + VERSION,
+        "version after #version 3.6": "#version 3.6;\n" + include + VERSION,
+        "what it keeps of the version": "#version 3.6;\n" + include + f'#debug concat(str({guard}, 0, 3), "\\n")\n',
+        "its note for View_POV_Include_Stack": "#declare View_POV_Include_Stack = 1;\n" + include,
+    }
+
+
+TWICE = {"included twice": INCLUDE + "#declare Red = Blue;\n" + INCLUDE + show("Red", ITEMS)}
+
+
+def bring(include, folder, name=FILE):
     """Puts the file beside the scene: folders on the command line come after those of POV-Ray's own settings."""
-    shutil.copy(os.path.join(include, "colors.inc"), folder)
+    shutil.copy(os.path.join(include, name), folder)
 
 
-def povray_prints(program, folder, include):
-    bring(include, folder)
+def povray_prints(program, folder, include, name=FILE):
+    bring(include, folder, name)
     with open(os.path.join(folder, "t.scn"), "w", encoding="ascii") as file:
         file.write(program + "sphere { 0, 1 }\n")
     pictures.run("povray", [pictures.povray(), "+It.scn", "-D", "-F", "+W1", "+H1", "+GDdebug.txt"], folder)
@@ -82,8 +90,8 @@ def povray_prints(program, folder, include):
         return file.read()
 
 
-def rtlang_prints(program, folder, include):
-    bring(include, folder)
+def rtlang_prints(program, folder, include, name=FILE):
+    bring(include, folder, name)
     with open(os.path.join(folder, "t.scn"), "w", encoding="ascii") as file:
         file.write("camera { }\nlight_source { y, 1 }\n" + program + "sphere { 0, 1 }\n")
     done = subprocess.run([os.path.abspath(os.environ["RTLANG"]), "-q", "--check", "t.scn"],
@@ -105,11 +113,11 @@ def same_words(one, other):
     return one.split() == other.split()
 
 
-def gamma_pixels(folder, include):
+def gamma_pixels(folder, include, name=FILE):
     """The stored codes of a scene whose only #version is in the include."""
     with open(os.path.join(folder, "g.scn"), "w", encoding="ascii") as file:
-        file.write(INCLUDE + "background { rgb <0.2, 0.5, 0.02> }\n")
-    bring(include, folder)
+        file.write(f'#include "{name}"\n' + "background { rgb <0.2, 0.5, 0.02> }\n")
+    bring(include, folder, name)
     pictures.run("povray", [pictures.povray(), "+Ig.scn", "+Og.png", "-D", "-A", "+W2", "+H2", "+FN16"], folder)
     return pictures.read_png(os.path.join(folder, "g.png"))[2]
 
@@ -122,7 +130,7 @@ def cases(theirs):
     start = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + INCLUDE
     programs = [("values", start + name_program(words(theirs, "declare")), same_words),
                 ("macros", start + macro_program(), close)]
-    programs += [(name, program, same_words) for name, program in EFFECTS.items()]
+    programs += [(name, program, same_words) for name, program in {**effects(FILE, GUARD), **TWICE}.items()]
     with tempfile.TemporaryDirectory() as folder:
         for name, program, agree in programs:
             want = povray_prints(program, folder, theirs)
