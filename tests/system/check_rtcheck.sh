@@ -77,6 +77,8 @@ expect 'equal pictures agree' 0 \
     '"a scene.scn: max 0, rmse 0, psnr inf dB, flip 0, beyond 0 (0.0000 %), beyond 1/65535 0, beyond 1/255 0, "*"x): ok"' \
     -W 16 -H 8 --povray "$work/same" 'a scene.scn'
 expect 'a start that failed for want of time is tried again' 0 '*": ok"' -W 16 -H 8 --povray "$work/busy" 'a scene.scn'
+expect 'POV-Ray is given the folder of include files that rtlang searches' 1 '*"+L\""*"/share/rtlang\""*' \
+    -W 16 -H 8 --povray "$work/here" 'a scene.scn'
 expect 'different pictures do not' 1 '*"includes.scn: max "*": FAIL"' \
     -W 16 -H 8 -I ../include --povray "$work/other" 'a scene.scn' includes.scn
 expect 'unless so many may differ' 0 '*"includes.scn: "*": ok"' \
