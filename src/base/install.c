@@ -1,7 +1,7 @@
 // From the file that holds this code to the folders of what was installed with it.
 //
-// The code may be part of a program or of librtlang in a process of somebody else, so the file is found by an address of
-// this code. A moved installation keeps its inner distances: the way from the configured folder of programs (or of
+// The code may be part of a program or of librtlang in a process of somebody else, so the file is found by an address
+// of this code. A moved installation keeps its inner distances: the way from the configured folder of programs (or of
 // libraries) to that of the data is walked from where the file is now. Owns nothing; knows nothing of the files.
 //
 // SPDX-License-Identifier: MIT

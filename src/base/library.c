@@ -1,9 +1,9 @@
 // Finds rtlang's own include files, POV-Ray's and Open Babel's.
 //
 // POV-Ray is told where its files are by the first povray.ini of those that its manual lists ("INI Files" of its Unix
-// part, "Using INI Files"); that file's lines `Library_Path=FOLDER` and `+LFOLDER` are read, up to the first `[section]`.
-// A povray.ini in the current folder is left out: it would come along with a scene, which could then choose what it may
-// read. Knows nothing of scenes.
+// part, "Using INI Files"); that file's lines `Library_Path=FOLDER` and `+LFOLDER` are read, up to the first
+// `[section]`. A povray.ini in the current folder is left out: it would come along with a scene, which could then
+// choose what it may read. Knows nothing of scenes.
 //
 // SPDX-License-Identifier: MIT
 #ifndef _GNU_SOURCE
@@ -187,8 +187,8 @@ static void add_open_babel(Library *library)
 static void add_povray(Library *library)
 {
     static const char *const places[] = {
-        "/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include", "/usr/share/povray/include",
-        "/usr/local/share/povray/include", "/usr/share/povray-3.8/include", "/usr/local/share/povray-3.8/include",
+        "/usr/share/povray-3.7/include",   "/usr/local/share/povray-3.7/include", "/usr/share/povray/include",
+        "/usr/local/share/povray/include", "/usr/share/povray-3.8/include",       "/usr/local/share/povray-3.8/include",
     };
     add_from_ini(library);
     if (POVRAY_INCLUDES[0] != '\0') {
@@ -225,7 +225,8 @@ bool library_is_standard(const char *name)
 {
     static const char names[] =
         " arrays chars colors consts debug finish functions glass glass_old golds ior logo makegrass math meshmaker"
-        " metals rad_def rand screen shapes shapes2 shapes3 shapes_old shapesq skies stage1 stars stdcam stdinc stoneold"
+        " metals rad_def rand screen shapes shapes2 shapes3 shapes_old shapesq skies stage1 stars stdcam stdinc "
+        "stoneold"
         " stones stones1 stones2 strings sunpos textures transforms woodmaps woods ";
     const char *ending = strrchr(name, '.');
     size_t length = ending != NULL && strcmp(ending, ".inc") == 0 ? (size_t)(ending - name) : strlen(name);

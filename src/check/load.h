@@ -19,8 +19,8 @@ static inline World world_beside(double scale, double step)
     return (World){scale, {0.6180339887 * step, -0.7548776662 * step, 0.5698402910 * step}};
 }
 
-// The folders of the options, then those that rtlang searches by itself, all absolute: POV-Ray runs in another folder, and
-// does not know rtlang's include files. NULL when one is not there, which is said. To be released as below.
+// The folders of the options, then those that rtlang searches by itself, all absolute: POV-Ray runs in another folder,
+// and does not know rtlang's include files. NULL when one is not there, which is said. To be released as below.
 char **include_paths_find(const Options *options, int *count);
 void include_paths_free(char **paths, int count);
 

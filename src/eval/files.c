@@ -1,9 +1,9 @@
 // Files that a scene reads: where they are looked for, whether they may be read, and opening them.
 //
 // A name is looked for in the current folder, then in the include paths, then in the library path, never beside the
-// including file, as in POV-Ray. What is found must lie, all links resolved, below the scene's folder, one of these paths
-// or a folder that was allowed: a scene that somebody else wrote cannot look around. Owns the resolved folders. Knows
-// nothing of what is in the files.
+// including file, as in POV-Ray. What is found must lie, all links resolved, below the scene's folder, one of these
+// paths or a folder that was allowed: a scene that somebody else wrote cannot look around. Owns the resolved folders.
+// Knows nothing of what is in the files.
 //
 // SPDX-License-Identifier: MIT
 #include <dirent.h>

@@ -39,8 +39,8 @@ H 0.500 1.380 -0.760
 H 2.150 0.100 -1.000
 """
 DRAWN = "drawn"
-# In the form of OVITO's files: macros for each kind of particle, one of transforms.inc called inside the camera, a parallel
-# light without shadows, colours with transmission.
+# In the form of OVITO's files: macros for each kind of particle, one of transforms.inc called inside the camera, a
+# parallel light without shadows, colours with transmission.
 OVITO = """#version 3.5;
 #include "transforms.inc"
 global_settings { assumed_gamma 2.2 max_trace_level 20 }
@@ -198,7 +198,8 @@ CASES = [
 def refusal(scene):
     """`CODE construct` of rtlang's first fault in the scene, with its place; None when it is accepted."""
     done = subprocess.run([os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", os.path.basename(scene)],
-                          cwd=os.path.dirname(scene), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=300,
+                          cwd=os.path.dirname(scene), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, timeout=300,
                           check=False)
     for line in done.stderr.decode("utf-8", "replace").splitlines():
         record = json.loads(line)
@@ -236,7 +237,7 @@ def is_same_without_povray(scene, picture):
 
 
 def check(make, expected, folders):
-    """(passed, what happened, more lines). The folders are for POV-Ray, which does not know where Open Babel's file is."""
+    """(passed, what happened, more lines). The folders are for POV-Ray, which does not know where Open Babel's is."""
     with tempfile.TemporaryDirectory() as folder:
         try:
             make(folder)

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""share/rtlang's finish.inc and transforms.inc against those of an installed POV-Ray: the same names, values and effect.
+"""share/rtlang's finish.inc and transforms.inc against those of an installed POV-Ray: the same names, values, effect.
 
-The names are read out of the installed files when the test runs. What a finish means is seen in a picture, with POV-Ray's
-default finish and with one in which everything is said, so that it is also seen what a finish leaves alone; what a macro
-means is what it makes of the origin and the unit vectors, printed by #debug. POV-Ray reads both files, and rtlang too.
+The names are read out of the installed files when the test runs. What a finish means is seen in a picture, with
+POV-Ray's default finish and with one in which everything is said, so that it is also seen what a finish leaves alone;
+what a macro means is what it makes of the origin and the unit vectors, printed by #debug. POV-Ray reads both files, and
+rtlang too.
 Prints TAP; skips what needs a program that is not there. SPDX-License-Identifier: MIT
 """
 import os
@@ -25,8 +26,8 @@ MOVED = """#declare Solid = union { box { <1, 2, 3>, <4, 6, 9> } sphere { <0, 1,
 #declare Way = spline { cubic_spline -1, <0, 0, 0> 0, <1, 2, 3> 0.5, <4, 4, 1> 1, <6, 3, -2> 2, <0, 0, 0> }
 #declare Bent = spline { linear_spline 0, <0, 0, 0> 0.5, <1, 0.3, 0.2> 1, <0.8, 1.2, -1> 1.5, <-1, 0, 0.5> }
 """
-VECTORS = ("x", "y", "z", "-y", "-z", "<1,2,3>", "<-3,0.2,-1>", "<1e-9,1,0>", "<1,1,2>", "<2,1,1>", "<1,2,1>", "<1,1,1>",
-           "<1,-3,2>")
+VECTORS = ("x", "y", "z", "-y", "-z", "<1,2,3>", "<-3,0.2,-1>", "<1e-9,1,0>", "<1,1,2>", "<2,1,1>", "<1,2,1>",
+           "<1,1,1>", "<1,-3,2>")
 SKIES = ("y", "z", "<1,2,0>", "<-1,0.2,0.7>", "<0,-3,0>")
 CALLS = (
     ["Shear_Trans(<1,2,3>,<0,1,0.5>,<-0.25,0,2>)", "Matrix_Trans(<1,2,3>,<0,1,0.5>,<-0.25,0,2>,<5,6,7>)",
@@ -50,7 +51,8 @@ def parameters(folder, name):
 
 
 def show(value):
-    return f'#declare Shown = {value};\n#debug concat(' + ', " ", '.join(f"str(Shown.{c}, 0, 15)" for c in "xyz") + ', "\\n")\n'
+    parts = ', " ", '.join(f"str(Shown.{c}, 0, 15)" for c in "xyz")
+    return f'#declare Shown = {value};\n#debug concat({parts}, "\\n")\n'
 
 
 def transforms_program():
@@ -72,14 +74,15 @@ def close(one, other):
 def differences(got, want):
     pairs = zip(got.splitlines(), want.splitlines())
     return f"{got.count(chr(10))} lines for {want.count(chr(10))}\n" + "".join(
-        f"line {i}, {CALLS[i // 5] if i < 5 * len(CALLS) else 'inverse'}: {a} for {b}\n" for i, (a, b) in enumerate(pairs)
+        f"line {i}, {CALLS[i // 5] if i < 5 * len(CALLS) else 'inverse'}: {a} for {b}\n"
+        for i, (a, b) in enumerate(pairs)
         if len(a.split()) != 3 or any(abs(float(x) - float(y)) > BAR for x, y in zip(a.split(), b.split())))[:3000]
 
 
-def finish_scene(names, default):
+def finish_scene(names, default, folder):
     row = "".join(f"sphere {{ <{2.2 * (i % 4) - 3.3}, {1.2 - 2.4 * (i // 4)}, 0>, 1 pigment {{ rgb <0.8, 0.5, 0.3> }}"
                   f" finish {{ {name} }} }}\n" for i, name in enumerate(names))
-    return (START + (f"#default {{ finish {{ {default} }} }}\n" if default else "") + '#include "finish.inc"\n'
+    return (START + (f"#default {{ finish {{ {default} }} }}\n" if default else "") + f'#include "{folder}/finish.inc"\n'
             "camera { location -9*z look_at 0 right 4/3*x up y angle 55 }\nbackground { rgb <0.2, 0.3, 0.5> }\n"
             "light_source { <-6, 7, -9>, rgb 1 }\n" + row +
             "plane { y, -3.1 pigment { checker rgb 0.2, rgb 0.7 } finish { ambient 0.1 diffuse 0.6 } }\n")
@@ -88,9 +91,10 @@ def finish_scene(names, default):
 def finish_cases(theirs, folder):
     names = [name for name in check_colors.words(theirs, "declare", "finish.inc") if name != "Finish_Inc_Temp"]
     for words, default in (("over the default finish", ""), ("over one in which all is said", SAID)):
-        scene, their, our, rtlang = (os.path.join(folder, name) for name in ("f.scn", "their.png", "our.png", "rtlang.png"))
+        files = ("f.scn", "their.png", "our.png", "rtlang.png")
+        scene, their, our, rtlang = (os.path.join(folder, name) for name in files)
         with open(scene, "w", encoding="ascii") as file:
-            file.write(finish_scene(names, default))
+            file.write(finish_scene(names, default, folder))
         for include, render, picture in ((theirs, pictures.render_povray, their), (OURS, pictures.render_povray, our),
                                          (OURS, pictures.render_rtlang, rtlang)):
             check_colors.bring(include, folder, "finish.inc")

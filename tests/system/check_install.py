@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""An installation that was moved works without any environment variable: from its programs, from a C client, from Python.
+"""An installation that was moved works without environment variables: from its programs, a C client, and Python.
 
 `make install` into a staging folder, a copy of it in another place, the first one removed. Then a scene with colors.inc
 is drawn into an EXR file by rtlang, by a client that pkg-config compiled, and by a process that loads the library; each
-must take the include file and the module of OpenImageIO from the new place. Where they are missing the messages say where
-they were looked for. Built without OpenImageIO, PNG is written. Prints TAP. SPDX-License-Identifier: MIT
+must take the include file and the module of OpenImageIO from the new place. Where they are missing the messages say
+where they were looked for. Built without OpenImageIO, PNG is written. Prints TAP. SPDX-License-Identifier: MIT
 """
 import glob
 import os
@@ -113,7 +113,8 @@ def check_client(folder, moved):
         return
     flags, libdir = shlex.split(config.stdout.decode()), os.path.realpath(shlex.split(library.stdout.decode())[0])
     tap.equal(libdir, os.path.dirname(find(moved, "librtlang.so")), "pkg-config tells the new place")
-    made = run(*shlex.split(os.environ.get("CC", "cc")), "client.c", "-o", "client", *flags, f"-Wl,-rpath,{libdir}", folder=folder)
+    made = run(*shlex.split(os.environ.get("CC", "cc")), "client.c", "-o", "client", *flags, f"-Wl,-rpath,{libdir}",
+               folder=folder)
     if tap.ok(made.returncode == 0, "a client in C", said(made)):
         check_drawn("client", folder, moved, "./client", "scene.scn")
 
@@ -124,7 +125,8 @@ def check_includes(folder, moved):
         file.write('#include "nowhere.inc"\nsphere { 0, 1 }\n')
     own = os.path.dirname(find(moved, "colors.inc"))
     done = run(find(moved, "rtlang"), "--check", "--no-povray-includes", "nowhere.scn", folder=folder)
-    tap.ok(f"searched in the current folder, `{own}`\n" in done.stdout.decode(), "where include files are looked for", said(done))
+    tap.ok(f"searched in the current folder, `{own}`\n" in done.stdout.decode(), "where include files are looked for",
+           said(done))
     if not shutil.which("povray"):
         tap.skip("rtcheck has POV-Ray read rtlang's include files", "no povray here")
         return

@@ -51,7 +51,7 @@ sphere { 0, 1 pigment { rgb "red" } }
 
 # Files beside the scenes.
 FILES = {
-    "standard.scn": b'#include "woods.inc"\n#include "shapes"\n#include "wood.inc"\nsphere { 0, 1 texture { T_Wood1 } }\n',
+    "standard.scn": b'#include "woods.inc"\n#include "shapes"\n#include "wood.inc"\nsphere { 0, 1 }\n',
     "good.scn": GOOD,
     "loop_a.inc": b'#include "loop_b.inc"\n',
     "loop_b.inc": b'#include "loop_a.inc"\n',
