@@ -59,6 +59,7 @@ unit_programs = \
   tests/unit/test_image_values \
   tests/unit/test_render \
   tests/unit/test_render_sampler \
+  tests/unit/test_light_grid \
   tests/unit/test_tiles \
   tests/sampling/test_sampling \
   tests/sampling/test_forward
@@ -142,6 +143,8 @@ tests_unit_test_study_SOURCES = %D%/unit/test_study.c %D%/unit/scenes.h
 tests_unit_test_study_LDADD = libapi.la
 tests_unit_test_trace_pixel_SOURCES = %D%/unit/test_trace_pixel.c %D%/unit/scenes.h
 tests_unit_test_trace_pixel_LDADD = libapi.la
+tests_unit_test_light_grid_SOURCES = %D%/unit/test_light_grid.c $(unit_headers)
+tests_unit_test_light_grid_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_render_sampler_SOURCES = %D%/unit/test_render_sampler.c
 tests_unit_test_render_sampler_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_tiles_SOURCES = %D%/unit/test_tiles.c $(trace_headers)
@@ -209,6 +212,7 @@ test_scripts = \
   %D%/povray/check_alpha_samples.py \
   %D%/povray/check_antialias.py \
   %D%/povray/check_jitter.py \
+  %D%/povray/check_area_lights.py \
   %D%/povray/check_pairs.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \

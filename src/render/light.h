@@ -1,4 +1,4 @@
-// Lights that are more than a point: how strong they are at a place, and which of an area's lights are asked for.
+// Lights that are more than a point: how strong they are at a place, and where the lights of an area stand.
 //
 // Turns a prepared light and a point into a share of its light and into the places of shadow rays. Knows neither
 // surfaces nor rays. The formulas of strength and of the disc are those of the manual or were found by pictures; see
@@ -159,64 +159,6 @@ RT_ALWAYS_INLINE Vec3 light_area_sample(const PreparedLight *light, Vec3 point, 
     const LightArea *area = &light->area;
     return light_area_place(light, point, light_row_sample(area->size1, area->jitter, at.x),
                             light_row_sample(area->size2, area->jitter, at.y));
-}
-
-// A part of an area light counts as the mean of its four corners, or, where it is divided, as the mean of its quarters.
-typedef struct LightPart {
-    int left, right, top, bottom; // lights, both ends included
-    int level;
-    double weight;
-} LightPart;
-
-enum { LIGHT_PARTS_MAX = 64 }; // three wait for each halving of at most 1024 rows, and one is being looked at
-
-typedef struct LightParts {
-    int count;
-    LightPart waiting[LIGHT_PARTS_MAX];
-} LightParts;
-
-RT_ALWAYS_INLINE void light_parts_begin(LightParts *parts, const LightArea *area)
-{
-    parts->count = 1;
-    parts->waiting[0] = (LightPart){0, area->size1 - 1, 0, area->size2 - 1, 0, 1.0};
-}
-
-// True when what two places send of `arriving` is so far apart that an adaptive area light is divided. Found by pictures:
-// parts that differ in all three colours divide it between 0.032 and 0.034, in two between 0.045 and 0.05.
-RT_ALWAYS_INLINE bool light_differs(Rgb arriving, Rgb a, Rgb b)
-{
-    Rgb apart = rgb_mul(arriving, rgb_add_scaled(a, -1.0, b));
-    return fabs(apart.red) + fabs(apart.green) + fabs(apart.blue) > 0.1;
-}
-
-// Puts a part's quarters on the list instead of it, when there are any and it needs it. `corners` are shares of the
-// light, all of which would be `arriving`.
-RT_ALWAYS_INLINE bool light_part_divides(LightParts *parts, const LightArea *area, LightPart part,
-                                         Rgb arriving, const Rgb corners[4])
-{
-    if (part.right - part.left <= 1 && part.bottom - part.top <= 1) {
-        return false;
-    }
-    bool is_even = area->is_adaptive && part.level >= area->adaptive;
-    for (int i = 0; is_even && i < 4; i++) {
-        is_even = !light_differs(arriving, corners[i], corners[(i + 1) % 4]) &&
-                  !light_differs(arriving, corners[i], corners[(i + 2) % 4]);
-    }
-    if (is_even) {
-        return false;
-    }
-    int sum1 = part.left + part.right, sum2 = part.top + part.bottom;
-    for (int quarter = 3; quarter >= 0; quarter--) {
-        LightPart next = part;
-        next.left = quarter & 1 ? (sum1 + 1) / 2 : part.left;
-        next.right = quarter & 1 ? part.right : sum1 / 2;
-        next.top = quarter & 2 ? (sum2 + 1) / 2 : part.top;
-        next.bottom = quarter & 2 ? part.bottom : sum2 / 2;
-        next.level++;
-        next.weight *= 0.25;
-        parts->waiting[parts->count++] = next;
-    }
-    return true;
 }
 
 #endif

@@ -12,6 +12,7 @@
 #include "render/inside.h"
 #include "render/kernel.h"
 #include "render/light.h"
+#include "render/light_grid.h"
 #include "render/prepared.h"
 #include "render/texture.h"
 #include "trace/query.h"
@@ -50,6 +51,12 @@ RT_ALWAYS_INLINE ShadeMaterial shade_material(const Prepared *p, unsigned featur
         out.opaque = rgb_scale(texture_pigment_opaque(p->is_old, pigment), colour);
     }
     return out;
+}
+
+// Whether lights make anything of a surface; where they do not, none is asked for.
+RT_ALWAYS_INLINE bool shade_takes_light(const PreparedFinish *finish, Rgb opaque)
+{
+    return finish->shines || ((finish->diffuse > 0.0 || finish->diffuse_back > 0.0) && !rgb_is_black(opaque));
 }
 
 RT_ALWAYS_INLINE uint32_t shade_interior(const Prepared *p, MaterialIndex material)
@@ -195,30 +202,20 @@ RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const 
     return shade_visibility(p, features, at, vec3_scale(1.0 / distance, offset), distance, statistics);
 }
 
-// The mean over an area light, see render/light.h, of which all would be `arriving`.
+// The mean over an area light, of which all would be `arriving`.
 RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const ShadePoint *at,
                                      const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
-    LightParts parts;
-    Rgb sum = rgb_grey(0.0);
-    light_parts_begin(&parts, &light->area);
-    while (parts.count > 0) {
-        LightPart part = parts.waiting[--parts.count];
-        Rgb corners[4], mean = rgb_grey(0.0);
-        for (int corner = 0; corner < 4; corner++) {
-            int i = corner & 1 ? part.right : part.left, j = corner & 2 ? part.bottom : part.top;
-            int same = (part.right == part.left ? corner & 2 : corner) & (part.bottom == part.top ? 1 : 3);
-            corners[corner] =
-                same < corner
-                    ? corners[same]
-                    : shade_area_one(p, features, at, light, light_area_offset(light, at->point, i, j), statistics);
-            mean = rgb_add(mean, corners[corner]);
-        }
-        if (!light_part_divides(&parts, &light->area, part, arriving, corners)) {
-            sum = rgb_add_scaled(sum, 0.25 * part.weight, mean);
+    LightGrid grid;
+    light_grid_begin(&grid, &light->area);
+    for (; grid.asked_count > 0; light_grid_next(&grid, arriving)) {
+        for (int k = 0; k < grid.asked_count; k++) {
+            LightAsked *asked = &grid.asked[k];
+            Vec3 aside = light_area_offset(light, at->point, asked->i, asked->j);
+            asked->share = shade_area_one(p, features, at, light, aside, statistics);
         }
     }
-    return sum;
+    return grid.sum;
 }
 
 // The same; or of one of its lights by chance, when the camera ray is one of many.
@@ -279,7 +276,7 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     double cosine = vec3_dot(at->normal, towards);
     bool front = cosine > 0.0;
     bool back = (features & RENDER_BRILLIANCE) && cosine < 0.0 && finish->diffuse_back > 0.0;
-    if (!(front || back)) {
+    if (!(front || back) || !shade_takes_light(finish, material->opaque)) {
         return rgb_grey(0.0);
     }
     Rgb arriving = light->colour;

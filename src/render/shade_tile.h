@@ -65,6 +65,7 @@ RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, Lig
     const TileSurfaces *surfaces = &tile->surfaces;
     tile->diffuse = features & RENDER_TRANSPARENCY ? tile->opaque : tile->pigment;
     tile->is_shared = false;
+    tile->takes_light = 0;
     for (int i = 0; i < surfaces->count; i++) {
         ShadeLayer layer;
         shade_one_layer(p, features, material[i], tile_surface_point(surfaces, i), &layer);
@@ -76,6 +77,7 @@ RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, Lig
             through[i] = rgb_scale(finish->refraction, texture_pigment_through(layer.pigment));
         }
         Rgb glow = rgb_mul(opaque, finish->glow);
+        tile->takes_light |= (uint64_t)shade_takes_light(finish, opaque) << i;
         const double colour[3] = {pigment.red, pigment.green, pigment.blue};
         const double light[3] = {glow.red, glow.green, glow.blue};
         double sign = surfaces->inside >> i & 1 ? -1.0 : 1.0;
@@ -233,7 +235,7 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Li
 {
     for (size_t i = 0; i < p->light_count; i++) {
         const PreparedLight *light = &p->lights[i];
-        uint64_t lit = p->tile_lights->aim(tile, light);
+        uint64_t lit = p->tile_lights->aim(tile, light) & tile->takes_light;
         if ((features & RENDER_LIGHTS) && !light->is_plain) {
             lit = shade_tile_strengths(tile, light, lit);
         }

@@ -17,6 +17,7 @@ typedef struct LightTile {
     double opaque[3][TILE_RAYS];          // the opaque share of that, where something is let through
     const double (*diffuse)[TILE_RAYS];   // one of the two: what the diffuse light of a finish is multiplied with
     const PreparedFinish *finish[TILE_RAYS];
+    uint64_t takes_light; // those of which lights make anything, a bit for each
     // Of the light that was aimed last: unit vectors to it and how far it is; N·L.
     SurfaceRays rays;
     _Alignas(64) double cosine[TILE_RAYS];
