@@ -60,6 +60,7 @@ unit_programs = \
   tests/unit/test_render \
   tests/unit/test_render_sampler \
   tests/unit/test_light_grid \
+  tests/unit/test_ball_view \
   tests/unit/test_tiles \
   tests/sampling/test_sampling \
   tests/sampling/test_forward
@@ -99,6 +100,8 @@ tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)
 tests_unit_test_trace_tree_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_secondary_SOURCES = %D%/unit/test_trace_secondary.c $(trace_headers)
 tests_unit_test_trace_secondary_LDADD = $(UNIT_TRACE)
+tests_unit_test_ball_view_SOURCES = %D%/unit/test_ball_view.c $(trace_headers)
+tests_unit_test_ball_view_LDADD = $(UNIT_TRACE)
 tests_unit_test_scene_SOURCES = %D%/unit/test_scene.c
 tests_unit_test_scene_LDADD = $(UNIT_SCENE)
 tests_unit_test_schema_SOURCES = %D%/unit/test_schema.c

@@ -98,8 +98,11 @@ static PreparedLight prepare_light(const Light *light, int exponent)
     out.falloff = is_spot ? cos(light->falloff * radians_per_degree) : ldexp(light->falloff, -exponent);
     out.area.axis1 = vec3_ldexp(light->area.axis1, -exponent);
     out.area.axis2 = vec3_ldexp(light->area.axis2, -exponent);
-    out.area_radius = area_reach(&out.area, out.area.size1) * vec3_length(out.area.axis1) +
-                      area_reach(&out.area, out.area.size2) * vec3_length(out.area.axis2);
+    Vec3 half1 = vec3_scale(area_reach(&out.area, out.area.size1), out.area.axis1);
+    Vec3 half2 = vec3_scale(area_reach(&out.area, out.area.size2), out.area.axis2);
+    out.area_radius = out.area.is_oriented
+                          ? hypot(vec3_length(half1), vec3_length(half2))
+                          : fmax(vec3_length(vec3_add(half1, half2)), vec3_length(vec3_sub(half1, half2)));
     return out;
 }
 

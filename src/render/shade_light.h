@@ -207,6 +207,10 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
                                      const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
     LightGrid grid;
+    SurfaceSpot spot = {at->point, at->outward, at->shape};
+    if (geometry_sees_ball(p->geometry, &spot, light->position, light->area_radius)) {
+        return rgb_grey(1.0);
+    }
     light_grid_begin(&grid, &light->area);
     for (; grid.asked_count > 0; light_grid_next(&grid, arriving)) {
         for (int k = 0; k < grid.asked_count; k++) {

@@ -104,6 +104,16 @@ unsigned geometry_features(const Geometry *geometry);
 // The name of the instruction set that it is traced with.
 const char *geometry_isa_name(const Geometry *geometry);
 
+// A point of a surface.
+typedef struct SurfaceSpot {
+    Vec3 point;
+    Vec3 outward; // unit normal
+    ShapeId shape;
+} SurfaceSpot;
+
+// True when nothing is before any place of a ball, looked at from a surface. May be false where that is so.
+bool geometry_sees_ball(const Geometry *geometry, const SurfaceSpot *from, Vec3 centre, double radius);
+
 // True for a disc or triangle, which nothing is inside of.
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape);
 
