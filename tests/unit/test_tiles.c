@@ -571,7 +571,7 @@ static void test_light(uint64_t first, const Extras *extras, const SamplingOptio
         film_fini(&expected);
         scene_fini(&scene);
     }
-    tap_ok(different == 0 && shadow_rays > 30000 && reflected_rays > 3000 && (transmitted_rays > 30000) == extras->clear,
+    tap_ok(different == 0 && shadow_rays > 15000 && reflected_rays > 3000 && (transmitted_rays > 30000) == extras->clear,
            "light by tiles is light by rays, %s, %s, %s: %d of %d pictures differ (%llu shadow rays, %llu mirrored, %llu "
            "through surfaces)",
            extras->any_lights ? "any lights" : "point lights",
