@@ -62,6 +62,7 @@ typedef struct GrammarHooks {
     // What a name stands for now, kept in the parse arena; NULL: nothing.
     const void *(*capture)(void *client, Symbol name, Span span);
     bool (*is_macro)(void *client, Symbol name);
+    bool (*takes_braces)(void *client, Symbol word); // `{` stands after this word of the language
     // A macro whose text holds unpaired braces; *has_unbalanced: there are any.
     bool (*is_unbalanced)(void *client, Symbol name);
     const bool *has_unbalanced;

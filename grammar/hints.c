@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/utf8.h"
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
 
@@ -41,6 +42,40 @@ const char *grammar_foreign_mark(char mark)
     return mark == '^' ? "a power is `pow(A, B)`" : mark == '%' ? "what a division leaves is `mod(A, B)`" : NULL;
 }
 
+// ---- quotes of word processors
+
+size_t grammar_quote_length(const char *text, size_t length)
+{
+    static const char *const quotes[] = {
+        "\xe2\x80\x98", "\xe2\x80\x99", "\xe2\x80\x9a", "\xe2\x80\x9b", "\xe2\x80\x9c", "\xe2\x80\x9d",
+        "\xe2\x80\x9e", "\xe2\x80\x9f", "\xe2\x80\xb9", "\xe2\x80\xba", "\xc2\xab",     "\xc2\xbb",
+        "\xef\xbc\x82", "\xef\xbc\x87",                                                     // UTF-8
+        "\x82",         "\x84",         "\x8b",         "\x91",         "\x92",         "\x93",
+        "\x94",         "\x9b",         "\xab",         "\xbb",                               // Windows-1252
+    };
+    for (size_t i = 0; i < RT_COUNT_OF(quotes); i++) {
+        size_t size = strlen(quotes[i]);
+        if (size <= length && memcmp(text, quotes[i], size) == 0) {
+            return size;
+        }
+    }
+    return 0;
+}
+
+void grammar_hint_string(GrammarState *state)
+{
+    const char *text = text_get(&state->string);
+    size_t length = strcspn(text, "\n");
+    for (const char *end = text + length; text < end; text++) {
+        size_t character = utf8_length(text, end);
+        if (grammar_quote_length(text, (size_t)(end - text)) > 0) {
+            diag_suggest(state->context->diags, "there is a typographic quote in it; write `\"`");
+            return;
+        }
+        text += character > 1 ? character - 1 : 0;
+    }
+}
+
 // Marks that other languages write twice.
 static const char *doubled(const GrammarState *state)
 {
@@ -56,6 +91,72 @@ static const char *doubled(const GrammarState *state)
     }
 }
 
+enum { VECTOR_BYTES = 120, COMPONENTS_LEAST = 2, COMPONENTS_MOST = 5 };
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+static bool ends_there(const char *at, const char *end)
+{
+    bool is_comment = *at == '/' && at + 1 < end && (at[1] == '/' || at[1] == '*');
+    return strchr("{}\"#;", *at) != NULL || is_comment;
+}
+
+// What stands in the parentheses that begin at `at`, if it is two to five components: appends `<` to `>`, with a blank
+// behind each comma, and returns how long the parentheses are; 0: it is none.
+static size_t append_vector(const char *at, const char *end, TextBuffer *out)
+{
+    int depth = 1, components = 1;
+    char last = '(';
+    text_append_char(out, '<');
+    for (const char *c = at + 1; c < end && !ends_there(c, end); c++) {
+        if (is_blank(*c)) {
+            continue;
+        }
+        depth += (*c == '(' || *c == '<') - (*c == ')' || *c == '>');
+        if (depth == 0) {
+            text_append_char(out, '>');
+            bool is_vector = *c == ')' && components >= COMPONENTS_LEAST && components <= COMPONENTS_MOST;
+            return is_vector && !out->failed ? (size_t)(c + 1 - at) : 0;
+        }
+        bool is_apart = last == ',' || (is_blank(c[-1]) && strchr("(<,)>", *c) == NULL && strchr("(<", last) == NULL);
+        text_append(out, is_apart ? " " : "");
+        text_append_char(out, *c);
+        components += *c == ',' && depth == 1;
+        last = *c;
+    }
+    return 0;
+}
+
+// Parentheses in the place of a vector's brackets, as the text has them.
+static void suggest_vector(GrammarState *state, const Opener *open)
+{
+    DiagSink *diags = state->context->diags;
+    char bytes[VECTOR_BYTES];
+    Span span = {open->span.begin, open->span.begin + sizeof bytes};
+    TextBuffer vector;
+    text_init(&vector);
+    uint64_t last = state->source != NULL ? source_extent(state->source).end : 0;
+    span.end = span.end < last ? span.end : last;
+    bool is_read = span.begin < span.end && source_read_span(diags->sources, span, bytes);
+    size_t length = is_read ? append_vector(bytes, bytes + (span.end - span.begin), &vector) : 0;
+    if (length > 0) {
+        diag_suggest(diags, "a vector is written `%s`", text_get(&vector));
+        diag_replace(diags, (Span){span.begin, span.begin + length}, "%s", text_get(&vector));
+    } else {
+        diag_suggest(diags, "a vector stands in `< >`");
+    }
+    text_fini(&vector);
+}
+
+static bool takes_braces(const GrammarState *state, Symbol word)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    return word != SYMBOL_NONE && (hooks == NULL || hooks->takes_braces(hooks->client, word));
+}
+
 void grammar_hint_token(GrammarState *state, bool only_closes)
 {
     DiagSink *diags = state->context->diags;
@@ -66,11 +167,11 @@ void grammar_hint_token(GrammarState *state, bool only_closes)
     const char *twice = doubled(state);
     if (twice != NULL) {
         diag_suggest(diags, "%s", twice);
-    } else if (count > 0 && open[count - 1].kind == '(' && open[count - 1].word != SYMBOL_NONE) {
+    } else if (count > 0 && open[count - 1].kind == '(' && takes_braces(state, open[count - 1].word)) {
         diag_suggest(diags, "what belongs to `%s` stands in `{ }`",
                      intern_get(state->context->names, open[count - 1].word));
     } else if (token->kind == ',' && only_closes && count > 0 && open[count - 1].kind == '(') {
-        diag_suggest(diags, "a vector stands in `< >`");
+        suggest_vector(state, &open[count - 1]);
     } else if (token->kind == '=' && is_in_for) {
         diag_suggest(diags, "a loop is `#for (Name, From, To, Step) ... #end`");
     } else if (token->kind == TOKEN_DIRECTIVE_WORD) {

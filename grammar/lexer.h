@@ -111,6 +111,7 @@ typedef struct GrammarState {
     uint64_t head_end;   // where the parentheses of a directive ended last
     bool skips;          // a fault was reported: skip before the next token
     unsigned unknown_directives; // not guessed; an #end may belong to each
+    size_t unopened_braces;      // `}` that were left unreported, each after a report that its `{` is missing
     bool past_directive; // the fault is a directive inside an expression: skip all of it
     ARRAY(Opener) openers;
 
@@ -211,6 +212,10 @@ void grammar_report_syntax(GrammarState *state, const char *const *expected, siz
 const char *grammar_foreign_directive(const char *word, size_t length, bool *stands_for_it);
 // The help for a mark that is an operator in other languages, or NULL.
 const char *grammar_foreign_mark(char mark);
+// The length of the typographic quote that a text begins with, in UTF-8 or Windows-1252; 0: there is none.
+size_t grammar_quote_length(const char *text, size_t length);
+// Adds to the fault that was kept last, of a string without an end: it may have been closed with another quote.
+void grammar_hint_string(GrammarState *state);
 // Add to the fault that was kept last: help for the current token, `only_closes` when nothing but `)` could stand
 // there; a note where a `}` is missing by the indentation, with the outermost of the braces that are open at the end of
 // the file.

@@ -386,11 +386,47 @@ static bool report_misplaced_directive(GrammarState *state, const Expected *expe
     return true;
 }
 
+// The other end of a bracket that is not open; false: it is open, or the current token is none.
+static bool report_unopened(GrammarState *state)
+{
+    int kind = state->current.kind;
+    int opener = kind == '}' ? '{' : kind == ')' ? '(' : kind == ']' ? '[' : 0;
+    for (size_t i = 0; i < state->openers.count; i++) {
+        opener = state->openers.items[i].kind == opener ? 0 : opener;
+    }
+    if (opener == 0) {
+        return false;
+    }
+    if (kind == '}' && state->unopened_braces < state->context->diags->reported[DIAG_E0257]) {
+        state->unopened_braces++; // it belongs to the brace whose lack was reported
+        state->faulty = true;
+    } else {
+        grammar_fault(state, DIAG_E0106, state->current.span, "no `%c` is open here", opener);
+    }
+    return true;
+}
+
+static bool report_missing_brace(GrammarState *state, const Expected *expected)
+{
+    int before = state->previous.kind;
+    bool is_word = before == TOKEN_WORD || before == TOKEN_TEXTURE;
+    if (!is_word || expected->count != 1 || strcmp(expected->names[0], "'{'") != 0) {
+        return false;
+    }
+    grammar_fault(state, DIAG_E0257, state->previous.span, "`{` is missing after `%s`",
+                  intern_get(state->context->names, state->previous.symbol));
+    state->unopened_braces++; // skipping ends with it
+    return true;
+}
+
 static void report_general(GrammarState *state, const Expected *expected)
 {
     TextBuffer text;
-    text_init(&text);
     bool listed = !expected->seen[EXPECT_ITEM] && expected->count > 0 && expected->count <= ALTERNATIVES;
+    if ((!listed && report_unopened(state)) || (listed && report_missing_brace(state, expected))) {
+        return;
+    }
+    text_init(&text);
     if (listed) {
         text_append(&text, "expected ");
         describe_expected(expected, &text);

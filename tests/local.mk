@@ -217,6 +217,7 @@ test_scripts = \
   %D%/povray/check_jitter.py \
   %D%/povray/check_area_lights.py \
   %D%/povray/check_pairs.py \
+  %D%/povray/check_standard_names.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \
   %D%/povray/check_debug.py \

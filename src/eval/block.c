@@ -439,8 +439,12 @@ static void refuse_unsupported(Block *block, const AstNode *item)
 static void refuse_word(Block *block, const AstNode *item)
 {
     SchemaKind kind = block_kind(block->ev, item);
+    bool is_member = item->kind == AST_WORD && item->symbol < WORD_COUNT && object_is_group(block->kind) &&
+                     schema_kind((SchemaKind)block->ev->objects->kinds[item->symbol])->is_object;
     if (block_is_lacking(block, item->symbol)) {
         refuse_unsupported(block, item);
+    } else if (is_member) {
+        block_fault(block, DIAG_E0257, item->span, "`{` is missing after `%s`", eval_text(block->ev, item->symbol));
     } else if (object_is_group(block->kind) && schema_kind(kind)->is_object) {
         block_fault(block, DIAG_E0256, item->span, "`%s` must stand before the properties of the %s",
                     schema_kind(kind)->word, block_word(block));
@@ -461,10 +465,21 @@ static void refuse_word(Block *block, const AstNode *item)
     skip_values(block);
 }
 
+// A misspelt property and the sign of its value look like an expression: `locaton -4*z`.
+static const AstNode *leading_name(const Block *block, const AstNode *item)
+{
+    const AstNode *first = item;
+    while (first->kind == AST_BINARY && !(first->flags & (AST_KNOWN | AST_IN_PARENTHESES))) {
+        first = first->a;
+    }
+    return first->kind == AST_NAME && !is_declared(block->ev, first) ? first : item;
+}
+
 // An expression where a property should stand; a name that was never declared is a misspelt one.
 static void refuse_value(Block *block, const AstNode *item)
 {
     Value value;
+    item = leading_name(block, item);
     bool is_undeclared = item->kind == AST_NAME && !is_declared(block->ev, item);
     if (is_undeclared && (bodies[block->kind] || block_is_capital(block, item)) && !block_is_misspelt(block, item)) {
         // Where objects stand it is more likely one of them, and no property begins with a capital.
@@ -505,7 +520,7 @@ static bool may_stand_here(Block *block, const SchemaProperty *property, const A
         return block_fault(block, DIAG_E0257, item->span, "`%s` takes no braces", property->word);
     }
     if (item->kind == AST_WORD && property->type == TYPE_BLOCK) {
-        return block_fault(block, DIAG_E0257, item->span, "`%s` needs braces after it", property->word);
+        return block_fault(block, DIAG_E0257, item->span, "`{` is missing after `%s`", property->word);
     }
     return true;
 }

@@ -80,6 +80,27 @@ static bool decode(Eval *ev, Span span, double v[COMPONENTS])
     return true;
 }
 
+// More components than the word promises, or fewer: the words that promise as many are probably meant.
+static void warn_of_width(Eval *ev, const ColourModel *model, Span span, unsigned components)
+{
+    bool is_more = components > model->width;
+    const char *fit[2] = {NULL, NULL};
+    for (size_t i = 0; i < RT_COUNT_OF(models); i++) {
+        if (models[i].is_srgb == model->is_srgb && models[i].width == components) {
+            fit[fit[0] != NULL] = eval_text(ev, models[i].word);
+        }
+    }
+    bool is_kept = is_more ? eval_report(ev, DIAG_W0203, span, "`%s` is followed by %u components",
+                                         eval_text(ev, model->word), components)
+                           : eval_report(ev, DIAG_W0210, span, "`%s` is followed by %u components only: the rest is 0",
+                                         eval_text(ev, model->word), components);
+    if (is_kept && fit[0] != NULL && fit[1] == NULL) {
+        diag_did_you_mean(ev->options.diags, span, fit[0]);
+    } else if (is_kept && fit[0] != NULL) {
+        diag_suggest(ev->options.diags, "did you mean `%s` or `%s`?", fit[0], fit[1]);
+    }
+}
+
 static bool read_model(Cursor *cursor, const ColourModel *model, Span span, double v[COMPONENTS])
 {
     Eval *ev = cursor->ev;
@@ -101,9 +122,8 @@ static bool read_model(Cursor *cursor, const ColourModel *model, Span span, doub
         return eval_fault(ev, DIAG_E0202, value_span, "`%s` needs a number or a vector, found %s",
                           eval_text(ev, model->word), value_describe(&value));
     }
-    if (value.components > model->width) {
-        eval_warn(ev, DIAG_W0203, span, "`%s` is followed by %u components", eval_text(ev, model->word),
-                  (unsigned)value.components);
+    if (value.components != model->width) {
+        warn_of_width(ev, model, span, value.components);
     }
     memcpy(v, value.v, value.components * sizeof *v);
     if (model->fourth == TRANSMIT && value.components > 3) {

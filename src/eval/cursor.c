@@ -37,6 +37,9 @@ void cursor_pop(Cursor *cursor)
     if (frame->stream != NULL) {
         splice_stream_close(frame->stream);
     }
+    if (RT_UNLIKELY(ev->explains_steps) && frame->kind == FRAME_WHILE) {
+        endless_explain(ev, frame->node);
+    }
     if (frame->kind == FRAME_MACRO) {
         macro_leave(ev);
     } else if (frame->kind == FRAME_INCLUDE) {

@@ -19,12 +19,17 @@ static const char *const zeros[] = {
 static void fault_not_an_object(Eval *ev, const AstNode *item)
 {
     Value value;
-    bool belongs_to_last = ev->has_stray && item->kind <= AST_MEMBER;
+    bool begins = item->kind == AST_WORD && object_takes_braces(ev, item->symbol);
+    bool is_whole = begins && object_is_statement((SchemaKind)ev->objects->kinds[item->symbol]);
+    bool belongs_to_last = (ev->lacks_brace && !is_whole) || (ev->has_stray && item->kind <= AST_MEMBER);
     ev->has_stray = belongs_to_last || item->kind == AST_WORD;
     if (belongs_to_last) {
         return; // reported with what stands before it
     }
-    if (item->kind == AST_WORD) {
+    if (begins) {
+        ev->lacks_brace = true;
+        eval_fault(ev, DIAG_E0257, item->span, "`{` is missing after `%s`", eval_text(ev, item->symbol));
+    } else if (item->kind == AST_WORD) {
         eval_fault(ev, DIAG_E0222, item->span, "expected an object or a directive, found `%s`",
                    eval_text(ev, item->symbol));
     } else if (item->kind > AST_MEMBER) {
@@ -39,9 +44,11 @@ static void place(Eval *ev, const AstNode *item)
 {
     bool is_placeable = item->kind == AST_BLOCK || item->kind == AST_NAME || item->kind == AST_INDEX;
     ArenaMark mark = scratch_mark(ev);
-    if (!is_placeable) {
+    bool is_property = ev->lacks_brace && (!is_placeable || !object_is_statement(block_kind(ev, item)));
+    if (!is_placeable || is_property) {
         fault_not_an_object(ev, item);
     } else {
+        ev->lacks_brace = false;
         bool fine = eval_place(ev, item);
         ev->has_stray = !fine && item->kind != AST_BLOCK;
         ev->faulty = !fine || ev->faulty;

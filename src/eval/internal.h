@@ -180,6 +180,8 @@ typedef struct Eval {
     Repeat repeats[REPEATS];
     bool is_value_ended; // the last value of a macro's text has the semicolon behind it
     bool has_stray;      // at the top level, reported: the values after it are not reported as well
+    bool lacks_brace;    // so is what follows a block's word without its brace, up to an object
+    bool explains_steps; // too many steps were reported, and not yet which loop does not end
     bool faulty;         // something was reported, if only before
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
     unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are worked out; 0: none
@@ -197,6 +199,11 @@ void eval_warn(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_P
 bool eval_report(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);
 // True the first time for this code and symbol.
 bool eval_is_first(Eval *ev, DiagCode code, Symbol symbol);
+// Whether a word of the language begins a block, supported or not.
+bool object_takes_braces(const Eval *ev, Symbol word);
+// A loop that ends because there were too many steps: adds to the report why it does not end by itself, where its text
+// shows that (endless.c).
+void endless_explain(Eval *ev, const AstNode *loop);
 // Reports exhausted memory once and sets `stop`; returns false.
 bool eval_no_memory(Eval *ev, Span span);
 
@@ -329,6 +336,8 @@ bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
 Suggest scope_nearest(const Eval *ev, const AstNode *node);
 // The first file of the include folders that declares a name, of NAME_MAX + 1 bytes; false when none does.
 bool name_find_include(const Eval *ev, const char *name, char *file);
+// The names of the include files that come with POV-Ray; NULL from their number on.
+const char *name_standard_file(size_t i);
 
 // ---- arrays
 

@@ -198,6 +198,15 @@ bool object_is_statement(SchemaKind kind)
            kind == KIND_SKY_SPHERE || kind == KIND_FOG || kind == KIND_GLOBAL_SETTINGS;
 }
 
+bool object_takes_braces(const Eval *ev, Symbol word)
+{
+    if (word >= WORD_COUNT) {
+        return false;
+    }
+    unsigned advice = ev->objects->advice[word];
+    return ev->objects->kinds[word] != KIND_NONE || (advice && schema_unsupported(advice - 1)->is_kind);
+}
+
 bool eval_place(Eval *ev, const AstNode *item)
 {
     if (block_is_name(item)) {

@@ -1,7 +1,7 @@
 // Where a name that is not declared may come from: the include files at hand that declare it.
 //
-// Looks through the text of the files in the include folders, when a fault is reported and not before. Owns nothing;
-// knows nothing of scopes.
+// Looks through the text of the files in the include folders, then through the list of what POV-Ray's own files declare,
+// when a fault is reported and not before. Owns nothing; knows nothing of scopes.
 //
 // SPDX-License-Identifier: MIT
 #include <dirent.h>
@@ -86,6 +86,44 @@ static bool look_in(const char *folder, const char *name, char *text, char found
     return found[0] != '\0';
 }
 
+typedef struct Standard {
+    const char *file, *names;
+} Standard;
+
+static const Standard standard[] = {
+#define STANDARD(file, names) {file, names},
+#include "eval/standard_names.def"
+#undef STANDARD
+};
+
+const char *name_standard_file(size_t i)
+{
+    return i < RT_COUNT_OF(standard) ? standard[i].file : NULL;
+}
+
+static bool lists(const char *names, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = strstr(names, name); at != NULL; at = strstr(at + 1, name)) {
+        if ((at == names || at[-1] == ' ') && at[length] == ' ') {
+            return true;
+        }
+    }
+    return false;
+}
+
+// One of the files that come with POV-Ray, when none of the files at hand is meant.
+static bool look_in_standard(const char *name, char *file)
+{
+    for (size_t i = 0; i < RT_COUNT_OF(standard); i++) {
+        if (lists(standard[i].names, name)) {
+            memcpy(file, standard[i].file, strlen(standard[i].file) + 1);
+            return true;
+        }
+    }
+    return false;
+}
+
 bool name_find_include(const Eval *ev, const char *name, char *file)
 {
     char *text = malloc(BYTES_MOST);
@@ -95,5 +133,5 @@ bool name_find_include(const Eval *ev, const char *name, char *file)
         is_found = look_in(folder, name, text, file);
     }
     free(text);
-    return is_found;
+    return is_found || look_in_standard(name, file);
 }

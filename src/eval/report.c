@@ -181,6 +181,7 @@ bool eval_step(Eval *ev, Span span)
     if (eval_report(ev, DIAG_E0605, span, "more than %llu loop turns and calls of macros and functions",
                     (unsigned long long)ev->options.limits->steps)) {
         diag_suggest(ev->options.diags, "if all of them are wanted, `--max-steps` allows more");
+        ev->explains_steps = true;
     }
     ev->stop = true;
     return false;

@@ -58,6 +58,11 @@ static bool is_macro(void *client, Symbol name)
     return found != NULL && found->kind == VALUE_MACRO;
 }
 
+static bool takes_braces(void *client, Symbol word)
+{
+    return object_takes_braces(eval_of(client), word);
+}
+
 static bool is_unbalanced(void *client, Symbol name)
 {
     const Value *found = scope_find(eval_of(client), name);
@@ -213,6 +218,7 @@ void splice_init(Splice *splice, Eval *ev)
                   .nesting = &ev->splice_nesting,
                   .capture = capture,
                   .is_macro = is_macro,
+                  .takes_braces = takes_braces,
                   .is_unbalanced = is_unbalanced,
                   .has_unbalanced = &ev->has_unbalanced,
                   .fold = fold,

@@ -167,20 +167,20 @@ static const struct {
     {"#if sphere { 0, 1 } #end", "1:5 E0106 expected `(` after `#if`, found `sphere`\n"},
     {"#if (1 sphere { 0, 1 } #end", "1:8 E0106 expected `)` after `1`, found `sphere`\n"},
     {"#if () sphere { 0, 1 } #end", "1:6 E0106 expected a number or vector after `(`, found `)`\n"},
-    {"#switch (1) #case (1 ) ) #range 1 #end", "1:24 E0106 unexpected `)` after `)`\n"
+    {"#switch (1) #case (1 ) ) #range 1 #end", "1:24 E0106 no `(` is open here\n"
                                                "1:33 E0106 expected `(` after `#range`, found `1`\n"},
     {"sphere { 0, 1 ) } sphere { radius = 3 } sphere { 0 1 ] pigment { } }",
-     "1:15 E0106 unexpected `)` after `1`\n"
+     "1:15 E0106 no `(` is open here\n"
      "1:35 E0106 unexpected `=` after `radius`\n"
-     "1:54 E0106 unexpected `]` after `1`\n"},
+     "1:54 E0106 no `[` is open here\n"},
     {"#macro M() { #end", "1:12 E0106 unexpected `{` after `)`\n"},
-    {"sphere { 0, 1 }}", "1:16 E0106 unexpected `}` after `}`\n"},
+    {"sphere { 0, 1 }}", "1:16 E0106 no `{` is open here\n"},
     {"sphere { <1,,2>, 1 } box { <1,2>> }", "1:13 E0106 expected a number or vector or `>` after `,`, found `,`\n"
                                             "1:33 E0106 unexpected `>` after `>`\n"},
     {"#declare A = <0, #declare B = 2; B>; sphere { 0, 1 }",
      "1:18 E0109 `#declare` stands inside an expression or a list of values; a directive stands between whole items\n"},
     {"#declare A = array[2] { 1 ] 2 }; sphere { 0, 1 }", "1:27 E0106 expected `,` or `}` after `1`, found `]`\n"},
-    {"color_map { [ 0 ) rgb 1 ] [ 1 rgb 2 ] }", "1:17 E0106 unexpected `)` after `0`\n"},
+    {"color_map { [ 0 ) rgb 1 ] [ 1 rgb 2 ] }", "1:17 E0106 no `(` is open here\n"},
     {"#declare F = function { x + }; sphere { 0, 1 }", "1:29 E0106 expected a number or vector after `+`, found `}`\n"},
     {"finish { ambient 0.1, , diffuse 1 }", "1:23 E0106 unexpected `,` after `,`\n"},
     {"sphere { 0, 1 }; 1 = 2", "1:16 E0106 unexpected `;` after `}`\n"
@@ -195,7 +195,7 @@ static const struct {
     {"#declare A = 1.5.5;", "1:14 E0101 `1.5.5` has more than one decimal point\n"},
     {"a \x01"
      " b",
-     "1:3 E0108 byte 0x01: this is not the text of a scene\n"},
+     "nowhere 0:0 E0108 byte 3 is 0x01: this is not the text of a scene\n"},
     {"default { } declare A = 1;", "1:1 W0101 `default` should have a `#` before it\n"
                                    "1:13 W0101 `declare` should have a `#` before it\n"},
     {"#declare A = array[2 {1,2}", "1:22 E0106 expected `]` after `2`, found `{`\n"},
