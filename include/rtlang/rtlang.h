@@ -101,9 +101,12 @@ RT_API rt_status rt_declare(rt_session *session, const char *name_value);
 /* Which warnings are told, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with
  * "no-" before it. */
 RT_API rt_status rt_set_warning(rt_session *session, const char *what);
+/* Which of some names, of which the last is NULL, a mistyped one most likely stands for; NULL: none is near. */
+RT_API const char *rt_nearest(const char *mistyped, const char *const *names);
 /* The form of the messages' text. With RT_FORMAT_JSON also what the scene itself says is handed over as one JSON object
- * a line. docs/diagnostics.md lists the members. */
-typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON } rt_format;
+ * a line. docs/diagnostics.md lists the members. RT_FORMAT_COLOR is RT_FORMAT_TEXT with the escape sequences of a
+ * terminal, which what the scene itself says does not get. */
+typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON, RT_FORMAT_COLOR } rt_format;
 RT_API void rt_set_format(rt_session *session, rt_format format);
 /* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the
  * lengths of fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */

@@ -4,6 +4,7 @@
 #include "api/session.h"
 
 #include "base/explain.h"
+#include "base/suggest.h"
 
 static void deliver_one(rt_session *session, const Diag *diag, TextBuffer *text)
 {
@@ -21,7 +22,7 @@ static void deliver_one(rt_session *session, const Diag *diag, TextBuffer *text)
     if (session->is_json) {
         diag_json(&session->diags, diag, text);
     } else {
-        diag_print(&session->diags, diag, text);
+        diag_print(&session->diags, diag, session->is_colored, text);
     }
     out.text = text_get(text);
     session->callbacks.diagnostic(session->callbacks.client, &out);
@@ -93,9 +94,20 @@ rt_status rt_set_warning(rt_session *session, const char *what)
     return diag_set_warning(&session->diags, what) ? RT_OK : RT_FAULT_USAGE;
 }
 
+const char *rt_nearest(const char *mistyped, const char *const *names)
+{
+    Suggest suggest;
+    suggest_begin(&suggest, mistyped);
+    for (; *names; names++) {
+        suggest_offer(&suggest, *names);
+    }
+    return suggest.best;
+}
+
 void rt_set_format(rt_session *session, rt_format format)
 {
     session->is_json = format == RT_FORMAT_JSON;
+    session->is_colored = format == RT_FORMAT_COLOR;
 }
 
 rt_status rt_explain(rt_session *session, const char *code, const char **text)

@@ -29,6 +29,7 @@ struct rt_session {
     DiagSink diags;
     size_t diags_delivered; // records already handed to the client
     bool is_json;           // the form of messages
+    bool is_colored; // the text of messages, for a terminal
     TextBuffer said;        // in JSON: the scene's own line, not ended yet
     ARRAY(char *) include_paths;
     Library library; // searched after them

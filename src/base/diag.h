@@ -131,7 +131,9 @@ const char *diag_severity_name(DiagSeverity severity); // "error", "warning", "n
 // caret; a span over several lines ends with its first. Control characters and bytes that are not UTF-8 are shown as
 // `?`. Where the line cannot be read, the head is `name: error[...]: ...`; without a span, `rtlang: error[...]: ...`;
 // a note without a span is `     = note: ...`.
-void diag_print(DiagSink *sink, const Diag *diag, TextBuffer *out);
+// `is_colored`: with the escape sequences of a terminal around the place, the label, the message and the caret; without
+// them the text is the same.
+void diag_print(DiagSink *sink, const Diag *diag, bool is_colored, TextBuffer *out);
 
 // The form for programs: one JSON object (RFC 8259) on one line, ended by LF; its members are listed in
 // docs/diagnostics.md. Bytes that are not UTF-8 become U+FFFD.

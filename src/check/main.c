@@ -26,6 +26,7 @@
 #include "check/report.h"
 #include "check/report_html.h"
 #include "check/report_scenes.h"
+#include "check/say.h"
 #ifdef WITH_STUDY
 #include "check/stability.h"
 #endif
@@ -331,9 +332,9 @@ static bool scene_check(const Check *check, int number, Outcome *outcome)
     return fine;
 }
 
-static int report_complain(const char *path)
+static int report_complain(const Options *options, const char *path)
 {
-    fprintf(stderr, "rtcheck: cannot write the report %s: %s\n", path, strerror(errno));
+    say(options, "cannot write the report %s: %s", path, strerror(errno));
     return EXIT_USAGE;
 }
 
@@ -346,7 +347,7 @@ static int scenes_check(const Check *check)
         Outcome outcome;
 
         if (!scene_check(check, i, &outcome)) {
-            return report_complain(options->report);
+            return report_complain(options, options->report);
         }
         if (interrupted != 0) {
             break;
@@ -396,10 +397,10 @@ static int report_write(const Check *check, int exit_code)
     snprintf(page, sizeof page, "%s/index.html", check->options->report);
     snprintf(results, sizeof results, "%s/results.json", check->options->report);
     if (!report_print_page(check, page)) {
-        return report_complain(page);
+        return report_complain(check->options, page);
     }
     if (check->options->json && !report_print_json(check, results)) {
-        return report_complain(results);
+        return report_complain(check->options, results);
     }
     return exit_code;
 }
@@ -415,13 +416,13 @@ static int scenes_report(Check *check)
         return scenes_check(check);
     }
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
-        return report_complain(folder);
+        return report_complain(check->options, folder);
     }
     if (scenes_report_init(&report, check->folder, check->options->scene_count)) {
         check->report = &report;
         exit_code = report_write(check, scenes_check(check));
     } else {
-        exit_code = report_complain(folder);
+        exit_code = report_complain(check->options, folder);
     }
     scenes_report_fini(&report);
     return exit_code;
@@ -443,7 +444,7 @@ static int scenes_study(const Check *check)
     StudiesResult result = studies_run(options, &settings);
 
     if (result == STUDIES_UNWRITTEN) {
-        return report_complain(options->report);
+        return report_complain(options, options->report);
     }
     return interrupted != 0 ? 128 + SIGINT : result == STUDIES_FINE ? EXIT_AGREE : EXIT_DIFFER;
 }
@@ -463,7 +464,7 @@ static bool folder_make(Check *check)
         free(path);
     }
     if (!fine) {
-        fprintf(stderr, "rtcheck: cannot make a folder for the pictures: %s\n", strerror(errno));
+        say(check->options, "cannot make a folder for the pictures: %s", strerror(errno));
     }
     return fine;
 }
@@ -520,9 +521,9 @@ static int stability_check(Check *check)
     if (stability != NULL && stability_measure(stability, check->options, check->povray, check->folder)) {
         check->options->json ? stability_json(stability, stdout) : stability_print(stability, stdout);
         exit_code = stability_holds(stability) ? EXIT_AGREE : EXIT_DIFFER;
-        exit_code = stability_write(check, stability) ? exit_code : report_complain(check->options->report);
+        exit_code = stability_write(check, stability) ? exit_code : report_complain(check->options, check->options->report);
     } else {
-        fprintf(stderr, "rtcheck: out of memory\n");
+        say(check->options, "out of memory");
     }
     if (stability != NULL) {
         stability_fini(stability);
@@ -531,10 +532,9 @@ static int stability_check(Check *check)
     return exit_code;
 }
 #else
-static int stability_check(Check *check)
+static int stability_check(const Check *check)
 {
-    (void)check;
-    fprintf(stderr, "rtcheck: built with --disable-study, so that --stability is not there\n");
+    say(check->options, "built with --disable-study, so that --stability is not there");
     return EXIT_USAGE;
 }
 #endif
@@ -546,7 +546,7 @@ static int run(const Options *options)
 
     check.povray = povray_find(options->povray);
     if (check.povray == NULL && !options->is_stability && !options->study) {
-        fprintf(stderr, "rtcheck: no program `%s` found (Debian: apt-get install povray)\n", options->povray);
+        say(options, "no program `%s` found (Debian: apt-get install povray)", options->povray);
         return EXIT_NO_TOOL;
     }
     check.include_paths = include_paths_find(options, &check.include_path_count);

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check/say.h"
 #include "rtlang/rtlang.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
@@ -158,6 +159,13 @@ static bool apply_study(Options *options, const char *argument)
     return true;
 }
 
+static bool apply_color(Options *options, const char *argument)
+{
+    int choice = choice_find(argument, color_choices);
+    options->color = choice >= 0 ? (ColorChoice)choice : COLOR_AUTO;
+    return choice >= 0;
+}
+
 static bool apply_most(Options *options, const char *argument)
 {
     return parse_integer(argument, 64, 65536, &options->most_samples);
@@ -192,6 +200,8 @@ static const OptionRow rows[] = {
      "error against time instead: ladders of samples, and POV-Ray's own anti-aliasing"},
     {0, "most", "N", apply_most, "a whole number from 64 to 65536",
      "with --study: samples a pixel at the top of a ladder (default 256); the reference has 16 times as many"},
+    {0, "color", "WHEN", apply_color, "auto, always or never",
+     "colour what is said on stderr: always, never, or auto (default): on a terminal, unless NO_COLOR is set"},
     {'V', "version", NULL, NULL, "", "print the version and stop"},
     {'h', "help", NULL, NULL, "", "print this and stop"},
 };
@@ -245,9 +255,36 @@ static const OptionRow *row_find(int val)
     return NULL;
 }
 
-static OptionsResult complain(const char *what, const char *about)
+static OptionsResult complain(const Options *options, const char *what, const char *about)
 {
-    fprintf(stderr, "rtcheck: %s%s\nrtcheck --help lists the options\n", what, about);
+    say(options, "%s%s\nrtcheck --help lists the options", what, about);
+    return OPTIONS_WRONG;
+}
+
+static OptionsResult complain_unknown(const Options *options, const char *word)
+{
+    const char *names[COUNT_OF(rows) + 1];
+    char advice[128];
+
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        names[i] = rows[i].name;
+    }
+    names[COUNT_OF(rows)] = NULL;
+    advise_option(word, names, advice, sizeof advice);
+    say(options, "unknown option or needless argument: %s\n%s", word,
+        advice[0] != '\0' ? advice : "rtcheck --help lists the options");
+    return OPTIONS_WRONG;
+}
+
+static OptionsResult complain_value(const Options *options, const OptionRow *row, const char *value)
+{
+    char advice[128] = "";
+
+    if (row->apply == apply_color) {
+        advise_value(value, color_choices, advice, sizeof advice);
+    }
+    say(options, "option --%s wants %s, found `%s`%s%s", row->name, row->expected, value, advice[0] != '\0' ? "\n" : "",
+        advice);
     return OPTIONS_WRONG;
 }
 
@@ -256,10 +293,10 @@ static OptionsResult option_take(Options *options, int val, const char *word)
     const OptionRow *row = row_find(val);
 
     if (val == ':') {
-        return complain("an argument is missing after ", word);
+        return complain(options, "an argument is missing after ", word);
     }
     if (row == NULL) {
-        return complain("unknown option or needless argument: ", word);
+        return complain_unknown(options, word);
     }
     if (row->apply == NULL && row->letter == 'h') {
         print_help();
@@ -270,8 +307,7 @@ static OptionsResult option_take(Options *options, int val, const char *word)
         return OPTIONS_DONE;
     }
     if (!row->apply(options, optarg)) {
-        fprintf(stderr, "rtcheck: option --%s wants %s, found `%s`\n", row->name, row->expected, optarg);
-        return OPTIONS_WRONG;
+        return complain_value(options, row, optarg);
     }
     return OPTIONS_GO;
 }
@@ -291,19 +327,19 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
                          .most_samples = 256};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
     if (options->include_paths == NULL) {
-        return complain("out of memory", "");
+        return complain(options, "out of memory", "");
     }
     getopt_tables_fill(long_options, short_options);
     opterr = 0;
     while ((val = getopt_long(argc, argv, short_options, long_options, NULL)) != -1) {
-        OptionsResult result = option_take(options, val, argv[optind - 1]);
+        OptionsResult result = option_take(options, val, option_word(argc, argv, optopt));
         if (result != OPTIONS_GO) {
             return result;
         }
     }
     options->scenes = argv + optind;
     options->scene_count = argc - optind;
-    return options->scene_count > 0 || options->is_stability ? OPTIONS_GO : complain("no scene given", "");
+    return options->scene_count > 0 || options->is_stability ? OPTIONS_GO : complain(options, "no scene given", "");
 }
 
 void options_fini(Options *options)

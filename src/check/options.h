@@ -6,6 +6,8 @@
 
 #include <stdbool.h>
 
+#include "cli/terminal.h"
+
 enum { ELSEWHERE_MOST = 100 };
 
 // Pointers refer to argv.
@@ -30,6 +32,7 @@ typedef struct Options {
     bool study; // of error against time, instead of a comparison
     char **scenes;
     int scene_count;
+    ColorChoice color; // of what is said on stderr
 } Options;
 
 typedef enum OptionsResult {

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
+#include "check/say.h"
 #include "check/study_print.h"
 
 typedef struct Files {
@@ -100,7 +101,7 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
             study_total_add(&total, &study);
             fine = files_add(&files, &study);
         } else {
-            fprintf(stderr, "rtcheck: %s: %s\n", options->scenes[i], study.fault);
+            say(options, "%s: %s", options->scenes[i], study.fault);
             result = STUDIES_FAILED;
         }
     }

@@ -73,6 +73,26 @@ static rt_status fail_usage(rt_session *session, const char *message)
     return rt_report(session, "E0703", message, "rtlang --help lists the options");
 }
 
+static rt_status fail_parse(rt_session *session, const Options *options)
+{
+    return options->advice[0] ? rt_report(session, "E0703", options->complaint, options->advice)
+                              : fail_usage(session, options->complaint);
+}
+
+// `-W abc`: as mistyped `-Wall`, or a width.
+static rt_status fail_warning(rt_session *session, const WarningOption *option)
+{
+    static const char *const names[] = {"all", "error", NULL};
+    char message[COMPLAINT_SIZE], advice[ADVICE_SIZE];
+    snprintf(message, sizeof message, "option `--warnings` wants all, error or the code of a warning, found `%.80s`",
+             option->what);
+    advise_value(option->what, names, advice, sizeof advice);
+    if (!advice[0] && !option->is_letter) {
+        return fail_usage(session, message);
+    }
+    return rt_report(session, "E0703", message, advice[0] ? advice : "a width is a number, as in `-W 320`");
+}
+
 static rt_status fail_argument(rt_session *session, const char *expected, const char *found)
 {
     char message[COMPLAINT_SIZE];
@@ -110,10 +130,9 @@ static rt_status configure(rt_session *session, const Options *options)
         }
     }
     for (int i = 0; !status && i < options->warning_count; i++) {
-        status = rt_set_warning(session, options->warnings[i]);
+        status = rt_set_warning(session, options->warnings[i].what);
         if (status) {
-            return fail_argument(session, "`--warnings` wants all, error or the code of a warning, found",
-                                 options->warnings[i]);
+            return fail_warning(session, &options->warnings[i]);
         }
     }
     return status;
@@ -395,10 +414,11 @@ int main(int argc, char **argv)
     rt_status status = RT_FAULT_LIMIT;
     bool wrote = false;
     if (session) {
-        rt_set_format(session, options.format);
+        bool is_colored = options.format == RT_FORMAT_TEXT && color_is_on(options.color);
+        rt_set_format(session, is_colored ? RT_FORMAT_COLOR : options.format);
         interrupted_session = session;
         hear_interrupts();
-        status = parsed == OPTIONS_WRONG  ? fail_usage(session, options.complaint)
+        status = parsed == OPTIONS_WRONG  ? fail_parse(session, &options)
                  : parsed == OPTIONS_DONE ? print(session, "", RT_OK)
                                           : run(session, &options, &progress);
         int width, height;

@@ -33,14 +33,14 @@ static bool apply_output(Options *options, const char *argument, const char **ex
 static bool apply_warnings(Options *options, const char *argument, const char **expected)
 {
     *expected = "all, error or the code of a warning";
-    options->warnings[options->warning_count++] = argument;
+    options->warnings[options->warning_count++] = (WarningOption){argument, options->is_letter};
     return argument[0] != '\0';
 }
 
 // `-Wall` and the like begin with the same letter.
 static bool apply_width(Options *options, const char *argument, const char **expected)
 {
-    if (isalpha((unsigned char)argument[0])) {
+    if (options->is_letter && isalpha((unsigned char)argument[0])) {
         return apply_warnings(options, argument, expected);
     }
     *expected = "a whole number from 1 to 65535";
@@ -61,7 +61,9 @@ static bool apply_threads(Options *options, const char *argument, const char **e
 
 static bool apply_isa(Options *options, const char *argument, const char **expected)
 {
+    static const char *const names[] = {"plain", "v2", "v3", "v4", NULL};
     *expected = "an instruction set of this processor: plain, or on x86-64 v2, v3 or v4";
+    options->choices = names;
     for (size_t i = 0; rt_isa(i); i++) {
         if (strcmp(argument, rt_isa(i)) == 0) {
             options->isa = rt_isa(i);
@@ -211,26 +213,33 @@ static bool apply_seed(Options *options, const char *argument, const char **expe
 }
 
 // Takes one of some names, of which the last is NULL.
-static bool parse_name(const char *argument, const char *const *names, const char **name)
+static bool parse_choice(Options *options, const char *argument, const char *const *names, int *place)
 {
-    for (; *names && strcmp(argument, *names) != 0; names++) {
-    }
-    *name = *names;
-    return *names != NULL;
+    options->choices = names;
+    *place = choice_find(argument, names);
+    return *place >= 0;
+}
+
+static bool parse_name(Options *options, const char *argument, const char *const *names, const char **name)
+{
+    int place;
+    bool is_one = parse_choice(options, argument, names, &place);
+    *name = is_one ? names[place] : NULL;
+    return is_one;
 }
 
 static bool apply_sampler(Options *options, const char *argument, const char **expected)
 {
     static const char *const names[] = {"sobol", "halton", "jittered", "grid", "random", NULL};
     *expected = "sobol, halton, jittered, grid or random";
-    return parse_name(argument, names, &options->sampling.sampler);
+    return parse_name(options, argument, names, &options->sampling.sampler);
 }
 
 static bool apply_filter(Options *options, const char *argument, const char **expected)
 {
     static const char *const names[] = {"box", "tent", "gaussian", "mitchell", NULL};
     *expected = "box, tent, gaussian or mitchell";
-    return parse_name(argument, names, &options->sampling.filter);
+    return parse_name(options, argument, names, &options->sampling.filter);
 }
 
 static bool apply_adaptive(Options *options, const char *argument, const char **expected)
@@ -262,15 +271,12 @@ static bool apply_no_estimate(Options *options, const char *argument, const char
 static bool apply_method(Options *options, const char *argument, const char **expected)
 {
     static const char *const names[] = {[RT_METHOD_BACKWARD] = "backward", [RT_METHOD_FORWARD] = "forward",
-                                        [RT_METHOD_FORWARD_CONNECT] = "forward-connect"};
+                                        [RT_METHOD_FORWARD_CONNECT] = "forward-connect", NULL};
+    int place;
     *expected = "backward, forward or forward-connect";
-    for (size_t i = 0; i < COUNT_OF(names); i++) {
-        if (strcmp(argument, names[i]) == 0) {
-            options->method = (rt_method)i;
-            return true;
-        }
-    }
-    return false;
+    bool is_one = parse_choice(options, argument, names, &place);
+    options->method = is_one ? (rt_method)place : RT_METHOD_BACKWARD;
+    return is_one;
 }
 
 static bool apply_photons(Options *options, const char *argument, const char **expected)
@@ -361,9 +367,21 @@ static bool apply_budget(Options *options, const char *argument, const char **ex
 
 static bool apply_diagnostics(Options *options, const char *argument, const char **expected)
 {
+    static const char *const names[] = {[RT_FORMAT_TEXT] = "text", [RT_FORMAT_JSON] = "json", NULL};
+    int place;
     *expected = "text or json";
-    options->format = strcmp(argument, "json") == 0 ? RT_FORMAT_JSON : RT_FORMAT_TEXT;
-    return options->format == RT_FORMAT_JSON || strcmp(argument, "text") == 0;
+    bool is_one = parse_choice(options, argument, names, &place);
+    options->format = is_one ? (rt_format)place : RT_FORMAT_TEXT;
+    return is_one;
+}
+
+static bool apply_color(Options *options, const char *argument, const char **expected)
+{
+    int place;
+    *expected = "auto, always or never";
+    bool is_one = parse_choice(options, argument, color_choices, &place);
+    options->color = is_one ? (ColorChoice)place : COLOR_AUTO;
+    return is_one;
 }
 
 // A letter and four digits; everything else is the name of a scene.
@@ -382,37 +400,25 @@ static bool apply_explain(Options *options, const char *argument, const char **e
 
 static bool apply_dump(Options *options, const char *argument, const char **expected)
 {
-    static const struct {
-        const char *name;
-        Action action;
-    } stages[] = {{"tokens", ACTION_DUMP_TOKENS}, {"ast", ACTION_DUMP_AST}, {"scene", ACTION_DUMP_SCENE}};
+    static const char *const names[] = {"tokens", "ast", "scene", NULL};
+    static const Action actions[] = {ACTION_DUMP_TOKENS, ACTION_DUMP_AST, ACTION_DUMP_SCENE};
+    int place;
     *expected = "tokens, ast or scene";
-    for (size_t i = 0; i < COUNT_OF(stages); i++) {
-        if (strcmp(argument, stages[i].name) == 0) {
-            options->action = stages[i].action;
-            return true;
-        }
-    }
-    return false;
+    bool is_one = parse_choice(options, argument, names, &place);
+    options->action = is_one ? actions[place] : options->action;
+    return is_one;
 }
 
 static bool apply_precision(Options *options, const char *argument, const char **expected)
 {
-    static const struct {
-        const char *name;
-        rt_precision precision;
-    } precisions[] = {{"double", RT_PRECISION_DOUBLE},
-                      {"float", RT_PRECISION_FLOAT},
-                      {"quad", RT_PRECISION_QUAD},
-                      {"reference", RT_PRECISION_REFERENCE}};
+    static const char *const names[] = {"double", "float", "quad", "reference", NULL};
+    static const rt_precision precisions[] = {RT_PRECISION_DOUBLE, RT_PRECISION_FLOAT, RT_PRECISION_QUAD,
+                                              RT_PRECISION_REFERENCE};
+    int place;
     *expected = "float, double, quad or reference";
-    for (size_t i = 0; i < COUNT_OF(precisions); i++) {
-        if (strcmp(argument, precisions[i].name) == 0) {
-            options->precision = precisions[i].precision;
-            return true;
-        }
-    }
-    return false;
+    bool is_one = parse_choice(options, argument, names, &place);
+    options->precision = is_one ? precisions[place] : RT_PRECISION_DOUBLE;
+    return is_one;
 }
 
 // Two whole numbers; whether they lie in the picture is known when all options are read.
@@ -512,6 +518,8 @@ static const OptionRow rows[] = {
      "all: warn of more; error: take warnings for errors; a code, or no- and a code:\n"
      "turn one on or off; may repeat. -Wall, -Werror and -Wno-CODE are short for it"},
     {0, "diagnostics", "text|json", apply_diagnostics, "form of the messages (default text; json: an object a line)"},
+    {0, "color", "WHEN", apply_color,
+     "colour messages: always, never, or auto (default): on a terminal, unless NO_COLOR is set or it is dumb"},
     {0, "explain", "[CODE]", apply_explain,
      "print what the code of a message means; with a SCENE instead of a code what the scene\n"
      "takes and what it costs, and what is left out and why"},

@@ -91,11 +91,23 @@ static bool list_candidates(const char *word, char *list, size_t size)
     return count > 1;
 }
 
+static void advise(Options *options, const char *word)
+{
+    const char *names[OPTIONS_MOST];
+    size_t count = 0;
+    for (const OptionRow *row; (row = option_row(count)); count++) {
+        names[count] = row->name;
+    }
+    names[count] = NULL;
+    advise_option(word, names, options->advice, sizeof options->advice);
+}
+
 // What getopt could not make sense of.
-static OptionsResult complain_getopt(Options *options, int val, char **argv)
+static OptionsResult complain_getopt(Options *options, int val, int argc, char **argv)
 {
     const OptionRow *row = find_row(optopt);
-    const char *word = argv[optind - 1];
+    bool is_letter = optopt && optopt < FIRST_VAL;
+    const char *word = option_word(argc, argv, is_letter ? optopt : 0);
     char letter[3] = {'-', (char)optopt, '\0'};
     char candidates[512];
     if (val == ':') {
@@ -108,7 +120,8 @@ static OptionsResult complain_getopt(Options *options, int val, char **argv)
     if (row) {
         return complain(options, "option `--%s` takes no argument", row->name);
     }
-    return complain(options, "unknown option `%s`", optopt && optopt < FIRST_VAL ? letter : word);
+    advise(options, word);
+    return complain(options, "unknown option `%s`", is_letter ? letter : word);
 }
 
 static OptionsResult read_options(int argc, char **argv, Options *options)
@@ -121,7 +134,7 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
         const char *expected = "";
         const OptionRow *row = val == '?' || val == ':' ? NULL : find_row(val);
         if (!row) {
-            return complain_getopt(options, val, argv);
+            return complain_getopt(options, val, argc, argv);
         }
         if (!row->apply) {
             if (row->letter == 'h') {
@@ -131,7 +144,12 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
             }
             return OPTIONS_DONE;
         }
+        options->is_letter = val < FIRST_VAL;
+        options->choices = NULL;
         if (!row->apply(options, optarg, &expected)) {
+            if (options->choices) {
+                advise_value(optarg, options->choices, options->advice, sizeof options->advice);
+            }
             char found[96];
             snprintf(found, sizeof found, "%s, found `%.40s`", expected, optarg ? optarg : "");
             return complain(options, "option `--%s` wants %s", row->name, found);
@@ -160,10 +178,14 @@ static OptionsResult settle_explain(int argc, char **argv, Options *options)
 // So that a complaint has its form even when it stands before the option.
 static void find_format(int argc, char **argv, Options *options)
 {
+    static const char color[] = "--color=";
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--diagnostics=json") == 0) {
             options->format = RT_FORMAT_JSON;
         }
+        int choice = strncmp(argv[i], color, sizeof color - 1) == 0
+                         ? choice_find(argv[i] + sizeof color - 1, color_choices) : -1;
+        options->color = choice >= 0 ? (ColorChoice)choice : options->color;
     }
 }
 

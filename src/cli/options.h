@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "cli/terminal.h"
 #include "rtlang/rtlang.h"
 
 typedef enum Action {
@@ -23,7 +24,12 @@ typedef enum Action {
     ACTION_EXPLAIN_SCENE,
 } Action;
 
-enum { COMPLAINT_SIZE = 512 };
+enum { COMPLAINT_SIZE = 512, ADVICE_SIZE = 128 };
+
+typedef struct WarningOption {
+    const char *what; // as rt_set_warning takes it
+    bool is_letter;   // given by `-W`, which a width may have been meant by
+} WarningOption;
 
 enum { LIMIT_COUNT = RT_LIMIT_MEMORY + 1 };
 
@@ -51,9 +57,10 @@ typedef struct Options {
     bool no_povray_includes;
     const char **declarations; // owned list
     int declaration_count;
-    const char **warnings; // owned list, as rt_set_warning takes them
+    WarningOption *warnings; // owned list
     int warning_count;
     rt_format format; // of messages
+    ColorChoice color;
     const char **read_folders; // owned list
     int read_folder_count;
     double clock;
@@ -62,6 +69,9 @@ typedef struct Options {
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     bool quiet;
     char complaint[COMPLAINT_SIZE]; // OPTIONS_WRONG: what is wrong
+    char advice[ADVICE_SIZE];       // and what may have been meant; empty: nothing near
+    const char *const *choices;     // of the option that is being read, whose value is one of these; else NULL
+    bool is_letter;                 // it was given by its letter
 } Options;
 
 typedef enum OptionsResult {

@@ -262,7 +262,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
     }
     diag_finish(&diags);
     for (size_t i = 0; i < diags.count; i++) {
-        diag_print(&diags, &diags.items[i], &outcome->diagnostics);
+        diag_print(&diags, &diags.items[i], false, &outcome->diagnostics);
         list_fault(&diags, &diags.items[i], &outcome->faults);
     }
     scene_dump(&scene, &outcome->scene);

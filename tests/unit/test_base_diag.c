@@ -48,7 +48,7 @@ static Span span_of(const Fixture *fixture, const char *piece)
 static void expect_printed(Fixture *fixture, const char *expected, const char *name)
 {
     text_clear(&fixture->out);
-    diag_print(&fixture->sink, &fixture->sink.items[fixture->sink.count - 1], &fixture->out);
+    diag_print(&fixture->sink, &fixture->sink.items[fixture->sink.count - 1], false, &fixture->out);
     if (!tap_ok(strcmp(text_get(&fixture->out), expected) == 0, "%s", name)) {
         printf("# got:\n%s# expected:\n%s", text_get(&fixture->out), expected);
     }

@@ -65,7 +65,7 @@ static void read_text(const char *text, size_t length, bool token_by_token, Outc
     outcome->is_clean = grammar_parse(&context, source, take, outcome);
     source_close(source);
     for (size_t i = 0; i < diags.count; i++) {
-        diag_print(&diags, &diags.items[i], &outcome->text);
+        diag_print(&diags, &diags.items[i], false, &outcome->text);
     }
     arena_fini(&arena);
     diag_fini(&diags);

@@ -60,7 +60,7 @@ static Outcome read_text(const TextBuffer *text, int threads, size_t piece, uint
     outcome.is_fine = scene_validate(&scene, &diags, threads) && outcome.is_fine;
     diag_finish(&diags);
     for (size_t i = 0; i < diags.count; i++) {
-        diag_print(&diags, &diags.items[i], &outcome.messages);
+        diag_print(&diags, &diags.items[i], false, &outcome.messages);
     }
     scene_dump(&scene, &outcome.scene);
     outcome.spheres = scene.spheres.count;
