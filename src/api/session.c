@@ -6,6 +6,8 @@
 // SPDX-License-Identifier: MIT
 #include "api/session.h"
 
+#include "scene/view.h"
+
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -194,7 +196,11 @@ static rt_status load(rt_session *session, Source *source, double start)
     session->scene.whole = SPAN_WHOLE(source_base(source));
     bool fine = eval_source(&options, source, &session->scene) &&
                 scene_validate(&session->scene, &session->diags, options.threads) &&
-                session->diags.error_count == 0 && session_load_pictures(session);
+                session->diags.error_count == 0;
+    if (fine) {
+        scene_hint_of_view(&session->scene, session->width, session->height, &session->diags);
+    }
+    fine = fine && session->diags.error_count == 0 && session_load_pictures(session);
     source_close(source);
     diag_finish(&session->diags);
     session->loaded = fine;

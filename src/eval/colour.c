@@ -170,6 +170,19 @@ static bool read_parts(Cursor *cursor, double v[COMPONENTS], Span *span)
     }
 }
 
+// Whole numbers up to 255, as picture programs have them; equal ones are more likely a bright light.
+static bool is_like_bytes(const double v[COMPONENTS])
+{
+    double greatest = 0.0;
+    bool are_bytes = true;
+    for (unsigned i = RED; i <= BLUE; i++) {
+        are_bytes = are_bytes && v[i] >= 0.0 && v[i] <= 255.0 && v[i] == floor(v[i]);
+        greatest = v[i] > greatest ? v[i] : greatest;
+    }
+    bool is_grey = v[RED] == v[GREEN] && v[GREEN] == v[BLUE];
+    return are_bytes && greatest > COLOUR_USUAL && (!is_grey || greatest == 255.0);
+}
+
 bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span)
 {
     double v[COMPONENTS] = {0};
@@ -195,6 +208,9 @@ bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span)
     }
     if (!fine || !read_parts(cursor, v, span)) {
         return false;
+    }
+    if (RT_UNLIKELY(is_like_bytes(v)) && eval_report(cursor->ev, DIAG_W0211, *span, "this colour looks like bytes")) {
+        diag_suggest(cursor->ev->options.diags, "components go from 0 to 1: divide by 255");
     }
     *colour = (Rgbft){(float)v[RED], (float)v[GREEN], (float)v[BLUE], (float)v[FILTER], (float)v[TRANSMIT]};
     return true;

@@ -85,6 +85,9 @@ typedef struct Value {
     };
 } Value;
 
+// A plain colour beyond this is left to the statements that may have something to say about it.
+enum { COLOUR_USUAL = 63 };
+
 enum { ARRAY_DIMENSIONS_MAX = 5, ARRAY_ELEMENTS_MAX = 1 << 28 };
 
 // All elements that are set are of one kind, as the first one that was set.

@@ -14,9 +14,6 @@
 #include "eval/blocks.h"
 #include "scene/many.h"
 
-// Beyond this a colour is left to the statements that say what is wrong with it.
-#define COLOUR_GREATEST 1e30f
-
 _Static_assert(sizeof(GrammarLiteralKind) == sizeof(Material), "a kind is a material");
 
 static Eval *eval_of(void *client)
@@ -104,7 +101,7 @@ static inline bool literal_material(const GrammarLiteral *literal, Material *mat
     const float *colour = literal->kind.colour;
     bool is_fine = true;
     for (int i = 0; i < 5; i++) {
-        is_fine = is_fine && fabsf(colour[i]) <= COLOUR_GREATEST;
+        is_fine = is_fine && fabsf(colour[i]) <= (float)COLOUR_USUAL;
     }
     *material = (Material){colour[0], colour[1], colour[2], colour[3], colour[4], literal->kind.finish};
     return is_fine;

@@ -11,9 +11,6 @@
 
 #include "eval/blocks.h"
 
-// Beyond this a colour is left to the statements that say what is wrong with it.
-#define COLOUR_GREATEST 1e30
-
 // What has no effect but random numbers, and stands for itself.
 static bool is_plain(const AstNode *node)
 {
@@ -166,7 +163,7 @@ static bool is_fine_radius(double radius)
 
 static bool is_fine_colour(const double *colour)
 {
-    return fabs(colour[0]) <= COLOUR_GREATEST && fabs(colour[1]) <= COLOUR_GREATEST && fabs(colour[2]) <= COLOUR_GREATEST;
+    return fabs(colour[0]) <= COLOUR_USUAL && fabs(colour[1]) <= COLOUR_USUAL && fabs(colour[2]) <= COLOUR_USUAL;
 }
 
 // Nothing is worked out after what is not fine: the statement itself is to tell first what is wrong with that.

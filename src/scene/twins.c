@@ -12,6 +12,7 @@
 
 #include "base/pages.h"
 #include "base/parallel.h"
+#include "scene/opaque.h"
 #include "scene/part.h"
 #include "scene/range.h"
 
@@ -23,7 +24,10 @@ typedef struct Key {
     double numbers[KEY_NUMBERS];
     uint64_t source;
     uint32_t order;
+    MaterialIndex material;
     uint8_t hidden;
+    bool is_turned; // inside and outside have changed places
+    bool is_smooth; // its light is not that of its surface
 } Key;
 
 typedef struct Slot {
@@ -60,6 +64,7 @@ static void key_plane(Key *key, Vec3 normal, double distance)
     double first = normal.x != 0.0 ? normal.x : normal.y != 0.0 ? normal.y : normal.z;
     key->kind = PART_PLANE;
     key_add(key, first < 0.0 ? vec3_neg(normal) : normal);
+    key->is_turned = first < 0.0;
     key->numbers[key->count++] = (first < 0.0 ? -distance : distance) + 0.0;
 }
 
@@ -109,27 +114,34 @@ static Key item_key(const Twins *twins, size_t item)
     Key key;
     key.count = 0;
     key.hidden = 0;
+    key.is_turned = key.is_smooth = false;
     if (item < twins->ellipsoids) {
         const Sphere *sphere = &scene->spheres.items[item];
         key.source = scene_sphere_source(scene, item);
         key.order = scene_sphere_order(scene, item);
+        key.material = sphere->material;
         key_sphere(&key, sphere->centre, sphere->radius);
     } else if (item < twins->planes) {
         const Ellipsoid *ellipsoid = &scene->ellipsoids.items[item - twins->ellipsoids];
         key.source = ellipsoid->source;
         key.order = ellipsoid->order;
+        key.material = ellipsoid->material;
         key_ball(&key, &ellipsoid->to_world);
     } else if (item < twins->parts) {
         const Plane *plane = &scene->planes.items[item - twins->planes];
         key.source = plane->source;
         key.order = plane->order;
+        key.material = plane->material;
         key_plane(&key, plane->normal, plane->distance);
     } else {
         const Part *part = &scene->parts.items[item - twins->parts];
         key.source = part->source;
         key.order = part->order;
+        key.material = part->material;
         key.hidden = part->hidden;
         key_part(&key, part);
+        key.is_turned ^= (part->flags & PART_INVERSE) != 0;
+        key.is_smooth = part->kind == PART_SMOOTH_TRIANGLE;
     }
     return key;
 }
@@ -203,13 +215,24 @@ static void tell(const Key *one, const Key *other, DiagSink *diags)
     }
 }
 
-// Whether they are one surface to some rays; tells of it.
-static bool are_twins(const Key *one, const Key *other, DiagSink *diags)
+// Whether the picture is the same whichever of them is seen. What lets light through changes what lies behind it, too:
+// two of those are not one.
+static bool look_alike(const Scene *scene, const Key *one, const Key *other)
+{
+    return one->is_turned == other->is_turned && !one->is_smooth && !other->is_smooth &&
+           scene_materials_are_alike(scene, one->material, other->material) &&
+           scene_material_is_opaque(scene, one->material);
+}
+
+// Whether they are one surface to some rays; reports it where that can be seen.
+static bool are_twins(const Scene *scene, const Key *one, const Key *other, DiagSink *diags)
 {
     if (!hidden_meet(one->hidden, other->hidden) || !keys_are_equal(one, other)) {
         return false;
     }
-    tell(one, other, diags);
+    if (!look_alike(scene, one, other)) {
+        tell(one, other, diags);
+    }
     return true;
 }
 
@@ -251,6 +274,18 @@ static bool composites_are_equal(const Twins *twins, const Composite *a, const C
     return equal;
 }
 
+// Leaf by leaf, of two whose trees are equal.
+static bool composites_look_alike(const Scene *scene, const Composite *a, const Composite *b)
+{
+    bool are_alike = true;
+    for (uint32_t i = 0; are_alike && i < a->part_count; i++) {
+        const Part *one = &scene->parts.items[a->first_part + i], *other = &scene->parts.items[b->first_part + i];
+        are_alike = (one->flags & PART_UNSEEN) || (scene_materials_are_alike(scene, one->material, other->material) &&
+                                                   scene_material_is_opaque(scene, one->material));
+    }
+    return are_alike;
+}
+
 static void tell_composite(const Composite *one, const Composite *other, DiagSink *diags)
 {
     const Composite *first = one->order < other->order ? one : other, *second = first == one ? other : one;
@@ -275,7 +310,9 @@ static void visit_composite(const Twins *twins, uint32_t number, DiagSink *diags
         if (slot->hash == hash && slot->item > twins->end) {
             const Composite *known = &composites[slot->item - 1 - twins->end];
             if (composites_are_equal(twins, &composites[number], known)) {
-                tell_composite(&composites[number], known, diags);
+                if (!composites_look_alike(twins->scene, &composites[number], known)) {
+                    tell_composite(&composites[number], known, diags);
+                }
                 return;
             }
         }
@@ -308,7 +345,7 @@ static void visit_leaf(const Twins *twins, const Composite *composite, uint32_t 
         const Slot *slot = &twins->slots[at];
         if (slot->hash == hash && slot->item <= twins->end) {
             Key known = item_key(twins, slot->item - 1);
-            if (are_twins(&key, &known, diags)) {
+            if (are_twins(twins->scene, &key, &known, diags)) {
                 return;
             }
         }
@@ -330,7 +367,7 @@ static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diag
             continue;
         }
         Key key = item_key(twins, item), known = item_key(twins, slot->item - 1);
-        if (are_twins(&key, &known, diags)) {
+        if (are_twins(twins->scene, &key, &known, diags)) {
             return;
         }
     }
