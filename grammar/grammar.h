@@ -106,7 +106,7 @@ typedef struct GrammarContext {
     DiagSink *diags;
     const Limits *limits;
     GrammarHooks *hooks; // NULL: text is parsed only, and what would need a splice is a fault
-    bool token_by_token; // nothing is read at once, for comparison: the same comes of it
+    bool token_by_token; // all tokens come from flex one by one, for comparison: the same comes of it
 } GrammarContext;
 
 // Called for each complete top-level item (a directive, a block, an expression, a word). The node is valid during the

@@ -28,7 +28,8 @@ rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path,
     Arena arena;
     MemoryBudget memory = {.limit = session->limits.memory_bytes};
     arena_init_shared(&arena, &memory);
-    GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL, false};
+    GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
+                              session->no_literals};
     AstDump dump = {session->names, &session->dump};
     bool fine = stage == RT_SYNTAX_TOKENS ? grammar_dump_tokens(&context, source, session->sources, &session->dump)
                                           : grammar_parse(&context, source, print_item, &dump);

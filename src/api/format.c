@@ -27,7 +27,8 @@ static bool lay_out(rt_session *session, Source *source, const TextBuffer *text)
 {
     Arena arena;
     arena_init(&arena, session->limits.memory_bytes);
-    GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL, false};
+    GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
+                              session->no_literals};
     bool fine = format_source(&context, source, text_get(text), text->length, &session->dump);
     arena_fini(&arena);
     if (!fine) {

@@ -470,7 +470,7 @@ static const OptionRow rows[] = {
     {0, "isa", "NAME", apply_isa,
      "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
     {0, "no-literals", NULL, apply_no_literals,
-     "parse spheres of nothing but numbers as all else is, not by their text; the scene is the same"},
+     "read and evaluate all text by the one general way, without what makes usual text faster; the scene is the same"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {0, "no-povray-includes", NULL, apply_no_povray_includes,
      "do not look for #include where an installed POV-Ray has its files"},

@@ -64,7 +64,7 @@ typedef struct EvalOptions {
     double clock;
     bool clock_on;             // a clock was given
     const EvalWorld *world;    // NULL: where it says
-    bool no_literals;          // statements of nothing but numbers are parsed like all others
+    bool no_literals;          // nothing is read or evaluated by a faster way than all else is
     int threads;               // for long runs of such statements; 0 and 1: the caller's alone
     size_t literal_piece;      // bytes of text that each of these takes at a time; 0: as is best
     EvalNames *declared;       // set in the end; may be NULL

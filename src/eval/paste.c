@@ -63,7 +63,8 @@ static const GrammarText *text_of(Eval *ev, Span span)
     if (at < ev->pasted.count && ev->pasted.items[at].begin == span.begin && ev->pasted.items[at].end == span.end) {
         return ev->pasted.items[at].text;
     }
-    GrammarContext context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, NULL, false};
+    GrammarContext context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, NULL,
+                              ev->options.no_literals};
     GrammarText *read = grammar_text_again(&context, span);
     const GrammarText *kept = read != NULL ? grammar_text_copy(read, &ev->program) : NULL;
     free(read);

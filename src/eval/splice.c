@@ -212,7 +212,8 @@ static bool is_stopped(void *client)
 void splice_init(Splice *splice, Eval *ev)
 {
     *splice = (Splice){
-        .context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, &splice->hooks},
+        .context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, &splice->hooks,
+                    ev->options.no_literals},
         .cursor = {.ev = ev, .top = true},
         .hooks = {.client = splice,
                   .nesting = &ev->splice_nesting,

@@ -116,7 +116,7 @@ static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlue
     FinishMemo *memo = &ev->objects->finish;
     FinishWord words[FINISH_WORDS_MOST];
     unsigned count = finish_words(item, words);
-    if (finish_is_known(ev, texture, words, count)) {
+    if (!ev->options.no_literals && finish_is_known(ev, texture, words, count)) {
         texture->finish = memo->after;
         texture->ior = memo->ior_after;
         return true;
