@@ -55,11 +55,11 @@ KERNELS = PROGRAM.replace("count_sphere_tests", "count_kernels")
 PIGMENT = "pigment { rgb <0.8, 0.3, 0.2> }"
 LOOP = '#fopen F "{data}" read #for (I, 1, {count}) '
 REPEATED = {
-    "a #read of numbers": (LOOP + "#read (F, X, Y, Z, R) sphere { <X, Y, Z>, R " + PIGMENT + " } #end", 0.25),
-    "a #read for a macro": ("#macro Ball(P, R) sphere { P, R " + PIGMENT + " } #end " + LOOP + "#read (F, X, Y, Z, R) Ball(<X, Y, Z>, R) #end", 0.35),
-    "a #for": ("#for (I, 1, {count}) sphere { <mod(I, 10), I/10, 2*I - 1>, 0.4 " + PIGMENT + " } #end", 0.25),
-    "a #while": ("#declare I = 0; #while (I < {count}) sphere { <I, 0.5*I, 1>, 0.4 " + PIGMENT + " } #declare I = I + 1; #end", 0.25),
-    "literals": ("{spheres}", 0.15),
+    "a #read of numbers": (LOOP + "#read (F, X, Y, Z, R) sphere { <X, Y, Z>, R " + PIGMENT + " } #end", 0.20),
+    "a #read for a macro": ("#macro Ball(P, R) sphere { P, R " + PIGMENT + " } #end " + LOOP + "#read (F, X, Y, Z, R) Ball(<X, Y, Z>, R) #end", 0.32),
+    "a #for": ("#for (I, 1, {count}) sphere { <mod(I, 10), I/10, 2*I - 1>, 0.4 " + PIGMENT + " } #end", 0.19),
+    "a #while": ("#declare I = 0; #while (I < {count}) sphere { <I, 0.5*I, 1>, 0.4 " + PIGMENT + " } #declare I = I + 1; #end", 0.22),
+    "literals": ("{spheres}", 0.05),
 }
 REPEATED_COUNTS = 500, 1500
 LITERAL_COUNTS = 4000, 12000 # more than the scanner's buffer holds
