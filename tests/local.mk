@@ -194,6 +194,7 @@ test_scripts = \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
   %D%/system/check_growth.py \
+  %D%/system/check_color.py \
   %D%/system/check_literals.py \
   %D%/system/check_messages.py \
   %D%/system/run_system.py \

@@ -234,7 +234,7 @@ static void print_text(const Printer *p, int x, int y, Rgb linear)
         tell_ray(p, i);
     }
     if (p->life->more_rays > 0) {
-        text_printf(p->out, "%zu more rays are not told of\n", p->life->more_rays);
+        text_printf(p->out, "%zu more rays are omitted\n", p->life->more_rays);
     }
     tell_colour(p, "colour ", p->life->colour);
     tell_colour(p, ", as linear light ", linear);
@@ -332,7 +332,7 @@ static void json_spheres(const Printer *p, const LifeRay *ray)
         put(p, "}");
     }
     put(p, "]");
-    json_number(p, "spheres_not_told", (double)ray->missed);
+    json_number(p, "spheres_omitted", (double)ray->missed);
 }
 
 static void json_lights(const Printer *p, const LifeLayer *layer)
@@ -427,7 +427,7 @@ static void print_json(const Printer *p, int x, int y, Rgb linear)
         json_ray(p, i);
     }
     put(p, "]");
-    json_number(p, "rays_not_told", (double)p->life->more_rays);
+    json_number(p, "rays_omitted", (double)p->life->more_rays);
     json_colour(p, "colour", p->life->colour);
     json_colour(p, "linear", linear);
     put(p, "}\n");

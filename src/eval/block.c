@@ -465,21 +465,11 @@ static void refuse_word(Block *block, const AstNode *item)
     skip_values(block);
 }
 
-// A misspelt property and the sign of its value look like an expression: `locaton -4*z`.
-static const AstNode *leading_name(const Block *block, const AstNode *item)
-{
-    const AstNode *first = item;
-    while (first->kind == AST_BINARY && !(first->flags & (AST_KNOWN | AST_IN_PARENTHESES))) {
-        first = first->a;
-    }
-    return first->kind == AST_NAME && !is_declared(block->ev, first) ? first : item;
-}
-
 // An expression where a property should stand; a name that was never declared is a misspelt one.
 static void refuse_value(Block *block, const AstNode *item)
 {
     Value value;
-    item = leading_name(block, item);
+    item = block_leading_name(block, item);
     bool is_undeclared = item->kind == AST_NAME && !is_declared(block->ev, item);
     if (is_undeclared && (bodies[block->kind] || block_is_capital(block, item)) && !block_is_misspelt(block, item)) {
         // Where objects stand it is more likely one of them, and no property begins with a capital.

@@ -96,6 +96,9 @@ bool block_is_name(const AstNode *item);
 const char *block_word(const Block *block);
 // An undeclared name that is nearer to one of the block's properties than to any name in scope.
 bool block_is_misspelt(const Block *block, const AstNode *item);
+// The undeclared name that an expression begins with, or the item itself: a misspelt property and the sign of its value
+// look like an expression, `locaton -4*z`.
+const AstNode *block_leading_name(const Block *block, const AstNode *item);
 // A block whose word is unknown and near to that of an object.
 bool block_is_misspelt_object(const Eval *ev, const AstNode *item);
 // Reports a word that is no property of the block, with the nearest that is.

@@ -197,7 +197,7 @@ static void check_pasted_sign(Cursor *cursor, const AstNode *item)
         bool is_sign = first->kind == AST_UNARY && first->op != AST_OP_NOT && !(first->flags & AST_IN_PARENTHESES);
         if (is_sign) {
             eval_fault(cursor->ev, DIAG_E0110, item->span,
-                       "this text of a macro goes on with the value before the call");
+                       "the macro's text starts with a sign and would continue the expression before the call");
         }
     }
     cursor->at_call = false;

@@ -319,11 +319,18 @@ static bool fault_no_value(Eval *ev, const Wanted *wanted)
                                    wanted->name != NULL ? wanted->name : "", wanted->name != NULL ? "`" : "");
 }
 
-static bool fault_torn_apart(Eval *ev, const AstNode *item, const Wanted *wanted)
+static bool fault_regrouped(Eval *ev, const AstNode *item, const Wanted *wanted)
 {
-    if (eval_report(ev, DIAG_E0217, wanted->span, "the `%s` that the macro `%s` gives would be torn apart here",
-                    ast_op_spelling((AstOp)item->op), wanted->name)) {
-        diag_note(ev->options.diags, item->span, "a macro stands for its text, so this needs parentheses");
+    char text[48] = "";
+    size_t length = (size_t)(item->span.end - item->span.begin);
+    bool is_short = length < sizeof text && source_read_span(ev->options.diags->sources, item->span, text);
+    bool is_kept = is_short ? eval_report(ev, DIAG_E0217, wanted->span, "macro `%s` expands to `%s`, which would regroup here",
+                                          wanted->name, text)
+                            : eval_report(ev, DIAG_E0217, wanted->span,
+                                          "macro `%s` expands to an expression with `%s`, which would regroup here",
+                                          wanted->name, ast_op_spelling((AstOp)item->op));
+    if (is_kept) {
+        diag_note(ev->options.diags, item->span, "add parentheses");
     }
     return false;
 }
@@ -413,7 +420,7 @@ static bool walk_macro(Eval *ev, const AstNode *call, const AstNode *parent, Tak
         }
         const AstNode *item = cursor_peek(&cursor);
         if (item != NULL && !holds_together(item, parent, call)) {
-            fine = fault_torn_apart(ev, item, &wanted);
+            fine = fault_regrouped(ev, item, &wanted);
         } else {
             fine = take(&cursor, &wanted, client);
         }

@@ -63,6 +63,16 @@ bool block_is_misspelt(const Block *block, const AstNode *item)
            !name_find_include(block->ev, eval_text(block->ev, item->symbol), file);
 }
 
+const AstNode *block_leading_name(const Block *block, const AstNode *item)
+{
+    const AstNode *first = item;
+    while (first->kind == AST_BINARY && !(first->flags & (AST_KNOWN | AST_IN_PARENTHESES))) {
+        first = first->a;
+    }
+    bool is_declared = first->flags & AST_KNOWN ? first->known != NULL : scope_find(block->ev, first->symbol) != NULL;
+    return first->kind == AST_NAME && !is_declared ? first : item;
+}
+
 static Suggest nearest_kind(const Eval *ev, const AstNode *item, SchemaKind *nearest)
 {
     Suggest suggest;
