@@ -390,7 +390,8 @@ static bool report_misplaced_directive(GrammarState *state, const Expected *expe
 static bool report_unopened(GrammarState *state)
 {
     int kind = state->current.kind;
-    int opener = kind == '}' ? '{' : kind == ')' ? '(' : kind == ']' ? '[' : 0;
+    bool knows_openers = state->stream == NULL; // a fragment knows its own only
+    int opener = !knows_openers ? 0 : kind == '}' ? '{' : kind == ')' ? '(' : kind == ']' ? '[' : 0;
     for (size_t i = 0; i < state->openers.count; i++) {
         opener = state->openers.items[i].kind == opener ? 0 : opener;
     }

@@ -160,8 +160,8 @@ RT_API rt_status rt_check_format(rt_session *session, const char *path);
  * output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
-/* Whether usual text is read and evaluated by faster ways than the general one, as is the default (1). With 0 nothing is;
- * the scene and its messages are the same. */
+/* Whether usual text is read and evaluated by faster ways than the general one, as is the default (1). With 0 nothing
+ * is; the scene and its messages are the same. */
 RT_API void rt_set_literals(rt_session *session, int on);
 
 /* Threads that long runs of such spheres are read with, and that large scenes are looked through with when they have

@@ -373,7 +373,8 @@ static rt_status session_ways_fit(rt_session *session)
 {
     bool is_precise = session->precision != RT_PRECISION_DOUBLE;
     if (session->method != RT_METHOD_BACKWARD && (is_precise || sampling_is_wanted(&session->sampling))) {
-        return rt_report(session, "E0703", "`--method=forward` cannot be combined with `--samples` or `--precision`; use `--photons`",
+        return rt_report(session, "E0703",
+                         "`--method=forward` cannot be combined with `--samples` or `--precision`; use `--photons`",
                          "leave out `--precision`, `--samples` and goals");
     }
     bool is_plain = !is_precise && session->method == RT_METHOD_BACKWARD;

@@ -521,7 +521,9 @@ static int stability_check(Check *check)
     if (stability != NULL && stability_measure(stability, check->options, check->povray, check->folder)) {
         check->options->json ? stability_json(stability, stdout) : stability_print(stability, stdout);
         exit_code = stability_holds(stability) ? EXIT_AGREE : EXIT_DIFFER;
-        exit_code = stability_write(check, stability) ? exit_code : report_complain(check->options, check->options->report);
+        if (!stability_write(check, stability)) {
+            exit_code = report_complain(check->options, check->options->report);
+        }
     } else {
         say(check->options, "out of memory");
     }

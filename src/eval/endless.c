@@ -1,7 +1,7 @@
 // Why a loop does not end: nothing that runs in it changes a name of its condition.
 //
-// Looks at the text alone, and only once too many steps were taken. Says nothing where a text may do more than it shows:
-// calls in the condition, included files, macros that are read token by token.
+// Looks at the text alone, and only once too many steps were taken. Says nothing where a text may do more than it
+// shows: calls in the condition, included files, macros that are read token by token.
 //
 // SPDX-License-Identifier: MIT
 #include "eval/internal.h"

@@ -324,8 +324,8 @@ static bool fault_regrouped(Eval *ev, const AstNode *item, const Wanted *wanted)
     char text[48] = "";
     size_t length = (size_t)(item->span.end - item->span.begin);
     bool is_short = length < sizeof text && source_read_span(ev->options.diags->sources, item->span, text);
-    bool is_kept = is_short ? eval_report(ev, DIAG_E0217, wanted->span, "macro `%s` expands to `%s`, which would regroup here",
-                                          wanted->name, text)
+    bool is_kept = is_short ? eval_report(ev, DIAG_E0217, wanted->span,
+                                          "macro `%s` expands to `%s`, which would regroup here", wanted->name, text)
                             : eval_report(ev, DIAG_E0217, wanted->span,
                                           "macro `%s` expands to an expression with `%s`, which would regroup here",
                                           wanted->name, ast_op_spelling((AstOp)item->op));

@@ -1,7 +1,7 @@
 // Where a name that is not declared may come from: the include files at hand that declare it.
 //
-// Looks through the text of the files in the include folders, then through the list of what POV-Ray's own files declare,
-// when a fault is reported and not before. Owns nothing; knows nothing of scopes.
+// Looks through the text of the files in the include folders, then through the list of what POV-Ray's own files
+// declare, when a fault is reported and not before. Owns nothing; knows nothing of scopes.
 //
 // SPDX-License-Identifier: MIT
 #include <dirent.h>

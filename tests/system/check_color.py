@@ -37,7 +37,9 @@ def run(command, folder, terminal, **environment):
     ours, theirs = pty.openpty()
     inner = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "TERM")}
     inner.update({"TERM": "xterm", **environment})
-    streams = {"stdout": subprocess.PIPE, "stderr": theirs} if terminal else {"stdout": theirs, "stderr": subprocess.PIPE}
+    streams = {"stdout": theirs, "stderr": subprocess.PIPE}
+    if terminal:
+        streams = {"stdout": subprocess.PIPE, "stderr": theirs}
     with subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, env=inner, **streams) as process:
         os.close(theirs)
         text = b""
@@ -59,11 +61,13 @@ def run(command, folder, terminal, **environment):
 def test_rtlang(tap, folder):
     command = [RTLANG, "--check", "-q", "s.scn"]
     plain = run(command, folder, False)
-    tap.ok(b"\x1b" not in plain and b"error[E0250]" in plain, "no colour in a pipe, though standard output is a terminal", plain)
+    tap.ok(b"\x1b" not in plain and b"error[E0250]" in plain, "no colour in a pipe, with a terminal as standard output",
+           plain)
     colored = run(command, folder, True)
     tap.equal(colored[:len(FIRST)], FIRST, "a message on a terminal")
     tap.equal(ESCAPE.sub(b"", colored), plain, "the same text but for the colours")
-    for name, environment in (("NO_COLOR", {"NO_COLOR": "1"}), ("a dumb terminal", {"TERM": "dumb"}), ("no TERM", {"TERM": ""})):
+    for name, environment in (("NO_COLOR", {"NO_COLOR": "1"}), ("a dumb terminal", {"TERM": "dumb"}),
+                              ("no TERM", {"TERM": ""})):
         tap.equal(run(command, folder, True, **environment), plain, name)
     tap.equal(run(command, folder, True, NO_COLOR=""), colored, "a NO_COLOR that is empty")
     tap.equal(run([*command, "--color=never"], folder, True), plain, "--color=never")
@@ -71,7 +75,8 @@ def test_rtlang(tap, folder):
     for option in ("--color=auto", "--color=always"):
         told = run([*command, "--diagnostics=json", option], folder, True)
         tap.ok(b"\x1b" not in told and told.startswith(b"{"), "JSON is plain with " + option, told)
-    tap.ok(b"\x1b[1;31merror[E0703]:" in run([RTLANG, "--color=always", "--zzz"], folder, False), "a fault of the command line")
+    told = run([RTLANG, "--color=always", "--zzz"], folder, False)
+    tap.ok(b"\x1b[1;31merror[E0703]:" in told, "a fault of the command line", told)
 
 
 def test_rtcheck(tap, folder):
