@@ -173,14 +173,11 @@ static bool read_parts(Cursor *cursor, double v[COMPONENTS], Span *span)
 // Whole numbers up to 255, as picture programs have them; equal ones are more likely a bright light.
 static bool is_like_bytes(const double v[COMPONENTS])
 {
-    double greatest = 0.0;
-    bool are_bytes = true;
-    for (unsigned i = RED; i <= BLUE; i++) {
-        are_bytes = are_bytes && v[i] >= 0.0 && v[i] <= 255.0 && v[i] == floor(v[i]);
-        greatest = v[i] > greatest ? v[i] : greatest;
+    bool is_usual = v[RED] <= COLOUR_USUAL && v[GREEN] <= COLOUR_USUAL && v[BLUE] <= COLOUR_USUAL;
+    for (unsigned i = RED; i <= BLUE && !is_usual; i++) {
+        is_usual = !(v[i] >= 0.0 && v[i] <= 255.0 && v[i] == floor(v[i]));
     }
-    bool is_grey = v[RED] == v[GREEN] && v[GREEN] == v[BLUE];
-    return are_bytes && greatest > COLOUR_USUAL && (!is_grey || greatest == 255.0);
+    return !is_usual && (v[RED] == 255.0 || v[RED] != v[GREEN] || v[GREEN] != v[BLUE]);
 }
 
 bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span)
