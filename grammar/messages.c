@@ -496,7 +496,8 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
     if (state->stream != NULL) {
         state->ended = true;
         state->skips = false;
-        if (!grammar_stream_has_failed(state->stream) && !report_cut(state)) {
+        bool is_reported = state->current.kind == TOKEN_INVALID; // when it was read
+        if (!is_reported && !grammar_stream_has_failed(state->stream) && !report_cut(state)) {
             report_general(state, &expected);
         }
         return;
