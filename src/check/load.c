@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "check/load.h"
 
+#include "check/say.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,7 +39,7 @@ char **include_paths_find(const Options *options, int *count)
         if (paths[*count] != NULL) {
             (*count)++;
         } else if (i < options->include_path_count) {
-            fprintf(stderr, "rtcheck: %s: %s\n", folder, strerror(errno));
+            say(options, "%s: %s", folder, strerror(errno));
             include_paths_free(paths, *count);
             paths = NULL;
         }

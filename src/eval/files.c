@@ -261,13 +261,8 @@ static void suggest_near_name(Eval *ev, const char *name, const AstNode *node)
     Suggest suggest;
     const char *folder;
     suggest_begin(&suggest, name);
-    bool is_standard = false;
     for (size_t i = 0; name_standard_file(i) != NULL; i++) {
-        is_standard = is_standard || strcmp(name_standard_file(i), name) == 0;
         suggest_offer(&suggest, name_standard_file(i));
-    }
-    if (is_standard) {
-        return; // it is what was meant
     }
     ArenaMark mark = arena_mark(&ev->scratch);
     offer_folder(ev, &suggest, ".");
