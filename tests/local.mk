@@ -43,6 +43,7 @@ unit_programs = \
   tests/unit/test_literal_many \
   tests/unit/test_range \
   tests/unit/test_invariance \
+  tests/unit/test_stack \
   tests/unit/test_study \
   tests/unit/test_trace_pixel \
   tests/unit/test_trace_shapes \
@@ -57,6 +58,7 @@ unit_programs = \
   tests/unit/test_image_png \
   tests/unit/test_image_strips \
   tests/unit/test_image_values \
+  tests/unit/test_medium \
   tests/unit/test_render \
   tests/unit/test_render_sampler \
   tests/unit/test_light_grid \
@@ -132,8 +134,12 @@ tests_unit_test_image_strips_LDADD = libimage.la libmath.la libbase.la $(PNG_LIB
 tests_unit_test_image_values_SOURCES = %D%/unit/test_image_values.c %D%/unit/image_forms.h
 tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
+tests_unit_test_medium_SOURCES = %D%/unit/test_medium.c $(unit_headers)
+tests_unit_test_medium_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_stack_SOURCES = %D%/unit/test_stack.c $(unit_headers)
+tests_unit_test_stack_LDADD = libapi.la
 tests_unit_test_coincident_SOURCES = %D%/unit/test_coincident.c $(unit_headers)
 tests_unit_test_coincident_LDADD = libapi.la
 tests_unit_test_literal_many_SOURCES = %D%/unit/test_literal_many.c $(unit_headers)
@@ -195,6 +201,7 @@ test_scripts = \
   %D%/golden/check_golden.py \
   %D%/system/check_growth.py \
   %D%/system/check_color.py \
+  %D%/system/check_stack.py \
   %D%/system/check_literals.py \
   %D%/system/check_messages.py \
   %D%/system/run_system.py \

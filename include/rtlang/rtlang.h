@@ -1,7 +1,9 @@
 /* rtlang: read a scene in the rtlang language, trace it, write the picture.
  *
  * The pipeline is rt_session_new, rt_load_file, rt_render, rt_write. All functions may be called from any thread, one
- * thread at a time per session. The library never prints and never exits: messages go to the callbacks of the session.
+ * thread at a time per session; 128 kB of stack are enough. Where a thread has less than 4 MB left, what may nest deep is
+ * done on a thread of the library's own, which makes the callbacks while the call waits. The library never prints and
+ * never exits: messages go to the callbacks of the session.
  * Nothing here depends on the locale.
  *
  * SPDX-License-Identifier: MIT

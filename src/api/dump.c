@@ -17,12 +17,16 @@ static bool print_item(void *client, const AstNode *item)
     return !dump->out->failed;
 }
 
-rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path, const char **text)
+typedef struct SyntaxJob {
+    rt_syntax stage;
+    const char *path;
+} SyntaxJob;
+
+static rt_status dump_syntax(rt_session *session, void *argument)
 {
+    const SyntaxJob *job = argument;
     Source *source;
-    text_clear(&session->dump);
-    *text = text_get(&session->dump);
-    if (!session_open(session, path, &source)) {
+    if (!session_open(session, job->path, &source)) {
         return session_status(session, false);
     }
     Arena arena;
@@ -31,13 +35,28 @@ rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path,
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
                               session->no_literals};
     AstDump dump = {session->names, &session->dump};
-    bool fine = stage == RT_SYNTAX_TOKENS ? grammar_dump_tokens(&context, source, session->sources, &session->dump)
-                                          : grammar_parse(&context, source, print_item, &dump);
+    bool fine = job->stage == RT_SYNTAX_TOKENS ? grammar_dump_tokens(&context, source, session->sources, &session->dump)
+                                               : grammar_parse(&context, source, print_item, &dump);
     source_close(source);
     arena_fini(&arena);
     diag_finish(&session->diags);
-    *text = text_get(&session->dump);
     return session_status(session, fine && !session->dump.failed);
+}
+
+rt_status rt_dump_syntax(rt_session *session, rt_syntax stage, const char *path, const char **text)
+{
+    SyntaxJob job = {stage, path};
+    text_clear(&session->dump);
+    rt_status status = session_run_deep(session, dump_syntax, &job);
+    *text = text_get(&session->dump);
+    return status;
+}
+
+static rt_status dump_scene(rt_session *session, void *argument)
+{
+    (void)argument;
+    scene_dump(&session->scene, &session->dump);
+    return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;
 }
 
 rt_status rt_dump_scene(rt_session *session, const char **text)
@@ -47,7 +66,7 @@ rt_status rt_dump_scene(rt_session *session, const char **text)
     if (!session->loaded) {
         return RT_FAULT_USAGE;
     }
-    scene_dump(&session->scene, &session->dump);
+    rt_status status = session_run_deep(session, dump_scene, NULL);
     *text = text_get(&session->dump);
-    return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;
+    return status;
 }

@@ -266,18 +266,10 @@ static void write_absent(rt_session *session, const Run *whole)
     }
 }
 
-rt_status rt_explain_scene(rt_session *session, int threads, const char **text)
+static rt_status explain_scene(rt_session *session, void *argument)
 {
     Run whole;
-    text_clear(&session->dump);
-    *text = text_get(&session->dump);
-    if (!session->loaded || threads < 0) {
-        return RT_FAULT_USAGE;
-    }
-    if (!session_memory_suffices(session)) {
-        return session_status(session, false);
-    }
-    threads = threads ? threads : render_default_threads();
+    int threads = *(const int *)argument;
     Vec3 origin = scene_move_near(&session->scene);
     bool is_fine = run_scene(session, threads, &whole);
     if (is_fine) {
@@ -293,6 +285,23 @@ rt_status rt_explain_scene(rt_session *session, int threads, const char **text)
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory explaining the scene");
         return session_status(session, false);
     }
-    *text = text_get(&session->dump);
     return RT_OK;
+}
+
+rt_status rt_explain_scene(rt_session *session, int threads, const char **text)
+{
+    text_clear(&session->dump);
+    *text = text_get(&session->dump);
+    if (!session->loaded || threads < 0) {
+        return RT_FAULT_USAGE;
+    }
+    if (!session_memory_suffices(session)) {
+        return session_status(session, false);
+    }
+    threads = threads ? threads : render_default_threads();
+    rt_status status = session_run_deep(session, explain_scene, &threads);
+    if (status == RT_OK) {
+        *text = text_get(&session->dump);
+    }
+    return status;
 }

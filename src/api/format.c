@@ -9,7 +9,7 @@
 
 static bool read_all(rt_session *session, Source *source, TextBuffer *text)
 {
-    char block[64 * 1024];
+    char block[8 * 1024];
     ptrdiff_t length;
     while ((length = source_read(source, block, sizeof block)) > 0) {
         text_append_n(text, block, (size_t)length);
@@ -37,6 +37,17 @@ static bool lay_out(rt_session *session, Source *source, const TextBuffer *text)
     return fine;
 }
 
+typedef struct LayOut {
+    Source *source;
+    const TextBuffer *text;
+} LayOut;
+
+static rt_status run_lay_out(rt_session *session, void *argument)
+{
+    const LayOut *job = argument;
+    return lay_out(session, job->source, job->text) ? RT_OK : session_status(session, false);
+}
+
 // Reads the file into `text`, and opens that again as *source, so that it need not be read twice.
 static bool open_text(rt_session *session, const char *path, TextBuffer *text, Source **source)
 {
@@ -62,7 +73,8 @@ static bool format_file(rt_session *session, const char *path, size_t *first_dif
 {
     TextBuffer text;
     text_init(&text);
-    bool fine = open_text(session, path, &text, source) && lay_out(session, *source, &text);
+    bool fine = open_text(session, path, &text, source) &&
+                session_run_deep(session, run_lay_out, &(LayOut){*source, &text}) == RT_OK;
     if (fine) {
         const char *laid_out = text_get(&session->dump), *found = text_get(&text);
         size_t i = 0;

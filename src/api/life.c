@@ -435,16 +435,13 @@ static void print_json(const Printer *p, int x, int y, Rgb linear)
 
 // ---- the call
 
-rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)
+typedef struct Pixel {
+    int x, y;
+} Pixel;
+
+static rt_status trace_pixel(rt_session *session, void *argument)
 {
-    text_clear(&session->dump);
-    *text = text_get(&session->dump);
-    if (!session->loaded || x < 0 || y < 0 || x >= session->width || y >= session->height) {
-        return RT_FAULT_USAGE;
-    }
-    if (!session_memory_suffices(session)) {
-        return session_status(session, false);
-    }
+    int x = ((const Pixel *)argument)->x, y = ((const Pixel *)argument)->y;
     Life life = {.more_rays = 0};
     GeometryOptions geometry = {.threads = render_default_threads(), .isa = session->isa};
     Vec3 origin = scene_move_near(&session->scene);
@@ -464,6 +461,20 @@ rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)
     if (!is_traced || session->dump.failed) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory following a ray");
     }
-    *text = text_get(&session->dump);
     return session_status(session, is_traced && !session->dump.failed);
+}
+
+rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)
+{
+    text_clear(&session->dump);
+    *text = text_get(&session->dump);
+    if (!session->loaded || x < 0 || y < 0 || x >= session->width || y >= session->height) {
+        return RT_FAULT_USAGE;
+    }
+    if (!session_memory_suffices(session)) {
+        return session_status(session, false);
+    }
+    rt_status status = session_run_deep(session, trace_pixel, &(Pixel){x, y});
+    *text = text_get(&session->dump);
+    return status;
 }

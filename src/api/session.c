@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "ast/words.h"
+#include "base/stack.h"
 #include "image/image.h"
 #include "render/linear.h"
 #include "render/study.h"
@@ -110,6 +111,31 @@ void rt_session_free(rt_session *session)
     free(session);
 }
 
+// ---- what may nest deep
+
+typedef struct DeepWork {
+    rt_session *session;
+    rt_status (*work)(rt_session *session, void *argument);
+    void *argument;
+    rt_status status;
+} DeepWork;
+
+static void run_deep(void *client)
+{
+    DeepWork *deep = client;
+    deep->status = deep->work(deep->session, deep->argument);
+}
+
+rt_status session_run_deep(rt_session *session, rt_status (*work)(rt_session *session, void *argument), void *argument)
+{
+    DeepWork deep = {session, work, argument, RT_OK};
+    if (!stack_run(run_deep, &deep)) {
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory for a stack of %d MiB", STACK_BYTES >> 20);
+        return session_status(session, false);
+    }
+    return deep.status;
+}
+
 // ---- the scene
 
 // Text that is kept takes memory.
@@ -167,8 +193,9 @@ static void forward_message(void *client, EvalStream stream, const char *text, s
     session_say(session, streams[stream], text, length);
 }
 
-static rt_status load(rt_session *session, Source *source, double start)
+static rt_status load(rt_session *session, void *argument)
 {
+    Source *source = argument;
     EvalOptions options = {
         .sources = session->sources,
         .names = session->names,
@@ -201,11 +228,18 @@ static rt_status load(rt_session *session, Source *source, double start)
         scene_hint_of_view(&session->scene, session->width, session->height, &session->diags);
     }
     fine = fine && session->diags.error_count == 0 && session_load_pictures(session);
-    source_close(source);
     diag_finish(&session->diags);
     session->loaded = fine;
-    session->parse_seconds = session_clock() - start;
     return session_status(session, fine);
+}
+
+// The time from `start` is that of parsing.
+static rt_status load_source(rt_session *session, Source *source, double start)
+{
+    rt_status status = session_run_deep(session, load, source);
+    source_close(source);
+    session->parse_seconds = session_clock() - start;
+    return status;
 }
 
 rt_status rt_load_file(rt_session *session, const char *path)
@@ -218,7 +252,7 @@ rt_status rt_load_file(rt_session *session, const char *path)
     if (!session_open(session, path, &source)) {
         return session_status(session, false);
     }
-    return load(session, source, start);
+    return load_source(session, source, start);
 }
 
 rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length)
@@ -228,7 +262,7 @@ rt_status rt_load_text(rt_session *session, const char *name, const char *text, 
         return RT_FAULT_USAGE;
     }
     Source *source = source_open_text(session->sources, name, text, length);
-    return source ? load(session, source, start) : RT_FAULT_LIMIT;
+    return source ? load_source(session, source, start) : RT_FAULT_LIMIT;
 }
 
 // ---- the picture
@@ -306,9 +340,10 @@ static RenderResult trace_film(rt_session *session, const Prepared *prepared, co
     return render_film(prepared, options, &session->film, &session->statistics, &session->error);
 }
 
-static rt_status render_scene(rt_session *session, int threads)
+static rt_status render_scene(rt_session *session, void *argument)
 {
     double start = session_clock();
+    int threads = *(const int *)argument;
     threads = threads ? threads : render_default_threads();
     session->threads = threads;
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
@@ -407,7 +442,7 @@ rt_status rt_render(rt_session *session, int threads)
         return session_status(session, false);
     }
     Vec3 origin = scene_move_near(&session->scene);
-    status = render_scene(session, threads);
+    status = session_run_deep(session, render_scene, &threads);
     session->is_spent = session->is_last;
     session->loaded = !session->is_spent;
     scene_move_back(&session->scene, origin);

@@ -99,6 +99,10 @@ void session_say(rt_session *session, rt_stream stream, const char *text, size_t
 // Delivers, and turns what was reported into a status: RT_OK when `fine`, else the class of the first error.
 rt_status session_status(rt_session *session, bool fine);
 
+// Calls work(session, argument) where the stack bears all that the limits of nesting allow, whatever the caller's thread
+// has; returns what that returns.
+rt_status session_run_deep(rt_session *session, rt_status (*work)(rt_session *session, void *argument), void *argument);
+
 // Reports what became of writing `path`, and turns it into a status.
 rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error);
 

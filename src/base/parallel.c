@@ -5,6 +5,9 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdlib.h>
+
+#include "base/stack.h"
 
 typedef struct Worker {
     pthread_t thread;
@@ -22,12 +25,12 @@ static void *worker_run(void *argument)
 
 int parallel_run(int threads, void (*work)(void *client, int number), void *client)
 {
-    Worker workers[PARALLEL_THREADS_MAX];
-    int started = 1;
-    while (started < threads && started < PARALLEL_THREADS_MAX) {
+    int most = threads < PARALLEL_THREADS_MAX ? threads : PARALLEL_THREADS_MAX, started = 1;
+    Worker *workers = most > 1 ? malloc((size_t)most * sizeof *workers) : NULL;
+    while (workers && started < most) {
         Worker *worker = &workers[started];
         *worker = (Worker){.work = work, .client = client, .number = started};
-        if (pthread_create(&worker->thread, NULL, worker_run, worker) != 0) {
+        if (!stack_thread(&worker->thread, worker_run, worker)) {
             break;
         }
         started++;
@@ -36,6 +39,7 @@ int parallel_run(int threads, void (*work)(void *client, int number), void *clie
     for (int i = 1; i < started; i++) {
         pthread_join(workers[i].thread, NULL);
     }
+    free(workers);
     return started;
 }
 

@@ -70,11 +70,13 @@ static bool place_write(const ElsewhereJob *job, const Place *place, const char 
 static bool place_draw(const ElsewhereJob *job, const char *scene, const char *picture, Image *image)
 {
     const Options *options = job->options;
-    char log[PATH_MAX], folder[PATH_MAX], detail[256];
+    char log[PATH_MAX], detail[256];
+    char *folder = realpath(job->scene, NULL);
     char **paths = calloc((size_t)job->include_path_count + 1, sizeof *paths);
     ImageError error;
 
-    if (paths == NULL || realpath(job->scene, folder) == NULL) {
+    if (paths == NULL || folder == NULL) {
+        free(folder);
         free(paths);
         return false;
     }
@@ -96,6 +98,7 @@ static bool place_draw(const ElsewhereJob *job, const char *scene, const char *p
     bool is_drawn = povray_run(&run, detail, sizeof detail) &&
                     image_read(picture, (uint64_t)options->width * (uint64_t)options->height, image, &error) == IMAGE_OK;
     unlink(log);
+    free(folder);
     free(paths);
     return is_drawn && image->width == options->width && image->height == options->height;
 }

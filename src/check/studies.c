@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/stat.h>
 
 #include "check/say.h"
@@ -92,16 +93,20 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
     Files files;
     StudyTotal total = {0};
     StudiesResult result = STUDIES_FINE;
-    bool fine = files_open(&files, options->report);
+    Study *study = malloc(sizeof *study);
 
+    if (study == NULL) {
+        say(options, "out of memory");
+        return STUDIES_FAILED;
+    }
+    bool fine = files_open(&files, options->report);
     for (int i = 0; fine && i < options->scene_count && *settings->interrupted == 0; i++) {
-        Study study;
-        if (study_run(&study, options->scenes[i], settings)) {
-            study_say(&study, options->json);
-            study_total_add(&total, &study);
-            fine = files_add(&files, &study);
+        if (study_run(study, options->scenes[i], settings)) {
+            study_say(study, options->json);
+            study_total_add(&total, study);
+            fine = files_add(&files, study);
         } else {
-            say(options, "%s: %s", options->scenes[i], study.fault);
+            say(options, "%s: %s", options->scenes[i], study->fault);
             result = STUDIES_FAILED;
         }
     }
@@ -112,5 +117,6 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
         study_print_total_section(&total, files.page);
     }
     fine = files_close(&files) && fine;
+    free(study);
     return fine ? result : STUDIES_UNWRITTEN;
 }

@@ -139,19 +139,27 @@ static void thread_run(void *client, int number)
 
 ImageStatus png_write(const Image *image, const Encoder *encoder, const AtomicFile *file, ImageError *error)
 {
-    PngWriter writer = {.image = image, .encoder = encoder, .file = file, .error = error};
+    PngWriter *writer = calloc(1, sizeof *writer);
     ImageStatus status = IMAGE_NO_MEMORY;
 
-    writer.strips = png_strips_new(image, encoder);
-    writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning);
-    writer.info = writer.png != NULL ? png_create_info_struct(writer.png) : NULL;
-    if (writer.strips != NULL && writer.info != NULL) {
-        png_set_write_fn(writer.png, &writer, on_write, on_flush);
-        int strips = png_strips_count(writer.strips), threads = encoder->encoding.threads;
-        parallel_run(threads < strips ? threads : strips, thread_run, &writer);
-        status = writer.is_whole ? IMAGE_OK : writer.no_memory ? IMAGE_NO_MEMORY : IMAGE_IO;
+    if (writer == NULL) {
+        return status;
     }
-    png_destroy_write_struct(&writer.png, &writer.info);
-    png_strips_free(writer.strips);
+    writer->image = image;
+    writer->encoder = encoder;
+    writer->file = file;
+    writer->error = error;
+    writer->strips = png_strips_new(image, encoder);
+    writer->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning);
+    writer->info = writer->png != NULL ? png_create_info_struct(writer->png) : NULL;
+    if (writer->strips != NULL && writer->info != NULL) {
+        png_set_write_fn(writer->png, writer, on_write, on_flush);
+        int strips = png_strips_count(writer->strips), threads = encoder->encoding.threads;
+        parallel_run(threads < strips ? threads : strips, thread_run, writer);
+        status = writer->is_whole ? IMAGE_OK : writer->no_memory ? IMAGE_NO_MEMORY : IMAGE_IO;
+    }
+    png_destroy_write_struct(&writer->png, &writer->info);
+    png_strips_free(writer->strips);
+    free(writer);
     return status;
 }

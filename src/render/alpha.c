@@ -5,15 +5,9 @@
 #include "render/alpha.h"
 
 #include "render/camera.h"
-#include "render/shade.h"
+#include "render/scratch.h"
 
 enum { FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES };
-
-// A ray's share of light, by colour, and the one number that counts for alpha: a product of greys.
-typedef struct Through {
-    Rgb colour;
-    double grey;
-} Through;
 
 typedef struct Behind {
     Rgb light;
@@ -27,7 +21,7 @@ static double share_of(double part, double whole)
 
 // What a ray that meets nothing sees of the clear part of what lies around the scene. Before version 3.7 all of it was
 // clear.
-static void meet_nothing(const Prepared *p, Vec3 direction, const Through *through, Behind *behind)
+static void meet_nothing(const Prepared *p, Vec3 direction, const AlphaThrough *through, Behind *behind)
 {
     if (p->is_old) {
         behind->light = rgb_add(behind->light, rgb_mul(through->colour, sky_light(p, direction)));
@@ -43,16 +37,16 @@ static void meet_nothing(const Prepared *p, Vec3 direction, const Through *throu
 
 // Of the rays that a step put on the list, keeps those that go through. Their shares are as if the step's ray had one of
 // 1 before the fog on its way. Fog, the shape left behind and the surface count each by its own grey.
-static void keep_through(const Prepared *p, const ShadeStep *step, Pending *pending, int place, const Through *before,
-                         Through *through)
+static void keep_through(const Prepared *p, const ShadeStep *step, RayStack *stack, int place,
+                         const AlphaThrough *before, AlphaThrough *through)
 {
     int kept = place;
     Rgb fog = step->ray.share;
     Rgb fade = step->at.leaves ? shade_faded(p, step->at.interior, step->at.way) : rgb_grey(1.0);
     Rgb way = rgb_mul(fog, fade);
     double grey = before->grey * rgb_luminance(fog) * rgb_luminance(fade);
-    for (int i = place; i < pending->count; i++) {
-        PendingRay *ray = &pending->rays[i];
+    for (int i = place; i < stack->count; i++) {
+        StackedRay *ray = &stack->rays[i];
         if (ray->closes || ray->opens || ray->start.use == HIDDEN_MIRROR) {
             continue;
         }
@@ -61,42 +55,39 @@ static void keep_through(const Prepared *p, const ShadeStep *step, Pending *pend
         through[kept].colour = rgb_mul(before->colour, ray->share);
         through[kept].grey = grey * rgb_luminance(surface);
         ray->share = rgb_grey(1.0);
-        if (kept != i) {
-            pending->rays[kept] = *ray;
-            inside_copy(&pending->inside[kept], &pending->inside[i]);
-        }
-        kept++;
+        stack->rays[kept++] = *ray;
     }
-    pending->count = kept;
+    stack->count = kept;
 }
 
-static Behind follow(const Prepared *dark, Ray ray)
+static Behind follow(const Prepared *dark, Ray ray, RenderScratch *scratch)
 {
     Behind behind = {rgb_grey(0.0), 0.0};
-    Through through[PENDING_MAX];
-    Pending pending;
+    AlphaThrough *through = scratch->through;
+    RayStack *stack = &scratch->rays;
     RenderStatistics unused = {0};
-    PendingRay first = {
+    StackedRay first = {
         .ray = ray, .start = RAY_START_CAMERA, .share = rgb_grey(1.0), .weight = 1.0, .level = 1, .known = NULL};
-    shade_path_begin(dark, FEATURES, &first, &pending);
-    through[0] = (Through){rgb_grey(1.0), 1.0};
-    while (pending.count > 0) {
+    shade_path_begin(dark, FEATURES, &first, stack);
+    through[0] = (AlphaThrough){rgb_grey(1.0), 1.0};
+    while (stack->count > 0) {
         ShadeStep step;
-        int place = pending.count - 1;
-        Through before = through[place];
-        shade_path_step(dark, FEATURES, &pending, NULL, &unused, &step);
+        int place = stack->count - 1;
+        AlphaThrough before = through[place];
+        shade_path_step(dark, FEATURES, stack, NULL, &unused, &step);
         if (step.is_hit) {
-            keep_through(dark, &step, &pending, place, &before, through);
+            keep_through(dark, &step, stack, place, &before, through);
         } else {
             Rgb fog = step.ray.share;
-            Through rest = {rgb_mul(before.colour, fog), before.grey * rgb_luminance(fog)};
+            AlphaThrough rest = {rgb_mul(before.colour, fog), before.grey * rgb_luminance(fog)};
             meet_nothing(dark, step.ray.ray.direction, &rest, &behind);
         }
     }
     return behind;
 }
 
-void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Rgb *light, double *clear)
+void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Rgb *light, double *clear,
+                RenderScratch *scratch)
 {
     Prepared dark = *p;
     dark.light_count = 0;
@@ -104,7 +95,7 @@ void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, 
         int i = __builtin_ctzll(wanted);
         Ray ray;
         bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
-        Behind behind = is_seen ? follow(&dark, ray) : (Behind){rgb_grey(0.0), 1.0};
+        Behind behind = is_seen ? follow(&dark, ray, scratch) : (Behind){rgb_grey(0.0), 1.0};
         light[i] = rgb_add_scaled(light[i], -1.0, behind.light);
         clear[i] = fmin(fmax(behind.clear, 0.0), 1.0);
     }

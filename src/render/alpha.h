@@ -13,16 +13,17 @@
 #include "render/prepared.h"
 
 // Takes from the light of rays, as the kernel traced them, what is behind the scene, and sets its shares, from 0 to 1.
-void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Rgb *light, double *clear);
+void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Rgb *light, double *clear,
+                RenderScratch *scratch);
 
 // Traces by the scene's kernel; with has_alpha the light is what is not behind the scene, and `clear`, of KERNEL_RAYS
 // numbers, tells the share that is; else those are left as they are.
 static inline void alpha_trace(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                               Rgb *light, double *clear, RenderStatistics *statistics)
+                               Rgb *light, double *clear, RenderScratch *scratch, RenderStatistics *statistics)
 {
-    p->kernel->trace(p, places, streams, wanted, light, statistics);
+    p->kernel->trace(p, places, streams, wanted, light, scratch, statistics);
     if (p->has_alpha) {
-        alpha_part(p, places, wanted, light, clear);
+        alpha_part(p, places, wanted, light, clear, scratch);
     }
 }
 

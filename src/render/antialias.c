@@ -35,6 +35,7 @@ static const Seen seen_nothing = {{0.0, 0.0, 0.0}, 0.0};
 
 typedef struct Batch {
     const Prepared *prepared;
+    RenderScratch *scratch;
     RenderStatistics *counted;
     KernelPlaces places;
     Seen *targets[KERNEL_RAYS]; // to which they are added
@@ -53,7 +54,8 @@ static void batch_flush(Batch *batch)
         batch->places.u[i] = batch->places.u[batch->count - 1];
         batch->places.v[i] = batch->places.v[batch->count - 1];
     }
-    alpha_trace(batch->prepared, &batch->places, NULL, wanted, light, clear, batch->counted);
+    alpha_trace(batch->prepared, &batch->places, NULL, wanted, light, clear, batch->scratch,
+                batch->counted);
     for (int i = 0; i < batch->count; i++) {
         *batch->targets[i] = seen_add_scaled(*batch->targets[i], 1.0, (Seen){light[i], clear[i]});
     }
@@ -339,9 +341,9 @@ static bool tile_by_corners(const AntialiasOptions *options, Tile tile, Film *fi
 }
 
 bool antialias_tile(const Prepared *prepared, const AntialiasOptions *options, Tile tile, Film *film,
-                    RenderStatistics *counted)
+                    RenderScratch *scratch, RenderStatistics *counted)
 {
-    Batch batch = {.prepared = prepared, .counted = counted};
+    Batch batch = {.prepared = prepared, .scratch = scratch, .counted = counted};
     return options->method == 1 ? tile_by_neighbours(options, tile, film, &batch)
                                 : tile_by_corners(options, tile, film, &batch);
 }

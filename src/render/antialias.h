@@ -12,6 +12,6 @@
 
 // The pixels of a tile of at most TILE_SIZE a side, into the film. False when out of memory.
 bool antialias_tile(const Prepared *prepared, const AntialiasOptions *options, Tile tile, Film *film,
-                    RenderStatistics *counted) RT_MUST_CHECK;
+                    RenderScratch *scratch, RenderStatistics *counted) RT_MUST_CHECK;
 
 #endif

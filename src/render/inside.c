@@ -22,35 +22,42 @@ static void go_through(const Prepared *prepared, Ray *ray, RayStart *start, cons
 }
 
 // Below all others with an interior; what has none is below all of those, for it does not count as what the ray is in.
-static void put_below(Inside *inside, InsideEntry entry)
+static void put_below(MediumList *list, MediumRegion region)
 {
     uint32_t place = 0;
-    while (entry.interior != RECORD_NONE && place < inside->count && inside->entries[place].interior == RECORD_NONE) {
+    while (region.interior != RECORD_NONE && place < list->count && list->regions[place].interior == RECORD_NONE) {
         place++;
     }
-    if (inside->count < INSIDE_MAX) {
-        for (uint32_t i = inside->count++; i > place; i--) {
-            inside->entries[i] = inside->entries[i - 1];
+    if (list->count < MEDIUM_DEPTH_MAX) {
+        for (uint32_t i = list->count++; i > place; i--) {
+            list->regions[i] = list->regions[i - 1];
         }
-        inside->entries[place] = entry;
+        list->regions[place] = region;
     }
 }
 
-static bool holds(const Inside *inside, uint64_t body)
+// The place of a body, or the count when it is not there.
+static uint32_t place_of(const MediumList *list, uint64_t body)
 {
-    for (uint32_t i = 0; i < inside->count; i++) {
-        if (inside->entries[i].body == body) {
-            return true;
-        }
+    uint32_t place = 0;
+    while (place < list->count && list->regions[place].body != body) {
+        place++;
     }
-    return false;
+    return place;
+}
+
+static void list_remove(MediumList *list, uint32_t place)
+{
+    for (list->count--; place < list->count; place++) {
+        list->regions[place] = list->regions[place + 1];
+    }
 }
 
 // What is left along one way from the point, put below what is known already.
-static void walk(const Prepared *prepared, Ray ray, Inside *inside)
+static void walk(const Prepared *prepared, Ray ray, MediumList *list)
 {
     RayStart start = RAY_START_FREE;
-    Inside entered = {.count = 0};
+    MediumList entered = {.count = 0};
     Hit hit;
     for (uint64_t passed = 0; passed <= prepared->crossings_max; passed++) {
         uint64_t body;
@@ -63,28 +70,41 @@ static void walk(const Prepared *prepared, Ray ray, Inside *inside)
             material & MATERIAL_COMPOUND ? prepared->compounds[material & ~MATERIAL_COMPOUND].interior : RECORD_NONE;
         bool is_solid = prepared->scene->fogs.count > 0 && !scene_is_hollow(prepared->scene, material) &&
                         !geometry_is_flat(prepared->geometry, hit.shape);
-        if (!hit.inside) {
-            inside_enter(&entered, body, interior, is_solid);
-        } else if (holds(&entered, body)) {
-            (void)inside_leave(&entered, body);
-        } else if ((interior != RECORD_NONE || is_solid) && !holds(inside, body)) {
+        MediumRegion region = {body, interior, is_solid};
+        uint32_t place = place_of(&entered, body);
+        if (!hit.inside && entered.count < MEDIUM_DEPTH_MAX) {
+            entered.regions[entered.count++] = region;
+        } else if (hit.inside && place < entered.count) {
+            list_remove(&entered, place);
+        } else if (hit.inside && (interior != RECORD_NONE || is_solid) && place_of(list, body) == list->count) {
             // Other shapes change nothing here: rays that start inside of them are in empty space.
-            put_below(inside, (InsideEntry){body, interior, is_solid});
+            put_below(list, region);
         }
     }
 }
 
 // Both ways, for an endless shape is left on one of them only. Each member of a union counts here, even where they are
 // one. Measured.
-void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside)
+void prepared_inside(const Prepared *prepared, Vec3 point, MediumList *list)
 {
-    inside->count = 0;
+    list->count = 0;
     if (prepared->scene->interiors.count > 0 || prepared->scene->fogs.count > 0) {
-        walk(prepared, (Ray){point, odd_direction}, inside);
-        walk(prepared, (Ray){point, vec3_neg(odd_direction)}, inside);
-        for (uint32_t i = 0; i < inside->count; i++) {
-            uint64_t *body = &inside->entries[i].body;
+        walk(prepared, (Ray){point, odd_direction}, list);
+        walk(prepared, (Ray){point, vec3_neg(odd_direction)}, list);
+        for (uint32_t i = 0; i < list->count; i++) {
+            uint64_t *body = &list->regions[i].body;
             *body = scene_shape_is_key(*body) ? scene_body_key(prepared->scene, (uint32_t)*body, 0) : *body;
         }
     }
+}
+
+MediumStack prepared_start(const Prepared *prepared, Vec3 origin, MediumTable *table)
+{
+    const PreparedCamera *camera = &prepared->camera;
+    MediumList own;
+    if (camera->type != CAMERA_ORTHOGRAPHIC && camera->lens_radius == 0.0) {
+        return medium_load(table, &prepared->start);
+    }
+    prepared_inside(prepared, origin, &own);
+    return medium_load(table, &own);
 }

@@ -44,13 +44,16 @@ typedef struct KernelPlaces {
     const Vec3 *lens; // where they start, KERNEL_RAYS of them; NULL: at the camera's location
 } KernelPlaces;
 
+// What a thread works in (render/scratch.h).
+typedef struct RenderScratch RenderScratch;
+
 typedef struct Kernel {
     const char *name;
     unsigned features;
     // The light of those of KERNEL_RAYS camera rays whose bit is set in `wanted`; the others have places, too.
     // `streams` are what each draws numbers from, or NULL: then area lights are the scene's grids. Counts are added.
     void (*trace)(const Prepared *prepared, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                  Rgb *light, RenderStatistics *statistics);
+                  Rgb *light, RenderScratch *scratch, RenderStatistics *statistics);
 } Kernel;
 
 // The kernel with the fewest features that has all of these; the last one has all there are.

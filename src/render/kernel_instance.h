@@ -8,53 +8,58 @@
 #include "render/camera.h"
 #include "render/kernels.h"
 #include "render/prepared.h"
-#include "render/shade_tile.h"
+#include "render/scratch.h"
 
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
 
 // The rays of a view, ray by ray but for what they hit.
 RT_ALWAYS_INLINE void trace_view(const Prepared *p, unsigned features, ShadePath path, const TileView *view,
                                  const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
-                                 RenderStatistics *statistics)
+                                 RenderScratch *scratch, RenderStatistics *statistics)
 {
-    SphereTile tile;
+    SphereTile *tile = &scratch->tile.rays;
     TileHits found;
-    geometry_closest_view(p->geometry, features, view, places->u, places->v, &tile, &found);
+    geometry_closest_view(p->geometry, features, view, places->u, places->v, tile, &found);
     for (; wanted; wanted &= wanted - 1) {
         unsigned i = (unsigned)__builtin_ctzll(wanted);
-        SphereRay ray = sphere_tile_ray(&tile, i);
+        SphereRay ray = sphere_tile_ray(tile, i);
         Hit hit = {found.t[i], found.shape[i], found.inside >> i & 1};
         light[i] = shade_ray(p, features, path, (Ray){ray.origin, ray.direction}, &hit, streams ? &streams[i] : NULL,
-                             statistics);
+                             &scratch->rays, statistics);
     }
 }
 
 // Rays of other cameras, each by itself.
 RT_ALWAYS_INLINE void trace_single(const Prepared *p, unsigned features, ShadePath path, const KernelPlaces *places,
-                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
+                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderScratch *scratch,
+                                   RenderStatistics *statistics)
 {
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
         Ray ray;
         bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
-        light[i] = is_seen ? shade_ray(p, features, path, ray, NULL, streams ? &streams[i] : NULL, statistics)
-                           : rgb_grey(0.0);
+        light[i] = rgb_grey(0.0);
+        if (is_seen) {
+            SampleStream *stream = streams ? &streams[i] : NULL;
+            light[i] = shade_ray(p, features, path, ray, NULL, stream, &scratch->rays, statistics);
+        }
     }
 }
 
 RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePath path, const KernelPlaces *places,
-                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
+                                   SampleStream *streams, uint64_t wanted, Rgb *light, RenderScratch *scratch,
+                                   RenderStatistics *statistics)
 {
     const PreparedCamera *camera = &p->camera;
     TileView view = {camera->location, camera->direction, camera->right, camera->up};
     RenderStatistics counted = *statistics;
     counted.camera_rays += (uint64_t)__builtin_popcountll(wanted);
     if (camera->type != CAMERA_PERSPECTIVE || places->lens) {
-        trace_single(p, features, path, places, streams, wanted, light, &counted);
+        trace_single(p, features, path, places, streams, wanted, light, scratch, &counted);
     } else if (!shade_tile_may(p, features)) {
-        trace_view(p, features, path, &view, places, streams, wanted, light, &counted);
+        trace_view(p, features, path, &view, places, streams, wanted, light, scratch, &counted);
     } else {
-        shade_tile(p, features, &view, places, streams, wanted, light, &counted);
+        shade_tile(p, features, &view, places, streams, wanted, light, &scratch->tile, &counted);
     }
     *statistics = counted;
 }
@@ -69,16 +74,16 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
 #define SHADING_CLEAR (SHADING_OPAQUE | RENDER_TRANSPARENCY)
 
 #define DEFINE_KERNEL(name, text, geometry, shading)                                                                   \
-    static __attribute__((noinline)) Rgb path_##name(const Prepared *p, Pending *pending, SampleStream *stream,        \
+    static __attribute__((noinline)) Rgb path_##name(const Prepared *p, RayStack *stack, SampleStream *stream,         \
                                                      RenderStatistics *statistics)                                     \
     {                                                                                                                  \
-        return shade_pending(p, (unsigned)(geometry) | (unsigned)(shading), pending, stream, statistics);              \
+        return shade_stack(p, (unsigned)(geometry) | (unsigned)(shading), stack, stream, statistics);                  \
     }                                                                                                                  \
     static void trace_##name(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,    \
-                             Rgb *light, RenderStatistics *statistics)                                                 \
+                             Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)                         \
     {                                                                                                                  \
         trace_places(p, (unsigned)(geometry) | (unsigned)(shading), path_##name, places, streams, wanted, light,       \
-                     statistics);                                                                                      \
+                     scratch, statistics);                                                                             \
     }
 #define LIST_KERNEL(name, text, geometry, shading) {text, (unsigned)(geometry) | (unsigned)(shading), trace_##name},
 

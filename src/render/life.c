@@ -6,7 +6,7 @@
 #include <float.h>
 
 #include "render/camera.h"
-#include "render/shade.h"
+#include "render/scratch.h"
 #include "scene/part.h"
 
 enum {
@@ -119,7 +119,7 @@ static LifeSphere stretched(const Follower *follower, Ray object, const StartSph
     return sphere;
 }
 
-static void follow_ellipsoid(Follower *follower, LifeRay *ray, const PendingRay *now, uint32_t index, bool is_of_few)
+static void follow_ellipsoid(Follower *follower, LifeRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
 {
     const EllipsoidEntry *entry = &follower->p->geometry->ellipsoids[index];
     const Scene *scene = follower->p->scene;
@@ -146,7 +146,7 @@ static bool is_round(const Transform *m)
 }
 
 // Spheres that are cut, or that not all rays see: what their roots lead to is decided with the rest of the composite.
-static void follow_part(Follower *follower, LifeRay *ray, const PendingRay *now, uint32_t index, bool is_of_few)
+static void follow_part(Follower *follower, LifeRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
 {
     const Solid *solid = &follower->p->geometry->shapes.solids[index];
     const StartSphere none = {SLOT_NONE, false, {{0.0, 0.0, 0.0}, (double)NAN}};
@@ -169,7 +169,7 @@ static void follow_part(Follower *follower, LifeRay *ray, const PendingRay *now,
 }
 
 // Spheres that the line meets, or all of a few.
-static void follow_spheres(Follower *follower, LifeRay *ray, const PendingRay *now)
+static void follow_spheres(Follower *follower, LifeRay *ray, const StackedRay *now)
 {
     const Geometry *g = follower->p->geometry;
     const SphereTable *table = &g->spheres;
@@ -339,7 +339,7 @@ static void follow_surface(Follower *follower, const ShadePoint *at)
 // ---- the way
 
 // What a ray is that a step put on the list.
-static LifeKind child_kind(const ShadeStep *step, const PendingRay *child)
+static LifeKind child_kind(const ShadeStep *step, const StackedRay *child)
 {
     Vec3 bent;
     bool has_bend = step->at.ior_ratio != 1.0;
@@ -353,7 +353,7 @@ static LifeKind child_kind(const ShadeStep *step, const PendingRay *child)
 static void follow_hit(Follower *follower, const ShadeStep *step, LifeRay *ray)
 {
     const ShadePoint *at = &step->at;
-    const PendingRay *now = &step->ray;
+    const StackedRay *now = &step->ray;
     Hit hit = {.t = 0.0};
     ray->is_hit =
         geometry_closest(follower->p->geometry, TRACE_ALL_FEATURES, now->ray, now->start, (double)INFINITY, &hit);
@@ -371,7 +371,7 @@ static void follow_hit(Follower *follower, const ShadeStep *step, LifeRay *ray)
 static void follow_step(Follower *follower, const ShadeStep *step, int parent, LifeKind kind)
 {
     Life *life = follower->life;
-    const PendingRay *now = &step->ray;
+    const StackedRay *now = &step->ray;
     if (life->rays.count >= RAYS_MOST) {
         life->more_rays++;
         return;
@@ -402,7 +402,7 @@ bool life_trace(Life *life, const Prepared *prepared, int width, int height, int
     *life = (Life){.more_rays = 0};
     Follower follower = {.life = life, .p = prepared, .scale = prepared->textures.scale};
     double u = (x + 0.5) / width - 0.5, v = (y + 0.5) / height - 0.5;
-    PendingRay first = {.start = RAY_START_CAMERA, .share = rgb_grey(1.0), .weight = 1.0, .level = 1};
+    StackedRay first = {.start = RAY_START_CAMERA, .share = rgb_grey(1.0), .weight = 1.0, .level = 1};
     if (!camera_ray(&prepared->camera, u, v, &first.ray)) {
         return true;
     }
@@ -413,28 +413,33 @@ bool life_trace(Life *life, const Prepared *prepared, int width, int height, int
                  : camera->type == CAMERA_ORTHOGRAPHIC ? camera->direction
                                                        : first.ray.direction;
     life->screen = vec3_add(life->eye, ahead);
-    Pending pending;
+    RenderScratch *scratch = scratch_new();
+    if (!scratch) {
+        return false;
+    }
+    RayStack *stack = &scratch->rays;
     RenderStatistics unused = {0};
-    int parents[PENDING_MAX] = {LIFE_NONE};
-    LifeKind kinds[PENDING_MAX] = {LIFE_CAMERA};
-    shade_path_begin(prepared, FEATURES, &first, &pending);
-    while (pending.count > 0 && !follower.failed) {
+    int parents[RAY_STACK_MAX] = {LIFE_NONE};
+    LifeKind kinds[RAY_STACK_MAX] = {LIFE_CAMERA};
+    shade_path_begin(prepared, FEATURES, &first, stack);
+    while (stack->count > 0 && !follower.failed) {
         ShadeStep step;
-        int place = pending.count - 1;
+        int place = stack->count - 1;
         int parent = parents[place];
         LifeKind kind = kinds[place];
-        shade_path_step(prepared, FEATURES, &pending, NULL, &unused, &step);
+        shade_path_step(prepared, FEATURES, stack, NULL, &unused, &step);
         if (step.ray.closes) {
             continue;
         }
         int number = (int)life->rays.count;
         follow_step(&follower, &step, parent, kind);
-        for (int i = place; i < pending.count; i++) {
+        for (int i = place; i < stack->count; i++) {
             parents[i] = number;
-            kinds[i] = child_kind(&step, &pending.rays[i]);
+            kinds[i] = child_kind(&step, &stack->rays[i]);
         }
     }
-    life->colour = pending.sums[0];
+    life->colour = stack->sums[0];
+    scratch_free(scratch);
     return !follower.failed;
 }
 

@@ -11,6 +11,7 @@
 #include "math/vec3.h"
 #include "render/inside.h"
 #include "render/kernel.h"
+#include "render/medium.h"
 #include "render/render.h"
 #include "render/texture.h"
 #include "scene/scene.h"
@@ -73,7 +74,7 @@ struct Prepared {
     PreparedFinish *finishes;
     size_t finish_count;
     const Scene *scene;
-    Inside start; // what the eye is inside of; orthographic: of no use
+    MediumList start; // what the eye is inside of; orthographic: of no use
     int max_trace_level;
     double adc_bailout;
     uint64_t crossings_max; // no line meets more surfaces
@@ -84,6 +85,9 @@ struct Prepared {
 };
 
 // What a ray that starts at a point of prepared space is inside of, the outermost first.
-void prepared_inside(const Prepared *prepared, Vec3 point, Inside *inside);
+void prepared_inside(const Prepared *prepared, Vec3 point, MediumList *list);
+
+// The same of a camera ray, as all that a table holds.
+MediumStack prepared_start(const Prepared *prepared, Vec3 origin, MediumTable *table);
 
 #endif

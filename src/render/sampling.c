@@ -45,6 +45,7 @@ typedef struct Sampling {
     double round_pixels;   // that take part, if anybody asks
     double round_seconds;  // predicted of this round
     double later_seconds;  // and of those after it
+    RenderResult result;   // of the last round
 } Sampling;
 
 static double clock_seconds(void)
@@ -86,13 +87,13 @@ static void forward_progress(void *client, double done)
     s->options->progress(s->options->client, &progress);
 }
 
-static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
+static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
     const Sampling *s = client;
     if (s->round.is_corners) {
-        round_trace_corners(&s->round, tile, counted);
+        round_trace_corners(&s->round, tile, scratch, counted);
     } else {
-        round_trace(&s->round, tile, counted);
+        round_trace(&s->round, tile, scratch, counted);
     }
 }
 
@@ -117,7 +118,8 @@ static bool trace_round(Sampling *s)
     int more = s->round.is_corners ? 1 : 0; // there are more corners than pixels
     TileWork work = {s, s->film->width + more, s->film->height + more, trace_tile,
                      s->options->progress ? forward_progress : NULL};
-    bool is_whole = tiles_run(&work, s->options, s->statistics);
+    s->result = tiles_run(&work, s->options, s->statistics);
+    bool is_whole = s->result == RENDER_OK;
     s->round_end = clock_seconds();
     if (is_whole) {
         s->sample_seconds = (s->round_end - start) / s->round_samples;
@@ -224,16 +226,9 @@ static bool run_alike(Sampling *s, uint32_t all)
 static bool run_pilot(Sampling *s)
 {
     Round *round = &s->round;
-    *round = (Round){.prepared = round->prepared,
-                     .sampling = round->sampling,
-                     .film = round->film,
-                     .filter = round->filter,
-                     .draws_more = round->draws_more,
-                     .corners = s->corners,
-                     .count = 1,
-                     .has_corners = true,
-                     .is_corners = true,
-                     .is_pilot = true};
+    round->corners = s->corners;
+    round->count = 1;
+    round->has_corners = round->is_corners = round->is_pilot = true;
     s->round_samples = s->estimate.corners = (s->film->width + 1.0) * (s->film->height + 1.0);
     predict(s);
     if (!trace_round(s)) {
@@ -355,11 +350,11 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->statistics = statistics;
     s->error = error;
     s->start = s->round_end = clock_seconds();
-    s->round = (Round){.prepared = prepared,
-                       .sampling = wanted,
-                       .film = film,
-                       .draws_more = draws_more(prepared),
-                       .judges_some = judges_some(wanted, film)};
+    s->round.prepared = prepared;
+    s->round.sampling = wanted;
+    s->round.film = film;
+    s->round.draws_more = draws_more(prepared);
+    s->round.judges_some = judges_some(wanted, film);
     estimate_begin(&s->estimate, &s->round);
     filter_init(&s->round.filter, wanted->filter);
     if (s->corners && !run_pilot(s)) {
@@ -373,6 +368,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
             error->samples = 0.0; // no picture
         }
     }
+    RenderResult result = s->result;
     sampling_free(s);
-    return is_whole ? RENDER_OK : RENDER_CANCELLED;
+    return result;
 }

@@ -12,6 +12,7 @@
 #include "render/render.h"
 #include "render/sampler_many.h"
 #include "render/sobol.h"
+#include "render/tiles.h"
 
 RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options, Film *film,
                           RenderStatistics *statistics, SamplingError *error) RT_MUST_CHECK;
@@ -61,11 +62,33 @@ static inline bool round_has(const Round *round, size_t pixel)
 // The samples that a pixel gets in a round.
 uint32_t round_samples(const Round *round, size_t pixel);
 
+// A pixel that takes part.
+typedef struct ChosenPixel {
+    int x, y;
+    size_t index;
+    uint32_t count; // samples that it gets
+    bool starts;    // anew
+    bool is_judged; // its samples are to tell of its error
+} ChosenPixel;
+
+// Sums over the halves of a pixel's new samples; over their quarters where the pixel starts.
+typedef struct SampleSums {
+    Rgb sum[START_SAMPLES];
+    Rgb squares;  // over all
+    double clear; // the same of the shares of what is behind the scene; with has_alpha
+} SampleSums;
+
+// What a thread needs for a tile.
+typedef struct RoundScratch {
+    ChosenPixel chosen[TILE_SIZE * TILE_SIZE];
+    SampleSums sums[TILE_SIZE * TILE_SIZE];
+} RoundScratch;
+
 // Traces the rays through the corners of pixels: a tile of the picture that these make.
-void round_trace_corners(const Round *round, Tile tile, RenderStatistics *counted);
+void round_trace_corners(const Round *round, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
 
 // Traces the samples of a tile's pixels.
-void round_trace(const Round *round, Tile tile, RenderStatistics *counted);
+void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
 
 // ---- sampling_estimate.c: figures
 

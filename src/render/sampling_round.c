@@ -5,24 +5,15 @@
 #include "render/alpha.h"
 #include "render/camera.h"
 #include "render/linear.h"
-#include "render/sampling.h"
+#include "render/scratch.h"
 #include "render/tiles.h"
-
-enum { TILE_PIXELS = TILE_SIZE * TILE_SIZE };
 
 // So that rays through corners draw other numbers than the samples of their pixel.
 static const uint32_t CORNER_SEED = UINT32_C(0x9e3779b9);
 
-// Sums over the halves of a pixel's new samples; over their quarters where the pixel starts.
-typedef struct Parts {
-    Rgb sum[START_SAMPLES];
-    Rgb squares; // over all
-    double clear; // the same of the shares of what is behind the scene; with has_alpha
-} Parts;
-
 // Samples of a batch on end that go into one sum.
 typedef struct Run {
-    Parts *parts;
+    SampleSums *parts;
     uint32_t which; // of parts->sum
     int end;
 } Run;
@@ -41,16 +32,8 @@ typedef struct Batch {
     int run_count;
     bool draws;   // whether anything but the place in the pixel is drawn from the streams
     bool is_box;  // all weights are 1
+    RenderScratch *scratch;
 } Batch;
-
-// A pixel that takes part.
-typedef struct Chosen {
-    int x, y;
-    size_t index;
-    uint32_t count; // samples that it gets
-    bool starts;    // anew
-    bool is_judged; // its samples are to tell of its error
-} Chosen;
 
 uint32_t round_samples(const Round *round, size_t pixel)
 {
@@ -61,10 +44,11 @@ uint32_t round_samples(const Round *round, size_t pixel)
     return round->count > 0 ? round->count - count : round_starts(round, count) ? START_SAMPLES : count;
 }
 
-static void batch_init(Batch *batch, const Round *round)
+static void batch_init(Batch *batch, const Round *round, RenderScratch *scratch)
 {
     const Prepared *p = round->prepared;
     bool has_lens = p->camera.lens_radius > 0.0;
+    batch->scratch = scratch;
     batch->count = batch->run_count = 0;
     batch->is_box = round->filter.kind == FILTER_BOX;
     batch->places.lens = has_lens ? batch->lens : NULL;
@@ -74,12 +58,13 @@ static void batch_init(Batch *batch, const Round *round)
 static void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted)
 {
     const Prepared *p = round->prepared;
-    alpha_trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, batch->clear, counted);
+    alpha_trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, batch->clear,
+                batch->scratch, counted);
 }
 
 static void run_add(const Round *round, const Batch *batch, const Run *run, int begin)
 {
-    Parts *parts = run->parts;
+    SampleSums *parts = run->parts;
     Rgb sum = parts->sum[run->which];
     for (int i = begin; i < run->end; i++) {
         Rgb light = batch->is_box ? batch->light[i] : rgb_scale(batch->weights[i], batch->light[i]);
@@ -140,13 +125,13 @@ static void batch_flush(const Round *round, Batch *batch, RenderStatistics *coun
     batch->count = batch->run_count = 0;
 }
 
-static void batch_begin_run(Batch *batch, Parts *parts, uint32_t which, int end)
+static void batch_begin_run(Batch *batch, SampleSums *parts, uint32_t which, int end)
 {
     batch->runs[batch->run_count++] = (Run){parts, which, end};
 }
 
 // Puts `count` >= 1 new samples of a pixel, the first of which is number `begin`, into runs.
-static void batch_add_runs(Batch *batch, const Chosen *pixel, Parts *parts, uint32_t begin, uint32_t count)
+static void batch_add_runs(Batch *batch, const ChosenPixel *pixel, SampleSums *parts, uint32_t begin, uint32_t count)
 {
     uint32_t half = (pixel->count + 1) / 2;
     int first = batch->count;
@@ -166,8 +151,8 @@ static void batch_add_runs(Batch *batch, const Chosen *pixel, Parts *parts, uint
 }
 
 // Some samples of a pixel; there is room for them. `stream` is that of the first, which is `begin` among the new ones.
-static void batch_add(Batch *batch, const Chosen *pixel, const SampleStream *stream, uint32_t begin, uint32_t count,
-                      Parts *parts)
+static void batch_add(Batch *batch, const ChosenPixel *pixel, const SampleStream *stream, uint32_t begin, uint32_t count,
+                      SampleSums *parts)
 {
     batch_add_runs(batch, pixel, parts, begin, count);
     for (uint32_t j = 0; j < count; j++) {
@@ -185,7 +170,7 @@ static uint32_t pixel_seed(const Round *round, int x, int y)
     return sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y));
 }
 
-static void pixel_add(const Round *round, Batch *batch, const Chosen *pixel, Parts *parts, RenderStatistics *counted)
+static void pixel_add(const Round *round, Batch *batch, const ChosenPixel *pixel, SampleSums *parts, RenderStatistics *counted)
 {
     uint32_t before = pixel->starts ? 0 : round->film->records[pixel->index].count, count = pixel->count;
     SampleStream stream = {.kind = round->sampling->sampler,
@@ -224,13 +209,13 @@ static void value_put(float *value, Rgb light)
 }
 
 // The mean of the shares with those that were there before, if any.
-static void clear_put(float *clear, double before, uint32_t count, const Parts *parts)
+static void clear_put(float *clear, double before, uint32_t count, const SampleSums *parts)
 {
     *clear = (float)fmin(fmax((before * (double)*clear + parts->clear) / (before + count), 0.0), 1.0);
 }
 
 // The spread of new samples.
-static inline double spread_of(const Parts *parts, Rgb mean, const Rgb *slope, double count)
+static inline double spread_of(const SampleSums *parts, Rgb mean, const Rgb *slope, double count)
 {
     Rgb square = rgb_add_scaled(rgb_scale(1.0 / count, parts->squares), -1.0, rgb_mul(mean, mean));
     Rgb own = slope ? rgb_mul(square, rgb_mul(*slope, *slope)) : square;
@@ -251,7 +236,7 @@ static inline const Rgb *slope_at(const Round *round, const float *value, Rgb *p
 
 // A pixel that had its corners only, which are left out of its mean. How far the two are apart is kept for
 // sampling_pilot.c.
-static void pixel_start(const Round *round, size_t pixel, const Parts *parts)
+static void pixel_start(const Round *round, size_t pixel, const SampleSums *parts)
 {
     PixelRecord *record = &round->film->records[pixel];
     float *value = &round->film->rgb[3 * pixel];
@@ -298,7 +283,7 @@ static void shares_set(const Round *round, Shares *shares, uint32_t had, uint32_
 
 // What the samples of a pixel say of its error; `old` and `mean` are the means of those that it had and of the new. It is
 // the cost of the estimate, so each caller's `slope` makes a copy of its own.
-RT_ALWAYS_INLINE void pixel_judge_by(const Round *round, const Shares *shares, PixelRecord *record, const Parts *parts,
+RT_ALWAYS_INLINE void pixel_judge_by(const Round *round, const Shares *shares, PixelRecord *record, const SampleSums *parts,
                                      Rgb old, Rgb mean, const Rgb *slope)
 {
     Rgb apart = rgb_add_scaled(rgb_scale(shares->first, parts->sum[0]), -shares->second, parts->sum[1]);
@@ -316,7 +301,7 @@ RT_ALWAYS_INLINE void pixel_judge_by(const Round *round, const Shares *shares, P
     record->outer = outer;
 }
 
-static inline void pixel_judge(const Round *round, const Shares *shares, size_t pixel, const Parts *parts, Rgb old,
+static inline void pixel_judge(const Round *round, const Shares *shares, size_t pixel, const SampleSums *parts, Rgb old,
                                Rgb mean)
 {
     PixelRecord *record = &round->film->records[pixel];
@@ -328,7 +313,7 @@ static inline void pixel_judge(const Round *round, const Shares *shares, size_t 
     }
 }
 
-static inline void pixel_finish(const Round *round, Shares *shares, const Chosen *chosen, const Parts *parts)
+static inline void pixel_finish(const Round *round, Shares *shares, const ChosenPixel *chosen, const SampleSums *parts)
 {
     size_t pixel = chosen->index;
     PixelRecord *record = &round->film->records[pixel];
@@ -353,7 +338,7 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
 }
 
 // The pixels of a block that take part.
-static Chosen *block_choose(const Round *round, Tile block, Chosen *chosen)
+static ChosenPixel *block_choose(const Round *round, Tile block, ChosenPixel *chosen)
 {
     const Film *film = round->film;
     bool has_estimate = !round->sampling->has_no_estimate;
@@ -366,33 +351,33 @@ static Chosen *block_choose(const Round *round, Tile block, Chosen *chosen)
             if (count > 0) {
                 uint32_t had = film->records[begin + (size_t)x].count;
                 is_judged = is_whole ? is_judged : has_estimate && round_judges(round, x, y);
-                *chosen++ = (Chosen){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged};
+                *chosen++ = (ChosenPixel){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged};
             }
         }
     }
     return chosen;
 }
 
-void round_trace(const Round *round, Tile tile, RenderStatistics *counted)
+void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
-    Chosen chosen[TILE_PIXELS], *end = chosen;
-    Parts parts[TILE_PIXELS];
+    ChosenPixel *chosen = scratch->round.chosen, *end = chosen;
+    SampleSums *parts = scratch->round.sums;
     Shares shares = {0};
     Batch batch;
-    batch_init(&batch, round);
+    batch_init(&batch, round, scratch);
     // Blocks of pixels, so that rays of one call stay near each other.
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
             end = block_choose(round, tile_block(tile, left, top), end);
         }
     }
-    for (const Chosen *pixel = chosen; pixel < end; pixel++) {
-        Parts *sums = &parts[pixel - chosen];
-        *sums = (Parts){.squares = rgb_grey(0.0)};
+    for (const ChosenPixel *pixel = chosen; pixel < end; pixel++) {
+        SampleSums *sums = &parts[pixel - chosen];
+        *sums = (SampleSums){.squares = rgb_grey(0.0)};
         pixel_add(round, &batch, pixel, sums, counted);
     }
     batch_flush(round, &batch, counted);
-    for (const Chosen *pixel = chosen; pixel < end; pixel++) {
+    for (const ChosenPixel *pixel = chosen; pixel < end; pixel++) {
         pixel_finish(round, &shares, pixel, &parts[pixel - chosen]);
     }
 }
@@ -420,10 +405,10 @@ static void block_corners(const Round *round, Tile block, Batch *batch, RenderSt
     }
 }
 
-void round_trace_corners(const Round *round, Tile tile, RenderStatistics *counted)
+void round_trace_corners(const Round *round, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
     Batch batch;
-    batch_init(&batch, round);
+    batch_init(&batch, round, scratch);
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
             block_corners(round, tile_block(tile, left, top), &batch, counted);

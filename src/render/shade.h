@@ -42,7 +42,7 @@ RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *mater
     if (!(features & RENDER_REFLECTION) || !material->finish->reflects) {
         return false;
     }
-    double ratio = at->before ? at->fresnel_ratio : 1.0;
+    double ratio = at->media ? at->fresnel_ratio : 1.0;
     *reflectance = shade_reflectance(features, material, -vec3_dot(at->normal, at->direction), ratio);
     return true;
 }
@@ -153,7 +153,7 @@ RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const S
 }
 
 // Finds what a ray hits; false when it meets nothing.
-RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const PendingRay *now, SampleStream *stream,
+RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const StackedRay *now, SampleStream *stream,
                                  ShadePoint *at)
 {
     Hit hit = {.shape = SHAPE_NONE};
@@ -184,17 +184,10 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Pen
     return true;
 }
 
-// No ray waits, and no light has come.
-RT_ALWAYS_INLINE void pending_begin(Pending *pending)
-{
-    pending->count = pending->open = 0;
-    pending->sums[0] = rgb_grey(0.0);
-}
-
 // Adds a ray's light to the sum that is open.
-RT_ALWAYS_INLINE void pending_add(Pending *pending, const PendingRay *ray, Rgb light)
+RT_ALWAYS_INLINE void ray_stack_add(RayStack *stack, const StackedRay *ray, Rgb light)
 {
-    Rgb *sum = &pending->sums[pending->open];
+    Rgb *sum = &stack->sums[stack->open];
     *sum = rgb_add(*sum, rgb_mul(ray->share, light));
 }
 
@@ -204,46 +197,43 @@ RT_ALWAYS_INLINE Rgb shade_miss(const Prepared *p, unsigned features, Vec3 direc
     return features & RENDER_SKY ? sky_light(p, direction) : p->background;
 }
 
-// Fog on the way of a ray that is inside of `before`: what it adds, which is returned, is added, and what lies behind
-// it will be dimmed.
-RT_ALWAYS_INLINE Rgb shade_fog(const Prepared *p, double way, const Inside *before, PendingRay *ray, Pending *pending)
+// Fog on the way of a ray: what it adds, which is returned, is added, and what lies behind it will be dimmed.
+RT_ALWAYS_INLINE Rgb shade_fog(const Prepared *p, double way, StackedRay *ray, RayStack *stack)
 {
-    if (inside_is_solid(before)) {
+    if (stack->media.nodes[ray->inside].is_in_solid) {
         return rgb_grey(0.0);
     }
     FogShare fog = fog_between(p, &ray->ray, way);
     Rgb adds = rgb_mul(ray->share, fog.own);
-    pending_add(pending, ray, fog.own);
+    ray_stack_add(stack, ray, fog.own);
     ray->share = rgb_mul(ray->share, fog.through);
     return adds;
 }
 
 // What one turn of a path found: the ray that was taken, what it hit, and what the hit sends on.
 typedef struct ShadeStep {
-    PendingRay ray;
+    StackedRay ray;
     ShadePoint at;       // is_hit
     ShadeOnward onward;  // is_hit
-    Inside before, behind; // is_hit, where there are interiors
+    MediumStack behind;  // is_hit, where there are interiors: what a ray is inside of behind the surface
     Rgb light;           // what the ray's share is multiplied with
     Rgb fog;             // what fog adds on the ray's way, where there may be some; ray.share is already less by it
     bool is_hit;
 } ShadeStep;
 
-RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, const PendingRay *first, Pending *pending)
+// No ray waits but the first, and no light has come.
+RT_ALWAYS_INLINE void shade_path_begin(const Prepared *p, unsigned features, StackedRay *first, RayStack *stack)
 {
-    pending_begin(pending);
-    pending->rays[pending->count++] = *first;
+    stack->count = stack->open = 0;
+    stack->sums[0] = rgb_grey(0.0);
     if (features & RENDER_INTERIORS) {
-        if (p->camera.type != CAMERA_ORTHOGRAPHIC && p->camera.lens_radius == 0.0) {
-            inside_copy(&pending->inside[0], &p->start);
-        } else {
-            prepared_inside(p, first->ray.origin, &pending->inside[0]);
-        }
+        first->inside = prepared_start(p, first->ray.origin, &stack->media);
     }
+    ray_stack_push(features, stack, first);
 }
 
 // A hit where there may be bumps: one way on for each of the surface's normals.
-RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, Pending *pending, RenderStatistics *statistics,
+RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, RayStack *stack, RenderStatistics *statistics,
                                  ShadeStep *step)
 {
     ShadeWays ways;
@@ -255,87 +245,87 @@ RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, Pending *
     } else {
         step->light = shade_bumpy(p, &step->at, step->ray.weight, &ways, statistics);
     }
-    pending_add(pending, &step->ray, step->light);
+    ray_stack_add(stack, &step->ray, step->light);
     step->onward = ways.onward[0];
     step->at.normal = ways.normals[0];
     int kept = 2 * (TRACE_LEVEL_MAX - step->ray.level) + 4; // for the levels to come
-    for (int i = 0; i < ways.count && (i == 0 || pending->count + SHADE_WAY_RAYS + kept <= PENDING_MAX); i++) {
+    for (int i = 0; i < ways.count && (i == 0 || stack->count + SHADE_WAY_RAYS + kept <= RAY_STACK_MAX); i++) {
         ShadePoint at = step->at;
         at.normal = ways.normals[i];
-        shade_go_on(p, features, &ways.onward[i], &at, &step->ray, &step->before, &step->behind, pending, statistics);
+        shade_go_on(p, features, &ways.onward[i], &at, &step->ray, step->behind, stack, statistics);
     }
 }
 
 // Takes the ray that was put on the list last: its light is added, and the rays that go on from where it hits are put
 // on the list.
-RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, Pending *pending, SampleStream *stream,
+RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, RayStack *stack, SampleStream *stream,
                                       RenderStatistics *statistics, ShadeStep *step)
 {
-    PendingRay *now = &step->ray;
-    *now = pending->rays[--pending->count];
+    StackedRay *now = &step->ray;
+    ray_stack_pop(features, stack, now);
     step->is_hit = false;
+    step->behind = MEDIUM_EMPTY;
     step->fog = rgb_grey(0.0);
     if ((features & RENDER_EXPONENT) && now->opens) {
-        pending->sums[++pending->open] = rgb_grey(0.0);
+        stack->sums[++stack->open] = rgb_grey(0.0);
     }
     if ((features & RENDER_EXPONENT) && now->closes) {
-        step->light = shade_rgb_power(pending->sums[pending->open--], now->exponent);
-        pending_add(pending, now, step->light);
+        step->light = shade_rgb_power(stack->sums[stack->open--], now->exponent);
+        ray_stack_add(stack, now, step->light);
     } else if (shade_find(p, features, now, stream, &step->at)) {
         step->is_hit = true;
         if (features & RENDER_INTERIORS) {
-            inside_copy(&step->before, &pending->inside[pending->count]);
-            step->at.before = &step->before;
-            shade_cross(p, features, &step->at, &step->before, &step->behind);
+            step->at.media = &stack->media;
+            step->at.before = now->inside;
+            step->behind = shade_cross(p, features, &step->at);
         }
         if (features & RENDER_FOG) {
-            step->fog = shade_fog(p, step->at.way, &step->before, now, pending);
+            step->fog = shade_fog(p, step->at.way, now, stack);
         }
         if (features & RENDER_NORMALS) {
-            shade_ways(p, features, pending, statistics, step);
+            shade_ways(p, features, stack, statistics, step);
             return;
         }
         // Its own light first: a reflected ray may open a sum of its own.
         step->light = shade_surface(p, features, &step->at, now->weight, &step->onward, statistics);
-        pending_add(pending, now, step->light);
-        shade_go_on(p, features, &step->onward, &step->at, now, &step->before, &step->behind, pending, statistics);
+        ray_stack_add(stack, now, step->light);
+        shade_go_on(p, features, &step->onward, &step->at, now, step->behind, stack, statistics);
     } else {
         if (features & RENDER_FOG) {
-            step->fog = shade_fog(p, (double)INFINITY, &pending->inside[pending->count], now, pending);
+            step->fog = shade_fog(p, (double)INFINITY, now, stack);
         }
         step->light = shade_miss(p, features, now->ray.direction);
-        pending_add(pending, now, step->light);
+        ray_stack_add(stack, now, step->light);
     }
 }
 
 // Traces the rays that wait; returns the sum of all light.
-RT_ALWAYS_INLINE Rgb shade_pending(const Prepared *p, unsigned features, Pending *pending, SampleStream *stream,
-                                   RenderStatistics *statistics)
+RT_ALWAYS_INLINE Rgb shade_stack(const Prepared *p, unsigned features, RayStack *stack, SampleStream *stream,
+                                 RenderStatistics *statistics)
 {
-    while (pending->count > 0) {
+    while (stack->count > 0) {
         ShadeStep step;
-        shade_path_step(p, features, pending, stream, statistics, &step);
+        shade_path_step(p, features, stack, stream, statistics, &step);
     }
-    return pending->sums[0];
+    return stack->sums[0];
 }
 
-// A kernel's shade_pending, not inline, so that it is compiled once.
-typedef Rgb (*ShadePath)(const Prepared *p, Pending *pending, SampleStream *stream, RenderStatistics *statistics);
+// A kernel's shade_stack, not inline, so that it is compiled once.
+typedef Rgb (*ShadePath)(const Prepared *p, RayStack *stack, SampleStream *stream, RenderStatistics *statistics);
 
 // The light that one camera ray brings back, which hits what `known` says, or, where that is NULL, what it meets.
 RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, ShadePath path, Ray ray, const Hit *known,
-                               SampleStream *stream, RenderStatistics *statistics)
+                               SampleStream *stream, RayStack *stack, RenderStatistics *statistics)
 {
-    PendingRay first = {.ray = ray,
+    StackedRay first = {.ray = ray,
                         .start = RAY_START_CAMERA,
                         .share = rgb_grey(1.0),
                         .weight = 1.0,
                         .level = 1,
                         .known = known};
     if (features & (RENDER_REFLECTION | RENDER_TRANSPARENCY)) {
-        Pending pending;
-        shade_path_begin(p, features, &first, &pending);
-        return path(p, &pending, stream, statistics);
+        shade_path_begin(p, features, &first, stack);
+        return path(p, stack, stream, statistics);
     }
     ShadePoint at;
     ShadeOnward onward;

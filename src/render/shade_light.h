@@ -13,6 +13,7 @@
 #include "render/kernel.h"
 #include "render/light.h"
 #include "render/light_grid.h"
+#include "render/medium.h"
 #include "render/prepared.h"
 #include "render/texture.h"
 #include "trace/query.h"
@@ -31,8 +32,9 @@ typedef struct ShadePoint {
     bool inside;  // the ray met the surface from the side where the shape is
     bool leaves;  // what the ray is in; where there are interiors
     SampleStream *stream; // what area lights draw numbers from; NULL: they are grids; where there are such lights
-    const Inside *before; // what the ray is inside of as it arrives; NULL where there are no interiors
-    double fresnel_ratio; // of index of refraction, as inside_fresnel_ratio has it; where `before` is
+    MediumTable *media;   // of what rays are inside of; NULL where there are no interiors
+    MediumStack before;   // what the ray is inside of as it arrives; where there are
+    double fresnel_ratio; // of indices of refraction, by medium_fresnel_sides; where there are
 } ShadePoint;
 
 // What a surface is made of at a point. "Opaque share" is 1 - filter - transmit, and in old scenes
@@ -74,12 +76,13 @@ RT_ALWAYS_INLINE Rgb shade_faded(const Prepared *p, uint32_t interior, double wa
 
 // The same on the way to a light, where a power of 0 leaves all, at a surface after a way t since the last one. As rays
 // that are seen, this one enters what it is not inside of, from whichever side it comes. Measured.
-RT_ALWAYS_INLINE Rgb shade_shadow_crossed(const Prepared *p, const Surface *surface, double t, Inside *inside)
+RT_ALWAYS_INLINE Rgb shade_shadow_crossed(const Prepared *p, const Surface *surface, double t, MediumTable *media,
+                                          MediumStack *inside)
 {
     uint32_t interior = shade_interior(p, surface->material);
     uint64_t body = scene_body_key(p->scene, surface->order, surface->body);
-    if (!inside_leave(inside, body)) {
-        inside_enter(inside, body, interior, false);
+    if (!medium_leave(media, inside, body)) {
+        *inside = medium_enter(media, *inside, (MediumRegion){body, interior, false});
         return rgb_grey(1.0);
     }
     return interior != RECORD_NONE && p->interiors[interior].fade_power != 0.0
@@ -157,25 +160,27 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
     }
     share = rgb_grey(1.0);
     Hit hit;
-    Inside inside;
-    inside.count = 0;
-    bool has_interiors = (features & RENDER_INTERIORS) && at->before;
-    if (has_interiors) {
-        inside_copy(&inside, at->before);
-    }
+    bool has_interiors = (features & RENDER_INTERIORS) && at->media;
+    MediumStack inside = at->before;
+    uint32_t kept = has_interiors ? at->media->count : 0;
     for (uint64_t passed = 0; geometry_closest(p->geometry, features, ray, start, t_max, &hit); passed++) {
         Surface surface = geometry_surface(p->geometry, features, ray, hit);
         Rgb through = shade_surface_through(p, features, &surface, ray.direction);
         if (rgb_is_black(through) || passed > p->crossings_max) {
-            return rgb_grey(0.0);
+            share = rgb_grey(0.0);
+            break;
         }
         share = rgb_mul(share, through);
         if (has_interiors) {
-            share = rgb_mul(share, shade_shadow_crossed(p, &surface, hit.t, &inside));
+            share = rgb_mul(share, shade_shadow_crossed(p, &surface, hit.t, at->media, &inside));
+            inside = medium_keep(at->media, kept, inside);
         }
         ray.origin = surface.point;
         t_max -= hit.t;
         start = (RayStart){hit.shape, !hit.inside, HIDDEN_SHADOW};
+    }
+    if (has_interiors) {
+        at->media->count = kept;
     }
     return share;
 }

@@ -1,7 +1,7 @@
 // The rays that go on from a surface: mirrored, straight through, bent, or mirrored for want of a way out.
 //
-// They wait in a small stack with the weight of what they will add, so that no recursion is needed and the order of
-// additions is fixed. Everything is always-inline and takes the kernel's features as a constant.
+// They wait on a stack with the weight of what they will add, so that no recursion is needed and the order of additions
+// is fixed. Everything is always-inline and takes the kernel's features as a constant.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_ONWARD_H
@@ -11,7 +11,7 @@
 #include "render/shade_light.h"
 
 // A ray that is still to be traced, or (closes) the end of one whose light is raised to a power before it is added.
-typedef struct PendingRay {
+typedef struct StackedRay {
     Ray ray;
     RayStart start;
     Rgb share;       // what its light is multiplied with
@@ -21,22 +21,47 @@ typedef struct PendingRay {
     double exponent; // closes: of the light; else unused
     bool opens, closes; // opens: its light is summed by itself, until the one below it closes
     const Hit *known; // what it hits, where that is known already (SHAPE_NONE: nothing); else NULL
-} PendingRay;
+    // Where there are interiors: what it is inside of, and how many nodes are kept while it or what is above it waits.
+    MediumStack inside;
+    uint32_t kept;
+} StackedRay;
 
 // Normals that the layers of one surface with bumps may have between them.
 enum { SHADE_WAYS_MAX = SCENE_NORMALS_MOST + 1, SHADE_WAY_RAYS = 3 };
 
 // Depth first, each level leaves at most one transmitted ray and one closing entry behind, and more only where bumps
 // send rays in more than one direction; of those, what would not fit (80 in a row that each do so) is not followed.
-enum { PENDING_MAX = 2 * TRACE_LEVEL_MAX + 4 + 80 * SHADE_WAY_RAYS };
+enum { RAY_STACK_MAX = 2 * TRACE_LEVEL_MAX + 4 + 80 * SHADE_WAY_RAYS };
 
 // The rays that wait, and the sums of light that are open: one, and one more for each ray with an exponent.
-typedef struct Pending {
+typedef struct RayStack {
     int count, open;
-    PendingRay rays[PENDING_MAX];
-    Inside inside[PENDING_MAX]; // of each ray, where there are interiors
+    MediumTable media; // of what the rays are inside of, where there are interiors
     Rgb sums[TRACE_LEVEL_MAX + 1];
-} Pending;
+    StackedRay rays[RAY_STACK_MAX];
+} RayStack;
+
+// Nodes that a stack of rays may need: each ray, the one that is followed, and a shadow ray.
+enum { RAY_STACK_NODES = (RAY_STACK_MAX + 2) * MEDIUM_NODES_EACH };
+
+RT_ALWAYS_INLINE void ray_stack_push(unsigned features, RayStack *stack, const StackedRay *ray)
+{
+    stack->rays[stack->count] = *ray;
+    if (features & RENDER_INTERIORS) {
+        stack->rays[stack->count].kept = stack->media.count;
+    }
+    stack->count++;
+}
+
+// Takes the ray that was put there last, and gives back the nodes that none but those above it had need of.
+RT_ALWAYS_INLINE void ray_stack_pop(unsigned features, RayStack *stack, StackedRay *ray)
+{
+    *ray = stack->rays[--stack->count];
+    if (features & RENDER_INTERIORS) {
+        uint32_t kept = stack->count > 0 ? stack->rays[stack->count - 1].kept : MEDIUM_EMPTY + 1;
+        ray->inside = medium_keep(&stack->media, kept, ray->inside);
+    }
+}
 
 // What a surface sends on, all its layers together.
 typedef struct ShadeOnward {
@@ -76,26 +101,27 @@ RT_ALWAYS_INLINE bool shade_is_followed(const Prepared *p, int level, double wei
 
 // The mirrored ray, if it is followed. The angle does not enter its weight.
 RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                    const ShadePoint *at, const PendingRay *from, Pending *pending)
+                                    const ShadePoint *at, const StackedRay *from, RayStack *stack)
 {
     double weight = from->weight * onward->reflection_weight;
     if (!shade_is_followed(p, from->level, weight)) {
         return;
     }
-    PendingRay ray = {
+    StackedRay ray = {
         .ray = {at->point, shade_mirrored(features, at)},
         .start = {at->shape, at->inside, HIDDEN_MIRROR},
         .share = rgb_mul(from->share, onward->reflectance),
         .weight = weight,
         .level = from->level + 1,
+        .inside = at->before,
     };
     if ((features & RENDER_EXPONENT) && onward->reflection_exponent != 1.0) {
-        PendingRay end = {.share = ray.share, .exponent = 1.0 / onward->reflection_exponent, .closes = true};
-        pending->rays[pending->count++] = end;
+        StackedRay end = {.share = ray.share, .exponent = 1.0 / onward->reflection_exponent, .closes = true};
+        ray_stack_push(features, stack, &end);
         ray.opens = true;
         ray.share = rgb_grey(1.0);
     }
-    pending->rays[pending->count++] = ray;
+    ray_stack_push(features, stack, &ray);
 }
 
 // What light that goes straight on is multiplied with, and the weight of its ray; false when that is not followed.
@@ -115,61 +141,63 @@ RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ShadeOnward *onward
 
 // The ray that goes straight on, whose share may be below 0. It stays on its level; what bounds it is that a line meets
 // only so many surfaces.
-RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, const ShadeOnward *onward, const ShadePoint *at,
-                                     const PendingRay *from, Pending *pending)
+RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, unsigned features, const ShadeOnward *onward,
+                                     const ShadePoint *at, const StackedRay *from, MediumStack behind, RayStack *stack)
 {
     Rgb through;
     double weight;
     if (!shade_goes_on(p, onward, from->weight, from->level, from->passed, &through, &weight)) {
         return;
     }
-    pending->rays[pending->count++] = (PendingRay){
+    StackedRay ray = {
         .ray = {at->point, at->direction},
         .start = {at->shape, !at->inside, from->start.use},
         .share = rgb_mul(from->share, through),
         .weight = weight,
         .level = from->level,
         .passed = from->passed + 1,
+        .inside = behind,
     };
+    ray_stack_push(features, stack, &ray);
 }
 
-// Where a surface is between two interiors: how the index of refraction changes, and what the ray is inside of behind
+// Where a surface is between two interiors: how the index of refraction changes; returns what the ray is inside of behind
 // it. A ray leaves the body that it has entered, and enters any other, from whichever side it comes to a surface: one
 // that is open or flat, too. Measured.
-RT_ALWAYS_INLINE void shade_cross(const Prepared *p, unsigned features, ShadePoint *at, const Inside *before,
-                                  Inside *behind)
+RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, ShadePoint *at)
 {
     uint64_t body = scene_body_key(p->scene, at->order, at->body);
-    inside_copy(behind, before);
-    at->leaves = inside_leave(behind, body);
+    MediumStack behind = at->before;
+    at->leaves = medium_leave(at->media, &behind, body);
     if (!at->leaves) {
         bool is_solid = (features & RENDER_FOG) && !scene_is_hollow(p->scene, at->material);
-        inside_enter(behind, body, at->interior, is_solid);
+        behind = medium_enter(at->media, behind, (MediumRegion){body, at->interior, is_solid});
     }
-    at->ior_ratio = inside_ior(p->interiors, behind) / inside_ior(p->interiors, before);
+    at->ior_ratio = medium_ior(p->interiors, at->media, behind) / medium_ior(p->interiors, at->media, at->before);
     double ior_before, ior_behind;
-    inside_fresnel_sides(p->interiors, before, behind, at->interior, at->leaves, &ior_before, &ior_behind);
+    medium_fresnel_sides(p->interiors, at->media, at->before, behind, at->interior, at->leaves, &ior_before,
+                         &ior_behind);
     at->fresnel_ratio = ior_behind / ior_before;
+    return behind;
 }
 
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to
 // the next level. There is none when it is too deep or worth too little, and then no other mirrored ray either.
 // Measured.
 RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ShadeOnward *onward, Rgb fade,
-                                 const ShadePoint *at, const PendingRay *from, const Inside *before,
-                                 const Inside *behind, Pending *pending)
+                                 const ShadePoint *at, const StackedRay *from, MediumStack behind, RayStack *stack)
 {
     Vec3 direction, normal = at->normal;
     if ((features & RENDER_NORMALS) && vec3_dot(normal, at->direction) > 0.0) {
         normal = vec3_neg(normal);
     }
     bool is_bent = inside_bend(at->direction, normal, at->ior_ratio, &direction);
-    int place = pending->count;
-    shade_transmit(p, onward, at, from, pending);
-    if (pending->count == place) {
+    int place = stack->count;
+    shade_transmit(p, features, onward, at, from, is_bent ? behind : at->before, stack);
+    if (stack->count == place) {
         return !is_bent;
     }
-    PendingRay *ray = &pending->rays[place];
+    StackedRay *ray = &stack->rays[place];
     if (!is_bent) {
         // Its weight is that of one that gets through, its light is not. Measured.
         double part = features & RENDER_NORMALS ? onward->part : 1.0;
@@ -183,16 +211,14 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sha
     ray->start = (RayStart){at->shape, goes_in, is_bent ? from->start.use : HIDDEN_MIRROR};
     ray->level = from->level + 1;
     ray->passed = 0;
-    inside_copy(&pending->inside[place], is_bent ? behind : before);
     return !is_bent;
 }
 
 // What goes through; true when all of it is mirrored instead.
 RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                       const ShadePoint *at, const PendingRay *from, const Inside *before,
-                                       const Inside *behind, Pending *pending)
+                                       const ShadePoint *at, const StackedRay *from, MediumStack behind,
+                                       RayStack *stack)
 {
-    int place = pending->count;
     ShadeOnward faded = *onward;
     Rgb fade = rgb_grey(1.0);
     if ((features & RENDER_INTERIORS) && at->leaves) {
@@ -203,12 +229,9 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
         onward = &faded;
     }
     if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
-        return shade_bend(p, features, onward, fade, at, from, before, behind, pending);
+        return shade_bend(p, features, onward, fade, at, from, behind, stack);
     }
-    shade_transmit(p, onward, at, from, pending);
-    if ((features & RENDER_INTERIORS) && pending->count > place) {
-        inside_copy(&pending->inside[place], behind);
-    }
+    shade_transmit(p, features, onward, at, from, behind, stack);
     return false;
 }
 
@@ -221,30 +244,27 @@ RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, int level, Rgb share, Re
     statistics->cut_by_weight += level >= p->max_trace_level ? 0 : units;
 }
 
-// The rays that go on from a hit; the reflected one will be traced first. `before` and `behind` are what the ray is
-// inside of on both sides of the surface, where there are interiors.
+// The rays that go on from a hit; the reflected one will be traced first. `behind` is what the ray is inside of behind
+// the surface, where there are interiors.
 RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                  const ShadePoint *at, const PendingRay *from, const Inside *before,
-                                  const Inside *behind, Pending *pending, RenderStatistics *statistics)
+                                  const ShadePoint *at, const StackedRay *from, MediumStack behind, RayStack *stack,
+                                  RenderStatistics *statistics)
 {
-    int place = pending->count;
+    int place = stack->count;
     bool is_total = false;
     if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(onward->through)) {
-        is_total = shade_go_through(p, features, onward, at, from, before, behind, pending);
-        statistics->transmitted_rays += (uint64_t)(pending->count - place);
-        if (pending->count == place) {
+        is_total = shade_go_through(p, features, onward, at, from, behind, stack);
+        statistics->transmitted_rays += (uint64_t)(stack->count - place);
+        if (stack->count == place) {
             shade_note_cut(p, from->level, rgb_mul(from->share, onward->through), statistics);
         }
     }
-    place = pending->count;
+    place = stack->count;
     if ((features & RENDER_REFLECTION) && onward->reflection_weight != 0.0 && !is_total) {
-        shade_reflect(p, features, onward, at, from, pending);
-        statistics->reflected_rays += pending->count > place;
-        if (pending->count == place) {
+        shade_reflect(p, features, onward, at, from, stack);
+        statistics->reflected_rays += stack->count > place;
+        if (stack->count == place) {
             shade_note_cut(p, from->level, rgb_mul(from->share, onward->reflectance), statistics);
-        }
-        if ((features & RENDER_INTERIORS) && pending->count > place) {
-            inside_copy(&pending->inside[pending->count - 1], before);
         }
     }
 }

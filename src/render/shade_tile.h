@@ -31,7 +31,7 @@ RT_ALWAYS_INLINE bool shade_tile_may(const Prepared *p, unsigned features)
     return !(features & ~(unsigned)SHADE_TILE_FEATURES) && (!may_wait || p->max_trace_level <= SHADE_WAITING_MOST);
 }
 
-// Rays of a tile on their way: as in PendingRay.
+// Rays of a tile on their way: as in StackedRay.
 typedef struct TilePaths {
     Rgb share[TILE_RAYS];
     double weight[TILE_RAYS];
@@ -57,6 +57,15 @@ typedef struct TileClear {
     int count[TILE_RAYS];
     TileWaiting waiting[SHADE_WAITING_MOST][TILE_RAYS];
 } TileClear;
+
+// What is too large for a stack.
+typedef struct TileScratch {
+    SphereTile rays;
+    LightTile tile;
+    TilePaths paths;
+    TileClear clear;
+    TileCrossings crossings;
+} TileScratch;
 
 // Materials, glow, and normals towards the viewer. `through` is set where something may be let through.
 RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, LightTile *tile,
@@ -165,12 +174,13 @@ RT_ALWAYS_INLINE void shade_tile_set_share(LightTile *tile, int i, Rgb share)
 
 // Notes what of the light gets to the surfaces `asked` for; returns those that nothing reaches. Those that nothing is
 // before need no walk, nor those of few spheres.
-RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned features, LightTile *tile,
+RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned features, TileScratch *scratch,
                                              const SurfaceRays *rays, bool together, uint64_t asked)
 {
+    LightTile *tile = &scratch->tile;
+    TileCrossings *crossings = &scratch->crossings;
     const TileSurfaces *from = &tile->surfaces;
-    TileCrossings crossings;
-    uint64_t dark = 0, told = geometry_crossed(p->geometry, features, from, rays, asked, &crossings), clear = 0;
+    uint64_t dark = 0, told = geometry_crossed(p->geometry, features, from, rays, asked, crossings), clear = 0;
     if ((features & TRACE_SPHERE_BVH) && !told) {
         clear = asked & ~geometry_occluded_surfaces(p->geometry, features, from, rays, together, asked);
     }
@@ -178,7 +188,7 @@ RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned feature
         int i = __builtin_ctzll(asked);
         Rgb share = rgb_grey(1.0);
         if (told >> i & 1) {
-            share = shade_tile_crossed(p, features, &crossings, i);
+            share = shade_tile_crossed(p, features, crossings, i);
         } else if (!(clear >> i & 1)) {
             ShadePoint at = shade_tile_point(tile, i, 0, NULL);
             Ray ray = {at.point, lane_get(rays->towards, (unsigned)i)};
@@ -208,10 +218,11 @@ RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, 
 }
 
 // The surfaces of `asked` that nothing of a light reaches; what reaches the others is noted where it may not be all.
-RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned features, LightTile *tile,
+RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned features, TileScratch *scratch,
                                              const PreparedLight *light, uint64_t asked, SampleStream *streams,
                                              RenderStatistics *statistics)
 {
+    LightTile *tile = &scratch->tile;
     bool is_area = (features & RENDER_LIGHTS) && light->area.size1 > 0;
     const SurfaceRays *rays = &tile->rays;
     SurfaceRays places;
@@ -225,14 +236,15 @@ RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned feature
     statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
     bool together = is_area || !light->parallel;
     return features & RENDER_TRANSPARENCY
-               ? shade_tile_through(p, features, tile, rays, together, asked)
+               ? shade_tile_through(p, features, scratch, rays, together, asked)
                : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked);
 }
 
 // What all lights add.
-RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, LightTile *tile, SampleStream *streams,
-                                        RenderStatistics *statistics)
+RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, TileScratch *scratch,
+                                        SampleStream *streams, RenderStatistics *statistics)
 {
+    LightTile *tile = &scratch->tile;
     for (size_t i = 0; i < p->light_count; i++) {
         const PreparedLight *light = &p->lights[i];
         uint64_t lit = p->tile_lights->aim(tile, light) & tile->takes_light;
@@ -246,7 +258,7 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Li
             shade_tile_set_share(tile, __builtin_ctzll(whole), rgb_grey(1.0));
         }
         if (asked) {
-            lit &= ~shade_tile_shadows(p, features, tile, light, asked, streams, statistics);
+            lit &= ~shade_tile_shadows(p, features, scratch, light, asked, streams, statistics);
         }
         p->tile_lights->add(tile, light, lit);
     }
@@ -483,53 +495,56 @@ RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, Ligh
 }
 
 // The light of what the rays have met where surfaces let light through, and of all that goes on from there.
-RT_ALWAYS_INLINE void shade_tile_clear(const Prepared *p, unsigned features, LightTile *tile,
+RT_ALWAYS_INLINE void shade_tile_clear(const Prepared *p, unsigned features, TileScratch *scratch,
                                        MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
                                        RenderStatistics *statistics)
 {
-    TilePaths paths;
-    TileClear clear;
-    clear.resting = 0;
+    LightTile *tile = &scratch->tile;
+    TilePaths *paths = &scratch->paths;
+    TileClear *clear = &scratch->clear;
+    clear->resting = 0;
     for (int i = 0; i < tile->surfaces.count; i++) {
         unsigned ray = tile->surfaces.ray[i];
         light[ray] = rgb_grey(0.0);
-        paths.share[ray] = rgb_grey(1.0);
-        paths.weight[ray] = 1.0;
-        clear.level[ray] = 1;
-        clear.passed[ray] = 0;
-        clear.count[ray] = 0;
+        paths->share[ray] = rgb_grey(1.0);
+        paths->weight[ray] = 1.0;
+        clear->level[ray] = 1;
+        clear->passed[ray] = 0;
+        clear->count[ray] = 0;
     }
     do {
         if (tile->surfaces.count > 0) {
-            shade_tile_begin(p, features, tile, material, clear.through);
-            shade_tile_lights(p, features, tile, streams, statistics);
-            shade_tile_gather_clear(tile, &paths, light);
+            shade_tile_begin(p, features, tile, material, clear->through);
+            shade_tile_lights(p, features, scratch, streams, statistics);
+            shade_tile_gather_clear(tile, paths, light);
         }
-    } while (shade_tile_next(p, features, tile, material, &paths, &clear, light, statistics));
+    } while (shade_tile_next(p, features, tile, material, paths, clear, light, statistics));
 }
 
 // The light of what the rays have met, and of what mirrors show.
-RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, LightTile *tile,
+RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, TileScratch *scratch,
                                        MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
                                        RenderStatistics *statistics)
 {
-    TilePaths paths;
+    LightTile *tile = &scratch->tile;
+    TilePaths *paths = &scratch->paths;
     for (int level = 1; tile->surfaces.count > 0; level++) {
         shade_tile_begin(p, features, tile, material, NULL);
-        shade_tile_lights(p, features, tile, streams, statistics);
-        shade_tile_gather(tile, &paths, level == 1, light);
+        shade_tile_lights(p, features, scratch, streams, statistics);
+        shade_tile_gather(tile, paths, level == 1, light);
         if (!(features & RENDER_REFLECTION)) {
             return;
         }
-        shade_tile_bounce(p, features, tile, material, &paths, level, light, statistics);
+        shade_tile_bounce(p, features, tile, material, paths, level, light, statistics);
     }
 }
 
 // The light of the rays of a view.
 RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
-                                 SampleStream *streams, uint64_t wanted, Rgb *light, RenderStatistics *statistics)
+                                 SampleStream *streams, uint64_t wanted, Rgb *light, TileScratch *scratch,
+                                 RenderStatistics *statistics)
 {
-    SphereTile rays;
+    SphereTile *rays = &scratch->rays;
     TileHits hits;
     Rgb background = rgb_add(rgb_grey(0.0), p->background);
     for (int i = 0; i < TILE_RAYS; i++) {
@@ -538,18 +553,17 @@ RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const Til
     if (geometry_view_passes(p->geometry, features, view, places->u, places->v)) {
         return;
     }
-    geometry_closest_view(p->geometry, features, view, places->u, places->v, &rays, &hits);
+    geometry_closest_view(p->geometry, features, view, places->u, places->v, rays, &hits);
     uint64_t met = hits.met & wanted;
     if (!met) {
         return;
     }
-    LightTile tile;
     MaterialIndex material[TILE_RAYS];
-    geometry_tile_surfaces(p->geometry, features, &rays, &hits, met, &tile.surfaces, material);
+    geometry_tile_surfaces(p->geometry, features, rays, &hits, met, &scratch->tile.surfaces, material);
     if (features & RENDER_TRANSPARENCY) {
-        shade_tile_clear(p, features, &tile, material, streams, light, statistics);
+        shade_tile_clear(p, features, scratch, material, streams, light, statistics);
     } else {
-        shade_tile_paths(p, features, &tile, material, streams, light, statistics);
+        shade_tile_paths(p, features, scratch, material, streams, light, statistics);
     }
 }
 

@@ -23,7 +23,7 @@ RT_ALWAYS_INLINE void store_row(const Rgb *light, int count, float *pixels)
     }
 }
 
-static void trace_block(const Single *single, Tile block, RenderStatistics *counted)
+static void trace_block(const Single *single, Tile block, RenderScratch *scratch, RenderStatistics *counted)
 {
     Film *film = single->film;
     KernelPlaces places;
@@ -31,7 +31,7 @@ static void trace_block(const Single *single, Tile block, RenderStatistics *coun
     double clear[KERNEL_RAYS];
     places.lens = NULL;
     uint64_t wanted = block_places(film, block, 0.0, &places);
-    alpha_trace(single->prepared, &places, NULL, wanted, light, clear, counted);
+    alpha_trace(single->prepared, &places, NULL, wanted, light, clear, scratch, counted);
     int columns = block.right - block.left;
     for (int y = block.top; y < block.bottom; y++) {
         int first = (y - block.top) * KERNEL_ROW;
@@ -47,18 +47,18 @@ static void trace_block(const Single *single, Tile block, RenderStatistics *coun
     }
 }
 
-static void trace_tile(void *client, Tile tile, RenderStatistics *counted)
+static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
     Single *single = client;
     if (single->options->antialias) {
-        if (!antialias_tile(single->prepared, single->options->antialias, tile, single->film, counted)) {
+        if (!antialias_tile(single->prepared, single->options->antialias, tile, single->film, scratch, counted)) {
             atomic_store(&single->has_no_memory, true);
         }
         return;
     }
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
-            trace_block(single, tile_block(tile, left, top), counted);
+            trace_block(single, tile_block(tile, left, top), scratch, counted);
         }
     }
 }
@@ -79,6 +79,6 @@ RenderResult render_film(const Prepared *prepared, const RenderOptions *options,
     }
     Single single = {.prepared = prepared, .options = options, .film = film};
     TileWork work = {&single, film->width, film->height, trace_tile, options->progress ? forward_progress : NULL};
-    bool is_whole = tiles_run(&work, options, statistics);
-    return atomic_load(&single.has_no_memory) ? RENDER_NO_MEMORY : is_whole ? RENDER_OK : RENDER_CANCELLED;
+    RenderResult result = tiles_run(&work, options, statistics);
+    return atomic_load(&single.has_no_memory) ? RENDER_NO_MEMORY : result;
 }

@@ -112,41 +112,35 @@ bool study_covers(const Prepared *p, DiagSink *diags)
 
 // ---- pictures
 
-Rgb study_colour(const Prepared *prepared, StudyPrecision precision, double u, double v)
-{
-    RenderStatistics unused = {0};
-    return colours[precision](prepared, u, v, &unused);
-}
-
 static void trace_wanted(const Prepared *p, StudyPrecision precision, const KernelPlaces *places, uint64_t wanted,
-                         Rgb *light, RenderStatistics *statistics)
+                         Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
 {
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
-        light[i] = colours[precision](p, places->u[i], places->v[i], statistics);
+        light[i] = colours[precision](p, places->u[i], places->v[i], scratch, statistics);
     }
 }
 
 // Nothing that is covered draws numbers.
 static void trace_float(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                        Rgb *light, RenderStatistics *statistics)
+                        Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
 {
     (void)streams;
-    trace_wanted(p, STUDY_FLOAT, places, wanted, light, statistics);
+    trace_wanted(p, STUDY_FLOAT, places, wanted, light, scratch, statistics);
 }
 
 static void trace_double(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                         Rgb *light, RenderStatistics *statistics)
+                         Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
 {
     (void)streams;
-    trace_wanted(p, STUDY_DOUBLE, places, wanted, light, statistics);
+    trace_wanted(p, STUDY_DOUBLE, places, wanted, light, scratch, statistics);
 }
 
 static void trace_quad(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
-                       Rgb *light, RenderStatistics *statistics)
+                       Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
 {
     (void)streams;
-    trace_wanted(p, STUDY_QUAD, places, wanted, light, statistics);
+    trace_wanted(p, STUDY_QUAD, places, wanted, light, scratch, statistics);
 }
 
 void study_take(Prepared *prepared, StudyPrecision precision)

@@ -16,10 +16,6 @@ typedef enum StudyPrecision { STUDY_FLOAT, STUDY_DOUBLE, STUDY_QUAD, STUDY_PRECI
 // False, with a fault at each kind of thing, when the scene has what the reference path has not.
 bool study_covers(const Prepared *prepared, DiagSink *diags) RT_MUST_CHECK;
 
-// The colour of a point of the picture (u, v as in render/camera.h), in the scene's working space; rounded to double
-// from the precision that it was worked out in. The scene must be covered.
-Rgb study_colour(const Prepared *prepared, StudyPrecision precision, double u, double v);
-
 // From now on the prepared scene is traced by the reference kernel: render_film samples and tells errors as ever. The
 // scene must be covered. What max_trace_level and adc_bailout cut is not counted.
 void study_take(Prepared *prepared, StudyPrecision precision);

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/study_kernel.h"
 
-Rgb study_colour_double(const Prepared *p, double u, double v, RenderStatistics *statistics)
+Rgb study_colour_double(const Prepared *p, double u, double v, RenderScratch *scratch, RenderStatistics *statistics)
 {
-    return real_colour(p, u, v, statistics);
+    return real_colour(p, u, v, scratch, statistics);
 }

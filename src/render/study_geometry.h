@@ -53,6 +53,7 @@ typedef struct RealScene {
     const Prepared *p;
     const Scene *scene;
     Real inverse_scale; // lengths of the scene times this are prepared ones
+    MediumTable *media; // of what rays are inside of
 } RealScene;
 
 // ---- vectors and colours

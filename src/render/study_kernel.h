@@ -8,7 +8,8 @@
 #ifndef RENDER_STUDY_KERNEL_H
 #define RENDER_STUDY_KERNEL_H
 
-#include "render/inside.h"
+#include "render/medium.h"
+#include "render/scratch.h"
 #include "render/study_geometry.h"
 #include "render/study_kernels.h"
 
@@ -67,12 +68,13 @@ static RealRgb real_faded(const RealScene *s, MaterialIndex material, Real way, 
 // ---- light
 
 // A ray leaves what it has entered, and enters anything else, as in shade_cross; true when it leaves.
-static bool real_cross(const RealScene *s, const RealHit *hit, Inside *inside)
+static bool real_cross(const RealScene *s, const RealHit *hit, MediumStack *inside)
 {
     uint64_t body = scene_body_key(s->scene, hit->order, 0);
-    bool leaves = inside_leave(inside, body);
+    bool leaves = medium_leave(s->media, inside, body);
     if (!leaves) {
-        inside_enter(inside, body, study_interior(s->p, hit->material), false);
+        MediumRegion region = {body, study_interior(s->p, hit->material), false};
+        *inside = medium_enter(s->media, *inside, region);
     }
     return leaves;
 }
@@ -85,31 +87,33 @@ static Real real_caustics(const RealScene *s, const RealHit *hit, RealVec toward
     return caustics == 0.0 ? 1 : 1 + REAL_POW(REAL_FABS(real_dot(hit->normal, towards)), (Real)(45.0 * caustics));
 }
 
-static RealRgb real_visibility(const RealScene *s, const RealHit *at, const Inside *before, RealVec towards,
+static RealRgb real_visibility(const RealScene *s, const RealHit *at, MediumStack inside, RealVec towards,
                                Real distance, RenderStatistics *statistics)
 {
     RealRgb share = real_grey(1);
     RealRay ray = {at->point, towards};
     RealStart start = {at->kind, at->index, true, real_dot(at->normal, towards) < 0};
     RealHit hit;
-    Inside inside;
-    inside_copy(&inside, before);
+    uint32_t kept = s->media->count;
     statistics->shadow_rays++;
     for (uint64_t passed = 0; real_closest(s, &ray, start, distance, &hit); passed++) {
         const PreparedFinish *finish;
         real_surface(s, &ray, &hit);
         RealRgb through = real_pigment_through(study_pigment(s->p, hit.material, &finish));
         if (real_rgb_is_black(through) || passed > s->p->crossings_max) {
-            return real_grey(0);
+            share = real_grey(0);
+            break;
         }
         share = real_rgb_scale(real_caustics(s, &hit, towards), real_rgb_mul(share, through));
         if (real_cross(s, &hit, &inside)) {
             share = real_rgb_mul(share, real_faded(s, hit.material, hit.t, true));
         }
+        inside = medium_keep(s->media, kept, inside);
         ray.e = hit.point;
         distance -= hit.t;
         start = (RealStart){hit.kind, hit.index, true, !hit.inside};
     }
+    s->media->count = kept;
     return share;
 }
 
@@ -148,7 +152,7 @@ static Real real_opaque(const RealScene *s, Rgbft pigment)
 
 // `normal` is turned to where the ray comes from.
 static RealRgb real_light(const RealScene *s, const PreparedLight *light, const PreparedFinish *finish, Rgbft pigment,
-                          const RealHit *at, const Inside *before, RealVec normal, RealVec direction,
+                          const RealHit *at, MediumStack before, RealVec normal, RealVec direction,
                           RenderStatistics *statistics)
 {
     RealVec offset = real_sub(real_vec(light->position), at->point);
@@ -222,8 +226,6 @@ static RealVec real_mirrored(RealVec direction, RealVec normal)
     return real_unit(real_add_scaled(direction, -2 * real_dot(direction, normal), normal));
 }
 
-static RealRgb real_trace(const RealScene *s, RealWay way, Inside *inside, RenderStatistics *statistics);
-
 // What one hit is to the rays that go on.
 typedef struct RealJunction {
     RealHit at;
@@ -232,14 +234,27 @@ typedef struct RealJunction {
     Rgbft pigment;
     RealRgb reflectance;
     Real ior_ratio, fresnel_ratio;
-    Inside behind;
+    MediumStack behind;
     bool leaves; // what the ray is in
 } RealJunction;
 
-// The light that the mirror adds. At most max_trace_level deep.
-static RealRgb real_reflected(const RealScene *s, const RealJunction *j, const RealWay *way, const Inside *inside,
-                              RenderStatistics *statistics)
+// A ray that is followed through all that it goes through. Where it is mirrored, the next level is that of the mirrored
+// ray, whose light is added before this one goes on.
+typedef struct RealLevel {
+    RealWay way;
+    MediumStack inside;
+    uint32_t kept; // nodes that the levels before this one keep
+    bool goes_on;
+    RealRgb sum;                // its light so far
+    RealRgb share, reflectance; // of the last mirror, whose light is still to be added
+    double exponent;
+} RealLevel;
+_Static_assert(sizeof(RealLevel) <= STUDY_LEVEL_BYTES, "levels have room in a thread's scratch");
+
+// The level of the mirrored ray; false when it is not followed.
+static bool real_reflected(const RealScene *s, const RealJunction *j, const RealLevel *now, RealLevel *mirrored)
 {
+    const RealWay *way = &now->way;
     Real most = j->finish->is_fresnel ? real_rgb_max(j->reflectance) : (Real)j->finish->reflection_weight;
     RealWay next = {
         .ray = {j->at.point, real_mirrored(way->ray.d, j->normal)},
@@ -249,23 +264,27 @@ static RealRgb real_reflected(const RealScene *s, const RealJunction *j, const R
         .level = way->level + 1,
     };
     if (!j->finish->reflects || way->level >= s->p->max_trace_level || next.weight < (Real)s->p->adc_bailout) {
-        return real_grey(0);
+        return false;
     }
-    Inside own;
-    inside_copy(&own, inside);
-    statistics->reflected_rays++;
-    RealRgb light = real_trace(s, next, &own, statistics);
-    if (j->finish->reflection_exponent != 1.0) {
-        double exponent = 1.0 / j->finish->reflection_exponent;
+    *mirrored = (RealLevel){
+        .way = next, .inside = now->inside, .kept = s->media->count, .goes_on = true, .sum = real_grey(0)};
+    return true;
+}
+
+// Adds the light of the mirrored ray.
+static void real_reflect(RealLevel *now, RealRgb light)
+{
+    if (now->exponent != 1.0) {
+        double exponent = 1.0 / now->exponent;
         light = (RealRgb){real_power(light.red, exponent), real_power(light.green, exponent),
                           real_power(light.blue, exponent)};
     }
-    return real_rgb_mul(j->reflectance, light);
+    now->sum = real_rgb_add(now->sum, 1, real_rgb_mul(now->share, real_rgb_mul(now->reflectance, light)));
 }
 
 // Turns the ray into the one that goes through or is totally reflected; false when there is none, *is_total in the last
 // case, which leaves no mirrored ray.
-static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way, Inside *inside, bool *is_total)
+static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way, MediumStack *inside, bool *is_total)
 {
     RealRgb through = real_rgb_scale((Real)j->finish->refraction, real_pigment_through(j->pigment));
     RealRgb fade = j->leaves ? real_faded(s, j->at.material, j->at.t, false) : real_grey(1);
@@ -295,7 +314,7 @@ static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way,
         direction = real_mirrored(way->ray.d, j->normal);
     } else {
         way->share = real_rgb_mul(way->share, real_rgb_mul(through, fade));
-        inside_copy(inside, &j->behind);
+        *inside = j->behind;
     }
     way->ray = (RealRay){j->at.point, direction};
     way->start = (RealStart){j->at.kind, j->at.index, true, *is_total == j->at.inside};
@@ -304,16 +323,17 @@ static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way,
     return true;
 }
 
-static void real_join(const RealScene *s, const RealWay *way, const Inside *inside, RealJunction *j)
+static void real_join(const RealScene *s, const RealWay *way, MediumStack inside, RealJunction *j)
 {
     j->normal = real_scale(j->at.inside ? -1 : 1, j->at.normal);
     j->pigment = study_pigment(s->p, j->at.material, &j->finish);
-    inside_copy(&j->behind, inside);
+    j->behind = inside;
     j->leaves = real_cross(s, &j->at, &j->behind);
-    j->ior_ratio = (Real)inside_ior(s->p->interiors, &j->behind) / (Real)inside_ior(s->p->interiors, inside);
+    j->ior_ratio = (Real)medium_ior(s->p->interiors, s->media, j->behind) /
+                   (Real)medium_ior(s->p->interiors, s->media, inside);
     double ior_before, ior_behind;
-    inside_fresnel_sides(s->p->interiors, inside, &j->behind, study_interior(s->p, j->at.material), j->leaves, &ior_before,
-                         &ior_behind);
+    medium_fresnel_sides(s->p->interiors, s->media, inside, j->behind, study_interior(s->p, j->at.material), j->leaves,
+                         &ior_before, &ior_behind);
     j->fresnel_ratio = (Real)ior_behind / (Real)ior_before;
     j->reflectance = real_grey(0);
     if (j->finish->reflects) {
@@ -322,62 +342,77 @@ static void real_join(const RealScene *s, const RealWay *way, const Inside *insi
     }
 }
 
-// The light that a ray brings back: rays that go through are followed in turn, mirrored ones by recursion.
-static RealRgb real_trace(const RealScene *s, RealWay way, Inside *inside, RenderStatistics *statistics)
+// Adds the light of the next surface that a level's ray meets, or of the background; true when `mirrored` is to be
+// followed first.
+static bool real_step(const RealScene *s, RealLevel *now, RealLevel *mirrored, RenderStatistics *statistics)
 {
-    RealRgb sum = real_grey(0);
-    for (;;) {
-        RealJunction j;
-        if (!real_closest(s, &way.ray, way.start, (Real)HUGE_VAL, &j.at)) {
-            return real_rgb_add(sum, 1, real_rgb_mul(way.share, real_rgb(s->p->background)));
-        }
-        real_surface(s, &way.ray, &j.at);
-        real_join(s, &way, inside, &j);
-        Real opaque = real_opaque(s, j.pigment);
-        RealRgb light = real_rgb_scale(opaque, real_rgb_mul(real_rgb(rgbft_rgb(j.pigment)), real_rgb(j.finish->glow)));
-        for (size_t i = 0; i < s->p->light_count; i++) {
-            RealRgb one = real_light(s, &s->p->lights[i], j.finish, j.pigment, &j.at, inside, j.normal, way.ray.d,
-                                     statistics);
-            light = real_rgb_add(light, 1, one);
-        }
-        sum = real_rgb_add(sum, 1, real_rgb_mul(way.share, light));
-        RealWay next = way;
-        Inside onward;
-        bool is_total;
-        inside_copy(&onward, inside);
-        bool goes_on = real_onward(s, &j, &next, &onward, &is_total);
-        if (!is_total) {
-            RealRgb mirrored = real_reflected(s, &j, &way, inside, statistics);
-            sum = real_rgb_add(sum, 1, real_rgb_mul(way.share, mirrored));
-        }
-        if (!goes_on) {
-            return sum;
-        }
-        statistics->transmitted_rays++;
-        way = next;
-        inside_copy(inside, &onward);
+    RealWay *way = &now->way;
+    RealJunction j;
+    now->inside = medium_keep(s->media, now->kept, now->inside);
+    if (!real_closest(s, &way->ray, way->start, (Real)HUGE_VAL, &j.at)) {
+        now->sum = real_rgb_add(now->sum, 1, real_rgb_mul(way->share, real_rgb(s->p->background)));
+        now->goes_on = false;
+        return false;
     }
+    real_surface(s, &way->ray, &j.at);
+    real_join(s, way, now->inside, &j);
+    Real opaque = real_opaque(s, j.pigment);
+    RealRgb light = real_rgb_scale(opaque, real_rgb_mul(real_rgb(rgbft_rgb(j.pigment)), real_rgb(j.finish->glow)));
+    for (size_t i = 0; i < s->p->light_count; i++) {
+        RealRgb one = real_light(s, &s->p->lights[i], j.finish, j.pigment, &j.at, now->inside, j.normal, way->ray.d,
+                                 statistics);
+        light = real_rgb_add(light, 1, one);
+    }
+    now->sum = real_rgb_add(now->sum, 1, real_rgb_mul(way->share, light));
+    RealWay next = *way;
+    MediumStack onward = now->inside;
+    bool is_total;
+    now->goes_on = real_onward(s, &j, &next, &onward, &is_total);
+    bool is_mirrored = !is_total && real_reflected(s, &j, now, mirrored);
+    now->share = way->share;
+    now->reflectance = j.reflectance;
+    now->exponent = j.finish->reflection_exponent;
+    statistics->transmitted_rays += now->goes_on;
+    statistics->reflected_rays += is_mirrored;
+    *way = next;
+    now->inside = onward;
+    return is_mirrored;
+}
+
+// The light that a ray brings back. No level is deeper than max_trace_level.
+static RealRgb real_trace(const RealScene *s, RealWay way, MediumStack inside, RealLevel *levels,
+                          RenderStatistics *statistics)
+{
+    int depth = 0;
+    levels[0] =
+        (RealLevel){.way = way, .inside = inside, .kept = s->media->count, .goes_on = true, .sum = real_grey(0)};
+    while (depth > 0 || levels[0].goes_on) {
+        if (!levels[depth].goes_on) {
+            depth--;
+            real_reflect(&levels[depth], levels[depth + 1].sum);
+        } else if (real_step(s, &levels[depth], &levels[depth + 1], statistics)) {
+            depth++;
+        }
+    }
+    return levels[0].sum;
 }
 
 // ---- the camera
 
-static Rgb real_colour(const Prepared *p, double u, double v, RenderStatistics *statistics)
+static Rgb real_colour(const Prepared *p, double u, double v, RenderScratch *scratch, RenderStatistics *statistics)
 {
     const PreparedCamera *camera = &p->camera;
-    RealScene s = {p, p->scene, (Real)1 / (Real)p->textures.scale};
+    RealScene s = {p, p->scene, (Real)1 / (Real)p->textures.scale, &scratch->rays.media};
     RealVec across = real_sub(real_scale((Real)u, real_vec(camera->right)), real_scale((Real)v, real_vec(camera->up)));
     bool is_parallel = camera->type == CAMERA_ORTHOGRAPHIC;
     RealVec location = real_vec(camera->location), direction = real_vec(camera->direction);
     RealWay way = {.share = real_grey(1), .weight = 1, .level = 1};
     way.ray.e = is_parallel ? real_add_scaled(location, 1, across) : location;
     way.ray.d = real_unit(is_parallel ? direction : real_add_scaled(direction, 1, across));
-    Inside inside;
-    inside_copy(&inside, &p->start);
-    if (is_parallel) {
-        prepared_inside(p, vec3((double)way.ray.e.x, (double)way.ray.e.y, (double)way.ray.e.z), &inside);
-    }
+    Vec3 start = vec3((double)way.ray.e.x, (double)way.ray.e.y, (double)way.ray.e.z);
+    MediumStack inside = prepared_start(p, start, s.media);
     statistics->camera_rays++;
-    RealRgb light = real_trace(&s, way, &inside, statistics);
+    RealRgb light = real_trace(&s, way, inside, (RealLevel *)(void *)scratch->study_levels, statistics);
     return rgb((double)light.red, (double)light.green, (double)light.blue);
 }
 

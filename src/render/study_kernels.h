@@ -4,12 +4,13 @@
 #ifndef RENDER_STUDY_KERNELS_H
 #define RENDER_STUDY_KERNELS_H
 
+#include "render/kernel.h"
 #include "render/render.h"
 
-typedef Rgb (*StudyKernel)(const Prepared *p, double u, double v, RenderStatistics *statistics);
+typedef Rgb (*StudyKernel)(const Prepared *p, double u, double v, RenderScratch *scratch, RenderStatistics *statistics);
 
-Rgb study_colour_float(const Prepared *p, double u, double v, RenderStatistics *statistics);
-Rgb study_colour_double(const Prepared *p, double u, double v, RenderStatistics *statistics);
-Rgb study_colour_quad(const Prepared *p, double u, double v, RenderStatistics *statistics);
+Rgb study_colour_float(const Prepared *p, double u, double v, RenderScratch *scratch, RenderStatistics *statistics);
+Rgb study_colour_double(const Prepared *p, double u, double v, RenderScratch *scratch, RenderStatistics *statistics);
+Rgb study_colour_quad(const Prepared *p, double u, double v, RenderScratch *scratch, RenderStatistics *statistics);
 
 #endif

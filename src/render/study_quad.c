@@ -12,7 +12,7 @@ typedef Quad Real;
 
 #include "render/study_kernel.h"
 
-Rgb study_colour_quad(const Prepared *p, double u, double v, RenderStatistics *statistics)
+Rgb study_colour_quad(const Prepared *p, double u, double v, RenderScratch *scratch, RenderStatistics *statistics)
 {
-    return real_colour(p, u, v, statistics);
+    return real_colour(p, u, v, scratch, statistics);
 }

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/parallel.h"
+#include "render/scratch.h"
 
 typedef struct Run {
     const TileWork *work;
@@ -67,19 +68,24 @@ static void trace_tiles(void *client, int thread)
 {
     Run *run = client;
     RenderStatistics sum = {0};
+    RenderScratch *scratch = scratch_new();
+    if (!scratch) {
+        return;
+    }
     for (int index; (index = atomic_fetch_add(&run->next, 1)) < run->tiles && !is_cancelled(run->options);) {
-        run->work->trace(run->work->client, tile_at(run, index), &sum);
+        run->work->trace(run->work->client, tile_at(run, index), scratch, &sum);
         int done = atomic_fetch_add(&run->done, 1) + 1;
         if (thread == 0 && run->work->progress) {
             run->work->progress(run->work->client, (double)done / run->tiles);
         }
     }
+    scratch_free(scratch);
     pthread_mutex_lock(&run->lock);
     statistics_add(&run->statistics, &sum);
     pthread_mutex_unlock(&run->lock);
 }
 
-bool tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics)
+RenderResult tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics)
 {
     Run run = {.work = work, .options = options, .lock = PTHREAD_MUTEX_INITIALIZER};
     run.columns = (work->width + TILE_SIZE - 1) / TILE_SIZE;
@@ -87,7 +93,9 @@ bool tiles_run(const TileWork *work, const RenderOptions *options, RenderStatist
     parallel_run(options->threads < run.tiles ? options->threads : run.tiles, trace_tiles, &run);
     pthread_mutex_destroy(&run.lock);
     statistics_add(statistics, &run.statistics);
-    return atomic_load(&run.done) == run.tiles;
+    return atomic_load(&run.done) == run.tiles ? RENDER_OK
+           : is_cancelled(options)             ? RENDER_CANCELLED
+                                               : RENDER_NO_MEMORY;
 }
 
 int render_default_threads(void)

@@ -12,9 +12,10 @@ enum { TILE_SIZE = 32 };
 // What is done. What it does for a tile depends on nothing that is done for another.
 typedef struct TileWork {
     void *client;
-    int width, height;                                                 // of the picture
-    void (*trace)(void *client, Tile tile, RenderStatistics *counted); // adds to what was counted
-    void (*progress)(void *client, double done);                       // 0 to 1; by one thread at a time; may be NULL
+    int width, height; // of the picture
+    // In the thread's own scratch; adds to what was counted.
+    void (*trace)(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
+    void (*progress)(void *client, double done); // 0 to 1; by one thread at a time; may be NULL
 } TileWork;
 
 // The part of a tile, of KERNEL_ROW by KERNEL_ROW pixels or less, that begins at a pixel.
@@ -28,7 +29,7 @@ static inline Tile tile_block(Tile tile, int left, int top)
 // ones again. Returns those of the block, a bit for each. The lens is left as it is.
 uint64_t block_places(const Film *film, Tile block, double aside, KernelPlaces *places);
 
-// Runs on options->threads threads; adds to the statistics. False when it was cancelled.
-bool tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics);
+// Runs on options->threads threads, or as many of them as memory is found for; adds to the statistics.
+RenderResult tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics) RT_MUST_CHECK;
 
 #endif

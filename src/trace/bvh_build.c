@@ -43,6 +43,7 @@ typedef struct Builder {
     pthread_cond_t changed;
     Task tasks[TASKS_MOST];
     unsigned waiting, busy; // tasks; threads that have one
+    BvhRef spares[BUILDERS_MOST][RANGE_SPARE]; // room of each thread, too large for its stack
 } Builder;
 
 // ---- coordinates
@@ -91,7 +92,8 @@ static void node_clear(BvhNode *node)
 }
 
 // Splits the child of the largest box, again and again, until there are eight or all are leaves.
-static int node_split(BvhRef *refs, const Range *range, int threads, Range children[BVH_WIDTH])
+static int node_split(BvhRef *refs, const Range *range, int threads, BvhRef spare[RANGE_SPARE],
+                      Range children[BVH_WIDTH])
 {
     int count = 1;
     children[0] = *range;
@@ -109,7 +111,7 @@ static int node_split(BvhRef *refs, const Range *range, int threads, Range child
             break;
         }
         Range parent = children[largest];
-        range_split(refs, &parent, threads, &children[largest], &children[count++]);
+        range_split(refs, &parent, threads, spare, &children[largest], &children[count++]);
     }
     return count;
 }
@@ -136,7 +138,7 @@ static void builder_make(Builder *builder, int thread, int splitters, const Task
     *task->place = number;
     node_clear(node);
     Range children[BVH_WIDTH];
-    int count = node_split(builder->refs, &task->range, splitters, children);
+    int count = node_split(builder->refs, &task->range, splitters, builder->spares[thread], children);
     for (int i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             node->box[axis][0][i] = children[i].box.low[axis];

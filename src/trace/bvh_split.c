@@ -14,8 +14,8 @@
 
 enum {
     BIN_MOST = 16,
-    SAMPLES = 512,             // a range of more than SHORT_MOST is binned by about so many of its refs
-    SHORT_MOST = 2 * SAMPLES - 1,
+    SHORT_MOST = RANGE_SPARE,
+    SAMPLES = (SHORT_MOST + 1) / 2, // a range of more than SHORT_MOST is binned by about so many of its refs
     MOVE_BLOCK = 64,           // refs that are looked at before some are moved
     TURNS = 2,                 // places where boxes are summed up
     VERY_LONG = 1 << 16,       // a range of more refs is moved by pieces, several at once when there are threads
@@ -217,9 +217,8 @@ static Sum bins_sum(const Bin *bins, int begin, int end)
 }
 
 // The refs of bins from `cut` on go behind the others, in their order. Returns how many the others are.
-static uint32_t short_move(BvhRef *refs, uint32_t count, const uint8_t *bin_of, int cut)
+static uint32_t short_move(BvhRef *refs, uint32_t count, const uint8_t *bin_of, int cut, BvhRef right[RANGE_SPARE])
 {
-    BvhRef right[SHORT_MOST];
     uint32_t lefts = 0, rights = 0;
     for (uint32_t i = 0; i < count; i++) {
         BvhRef ref = refs[i];
@@ -234,7 +233,8 @@ static uint32_t short_move(BvhRef *refs, uint32_t count, const uint8_t *bin_of, 
 }
 
 // False when it cannot be cut between bins.
-static bool short_split(BvhRef *refs, const Range *range, const Binning *binning, Range *left, Range *right)
+static bool short_split(BvhRef *refs, const Range *range, const Binning *binning, BvhRef spare[RANGE_SPARE], Range *left,
+                        Range *right)
 {
     Bin bins[BIN_MOST];
     uint8_t bin_of[SHORT_MOST];
@@ -251,7 +251,7 @@ static bool short_split(BvhRef *refs, const Range *range, const Binning *binning
         return false;
     }
     Sum sums[2] = {bins_sum(bins, 0, cut), bins_sum(bins, cut, binning->count)};
-    uint32_t middle = range->begin + short_move(first, count, bin_of, cut);
+    uint32_t middle = range->begin + short_move(first, count, bin_of, cut, spare);
     *left = (Range){sums[0].box, sums[0].centres, range->begin, middle, range->depth + 1};
     *right = (Range){sums[1].box, sums[1].centres, middle, range->end, range->depth + 1};
     return true;
@@ -499,19 +499,20 @@ static bool long_split(BvhRef *refs, const Range *range, const Binning *binning,
 // ---- both
 
 // Between two bins, where they tell the refs apart and the heuristic has not gone too deep.
-static bool cut_between_bins(BvhRef *refs, const Range *range, int threads, Range *left, Range *right)
+static bool cut_between_bins(BvhRef *refs, const Range *range, int threads, BvhRef spare[RANGE_SPARE], Range *left,
+                             Range *right)
 {
     Binning binning;
     if (range->depth >= BVH_SAH_DEPTH_MOST || !binning_init(&binning, range)) {
         return false;
     }
-    return range_count(range) <= SHORT_MOST ? short_split(refs, range, &binning, left, right)
+    return range_count(range) <= SHORT_MOST ? short_split(refs, range, &binning, spare, left, right)
                                             : long_split(refs, range, &binning, threads, left, right);
 }
 
-void range_split(BvhRef *refs, const Range *range, int threads, Range *left, Range *right)
+void range_split(BvhRef *refs, const Range *range, int threads, BvhRef spare[RANGE_SPARE], Range *left, Range *right)
 {
-    if (cut_between_bins(refs, range, threads, left, right)) {
+    if (cut_between_bins(refs, range, threads, spare, left, right)) {
         return;
     }
     // In half by full leaves.

@@ -37,8 +37,10 @@ static inline uint32_t range_count(const Range *range)
 // The box and centres of a range, from its refs.
 Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth, int threads);
 
+enum { RANGE_SPARE = 1023 }; // refs of the longest range that is moved by way of spare room
+
 // Cuts a range of more than a leaf in two. The order of the refs in both parts depends on the order before alone, not on
-// the number of threads, of which very long ranges only take more than one.
-void range_split(BvhRef *refs, const Range *range, int threads, Range *left, Range *right);
+// the number of threads, of which very long ranges only take more than one. `spare` is the calling thread's room.
+void range_split(BvhRef *refs, const Range *range, int threads, BvhRef spare[RANGE_SPARE], Range *left, Range *right);
 
 #endif

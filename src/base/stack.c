@@ -1,0 +1,66 @@
+// How much stack a thread has left, and a thread that has enough.
+//
+// SPDX-License-Identifier: MIT
+#include "base/stack.h"
+
+#include <signal.h>
+#include <stdint.h>
+
+typedef struct Errand {
+    void (*work)(void *client);
+    void *client;
+} Errand;
+
+static void *errand_run(void *argument)
+{
+    const Errand *errand = argument;
+    errand->work(errand->client);
+    return NULL;
+}
+
+// 0 where the system does not say.
+static size_t stack_left(void)
+{
+    pthread_attr_t attributes;
+    void *lowest;
+    size_t size;
+    if (pthread_getattr_np(pthread_self(), &attributes) != 0) {
+        return 0;
+    }
+    bool is_known = pthread_attr_getstack(&attributes, &lowest, &size) == 0;
+    pthread_attr_destroy(&attributes);
+    uintptr_t here = (uintptr_t)__builtin_frame_address(0), low = (uintptr_t)lowest;
+    return is_known && here > low && here - low <= size ? here - low : 0;
+}
+
+bool stack_thread(pthread_t *thread, void *(*work)(void *argument), void *argument)
+{
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0) {
+        return false;
+    }
+    bool is_started = pthread_attr_setstacksize(&attributes, STACK_BYTES) == 0 &&
+                      pthread_create(thread, &attributes, work, argument) == 0;
+    pthread_attr_destroy(&attributes);
+    return is_started;
+}
+
+bool stack_run(void (*work)(void *client), void *client)
+{
+    Errand errand = {work, client};
+    pthread_t thread;
+    if (stack_left() >= STACK_BYTES_LEAST) {
+        work(client);
+        return true;
+    }
+    if (!stack_thread(&thread, errand_run, &errand)) {
+        return false;
+    }
+    // A signal is to end the call that waits for something, which is made there.
+    sigset_t all, old;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &old);
+    pthread_join(thread, NULL);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+    return true;
+}
