@@ -7,8 +7,6 @@
 #include "render/camera.h"
 #include "render/scratch.h"
 
-enum { FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES };
-
 typedef struct Behind {
     Rgb light;
     double clear;
@@ -68,13 +66,13 @@ static Behind follow(const Prepared *dark, Ray ray, RenderScratch *scratch)
     RenderStatistics unused = {0};
     StackedRay first = {
         .ray = ray, .start = RAY_START_CAMERA, .share = rgb_grey(1.0), .weight = 1.0, .level = 1, .known = NULL};
-    shade_path_begin(dark, FEATURES, &first, stack);
+    shade_path_begin(dark, SHADE_ALL_FEATURES, &first, stack);
     through[0] = (AlphaThrough){rgb_grey(1.0), 1.0};
     while (stack->count > 0) {
         ShadeStep step;
         int place = stack->count - 1;
         AlphaThrough before = through[place];
-        shade_path_step(dark, FEATURES, stack, NULL, &unused, &step);
+        shade_step_all(dark, stack, NULL, &unused, &step);
         if (step.is_hit) {
             keep_through(dark, &step, stack, place, &before, through);
         } else {

@@ -13,7 +13,7 @@ enum {
     RAYS_MOST = 1000,   // that are told of
     SPHERES_FEW = 16,   // a scene with no more than these tells of each, also of those that are missed
     SPHERES_MOST = 100, // that are told of for a ray
-    FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES,
+    FEATURES = SHADE_ALL_FEATURES,
 };
 
 static const double U = DBL_EPSILON / 2;
@@ -427,7 +427,7 @@ bool life_trace(Life *life, const Prepared *prepared, int width, int height, int
         int place = stack->count - 1;
         int parent = parents[place];
         LifeKind kind = kinds[place];
-        shade_path_step(prepared, FEATURES, stack, NULL, &unused, &step);
+        shade_step_all(prepared, stack, NULL, &unused, &step);
         if (step.ray.closes) {
             continue;
         }

@@ -10,6 +10,8 @@
 #include "render/shade_onward.h"
 #include "render/sky.h"
 
+enum { SHADE_ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES };
+
 // What a surface with bumps sends on, for each of the normals that its layers have.
 typedef struct ShadeWays {
     int count;
@@ -25,14 +27,27 @@ Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, Shade
 Rgb shade_bumpy(const Prepared *p, const ShadePoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics);
 
 // What a material adds by itself: its glow and what the lights make of it.
-RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const ShadeMaterial *material,
-                                 const ShadePoint *at, RenderStatistics *statistics)
+RT_ALWAYS_INLINE Rgb shade_local_of(const Prepared *p, unsigned features, const ShadeMaterial *material,
+                                    const ShadePoint *at, RenderStatistics *statistics)
 {
     Rgb light = rgb_mul(material->opaque, material->finish->glow);
     for (size_t i = 0; i < p->light_count; i++) {
         light = rgb_add(light, shade_light(p, features, material, &p->lights[i], at, statistics));
     }
     return light;
+}
+
+// The same with all features: compiled once, in render/step.c.
+Rgb shade_local_all(const Prepared *p, const ShadeMaterial *material, const ShadePoint *at,
+                    RenderStatistics *statistics);
+
+// Without bumps it is the same: what they change, shade_metallic, they change for angles of more than a right one only.
+RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const ShadeMaterial *material,
+                                 const ShadePoint *at, RenderStatistics *statistics)
+{
+    return (features | RENDER_NORMALS) == SHADE_ALL_FEATURES
+               ? shade_local_all(p, material, at, statistics)
+               : shade_local_of(p, features, material, at, statistics);
 }
 
 // The mirror of a material, by colour; false when it has none.
@@ -299,13 +314,21 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, RayS
     }
 }
 
+// The same with all features: compiled once, in render/step.c, for kernels with bumps, alpha and the watcher of a ray.
+void shade_step_all(const Prepared *p, RayStack *stack, SampleStream *stream, RenderStatistics *statistics,
+                    ShadeStep *step);
+
 // Traces the rays that wait; returns the sum of all light.
 RT_ALWAYS_INLINE Rgb shade_stack(const Prepared *p, unsigned features, RayStack *stack, SampleStream *stream,
                                  RenderStatistics *statistics)
 {
     while (stack->count > 0) {
         ShadeStep step;
-        shade_path_step(p, features, stack, stream, statistics, &step);
+        if (features == SHADE_ALL_FEATURES) {
+            shade_step_all(p, stack, stream, statistics, &step);
+        } else {
+            shade_path_step(p, features, stack, stream, statistics, &step);
+        }
     }
     return stack->sums[0];
 }
