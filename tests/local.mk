@@ -207,6 +207,7 @@ test_scripts = \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
   %D%/system/check_install.py \
+  %D%/system/check_strip.py \
   %D%/system/check_library_path.py \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \

@@ -387,7 +387,8 @@ static bool report_print_json(const Check *check, const char *path)
         return false;
     }
     scenes_report_json(check->report, out);
-    return (ferror(out) == 0) & (fclose(out) == 0);
+    bool fine = ferror(out) == 0;
+    return fclose(out) == 0 && fine;
 }
 
 static int report_write(const Check *check, int exit_code)
@@ -510,7 +511,8 @@ static bool stability_write(const Check *check, const Stability *stability)
         return false;
     }
     stability_json(stability, out);
-    return (ferror(out) == 0) & (fclose(out) == 0);
+    fine = ferror(out) == 0;
+    return fclose(out) == 0 && fine;
 }
 
 static int stability_check(Check *check)

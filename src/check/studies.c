@@ -46,7 +46,9 @@ static bool files_open(Files *files, const char *folder)
 
 static bool stream_close(FILE *out)
 {
-    return out == NULL || ((ferror(out) == 0) & (fclose(out) == 0));
+    bool fine = out == NULL || ferror(out) == 0;
+
+    return (out == NULL || fclose(out) == 0) && fine;
 }
 
 static bool files_close(Files *files)

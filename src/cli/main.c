@@ -434,5 +434,5 @@ int main(int argc, char **argv)
         fputs(!tells ? "" : wrote ? "rtlang: interrupted\n" : "rtlang: interrupted; nothing was written\n", stderr);
         return 128 + (int)interrupted_by;
     }
-    return status;
+    return (int)status;
 }

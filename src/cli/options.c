@@ -193,7 +193,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
 {
     *options = (Options){.width = 320,
                          .height = 240,
-                         .encoding = {RT_DEPTH_AUTO, 0.0},
+                         .encoding = {.depth = RT_DEPTH_AUTO},
                          .antialias = {.threshold = 0.3},
                          .photons = 1000000};
     // No more paths and declarations than arguments.

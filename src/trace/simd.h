@@ -231,9 +231,9 @@ RT_ALWAYS_INLINE Doubles doubles_max(Doubles a, Doubles b)
 RT_ALWAYS_INLINE double doubles_least(Doubles a)
 {
 #if defined(__AVX512F__)
-    a = doubles_min(a, __builtin_shuffle(a, (DoublesMask){4, 5, 6, 7, 0, 1, 2, 3}));
-    a = doubles_min(a, __builtin_shuffle(a, (DoublesMask){2, 3, 0, 1, 6, 7, 4, 5}));
-    a = doubles_min(a, __builtin_shuffle(a, (DoublesMask){1, 0, 3, 2, 5, 4, 7, 6}));
+    a = doubles_min(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
+    a = doubles_min(a, __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5));
+    a = doubles_min(a, __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6));
     return a[0];
 #else
     double least = a[0];
