@@ -11,6 +11,7 @@
 #include <time.h>
 
 #include "scene/scene.h"
+#include "study/optional.h"
 #include "trace/query.h"
 #include "unit/random.h"
 

@@ -13,8 +13,6 @@ AM_TESTS_ENVIRONMENT = \
   RTCHECK='$(abs_top_builddir)/rtcheck$(EXEEXT)'; export RTCHECK; \
   PRINT_SCHEMA='$(abs_top_builddir)/tests/unit/print_schema'; export PRINT_SCHEMA; \
   PRINT_DIAGNOSTICS='$(abs_top_builddir)/tests/unit/print_diagnostics'; export PRINT_DIAGNOSTICS; \
-  POVRAY='$(POVRAY)'; export POVRAY; \
-  VALGRIND='$(VALGRIND)'; export VALGRIND; \
   COUNT_SPHERE_TESTS='$(abs_top_builddir)/tests/unit/count_sphere_tests'; export COUNT_SPHERE_TESTS; \
   CC='$(CC)'; export CC; \
   top_srcdir='$(abs_top_srcdir)'; export top_srcdir; \
@@ -88,11 +86,8 @@ tests_unit_test_math_LDADD = libmath.la libbase.la
 tests_unit_test_trace_sphere_SOURCES = %D%/unit/test_trace_sphere.c
 tests_unit_test_trace_sphere_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_certified_SOURCES = %D%/unit/test_trace_certified.c $(unit_headers)
-tests_unit_test_trace_certified_LDADD = $(UNIT_TRACE)
-if WITH_MPFR
-tests_unit_test_trace_certified_CPPFLAGS = $(AM_CPPFLAGS) -DWITH_MPFR
-tests_unit_test_trace_certified_LDADD += -lmpfr -lgmp
-endif
+tests_unit_test_trace_certified_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
+tests/unit/test_trace_certified.$(OBJEXT): src/study/optional.h
 trace_headers = %D%/unit/trace_scenes.h $(unit_headers)
 tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c $(trace_headers)
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "study/optional.h"
+
 #ifdef WITH_MPFR
 #include <mpfr.h>
 

@@ -74,7 +74,7 @@ def read_png(path, channels=3, depths=(8, 16)):
 
 
 def povray():
-    """The program, or None. configure may have run before it was installed."""
+    """The program, or None."""
     return os.environ.get("POVRAY") or shutil.which("povray")
 
 

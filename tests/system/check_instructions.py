@@ -8,6 +8,7 @@ SPDX-License-Identifier: MIT
 import glob
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -23,7 +24,7 @@ LOOPS = {"one by one": PROGRAM, "in vectors of two": PROGRAM.replace("_tests", "
          "in vectors of four": PROGRAM.replace("_tests", "_blocks_v3")}
 ORDINARY = ["01_one_sphere", "04_", "08_", "10_sphere_flake"]
 RTLANG = os.environ["RTLANG"]
-VALGRIND = os.environ.get("VALGRIND", "")
+VALGRIND = os.environ.get("VALGRIND") or shutil.which("valgrind")
 
 
 def instructions(program, function, folder):

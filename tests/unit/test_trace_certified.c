@@ -14,6 +14,7 @@
 #include "trace/sphere.h"
 #include "unit/random.h"
 #include "study/cases.h"
+#include "study/optional.h"
 #include "unit/tap.h"
 
 #ifdef WITH_MPFR
