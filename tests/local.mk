@@ -236,6 +236,11 @@ check-long: check-growth
 check-growth: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_growth.py
 
+# The run ends with what it left out, and why.
+check-local: check-TESTS
+	@test ! -e $(TEST_SUITE_LOG) || $(AWK) -f $(srcdir)/%D%/skipped.awk $(TEST_SUITE_LOG)
+EXTRA_DIST += %D%/skipped.awk
+
 TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.

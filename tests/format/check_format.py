@@ -20,7 +20,7 @@ import tempfile
 
 TOP = os.environ.get("top_srcdir", ".")
 RTLANG = os.path.abspath(os.environ.get("RTLANG", "rtlang"))
-POVRAY_FOLDERS = ["/usr/share/povray-3.7/include", "/usr/share/doc/povray/examples"]
+POVRAY_FOLDERS = {"povray-includes": "/usr/share/povray-3.7/include", "povray-examples": "/usr/share/doc/povray/examples"}
 SEED = int(os.environ.get("FORMAT_SEED", "1"))
 BLANKS = b" \t\r\n\f\v\x1a"
 
@@ -133,9 +133,9 @@ def groups():
     ours = examples + sorted(glob.glob(f"{TOP}/tests/povray/*.scn")) + sorted(glob.glob(f"{TOP}/share/rtlang/*.inc"))
     yield "examples, scenes of the tests, shipped include files", files(ours)
     yield "programs of tests/lang", cases()
-    for folder in POVRAY_FOLDERS:
+    for package, folder in POVRAY_FOLDERS.items():
         paths = find_files(folder, (".pov", ".inc", ".pov.gz", ".inc.gz", ".map"))
-        yield f"{folder}", files(paths) if paths else None
+        yield package, files(paths) if paths else None
     yield "random tokens", ((f"seed {SEED * 10000 + i}", soup(SEED * 10000 + i), TOP) for i in range(600))
     yield "random white space", (
         (f"{os.path.basename(path)}, seed {seed}", shuffled(read(path), seed), TOP)
@@ -200,7 +200,7 @@ def main():
         print(f"{'ok' if holds else 'not ok'} {number} - {name}")
     for number, (name, group) in enumerate(todo, len(first) + 1):
         if group is None:
-            print(f"ok {number} - {name} # SKIP not installed")
+            print(f"ok {number} - {name} # SKIP {name} is not installed")
             continue
         count, read_count, faults = check(group)
         failed += bool(faults) or not read_count

@@ -134,14 +134,14 @@ def compare_opaque(tap, folder):
 def compare_exr(tap, folder):
     """Colours are multiplied with alpha there. POV-Ray writes numbers of 16 bits, which oiiotool makes ones of 32."""
     if not shutil.which("oiiotool"):
-        tap.skip("EXR", "no oiiotool here")
+        tap.skip("EXR", "oiiotool is not installed")
         return
     text = GAMMAS["gamma 2.2"] + CAMERA + BACKGROUNDS["transmit"] + THINGS["two sheets of glass"]
     try:
         ours, theirs = render(text, folder, kind=("exr", "+FE"))
     except pictures.RunFailed as failure:
         if "E0507" in failure.text:
-            tap.skip("EXR", "OpenImageIO's module is not there")
+            tap.skip("EXR", "built without OpenImageIO")
             return
         raise
     wide = os.path.join(folder, "wide.exr")
@@ -154,7 +154,7 @@ def compare_exr(tap, folder):
 def main():
     tap = Tap()
     if not pictures.povray():
-        tap.skip("alpha", "no povray here")
+        tap.skip("alpha", "povray is not installed")
         return tap.done()
     with tempfile.TemporaryDirectory() as folder:
         with concurrent.futures.ThreadPoolExecutor(2 * (os.cpu_count() or 1)) as pool:

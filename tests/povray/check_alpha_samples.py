@@ -113,7 +113,7 @@ def check_exr(tap, folder):
     except pictures.RunFailed as failure:
         if "E0507" not in failure.text:
             raise
-        tap.skip("EXR", "OpenImageIO's module is not there")
+        tap.skip("EXR", "built without OpenImageIO")
         return
     values = read_rgba(rtlang(folder, WHOLE, "--samples=12"))
     worst = max(max(abs(channels["A"][i] - values[4 * i + 3] / 65535), max(
@@ -125,7 +125,7 @@ def check_exr(tap, folder):
 def check_povray(tap, folder):
     """Both take so many rays that what is left is the error of the means."""
     if not pictures.povray():
-        tap.skip("POV-Ray", "no povray here")
+        tap.skip("POV-Ray", "povray is not installed")
         return
     for thing in ("two sheets of glass", "sky", "fog", "layers", "mirrors"):
         text = HEAD + CAMERA + BACKGROUNDS["transmit"] + THINGS[thing]

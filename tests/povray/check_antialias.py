@@ -61,7 +61,7 @@ def judge_document(words):
 
 def main():
     if not pictures.povray():
-        print("1..0 # SKIP no povray here")
+        print("1..0 # SKIP povray is not installed")
         return 0
     results, total, all_beyond, greatest_within = [], 0, 0, 0
     with tempfile.TemporaryDirectory() as folder:

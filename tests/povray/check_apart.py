@@ -89,7 +89,7 @@ def judge(scene, found, rows):
 def main():
     scenes, povray = sorted(glob.glob(f"{TOP}/tests/povray/apart/*.scn")), pictures.povray()
     if not povray:
-        print("1..0 # SKIP no povray here")
+        print("1..0 # SKIP povray is not installed")
         return 0
     found, messages = measure(scenes, povray)
     if found is None:

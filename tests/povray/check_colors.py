@@ -148,7 +148,7 @@ def cases(theirs):
 def main():
     folders = pictures.include_folders()
     if not pictures.povray() or not folders:
-        print("1..0 # SKIP POV-Ray and its include files are not installed")
+        print("1..0 # SKIP povray and povray-includes are not installed")
         return 0
     number = failed = 0
     for name, passed, words_of_it in cases(folders[0]):

@@ -269,7 +269,7 @@ def main():
         results = pool.map(lambda case: None if lacks(case[1]) else check(*case[2:], folders), CASES)
         for number, ((name, program, *_), result) in enumerate(zip(CASES, results), 1):
             if result is None:
-                print(f"ok {number} - {name} # SKIP no {lacks(program)} here")
+                print(f"ok {number} - {name} # SKIP {lacks(program)} is not installed")
                 continue
             passed, words, more = result
             failed += not passed

@@ -126,7 +126,7 @@ def check_calls(case, folders):
 def main():
     files = sorted(glob.glob("/usr/share/povray-3*/include/*.inc"))
     if pictures.povray() is None or not files:
-        print("1..0 # SKIP no POV-Ray with its include files here")
+        print("1..0 # SKIP povray and povray-includes are not installed")
         return 0
     print(f"1..{len(files) + len(CALLS)}")
     folders, failed, number = pictures.include_folders(), 0, 0

@@ -66,7 +66,7 @@ def words(found):
 def main():
     tap = Tap()
     if not pictures.povray():
-        tap.skip("jitter", "no povray here")
+        tap.skip("jitter", "povray is not installed")
         return tap.done()
     with tempfile.TemporaryDirectory() as folder:
         for name, light in LIGHTS.items():

@@ -42,7 +42,7 @@ def judge(answer):
     if answer is None:
         return False, "rtcheck said nothing"
     if "E0507" in answer.get("fault", ""):
-        return True, "not compared: its image files need OpenImageIO # SKIP"
+        return True, "not compared: its image files # SKIP built without OpenImageIO"
     if "fault" in answer:
         return False, answer["fault"].replace("\n", " | ")
     met, words = pictures.verdict(round(answer["max"]), answer["beyond"], answer["pixels"])
@@ -76,7 +76,7 @@ def compare(names, povray, folders):
 def main():
     names, povray = scenes(), pictures.povray()
     if not povray:
-        print("1..0 # SKIP no povray here")
+        print("1..0 # SKIP povray is not installed")
         return 0
     with tempfile.TemporaryDirectory() as made:
         images.make(made, os.environ["RTLANG"])

@@ -25,7 +25,7 @@ RTLANG = os.path.abspath(os.environ["RTLANG"])
 FUZZ = int(os.environ.get("IMAGE_FUZZ", "12"))
 HEAD = "camera { location -3*z } light_source { <-3, 4, -5>, 1 }\n"
 MEGA = 1 << 20
-OPENIMAGEIO_IS_MISSING = "OpenImageIO's module is not there"
+OPENIMAGEIO_IS_MISSING = "built without OpenImageIO"
 tap = Tap()
 
 

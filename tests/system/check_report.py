@@ -244,7 +244,7 @@ def main():
         if CHROMIUM_PROGRAM:
             check_browser(tap, text, answers, folder)
         else:
-            tap.skip("the page in a browser", "no chromium here")
+            tap.skip("the page in a browser", "chromium is not installed")
     tap.done()
 
 

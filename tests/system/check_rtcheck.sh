@@ -99,7 +99,7 @@ expect 'no POV-Ray' 3 '"rtcheck: no program \`nosuch\` found"*' --povray nosuch 
 expect 'no scene' 2 '*"no scene given"*' --json
 expect 'a wrong number' 2 '*"--width wants"*"found \`0\`"*' --width 0 'a scene.scn'
 expect 'an unknown option' 2 '*"--nope"*' --nope 'a scene.scn'
-expect 'a missing folder' 2 '*"nowhere: No such file"*' -I nowhere 'a scene.scn'
+expect 'a missing folder' 2 '*"nowhere: No such file"*' -I nowhere --povray "$work/same" 'a scene.scn'
 expect 'a report that cannot be written' 2 '*"cannot write the report /dev/null/out: Not a directory"*' \
     --report /dev/null/out --povray "$work/same" 'a scene.scn'
 mkdir -p "$work/taken/index.html"
