@@ -183,6 +183,9 @@ tests_unit_count_kernels_LDADD = librender.la $(UNIT_TRACE)
 check_PROGRAMS += tests/fuzz/fuzz_scene
 tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
 tests_fuzz_fuzz_scene_LDADD = libapi.la
+check_PROGRAMS += tests/fuzz/fuzz_exponents
+tests_fuzz_fuzz_exponents_SOURCES = %D%/fuzz/fuzz_exponents.c $(unit_headers)
+tests_fuzz_fuzz_exponents_LDADD = libapi.la
 
 test_scripts = \
   %D%/fuzz/replay.sh \
@@ -241,7 +244,7 @@ check-local: check-TESTS
 	@test ! -e $(TEST_SUITE_LOG) || $(AWK) -f $(srcdir)/%D%/skipped.awk $(TEST_SUITE_LOG)
 EXTRA_DIST += %D%/skipped.awk
 
-TESTS += $(unit_programs) tests/lang/typos $(test_scripts)
+TESTS += $(unit_programs) tests/fuzz/fuzz_exponents tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
 lang_cases = \
@@ -304,10 +307,12 @@ update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 # What takes too long for every day.
 .PHONY: check-long
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
-  tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT)
+  tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
+  tests/fuzz/fuzz_exponents$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	tests/unit/test_range$(EXEEXT) 20000
+	tests/fuzz/fuzz_exponents$(EXEEXT) 10000
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py

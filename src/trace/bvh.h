@@ -52,7 +52,8 @@ static inline uint32_t bvh_leaf_count(BvhChild leaf)
 typedef struct BvhNode {
     _Alignas(64) float box[3][2][BVH_WIDTH]; // axis; low, high; child
     BvhChild child[BVH_WIDTH];
-    uint32_t unused[BVH_WIDTH]; // 0; so that a node is four lines of cache
+    uint32_t present; // a bit for each child that is not BVH_CHILD_NONE: whatever floats say, no other is followed
+    uint32_t unused[BVH_WIDTH - 1]; // 0; so that a node is four lines of cache
 } BvhNode;
 
 typedef struct Bvh {

@@ -87,8 +87,9 @@ static void node_clear(BvhNode *node)
             node->box[axis][1][child] = -INFINITY;
         }
         node->child[child] = BVH_CHILD_NONE;
-        node->unused[child] = 0;
     }
+    node->present = 0;
+    memset(node->unused, 0, sizeof node->unused);
 }
 
 // Splits the child of the largest box, again and again, until there are eight or all are leaves.
@@ -139,6 +140,7 @@ static void builder_make(Builder *builder, int thread, int splitters, const Task
     node_clear(node);
     Range children[BVH_WIDTH];
     int count = node_split(builder->refs, &task->range, splitters, builder->spares[thread], children);
+    node->present = (1u << count) - 1;
     for (int i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             node->box[axis][0][i] = children[i].box.low[axis];

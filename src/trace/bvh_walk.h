@@ -136,6 +136,9 @@ RT_ALWAYS_INLINE double bvh_walk_pad(double reach, double near_reach)
     return 32.0 * (DBL_EPSILON / 2) * reach + 0x1p-22 * near_reach;
 }
 
+// Where planes would be moved farther than that, far beyond what is added to them in float, every box is met: see below.
+#define BVH_PAD_MOST 0x1p40
+
 // Begins a walk from p(0) on. The direction is about of unit length.
 //
 // Let D be the sum of the coordinates of origin and root box in tree coordinates, which is not less than any difference
@@ -149,7 +152,10 @@ RT_ALWAYS_INLINE double bvh_walk_pad(double reach, double near_reach)
 // plane - origin and the product of both are each off by 2^-24.
 // A direction's component below 2^-60 is taken for 2^-60: over the length of the tree that is less than u D.
 // (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, with all of it done once a ray instead of once a box.)
-// False when the ray cannot meet the tree.
+//
+// Where that is BVH_PAD_MOST or more, every box lies within it, and float may not hold it, nor the origin: then the walk
+// begins in the middle of the root box with planes so far away that all boxes are met, and nothing is skipped, so that no
+// limit is too low. No number of a walk overflows then: inverses are no greater than 2^60. False when the ray cannot meet the tree.
 RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin, Vec3 direction)
 {
     Axes o;
@@ -159,11 +165,18 @@ RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin,
     if (RT_UNLIKELY(!axes_are_small(axes_narrow(&o)))) {
         double half = bvh->half.x + bvh->half.y + bvh->half.z;
         double reach = axes_sum_abs(&o) + half;
-        if (!(reach < (double)INFINITY) ||
-            !bvh_walk_approach(walk, bvh, &o, direction, bvh_walk_pad(reach, 0.0))) {
-            return false;
+        pad = bvh_walk_pad(reach, 0.0);
+        if (pad < BVH_PAD_MOST) {
+            if (!bvh_walk_approach(walk, bvh, &o, direction, pad)) {
+                return false;
+            }
+            pad = bvh_walk_pad(reach, axes_sum_abs(&o) + half);
         }
-        pad = bvh_walk_pad(reach, axes_sum_abs(&o) + half);
+        if (!(pad < BVH_PAD_MOST)) {
+            o = (Axes){0.0, 0.0, 0.0, 0.0};
+            pad = 0x1p62;
+            walk->skipped = 0.0;
+        }
     }
     FloatAxes d = axes_of_direction(direction);
     bvh_walk_set(walk, bvh, axes_narrow(&o), (float)pad, d, d);
@@ -218,7 +231,7 @@ RT_ALWAYS_INLINE unsigned bvh_walk_boxes(const BvhWalk *walk, const BvhNode *nod
         floats_store(&enters[at], enter);
         met |= floats_le(enter, leave) << at;
     }
-    return met;
+    return met & node->present; // an empty box is missed already, unless a number overflowed
 }
 
 // Fetches a child, which has to wait, into the cache.
