@@ -15,6 +15,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/attributes.h"
 #include "math/ray.h"
@@ -111,8 +112,14 @@ RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *bal
 }
 
 // The same in double-word arithmetic, for any finite numbers: the nearest positive root, off by less than an ulp, and
-// from which side; 0 for a miss.
-double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside) __attribute__((cold));
+// from which side; 0 for a miss. `start`: what the ray starts on, NULL or with a radius of NaN if that is no sphere; of one
+// with the same centre the radii alone decide which of the two is inside of the other.
+double sphere_exact(const SphereRay *ray, const Ball *ball, const Ball *start, bool *inside) __attribute__((cold));
+
+// Which of two spheres is met first, where both roots are within some ulps of t: below 0 when that is a. Roots that differ
+// by u² of the distances are told apart; spheres of one centre by their radii, however far their roots are apart.
+int sphere_roots_compare(const SphereRay *ray, const Ball *a, bool a_inside, const Ball *b, bool b_inside, double t)
+    __attribute__((cold));
 
 // One Newton step from a root of sphere_test, with the residual |f + t d|² - r² in double-word arithmetic. What the
 // step leaves is e² / (distance of the two roots), and the residual is known to 12 u² (|f|² + r²): the two checks make
@@ -148,7 +155,7 @@ RT_ALWAYS_INLINE double sphere_refine(const SphereRay *ray, const Ball *ball, do
     bool is_certain = sum < 0x1p900 && sum > 0x1p-900 && 0x1p-46 * sum <= reach &&
                       step * step * 0x1p56 <= reach * ray->inverse_square;
     bool inside;
-    return RT_LIKELY(is_certain) ? t - step : sphere_exact(ray, ball, &inside);
+    return RT_LIKELY(is_certain) ? t - step : sphere_exact(ray, ball, NULL, &inside);
 }
 
 // The nearest positive root, as right as it gets; 0 for a miss. What the queries below agree with, bit for bit.
@@ -158,7 +165,7 @@ RT_ALWAYS_INLINE double sphere_hit(const SphereRay *ray, const Ball *ball, bool 
     switch (sphere_test(ray, ball, &t, inside)) {
     case SPHERE_MISS: return 0.0;
     case SPHERE_MET: return sphere_refine(ray, ball, t);
-    default: return sphere_exact(ray, ball, inside);
+    default: return sphere_exact(ray, ball, NULL, inside);
     }
 }
 
@@ -181,6 +188,22 @@ RT_ALWAYS_INLINE Vec3 sphere_normal(Ray ray, const Ball *ball, double t)
         offset = sphere_exact_offset(ray, ball, t);
     }
     return vec3_normalize(offset);
+}
+
+// One coordinate of p(t) put back onto the sphere: of origin + t d and centre + r n the one that rounding is known to do
+// less to, which it does by the size of what is added. docs/numerics.md has the bounds.
+RT_ALWAYS_INLINE double sphere_coordinate(double origin, double along, double centre, double outward)
+{
+    return fabs(along) < fabs(outward) ? origin + along : centre + outward;
+}
+
+// p(t), t being refined and `normal` that of sphere_normal.
+RT_ALWAYS_INLINE Vec3 sphere_point(Ray ray, const Ball *ball, double t, Vec3 normal)
+{
+    double radius = sqrt(ball->radius_squared);
+    return vec3(sphere_coordinate(ray.origin.x, t * ray.direction.x, ball->centre.x, radius * normal.x),
+                sphere_coordinate(ray.origin.y, t * ray.direction.y, ball->centre.y, radius * normal.y),
+                sphere_coordinate(ray.origin.z, t * ray.direction.z, ball->centre.z, radius * normal.z));
 }
 
 #endif

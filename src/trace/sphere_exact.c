@@ -57,12 +57,21 @@ static bool case_init(ScaledCase *out, const SphereRay *ray, const Ball *ball)
     return vec3_is_finite(ray->origin) && vec3_is_finite(ray->direction) && vec3_is_finite(ball->centre);
 }
 
-double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside)
+// r'² - r², r' being the radius of a sphere that has the same centre and that the ray starts on: |f|² - r² without what
+// rounding did to the origin.
+static DoubleWord concentric_c(const ScaledCase *s, const Ball *start)
+{
+    double radius = ldexp(sqrt(start->radius_squared), -s->length_exponent);
+    return double_word_mul(two_sum(radius, -s->radius), two_sum(radius, s->radius));
+}
+
+double sphere_exact(const SphereRay *ray, const Ball *ball, const Ball *start, bool *inside)
 {
     ScaledCase s;
     if (!case_init(&s, ray, ball)) {
         return 0.0;
     }
+    bool is_concentric = start && start->radius_squared > 0.0 && vec3_equal(start->centre, ball->centre);
     DoubleWord cross[3];
     DoubleWord b = {0.0, 0.0}; // -f·d
     DoubleWord a = {0.0, 0.0}; // d·d
@@ -75,6 +84,10 @@ double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside)
     DoubleWord r_squared = two_product(s.radius, s.radius);
     DoubleWord discriminant = double_word_sub(double_word_mul(a, r_squared), sum_of_squares(cross));
     DoubleWord c = double_word_sub(sum_of_squares(s.f), r_squared);
+    if (is_concentric) {
+        c = concentric_c(&s, start);
+        discriminant = double_word_sub(double_word_mul(b, b), double_word_mul(a, c));
+    }
     if (discriminant.hi < 0.0 || (c.hi >= 0.0 && !(b.hi > 0.0))) {
         return 0.0;
     }
@@ -86,6 +99,34 @@ double sphere_exact(const SphereRay *ray, const Ball *ball, bool *inside)
                         : double_word_quotient(far_side, a);
     t = ldexp(t, s.length_exponent - s.direction_exponent);
     return t < (double)INFINITY ? t : 0.0;
+}
+
+// What is to be added to t, about a root, to come to the root: Newton's step, with the residual in double words.
+static double root_correction(const SphereRay *ray, const Ball *ball, double t)
+{
+    const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
+    const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
+    const double centre[3] = {ball->centre.x, ball->centre.y, ball->centre.z};
+    double radius = sqrt(ball->radius_squared), slope = 0.0;
+    DoubleWord p[3];
+    for (int i = 0; i < 3; i++) {
+        p[i] = double_word_add(two_sum(o[i], -centre[i]), two_product(t, d[i]));
+        slope += p[i].hi * d[i];
+    }
+    return -0.5 * double_word_sub(sum_of_squares(p), two_product(radius, radius)).hi / slope;
+}
+
+int sphere_roots_compare(const SphereRay *ray, const Ball *a, bool a_inside, const Ball *b, bool b_inside, double t)
+{
+    if (!vec3_equal(a->centre, b->centre)) {
+        double after_a = root_correction(ray, a, t), after_b = root_correction(ray, b, t);
+        return (after_a > after_b) - (after_a < after_b);
+    }
+    if (a_inside != b_inside) {
+        return a_inside - b_inside;
+    }
+    int is_greater = (a->radius_squared > b->radius_squared) - (a->radius_squared < b->radius_squared);
+    return a_inside ? is_greater : -is_greater;
 }
 
 Vec3 sphere_exact_offset(Ray ray, const Ball *ball, double t)

@@ -312,13 +312,27 @@ RT_ALWAYS_INLINE double nearest_limit(double t_max)
     return t_max + SPHERE_ROOT_SLACK * t_max;
 }
 
-// A sphere that is met about where another one is, which the roots must tell apart once they are refined.
+// Two refined roots that differ by no more than this share of the greater, four ulps at most, may be in the wrong order.
+#define SPHERE_TIE 0x1p-51
+
+// A sphere that is met about where another one is, which the roots must tell apart once they are refined. Equal roots are
+// those of equal spheres, or as good as equal: then the order of declaration decides.
 RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, uint32_t slot, const Ball *ball, double t,
                                  bool inside, bool is_rough, Nearest *nearest)
 {
     nearest_settle(table, ray, nearest);
-    nearest_offer(nearest, is_rough ? sphere_refine(ray, ball, t) : t, shape_id(SHAPE_SPHERE, slot), inside,
-                  table->info[slot].order);
+    t = is_rough ? sphere_refine(ray, ball, t) : t;
+    bool is_nearer = t < nearest->hit.t;
+    if (t > 0.0 && nearest->hit.shape != SHAPE_NONE) {
+        Ball other = sphere_table_ball(table, shape_index(nearest->hit.shape));
+        if (fabs(t - nearest->hit.t) <= SPHERE_TIE * nearest->hit.t || vec3_equal(ball->centre, other.centre)) {
+            int order = sphere_roots_compare(ray, ball, inside, &other, nearest->hit.inside, t);
+            is_nearer = order < 0 || (order == 0 && table->info[slot].order < nearest->order);
+        }
+    }
+    if (t > 0.0 && is_nearer) {
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, false, 0.0};
+    }
 }
 
 // A sphere that is met, by sphere_test (t is rough) or by sphere_exact. Roots are refined only where rough ones could
@@ -349,7 +363,7 @@ RT_ALWAYS_INLINE void sphere_slot_closest(const SphereTable *table, uint32_t slo
         return;
     }
     if (verdict == SPHERE_DOUBTFUL) {
-        t = sphere_exact(ray, &ball, &inside);
+        t = sphere_exact(ray, &ball, start, &inside);
     }
     nearest_offer_sphere(table, ray, slot, &ball, t, inside, verdict == SPHERE_MET, nearest);
 }
@@ -381,7 +395,7 @@ RT_ALWAYS_INLINE bool sphere_slot_occludes(const SphereTable *table, uint32_t sl
         return false;
     }
     if (verdict == SPHERE_DOUBTFUL) {
-        t = sphere_exact(ray, &ball, &inside);
+        t = sphere_exact(ray, &ball, start, &inside);
         return t > 0.0 && t < t_max;
     }
     return sphere_root_is_before(ray, &ball, t, t_max);

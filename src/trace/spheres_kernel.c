@@ -116,7 +116,7 @@ RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, co
             continue;
         }
         if (RT_UNLIKELY(!is_rough)) {
-            t = sphere_exact(ray, &ball, &inside);
+            t = sphere_exact(ray, &ball, &start->ball, &inside);
         }
         nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, nearest);
     } while (hits.met);
@@ -139,7 +139,7 @@ RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, c
             continue;
         }
         if (RT_UNLIKELY(hits.doubtful >> at & 1)) {
-            double t = sphere_exact(ray, &ball, &inside);
+            double t = sphere_exact(ray, &ball, &start->ball, &inside);
             if (t > 0.0 && t < t_max) {
                 return true;
             }

@@ -49,13 +49,14 @@ RT_ALWAYS_INLINE uint64_t surfaces_find(const SphereTable *table, const double *
     }
     uint64_t done = 0;
     for (unsigned i = 0; i < count; i += DOUBLES) {
-        Doubles offset[3], own[3];
+        Doubles offset[3], own[3], begun[3], along[3];
         Doubles square = doubles_load(&radius_squared[i]);
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; axis++) {
             own[axis] = doubles_load(&centre[axis][i]);
-            Doubles from = apart ? doubles_load(&begin[axis][i]) : doubles_splat(*origin[axis]);
-            offset[axis] = (from - own[axis]) + doubles_load(&t[i]) * doubles_load(&surfaces->direction[axis][i]);
+            begun[axis] = apart ? doubles_load(&begin[axis][i]) : doubles_splat(*origin[axis]);
+            along[axis] = doubles_load(&t[i]) * doubles_load(&surfaces->direction[axis][i]);
+            offset[axis] = (begun[axis] - own[axis]) + along[axis];
         }
         Doubles length_squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
         done |= (uint64_t)doubles_ge(0x1p-20 * square, doubles_abs(length_squared - square)) << i;
@@ -65,7 +66,10 @@ RT_ALWAYS_INLINE uint64_t surfaces_find(const SphereTable *table, const double *
         for (int axis = 0; axis < 3; axis++) {
             Doubles normal = shrink * offset[axis];
             doubles_store(&surfaces->outward[axis][i], normal);
-            doubles_store(&surfaces->point[axis][i], own[axis] + radius * normal);
+            Doubles reach = radius * normal;
+            DoublesMask is_near = doubles_abs(along[axis]) < doubles_abs(reach);
+            doubles_store(&surfaces->point[axis][i],
+                          doubles_choose(is_near, begun[axis] + along[axis], own[axis] + reach));
         }
     }
     return done;

@@ -297,7 +297,7 @@ RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, 
                        0.0};
     bool inside = sphere->c < 0.0;
     if (RT_UNLIKELY(is_doubtful)) {
-        t = sphere_exact(&ray, &sphere->ball, &inside);
+        t = sphere_exact(&ray, &sphere->ball, NULL, &inside);
     }
     nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_doubtful, &nearest);
     tile_hit_set(hits, i, &nearest.hit);
@@ -389,7 +389,7 @@ RT_SELDOM void beam_settle_exact(const TileBeam *beam, unsigned i)
     SphereRay ray = sphere_tile_ray(beam->tile, i);
     Ball ball = sphere_table_ball(beam->table, shape_index((ShapeId)beam->shape[i]));
     bool inside;
-    beam->hits->t[i] = sphere_exact(&ray, &ball, &inside);
+    beam->hits->t[i] = sphere_exact(&ray, &ball, NULL, &inside);
 }
 
 // Makes the roots right that are rough, a vector at a time.

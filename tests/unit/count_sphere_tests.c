@@ -53,7 +53,7 @@ double count_certified(const Ball *balls, Ray ray, int *doubtful)
         }
         if (verdict == SPHERE_DOUBTFUL) {
             ++*doubtful;
-            t = sphere_exact(&sphere_ray, &balls[i], &inside);
+            t = sphere_exact(&sphere_ray, &balls[i], NULL, &inside);
         }
         nearest = t > 0.0 && t < nearest ? t : nearest;
     }
