@@ -4,27 +4,12 @@
 #include "scene/range.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <pthread.h>
 
 #include "base/parallel.h"
 #include "scene/part.h"
-
-// ---- the exact scale
-
-// The least and the greatest of the lengths that rays meet. Zero, infinite and NaN lengths do not count.
-typedef struct LengthRange {
-    double least, greatest;
-} LengthRange;
-
-static inline void range_add(LengthRange *range, double length)
-{
-    double size = fabs(length);
-    if (size > 0.0 && size <= DBL_MAX) {
-        range->least = size < range->least ? size : range->least;
-        range->greatest = size > range->greatest ? size : range->greatest;
-    }
-}
 
 // As vec3_max_abs, for numbers.
 static inline double max_abs(Vec3 a)
@@ -38,24 +23,6 @@ static double row_size(const Transform *transform, int row)
 {
     const double *m = transform->m[row];
     return fmax(fabs(m[0]), fmax(fabs(m[1]), fabs(m[2])));
-}
-
-// A box has lengths of its own; the other fixed shapes are as large as 1.
-static void range_add_part(LengthRange *range, const Part *part)
-{
-    if (part->kind == PART_PLANE) {
-        range_add(range, part->data[1].x);
-        return;
-    }
-    const double *low = &part->data[0].x, *high = &part->data[1].x;
-    for (int row = 0; row < 4; row++) {
-        double size = row_size(&part->to_world, row);
-        if (part->kind == PART_BOX && row < 3) {
-            range_add(range, size * fmax(fabs(low[row]), fabs(high[row])));
-            size *= high[row] - low[row];
-        }
-        range_add(range, size);
-    }
 }
 
 // ---- all spheres
@@ -74,37 +41,32 @@ typedef struct Surveying {
 
 static void survey_add(SphereSurvey *survey, const SphereSurvey *more)
 {
-    survey->least_length = fmin(survey->least_length, more->least_length);
-    survey->greatest_length = fmax(survey->greatest_length, more->greatest_length);
     survey->least_radius = fmin(survey->least_radius, more->least_radius);
     survey->greatest_radius = fmax(survey->greatest_radius, more->greatest_radius);
     survey->greatest_place = fmax(survey->greatest_place, more->greatest_place);
     survey->is_valid = survey->is_valid && more->is_valid;
 }
 
-static const SphereSurvey nothing_surveyed = {INFINITY, 0.0, INFINITY, 0.0, 0.0, true};
+static const SphereSurvey nothing_surveyed = {INFINITY, 0.0, 0.0, true};
 
 static void survey_some(void *client, size_t begin, size_t end)
 {
     Surveying *surveying = client;
     const Scene *scene = surveying->scene;
-    double least = INFINITY, greatest = 0.0, place = 0.0, least_place = INFINITY;
+    double least = INFINITY, greatest = 0.0, place = 0.0;
     bool has_materials = true;
     double nothing = 0.0; // as long as all is finite
     for (size_t i = begin; i < end; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         Vec3 centre = sphere->centre;
-        double radius = sphere->radius, at = max_abs(centre), counted = at > 0.0 ? at : INFINITY;
+        double radius = sphere->radius, at = max_abs(centre);
         nothing += (centre.x - centre.x) + (centre.y - centre.y) + (centre.z - centre.z) + (radius - radius);
         has_materials = has_materials & scene_has_material(scene, sphere->material);
         least = radius < least ? radius : least;
         greatest = radius > greatest ? radius : greatest;
         place = at > place ? at : place;
-        least_place = counted < least_place ? counted : least_place;
     }
     SphereSurvey some = {
-        .least_length = least_place < least ? least_place : least,
-        .greatest_length = place > greatest ? place : greatest,
         .least_radius = least,
         .greatest_radius = greatest,
         .greatest_place = place,
@@ -123,32 +85,202 @@ void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey)
     pthread_mutex_destroy(&surveying.lock);
 }
 
-// The exponent of the whole scene.
-static int exponent_with(const Scene *scene, const SphereSurvey *spheres)
+// ---- the exact scale
+
+// What is asked of each shape: its greatest half size, where it stands, and what to call it.
+typedef struct Extent {
+    double size;
+    Vec3 place;
+    uint64_t source;
+    const char *what;
+} Extent;
+
+static Extent transform_extent(const Transform *to_world, uint64_t source, const char *what)
 {
-    LengthRange range = {INFINITY, 0.0};
-    range_add(&range, spheres->least_length);
-    range_add(&range, spheres->greatest_length);
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        for (int row = 0; row < 4; row++) {
-            range_add(&range, row_size(&scene->ellipsoids.items[i].to_world, row));
+    const double *origin = to_world->m[3];
+    return (Extent){fmax(row_size(to_world, 0), fmax(row_size(to_world, 1), row_size(to_world, 2))),
+                    {origin[0], origin[1], origin[2]},
+                    source,
+                    what};
+}
+
+static Extent part_extent(const Part *part)
+{
+    Extent extent = transform_extent(&part->to_world, part->source, part_word(part->kind));
+    if (part->kind == PART_BOX) {
+        const double *low = &part->data[0].x, *high = &part->data[1].x;
+        extent.size = 0.0;
+        for (int row = 0; row < 3; row++) {
+            extent.size = fmax(extent.size, 0.5 * (high[row] - low[row]) * row_size(&part->to_world, row));
         }
+        Vec3 middle = vec3_add(vec3_scale(0.5, part->data[0]), vec3_scale(0.5, part->data[1]));
+        extent.place = transform_point(&part->to_world, middle);
+    }
+    return extent;
+}
+
+// Visits what has a length: shapes with their size and place, and what has a place only, with the size 0: planes, lights,
+// and the camera, which is `needed`.
+typedef void ExtentVisitor(void *client, double size, double place, bool is_needed);
+
+static void visit_extent(ExtentVisitor *visit, void *client, Extent extent)
+{
+    visit(client, extent.size, max_abs(extent.place), false);
+}
+
+static void visit_others(const Scene *scene, ExtentVisitor *visit, void *client)
+{
+    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
+        visit_extent(visit, client, transform_extent(&scene->ellipsoids.items[i].to_world, 0, ""));
     }
     for (size_t i = 0; i < scene->planes.count; i++) {
-        range_add(&range, scene->planes.items[i].distance);
+        visit(client, 0.0, fabs(scene->planes.items[i].distance), false);
     }
     for (size_t i = 0; i < scene->parts.count; i++) {
-        range_add_part(&range, &scene->parts.items[i]);
+        const Part *part = &scene->parts.items[i];
+        if (part->kind == PART_PLANE) {
+            visit(client, 0.0, fabs(part->data[1].x), false);
+        } else {
+            visit_extent(visit, client, part_extent(part));
+        }
     }
     for (size_t i = 0; i < scene->lights.count; i++) {
-        range_add(&range, vec3_max_abs(scene->lights.items[i].position));
+        visit(client, 0.0, vec3_max_abs(scene->lights.items[i].position), false);
     }
-    range_add(&range, vec3_max_abs(scene->camera.location));
-    if (range.least > range.greatest) {
+    visit(client, 0.0, vec3_max_abs(scene->camera.location), true);
+}
+
+static void visit_all(const Scene *scene, ExtentVisitor *visit, void *client)
+{
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        visit(client, scene->spheres.items[i].radius, max_abs(scene->spheres.items[i].centre), false);
+    }
+    visit_others(scene, visit, client);
+}
+
+// The exponents at which something is held; only what has a size can be too small.
+enum { EXPONENT_LEAST = DBL_MIN_EXP - DBL_MANT_DIG, EXPONENT_MOST = DBL_MAX_EXP };
+
+typedef struct ExponentRange {
+    int low, high;
+} ExponentRange;
+
+static ExponentRange exponents_of(double size, double place)
+{
+    double greatest = fmax(size, place);
+    ExponentRange range = {EXPONENT_LEAST, EXPONENT_MOST};
+    if (!(greatest <= DBL_MAX)) {
+        return (ExponentRange){1, 0}; // at none
+    }
+    if (greatest > 0.0) {
+        range.low = ilogb(greatest) + 1 - RANGE_END;
+    }
+    if (size > 0.0) {
+        range.high = ilogb(size) - RANGE_LEAST;
+    }
+    return (ExponentRange){range.low < EXPONENT_LEAST ? EXPONENT_LEAST : range.low,
+                           range.high > EXPONENT_MOST ? EXPONENT_MOST : range.high};
+}
+
+// The lengths of what is held at some exponents: sizes count to both sides, places as the greatest, or, where nothing has
+// a size, to both. Those that are 0, infinite or NaN do not count.
+typedef struct Lengths {
+    ExponentRange at; // what is not held at one of these does not count
+    double least_size, greatest, least_place;
+} Lengths;
+
+static void lengths_visit(void *client, double size, double place, bool is_needed)
+{
+    Lengths *lengths = client;
+    ExponentRange held = exponents_of(size, place);
+    if (!is_needed && (held.low > lengths->at.low || held.high < lengths->at.high)) {
+        return;
+    }
+    if (size > 0.0 && size <= DBL_MAX) {
+        lengths->least_size = fmin(lengths->least_size, size);
+        lengths->greatest = fmax(lengths->greatest, size);
+    }
+    if (place > 0.0 && place <= DBL_MAX) {
+        lengths->least_place = fmin(lengths->least_place, place);
+        lengths->greatest = fmax(lengths->greatest, place);
+    }
+}
+
+// The exponent in the middle of the lengths, and whether all of them are held there.
+static int lengths_middle(const Lengths *lengths, bool *is_all_held)
+{
+    double least = lengths->least_size < (double)INFINITY ? lengths->least_size : lengths->least_place;
+    *is_all_held = true;
+    if (!(lengths->greatest > 0.0)) {
         return 0;
     }
-    int sum = ilogb(range.least) + ilogb(range.greatest);
-    return (sum - (sum < 0)) / 2; // rounded down, also below 0
+    int sum = ilogb(least) + ilogb(lengths->greatest), middle = (sum - (sum < 0)) / 2; // rounded down, also below 0
+    ExponentRange held = exponents_of(lengths->least_size < (double)INFINITY ? least : 0.0, lengths->greatest);
+    *is_all_held = held.low <= middle && middle <= held.high;
+    return middle;
+}
+
+// For each exponent, how much more is held than at the one before.
+typedef struct Census {
+    int64_t change[EXPONENT_MOST - EXPONENT_LEAST + 2];
+    int64_t needed; // what is needed counts as so many
+} Census;
+
+static void census_visit(void *client, double size, double place, bool is_needed)
+{
+    Census *census = client;
+    ExponentRange held = exponents_of(size, place);
+    int64_t count = is_needed ? census->needed : 1;
+    if (held.low <= held.high) {
+        census->change[held.low - EXPONENT_LEAST] += count;
+        census->change[held.high + 1 - EXPONENT_LEAST] -= count;
+    }
+}
+
+// The exponents at which the most is held, the nearest such run to `middle`.
+static ExponentRange exponents_of_most(const Scene *scene, int middle)
+{
+    Census census = {.needed = (int64_t)(scene->spheres.count + scene->ellipsoids.count + scene->planes.count +
+                                         scene->parts.count + scene->lights.count + 1)};
+    int64_t held = 0, most = -1;
+    int nearest = INT_MAX;
+    ExponentRange best = {0, 0}, run = {0, 0};
+    visit_all(scene, census_visit, &census);
+    for (int e = EXPONENT_LEAST; e <= EXPONENT_MOST; e++) {
+        int64_t change = census.change[e - EXPONENT_LEAST];
+        held += change;
+        run = change != 0 || e == EXPONENT_LEAST ? (ExponentRange){e, e} : (ExponentRange){run.low, e};
+        int apart = e < middle ? middle - e : e - middle;
+        bool is_same = run.low == best.low && held == most;
+        if (held > most || (held == most && (is_same || apart < nearest))) {
+            nearest = !is_same || apart < nearest ? apart : nearest;
+            best = run;
+            most = held;
+        }
+    }
+    return best;
+}
+
+// The exponent of the whole scene. Where lengths span too much, that of the most of it that can be held, as if the rest
+// were not there.
+static int exponent_with(const Scene *scene, const SphereSurvey *spheres)
+{
+    bool is_all_held;
+    Lengths all = {{0, 0}, (double)INFINITY, 0.0, (double)INFINITY};
+    all.at = (ExponentRange){EXPONENT_MOST, EXPONENT_LEAST}; // everything counts
+    if (scene->spheres.count > 0) {
+        lengths_visit(&all, spheres->least_radius, spheres->greatest_place, true);
+        lengths_visit(&all, spheres->greatest_radius, spheres->greatest_place, true);
+    }
+    visit_others(scene, lengths_visit, &all);
+    int middle = lengths_middle(&all, &is_all_held);
+    if (is_all_held) {
+        return middle;
+    }
+    Lengths most = {exponents_of_most(scene, middle), (double)INFINITY, 0.0, (double)INFINITY};
+    visit_all(scene, lengths_visit, &most);
+    middle = lengths_middle(&most, &is_all_held);
+    return middle < most.at.low ? most.at.low : middle > most.at.high ? most.at.high : middle;
 }
 
 int scene_exponent(const Scene *scene, int threads)
@@ -161,14 +293,6 @@ int scene_exponent(const Scene *scene, int threads)
 // ---- what lies beyond
 
 static const char not_seen_perhaps[] = "it may not be drawn";
-
-// What is asked of each shape: its greatest half size, where it stands, and what to call it.
-typedef struct Extent {
-    double size;
-    Vec3 place;
-    uint64_t source;
-    const char *what;
-} Extent;
 
 typedef struct Watch {
     DiagSink *diags;
@@ -248,30 +372,6 @@ static inline void check_extent(const Watch *watch, const Extent *extent, const 
     }
 }
 
-static Extent transform_extent(const Transform *to_world, uint64_t source, const char *what)
-{
-    const double *origin = to_world->m[3];
-    return (Extent){fmax(row_size(to_world, 0), fmax(row_size(to_world, 1), row_size(to_world, 2))),
-                    {origin[0], origin[1], origin[2]},
-                    source,
-                    what};
-}
-
-static Extent part_extent(const Part *part)
-{
-    Extent extent = transform_extent(&part->to_world, part->source, part_word(part->kind));
-    if (part->kind == PART_BOX) {
-        const double *low = &part->data[0].x, *high = &part->data[1].x;
-        extent.size = 0.0;
-        for (int row = 0; row < 3; row++) {
-            extent.size = fmax(extent.size, 0.5 * (high[row] - low[row]) * row_size(&part->to_world, row));
-        }
-        Vec3 middle = vec3_add(vec3_scale(0.5, part->data[0]), vec3_scale(0.5, part->data[1]));
-        extent.place = transform_point(&part->to_world, middle);
-    }
-    return extent;
-}
-
 static void check_plane(const Watch *watch, double distance, uint64_t source)
 {
     if (!(fabs(distance) < watch->end)) {
@@ -287,10 +387,6 @@ static void check_points(const Watch *watch, const Scene *scene)
         if (!(length < watch->end)) {
             tell_beyond(watch, length, light->span.begin, "light", "it may give no light");
         }
-    }
-    double length = vec3_max_abs(scene->camera.location);
-    if (!(length < watch->end)) {
-        tell_beyond(watch, length, scene->camera.span.begin, "camera", "it may see nothing");
     }
 }
 

@@ -22,7 +22,6 @@ enum { RANGE_LEAST = -480, RANGE_END = 511 };
 
 // What is asked of all spheres, by one look at each.
 typedef struct SphereSurvey {
-    double least_length, greatest_length; // of radii and greatest coordinates; those that are 0 do not count
     double least_radius, greatest_radius, greatest_place;
     bool is_valid; // all numbers are finite, all radii > 0, all materials there; else the rest means nothing
 } SphereSurvey;
@@ -31,8 +30,10 @@ void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey)
 bool scene_has_material(const Scene *scene, MaterialIndex index);
 
 // The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of
-// the greatest and the least are as far from overflow as from underflow. A scene times 2^k has an exponent greater by
-// k, so both become the same numbers. (The direction and screen of a perspective camera have no length that matters.)
+// the greatest and the least are as far from overflow as from underflow. Where they span more than that range, it is the
+// one that the most of the scene has, as if what cannot be held beside it, which scene_warn_of_range tells of, were not
+// there; the camera always counts. A scene times 2^k has an exponent greater by k, so both become the same numbers. (The
+// direction and screen of a perspective camera have no length that matters.)
 int scene_exponent(const Scene *scene, int threads);
 
 // Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and

@@ -68,6 +68,7 @@ static DoubleWord concentric_c(const ScaledCase *s, const Ball *start)
 double sphere_exact(const SphereRay *ray, const Ball *ball, const Ball *start, bool *inside)
 {
     ScaledCase s;
+    *inside = false;
     if (!case_init(&s, ray, ball)) {
         return 0.0;
     }

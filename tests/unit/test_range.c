@@ -147,6 +147,46 @@ static void count(const Told *told, Counts *counts, const char *text)
     }
 }
 
+static const char ordinary[] =
+    "camera { location <0, 1, -6> look_at 0 } light_source { <5, 8, -9>, 1 }\n"
+    "plane { y, -1 pigment { checker rgb 1 rgb 0.2 } }\n"
+    "sphere { 0, 1 pigment { rgb <1, 0.3, 0.2> } finish { phong 1 reflection 0.3 } }\n"
+    "sphere { <2, 0, 1>, 1 pigment { rgb <0.2, 0.5, 1> } finish { reflection 0.3 } }\n";
+
+// The sum of all values of a picture of the ordinary scene and what comes after it, each weighed by its place.
+static double picture_sum(const char *more, Told *told)
+{
+    char text[1024];
+    int width, height;
+    double sum = 0.0;
+    rt_session *session = rt_session_new(&(rt_callbacks){told, on_diagnostic, NULL, NULL});
+    snprintf(text, sizeof text, "%s%s\n", ordinary, more);
+    rt_set_size(session, 40, 30);
+    if (rt_load_text(session, "range.scn", text, strlen(text)) == RT_OK && rt_render(session, 1) == RT_OK) {
+        const float *pixels = rt_pixels(session, &width, &height);
+        for (int i = 0; i < 3 * width * height; i++) {
+            sum += pixels[i] * (1.0 + i % 1009);
+        }
+    }
+    rt_session_free(session);
+    return sum;
+}
+
+// What cannot be held is given up by itself.
+static void test_given_up(void)
+{
+    static const char *const extremes[] = {"sphere { <0.2, 0.3, -2>, 1e-310 }", "sphere { 1e300 * x, 1 }",
+                                           "sphere { 0, 1e-300 } sphere { 1e290 * y, 1e280 }", "plane { y, 1e305 }"};
+    Told alone = {.warnings = 0};
+    double expected = picture_sum("", &alone);
+    for (size_t i = 0; i < RT_COUNT_OF(extremes); i++) {
+        Told told = {.warnings = 0};
+        double sum = picture_sum(extremes[i], &told);
+        tap_ok(expected > 0.0 && sum == expected && told.warnings > 0,
+               "an ordinary scene with %s is drawn as without, with %d warnings", extremes[i], told.warnings);
+    }
+}
+
 int main(int argc, char **argv)
 {
     static char text[TEXT_MOST];
@@ -178,5 +218,6 @@ int main(int argc, char **argv)
            counts.far, counts.lost);
     tap_ok(counts.held > 0 && counts.beyond > 0 && counts.empty > 0 && counts.far > 0 && counts.lost > 0,
            "there are spheres of each kind");
+    test_given_up();
     return tap_done();
 }
