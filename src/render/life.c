@@ -288,7 +288,9 @@ static void follow_light(Follower *follower, const ShadeMaterial *material, cons
     };
     if (!light->shadowless && distance > 0.0) {
         out.visible = light->area.size1 > 0 ? shade_area(follower->p, FEATURES, at, light, out.sends, &unused)
-                                            : shade_visibility(follower->p, FEATURES, at, towards, distance, &unused);
+                                            : shade_visibility(follower->p, FEATURES, at,
+                                                               light->parallel ? NULL : &light->position, towards,
+                                                               distance, &unused);
     }
     follower->failed |= !ARRAY_PUSH(&follower->life->lights, out);
 }

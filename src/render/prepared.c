@@ -248,7 +248,8 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     if (!p) {
         return NULL;
     }
-    int exponent = scene_exponent(scene, options->threads);
+    SceneScale scale = scene_scale(scene, options->threads);
+    int exponent = scale.exponent;
     p->geometry = geometry_new_with(scene, exponent, options);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
@@ -261,6 +262,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->is_old = scene->settings.version < 3.7;
     p->max_trace_level = scene->settings.max_trace_level;
     p->adc_bailout = scene->settings.adc_bailout;
+    p->near_light = SHADOW_NEAR * ldexp(scale.least_size, -exponent);
     p->crossings_max = 2 * ((uint64_t)scene->shape_count + scene->parts.count);
     prepare_lists(p, scene, exponent);
     prepared_inside(p, p->camera.location, &p->start);

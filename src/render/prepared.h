@@ -59,6 +59,10 @@ typedef struct PreparedFinish {
     bool reflects_evenly; // the same at all angles, and not metallic
 } PreparedFinish;
 
+// Distances of points from lights, in sizes of the least shape, up to which a shadow ray's rounded direction does no harm:
+// it misses the light by no more than 2^-24 sizes.
+#define SHADOW_NEAR 0x1p26
+
 struct Prepared {
     Geometry *geometry;
     PreparedCamera camera;
@@ -78,6 +82,7 @@ struct Prepared {
     int max_trace_level;
     double adc_bailout;
     uint64_t crossings_max; // no line meets more surfaces
+    double near_light;      // beyond this distance from a light, it may be the light that is asked (render/far_light.c)
     unsigned features; // TraceFeature and RenderFeature bits that the scene needs
     const Kernel *kernel;
     const struct TileLights *tile_lights; // of the geometry's instruction set

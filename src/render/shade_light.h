@@ -185,13 +185,26 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
     return share;
 }
 
-// The share of the light that reaches the point, by colour.
-RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadePoint *at, Vec3 towards,
-                                      double distance, RenderStatistics *statistics)
+// The same, found by a ray from `end`, the light, to the point. In far_light.c.
+Rgb shade_far_light(const Prepared *p, const ShadePoint *at, Vec3 end, Vec3 towards, double distance);
+
+// Whether that is better: of point and light the latter is nearer to the scene's middle, which is at 0, and the distance is
+// so great that it matters.
+RT_ALWAYS_INLINE bool shade_is_far(const Prepared *p, Vec3 point, Vec3 end, double distance)
+{
+    return RT_UNLIKELY(distance > p->near_light) && vec3_max_abs(point) > vec3_max_abs(end);
+}
+
+// The share of the light at `end`, NULL if it has no place, that reaches the point, by colour.
+RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadePoint *at, const Vec3 *end,
+                                      Vec3 towards, double distance, RenderStatistics *statistics)
 {
     Ray ray = {at->point, towards};
     RayStart start = {at->shape, vec3_dot(at->outward, towards) < 0.0, HIDDEN_SHADOW};
     statistics->shadow_rays++;
+    if (end && shade_is_far(p, at->point, *end, distance)) {
+        return shade_far_light(p, at, *end, towards, distance);
+    }
     if (features & RENDER_TRANSPARENCY) {
         return shade_light_through(p, features, at, ray, start, distance);
     }
@@ -202,9 +215,9 @@ RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, cons
 RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at,
                                     const PreparedLight *light, Vec3 aside, RenderStatistics *statistics)
 {
-    Vec3 offset = vec3_sub(vec3_add(light->position, aside), at->point);
+    Vec3 end = vec3_add(light->position, aside), offset = vec3_sub(end, at->point);
     double distance = vec3_length(offset);
-    return shade_visibility(p, features, at, vec3_scale(1.0 / distance, offset), distance, statistics);
+    return shade_visibility(p, features, at, &end, vec3_scale(1.0 / distance, offset), distance, statistics);
 }
 
 // The mean over an area light, of which all would be `arriving`.
@@ -300,7 +313,8 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
         Rgb share = (features & RENDER_LIGHTS) && light->area.size1 > 0
                         ? shade_area(p, features, at, light, arriving, statistics)
-                        : shade_visibility(p, features, at, towards, distance, statistics);
+                        : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, towards, distance,
+                                           statistics);
         if (rgb_is_black(share)) {
             return share;
         }

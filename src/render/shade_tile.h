@@ -128,15 +128,16 @@ RT_ALWAYS_INLINE uint64_t shade_tile_strengths(LightTile *tile, const PreparedLi
     return left;
 }
 
-// One place of an area for each surface of `asked`, by its stream.
+// One place of an area for each surface of `asked`, by its stream: `end`.
 RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile, const PreparedLight *light, uint64_t asked,
-                                        SampleStream *streams, SurfaceRays *rays)
+                                        SampleStream *streams, SurfaceRays *rays, double end[3][TILE_RAYS])
 {
     uint8_t surface[TILE_RAYS], ray[TILE_RAYS];
     double x[TILE_RAYS], y[TILE_RAYS];
     uint32_t count = 0;
     rays->end = light->position;
     rays->aside = light->area_radius;
+    rays->farthest = 0.0;
     for (; asked; asked &= asked - 1, count++) {
         surface[count] = (uint8_t)__builtin_ctzll(asked);
         ray[count] = tile->surfaces.ray[surface[count]];
@@ -146,8 +147,10 @@ RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile
         int i = surface[k];
         Vec3 point = tile_surface_point(&tile->surfaces, i);
         Vec3 aside = light_area_sample(light, point, (SamplePoint){x[k], y[k]});
-        Vec3 offset = vec3_sub(vec3_add(light->position, aside), point);
+        Vec3 place = vec3_add(light->position, aside), offset = vec3_sub(place, point);
+        lane_set(end, (unsigned)i, place);
         rays->distance[i] = vec3_length(offset);
+        rays->farthest = fmax(rays->farthest, rays->distance[i]);
         lane_set(rays->towards, (unsigned)i, vec3_scale(1.0 / rays->distance[i], offset));
     }
 }
@@ -217,6 +220,27 @@ RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, 
     return dark;
 }
 
+// Takes the surfaces out of `asked` that are too far from their light to be asked from where they are; returns those that
+// nothing reaches. `end`: where each one's light is, NULL if that is the end of all.
+RT_SELDOM uint64_t shade_tile_far(const Prepared *p, LightTile *tile, const SurfaceRays *rays,
+                                  double end[3][TILE_RAYS], uint64_t *asked)
+{
+    uint64_t dark = 0;
+    for (uint64_t rest = *asked; rest; rest &= rest - 1) {
+        int i = __builtin_ctzll(rest);
+        Vec3 light = end ? lane_get(end, (unsigned)i) : rays->end;
+        if (!shade_is_far(p, tile_surface_point(&tile->surfaces, i), light, rays->distance[i])) {
+            continue;
+        }
+        ShadePoint at = shade_tile_point(tile, i, 0, NULL);
+        Rgb share = shade_far_light(p, &at, light, lane_get(rays->towards, (unsigned)i), rays->distance[i]);
+        shade_tile_set_share(tile, i, share);
+        dark |= (uint64_t)rgb_is_black(share) << i;
+        *asked &= ~(UINT64_C(1) << i);
+    }
+    return dark;
+}
+
 // The surfaces of `asked` that nothing of a light reaches; what reaches the others is noted where it may not be all.
 RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned features, TileScratch *scratch,
                                              const PreparedLight *light, uint64_t asked, SampleStream *streams,
@@ -226,18 +250,23 @@ RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned feature
     bool is_area = (features & RENDER_LIGHTS) && light->area.size1 > 0;
     const SurfaceRays *rays = &tile->rays;
     SurfaceRays places;
+    double end[3][TILE_RAYS];
+    uint64_t dark = 0;
     if (is_area && !streams) {
         return shade_tile_grid(p, features, tile, light, asked, statistics);
     }
     if (is_area) {
-        shade_tile_places(p, tile, light, asked, streams, &places);
+        shade_tile_places(p, tile, light, asked, streams, &places, end);
         rays = &places;
     }
     statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
     bool together = is_area || !light->parallel;
-    return features & RENDER_TRANSPARENCY
-               ? shade_tile_through(p, features, scratch, rays, together, asked)
-               : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked);
+    if (RT_UNLIKELY(rays->farthest > p->near_light) && together) {
+        dark = shade_tile_far(p, tile, rays, is_area ? end : NULL, &asked);
+    }
+    return dark | (features & RENDER_TRANSPARENCY
+                       ? shade_tile_through(p, features, scratch, rays, together, asked)
+                       : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked));
 }
 
 // What all lights add.

@@ -32,6 +32,7 @@ static uint64_t tile_aim(LightTile *tile, const PreparedLight *light)
     uint64_t before = 0, front = 0, behind = 0;
     tile->rays.end = light->position;
     tile->rays.aside = 0.0;
+    Doubles farthest = doubles_splat(0.0);
     for (int i = 0; i < surfaces->count; i += DOUBLES) {
         Doubles offset[3], towards[3];
         for (int axis = 0; axis < 3; axis++) {
@@ -48,11 +49,13 @@ static uint64_t tile_aim(LightTile *tile, const PreparedLight *light)
         Doubles cosine = doubles_load(&tile->normal[0][i]) * towards[0] + doubles_load(&tile->normal[1][i]) * towards[1] +
                          doubles_load(&tile->normal[2][i]) * towards[2];
         doubles_store(&tile->rays.distance[i], distance);
+        farthest = doubles_max(distance, farthest);
         doubles_store(&tile->cosine[i], cosine);
         before |= (uint64_t)doubles_gt(distance, doubles_splat(0.0)) << i;
         front |= (uint64_t)doubles_gt(cosine, doubles_splat(0.0)) << i;
         behind |= (uint64_t)doubles_gt(doubles_splat(0.0), cosine) << i;
     }
+    tile->rays.farthest = doubles_greatest(farthest);
     uint64_t all = tile_all(tile);
     tile->before = before & all;
     behind &= all;

@@ -261,9 +261,9 @@ static ExponentRange exponents_of_most(const Scene *scene, int middle)
     return best;
 }
 
-// The exponent of the whole scene. Where lengths span too much, that of the most of it that can be held, as if the rest
-// were not there.
-static int exponent_with(const Scene *scene, const SphereSurvey *spheres)
+// The scale of the whole scene. Where lengths span too much, that of the most of it that can be held, as if the rest were
+// not there.
+static SceneScale scale_with(const Scene *scene, const SphereSurvey *spheres)
 {
     bool is_all_held;
     Lengths all = {{0, 0}, (double)INFINITY, 0.0, (double)INFINITY};
@@ -275,19 +275,20 @@ static int exponent_with(const Scene *scene, const SphereSurvey *spheres)
     visit_others(scene, lengths_visit, &all);
     int middle = lengths_middle(&all, &is_all_held);
     if (is_all_held) {
-        return middle;
+        return (SceneScale){middle, all.least_size};
     }
     Lengths most = {exponents_of_most(scene, middle), (double)INFINITY, 0.0, (double)INFINITY};
     visit_all(scene, lengths_visit, &most);
     middle = lengths_middle(&most, &is_all_held);
-    return middle < most.at.low ? most.at.low : middle > most.at.high ? most.at.high : middle;
+    middle = middle < most.at.low ? most.at.low : middle > most.at.high ? most.at.high : middle;
+    return (SceneScale){middle, most.least_size};
 }
 
-int scene_exponent(const Scene *scene, int threads)
+SceneScale scene_scale(const Scene *scene, int threads)
 {
     SphereSurvey survey;
     scene_survey_spheres(scene, threads, &survey);
-    return exponent_with(scene, &survey);
+    return scale_with(scene, &survey);
 }
 
 // ---- what lies beyond
@@ -450,7 +451,7 @@ static void check_spheres(const Scene *scene, const SphereSurvey *survey, const 
 
 void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags)
 {
-    int exponent = exponent_with(scene, survey);
+    int exponent = scale_with(scene, survey).exponent;
     Watch watch = {diags, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
     check_spheres(scene, survey, &watch);
     for (size_t i = 0; i < scene->ellipsoids.count; i++) {

@@ -10,10 +10,10 @@
 #include "base/attributes.h"
 #include "scene/scene.h"
 
-// Scaled lengths: the squares of radii from 2^RANGE_LEAST to below 2^RANGE_END, and of coordinates below 2^RANGE_END,
-// are held with all their bits.
 enum { SPHERE_RUN = 16384 }; // spheres that a thread looks at on end
 
+// Scaled lengths: the squares of radii from 2^RANGE_LEAST to below 2^RANGE_END, and of coordinates below 2^RANGE_END,
+// are held with all their bits.
 enum { RANGE_LEAST = -480, RANGE_END = 511 };
 
 // Seen from the camera, the greatest distance in radii at which a sphere's outline is a hundredth of its radius: 0.01 /
@@ -29,12 +29,18 @@ typedef struct SphereSurvey {
 void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey);
 bool scene_has_material(const Scene *scene, MaterialIndex index);
 
-// The exponent that puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of
+// What a scene is scaled by, and the size of its least shape, which is INFINITY where none has a size.
+typedef struct SceneScale {
+    int exponent;
+    double least_size; // unscaled
+} SceneScale;
+
+// The exponent puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of
 // the greatest and the least are as far from overflow as from underflow. Where they span more than that range, it is the
 // one that the most of the scene has, as if what cannot be held beside it, which scene_warn_of_range tells of, were not
 // there; the camera always counts. A scene times 2^k has an exponent greater by k, so both become the same numbers. (The
 // direction and screen of a perspective camera have no length that matters.)
-int scene_exponent(const Scene *scene, int threads);
+SceneScale scene_scale(const Scene *scene, int threads);
 
 // Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and
 // of lights and cameras beyond the range. One pass.

@@ -449,6 +449,24 @@ RT_ALWAYS_INLINE bool geometry_ray_crossed(const Geometry *g, unsigned features,
     return g->kernels->ray_crossed(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), &ray, start, t_max, crossings);
 }
 
+// Whether two are one surface: the same, or equal ones, declared twice.
+RT_ALWAYS_INLINE bool geometry_is_same(const Geometry *g, ShapeId a, ShapeId b)
+{
+    if (shape_kind(a) != shape_kind(b)) {
+        return false;
+    }
+    uint32_t i = shape_index(a), j = shape_index(b);
+    switch (shape_kind(a)) {
+    case SHAPE_SPHERE: {
+        Ball ball = sphere_table_ball(&g->spheres, i), other = sphere_table_ball(&g->spheres, j);
+        return ball_equal(&ball, &other);
+    }
+    case SHAPE_PLANE: return plane_equal(&g->planes[i].shape, &g->planes[j].shape);
+    case SHAPE_ELLIPSOID: return ellipsoid_equal(&g->ellipsoids[i].shape, &g->ellipsoids[j].shape);
+    default: return solid_equal(&g->shapes.solids[part_index(a)], &g->shapes.solids[part_index(b)]);
+    }
+}
+
 // The material of a sphere or plane.
 RT_ALWAYS_INLINE MaterialIndex geometry_material(const Geometry *g, unsigned features, ShapeId shape)
 {

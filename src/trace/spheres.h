@@ -91,7 +91,7 @@ typedef struct TileSurfaces {
 // Rays from surfaces to a point, or to places no farther than `aside` from it.
 typedef struct SurfaceRays {
     Vec3 end;
-    double aside;
+    double aside, farthest; // no distance is greater
     _Alignas(64) double towards[3][TILE_RAYS]; // of about unit length
     double distance[TILE_RAYS];
 } SurfaceRays;

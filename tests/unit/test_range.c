@@ -97,7 +97,7 @@ static bool look_up(rt_session *session, Told *told)
 {
     Scene *scene = &session->scene;
     Vec3 origin = scene_move_near(scene);
-    int exponent = scene_exponent(scene, 1);
+    int exponent = scene_scale(scene, 1).exponent;
     Geometry *geometry = geometry_new(scene, exponent);
     Vec3 eye = vec3_scale(ldexp(1.0, -exponent), scene->camera.location);
     const SphereTable *table = geometry ? &geometry->spheres : NULL;
