@@ -190,20 +190,12 @@ RT_ALWAYS_INLINE Vec3 sphere_normal(Ray ray, const Ball *ball, double t)
     return vec3_normalize(offset);
 }
 
-// One coordinate of p(t) put back onto the sphere: of origin + t d and centre + r n the one that rounding is known to do
-// less to, which it does by the size of what is added. docs/numerics.md has the bounds.
-RT_ALWAYS_INLINE double sphere_coordinate(double origin, double along, double centre, double outward)
-{
-    return fabs(along) < fabs(outward) ? origin + along : centre + outward;
-}
-
-// p(t), t being refined and `normal` that of sphere_normal.
+// p(t) put back onto the sphere, t being refined, `normal` that of sphere_normal and the direction of about unit length: of
+// origin + t d, off by u t, and centre + r n, off the sphere by u r, the one that is off by less. docs/numerics.md has more.
 RT_ALWAYS_INLINE Vec3 sphere_point(Ray ray, const Ball *ball, double t, Vec3 normal)
 {
     double radius = sqrt(ball->radius_squared);
-    return vec3(sphere_coordinate(ray.origin.x, t * ray.direction.x, ball->centre.x, radius * normal.x),
-                sphere_coordinate(ray.origin.y, t * ray.direction.y, ball->centre.y, radius * normal.y),
-                sphere_coordinate(ray.origin.z, t * ray.direction.z, ball->centre.z, radius * normal.z));
+    return t < radius ? vec3_add_scaled(ray.origin, t, ray.direction) : vec3_add_scaled(ball->centre, radius, normal);
 }
 
 #endif

@@ -62,14 +62,13 @@ RT_ALWAYS_INLINE uint64_t surfaces_find(const SphereTable *table, const double *
         done |= (uint64_t)doubles_ge(0x1p-20 * square, doubles_abs(length_squared - square)) << i;
         Doubles shrink = 1.0 / doubles_sqrt(length_squared);
         Doubles radius = doubles_sqrt(square);
+        DoublesMask is_near = doubles_load(&t[i]) < radius;
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; axis++) {
             Doubles normal = shrink * offset[axis];
             doubles_store(&surfaces->outward[axis][i], normal);
-            Doubles reach = radius * normal;
-            DoublesMask is_near = doubles_abs(along[axis]) < doubles_abs(reach);
             doubles_store(&surfaces->point[axis][i],
-                          doubles_choose(is_near, begun[axis] + along[axis], own[axis] + reach));
+                          doubles_choose(is_near, begun[axis] + along[axis], own[axis] + radius * normal));
         }
     }
     return done;

@@ -53,6 +53,12 @@ static void light(ExactScene *scene, double x, double y, double z, double streng
     scene->lights[scene->light_count++] = (ExactLight){{x, y, z}, {strength, strength, strength}};
 }
 
+// A few, or so many that they are in a tree.
+static int few_or_many(Random *random)
+{
+    return between(random, 0, 1) < 0.6 ? 6 : 30;
+}
+
 // An eye that looks along z, with a screen so wide at distance 1.
 static void eye(ExactScene *scene, double x, double y, double z, double width)
 {
@@ -102,7 +108,7 @@ static void large_ball(Random *random, ExactScene *scene)
     eye(scene, 0, 3 * size, -6 * size, 1.2);
     look_down(scene, 0.4);
     ball(random, scene, 0, -radius, 0, radius)->mirror = 0.4;
-    for (int i = 0; i < 6; i++) {
+    for (int i = few_or_many(random); i > 0; i--) {
         double own = size * between(random, 0.3, 0.8);
         ball(random, scene, size * between(random, -2, 2), own + size * between(random, 0, 1), size * between(random, -2, 3), own);
     }
@@ -116,7 +122,7 @@ static void eye_low(Random *random, ExactScene *scene)
     eye(scene, 0, height, 0, 1.5);
     look_down(scene, between(random, 0, 0.3));
     ball(random, scene, 0, -radius, 0, radius)->mirror = 0.4;
-    for (int i = 0; i < 6; i++) {
+    for (int i = few_or_many(random); i > 0; i--) {
         double z = height * between(random, 2, 12), own = height * between(random, 0.2, 0.8);
         ball(random, scene, z * between(random, -0.5, 0.5), own, z, own);
     }
@@ -131,7 +137,7 @@ static void far_receiver(Random *random, ExactScene *scene)
     ExactShape *wall = shape(random, scene);
     *wall = (ExactShape){.is_plane = true, .axis = 2, .distance = distance, .rgb = {1, 0.9, 0.8}};
     light(scene, between(random, -1, 1), between(random, -1, 1), between(random, -1, 1), 0.9);
-    for (int i = 0; i < 8; i++) {
+    for (int i = few_or_many(random); i > 0; i--) {
         ball(random, scene, between(random, -3, 3), between(random, -3, 3), between(random, 1.5, 4), between(random, 0.1, 0.8));
     }
 }
@@ -139,7 +145,7 @@ static void far_receiver(Random *random, ExactScene *scene)
 static void shells(Random *random, ExactScene *scene)
 {
     eye(scene, 0, 0, -6, 1);
-    for (int i = 0; i < 4; i++) {
+    for (int i = few_or_many(random) / 2; i > 0; i--) {
         double x = between(random, -2, 2), y = between(random, -2, 2), z = between(random, 0, 2), r = between(random, 0.4, 1);
         double gap = power(random, -16, -9), inner = r - gap * r;
         bool is_inner_first = between(random, 0, 1) < 0.5;
@@ -164,7 +170,7 @@ static void telescope(Random *random, ExactScene *scene)
 {
     double away = power(random, 3, 11);
     eye(scene, 0, 0, -away, 6 / away);
-    balls_about(random, scene, 6, 2, 0);
+    balls_about(random, scene, few_or_many(random), 2, 0);
     light(scene, 5, 8, -9, 0.7);
 }
 
@@ -273,7 +279,7 @@ static void any_exponents(Random *random, ExactScene *scene)
     double span = between(random, 5, 120);
     eye(scene, 0, 0, 0, 1.2);
     scene->bits = 1700;
-    for (int i = 0; i < 12; i++) {
+    for (int i = few_or_many(random); i > 0; i--) {
         double away = power(random, -span, span);
         ball(random, scene, away * between(random, -0.6, 0.6), away * between(random, -0.6, 0.6), away,
              away * between(random, 0.05, 0.25));
@@ -329,7 +335,7 @@ static void planet(Random *random, ExactScene *scene)
     double radius = power(random, 5, 8);
     eye(scene, 0, 2, -9, 1);
     ball(random, scene, 0, -radius, 0, radius);
-    balls_about(random, scene, 5, 2, 2);
+    balls_about(random, scene, few_or_many(random), 2, 2);
     light(scene, 3e10, 1e11, -5e10, 0.8);
 }
 
