@@ -274,8 +274,10 @@ static void real_surface(const RealScene *s, const RealRay *ray, RealHit *hit)
         const Sphere *sphere = &s->scene->spheres.items[hit->index];
         RealVec f = real_sphere_offset(s, sphere, ray->e);
         hit->normal = real_unit(real_add_scaled(f, hit->t, ray->d));
-        hit->point = real_add_scaled(real_scale(s->inverse_scale, real_vec(sphere->centre)),
-                                     (Real)sphere->radius * s->inverse_scale, hit->normal);
+        Real radius = (Real)sphere->radius * s->inverse_scale;
+        hit->point = hit->t < radius ? real_add_scaled(ray->e, hit->t, ray->d)
+                                     : real_add_scaled(real_scale(s->inverse_scale, real_vec(sphere->centre)), radius,
+                                                       hit->normal);
         hit->material = sphere->material;
     } else if (hit->kind == SHAPE_ELLIPSOID) {
         const Ellipsoid *ellipsoid = &s->scene->ellipsoids.items[hit->index];

@@ -181,7 +181,7 @@ static void test_family(const Family *family, int pixels, Random *random)
 
 int main(int argc, char **argv)
 {
-    int pixels = argc > 1 ? atoi(argv[1]) : 1024;
+    int pixels = argc > 1 ? atoi(argv[1]) : 512;
     uint64_t seed = random_seed(argc > 2 ? argv[2] : NULL);
     exact_begin();
     for (int i = 0; i < family_count; i++) {

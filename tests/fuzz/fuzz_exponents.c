@@ -176,9 +176,26 @@ static uint64_t render(const char *isa, bool *is_drawn)
     return sum;
 }
 
+static const char *const isas[] = {"plain", "v2", "v3", "v4"};
+
+// A tree of a few sizes, and rays that come to it from 1e53 of them.
+static void test_far_plane(void)
+{
+    length = 0;
+    put("#version 3.7;\nglobal_settings { assumed_gamma 1 }\ncamera { location <0, 0, -10> look_at 0 }\n"
+        "light_source { <5, 50, -50>, 1 }\nplane { z, 1e53 pigment { rgb 1 } finish { reflection 0.5 } }\n");
+    for (int i = -4; i <= 4; i++) {
+        put("sphere { <%d, 0, 0>, 1 pigment { rgb 1 } }\n", 3 * i);
+    }
+    for (int k = 0; k < 4; k++) {
+        bool is_drawn;
+        (void)render(isas[k], &is_drawn);
+        tap_ok(is_drawn || k > 0, "nine balls before a mirror at 1e53, with %s", isas[k]);
+    }
+}
+
 int main(int argc, char **argv)
 {
-    static const char *const isas[] = {"plain", "v2", "v3", "v4"};
     int scenes = argc > 1 ? atoi(argv[1]) : 300, drawn = 0, differ = 0;
     Random random = {random_seed(NULL)};
     signal(SIGSEGV, on_signal);
@@ -196,6 +213,7 @@ int main(int argc, char **argv)
         }
     }
     tap_ok(drawn > scenes / 2, "%d of %d scenes with lengths of any exponents give a picture, none a signal", drawn, scenes);
+    test_far_plane();
     tap_ok(differ == 0, "%d of their pictures differ between instruction sets", differ);
     return tap_done();
 }
