@@ -1,8 +1,8 @@
 // Shadows on what is very far from a light: whether its light arrives is found from the light's side.
 //
-// The direction from a point P to a light is rounded to u |P|: next to the light a ray from P is off by that, which may be
-// more than what stands there is large. A ray from the light in the opposite direction is off by u s at the distance s from
-// it, and by u |P| at P, as P is itself. docs/numerics.md has more. With all features, since it is seldom asked.
+// The direction from a point P to a light is rounded to u |P|: next to the light a ray from P is off by that, which may
+// be more than what stands there is large. A ray from the light in the opposite direction is off by u s at the distance
+// s from it, and by u |P| at P, as P is itself. docs/numerics.md has more. With all features, since it is seldom asked.
 //
 // SPDX-License-Identifier: MIT
 #include "render/shade_light.h"

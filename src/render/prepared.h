@@ -59,8 +59,8 @@ typedef struct PreparedFinish {
     bool reflects_evenly; // the same at all angles, and not metallic
 } PreparedFinish;
 
-// Distances of points from lights, in sizes of the least shape, up to which a shadow ray's rounded direction does no harm:
-// it misses the light by no more than 2^-24 sizes.
+// Distances of points from lights, in sizes of the least shape, up to which a shadow ray's rounded direction does no
+// harm: it misses the light by no more than 2^-24 sizes.
 #define SHADOW_NEAR 0x1p26
 
 struct Prepared {

@@ -188,8 +188,8 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
 // The same, found by a ray from `end`, the light, to the point. In far_light.c.
 Rgb shade_far_light(const Prepared *p, const ShadePoint *at, Vec3 end, Vec3 towards, double distance);
 
-// Whether that is better: of point and light the latter is nearer to the scene's middle, which is at 0, and the distance is
-// so great that it matters.
+// Whether that is better: of point and light the latter is nearer to the scene's middle, which is at 0, and the
+// distance is so great that it matters.
 RT_ALWAYS_INLINE bool shade_is_far(const Prepared *p, Vec3 point, Vec3 end, double distance)
 {
     return RT_UNLIKELY(distance > p->near_light) && vec3_max_abs(point) > vec3_max_abs(end);
@@ -313,8 +313,8 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
         Rgb share = (features & RENDER_LIGHTS) && light->area.size1 > 0
                         ? shade_area(p, features, at, light, arriving, statistics)
-                        : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, towards, distance,
-                                           statistics);
+                        : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, towards,
+                                           distance, statistics);
         if (rgb_is_black(share)) {
             return share;
         }

@@ -220,8 +220,8 @@ RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, 
     return dark;
 }
 
-// Takes the surfaces out of `asked` that are too far from their light to be asked from where they are; returns those that
-// nothing reaches. `end`: where each one's light is, NULL if that is the end of all.
+// Takes the surfaces out of `asked` that are too far from their light to be asked from where they are; returns those
+// that nothing reaches. `end`: where each one's light is, NULL if that is the end of all.
 RT_SELDOM uint64_t shade_tile_far(const Prepared *p, LightTile *tile, const SurfaceRays *rays,
                                   double end[3][TILE_RAYS], uint64_t *asked)
 {

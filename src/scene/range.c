@@ -119,8 +119,8 @@ static Extent part_extent(const Part *part)
     return extent;
 }
 
-// Visits what has a length: shapes with their size and place, and what has a place only, with the size 0: planes, lights,
-// and the camera, which is `needed`.
+// Visits what has a length: shapes with their size and place, and what has a place only, with the size 0: planes,
+// lights, and the camera, which is `needed`.
 typedef void ExtentVisitor(void *client, double size, double place, bool is_needed);
 
 static void visit_extent(ExtentVisitor *visit, void *client, Extent extent)
@@ -182,8 +182,8 @@ static ExponentRange exponents_of(double size, double place)
                            range.high > EXPONENT_MOST ? EXPONENT_MOST : range.high};
 }
 
-// The lengths of what is held at some exponents: sizes count to both sides, places as the greatest, or, where nothing has
-// a size, to both. Those that are 0, infinite or NaN do not count.
+// The lengths of what is held at some exponents: sizes count to both sides, places as the greatest, or, where nothing
+// has a size, to both. Those that are 0, infinite or NaN do not count.
 typedef struct Lengths {
     ExponentRange at; // what is not held at one of these does not count
     double least_size, greatest, least_place;
@@ -261,8 +261,8 @@ static ExponentRange exponents_of_most(const Scene *scene, int middle)
     return best;
 }
 
-// The scale of the whole scene. Where lengths span too much, that of the most of it that can be held, as if the rest were
-// not there.
+// The scale of the whole scene. Where lengths span too much, that of the most of it that can be held, as if the rest
+// were not there.
 static SceneScale scale_with(const Scene *scene, const SphereSurvey *spheres)
 {
     bool is_all_held;

@@ -35,11 +35,11 @@ typedef struct SceneScale {
     double least_size; // unscaled
 } SceneScale;
 
-// The exponent puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of
-// the greatest and the least are as far from overflow as from underflow. Where they span more than that range, it is the
+// The exponent puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of the
+// greatest and the least are as far from overflow as from underflow. Where they span more than that range, it is the
 // one that the most of the scene has, as if what cannot be held beside it, which scene_warn_of_range tells of, were not
-// there; the camera always counts. A scene times 2^k has an exponent greater by k, so both become the same numbers. (The
-// direction and screen of a perspective camera have no length that matters.)
+// there; the camera always counts. A scene times 2^k has an exponent greater by k, so both become the same numbers.
+// (The direction and screen of a perspective camera have no length that matters.)
 SceneScale scene_scale(const Scene *scene, int threads);
 
 // Warns of shapes that are lost beside their coordinates, beyond the range of squares, or too far for their size, and

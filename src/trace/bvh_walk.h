@@ -136,7 +136,8 @@ RT_ALWAYS_INLINE double bvh_walk_pad(double reach, double near_reach)
     return 32.0 * (DBL_EPSILON / 2) * reach + 0x1p-22 * near_reach;
 }
 
-// Where planes would be moved farther than that, far beyond what is added to them in float, every box is met: see below.
+// Where planes would be moved farther than that, far beyond what is added to them in float, every box is met: see
+// below.
 #define BVH_PAD_MOST 0x1p40
 
 // Begins a walk from p(0) on. The direction is about of unit length.
@@ -153,9 +154,10 @@ RT_ALWAYS_INLINE double bvh_walk_pad(double reach, double near_reach)
 // A direction's component below 2^-60 is taken for 2^-60: over the length of the tree that is less than u D.
 // (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, with all of it done once a ray instead of once a box.)
 //
-// Where that is BVH_PAD_MOST or more, every box lies within it, and float may not hold it, nor the origin: then the walk
-// begins in the middle of the root box with planes so far away that all boxes are met, and nothing is skipped, so that no
-// limit is too low. No number of a walk overflows then: inverses are no greater than 2^60. False when the ray cannot meet the tree.
+// Where that is BVH_PAD_MOST or more, every box lies within it, and float may not hold it, nor the origin: then the
+// walk begins in the middle of the root box with planes so far away that all boxes are met, and nothing is skipped, so
+// that no limit is too low. No number of a walk overflows then: inverses are no greater than 2^60. False when the ray
+// cannot meet the tree.
 RT_ALWAYS_INLINE bool bvh_walk_start(BvhWalk *walk, const Bvh *bvh, Vec3 origin, Vec3 direction)
 {
     Axes o;

@@ -112,12 +112,13 @@ RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *bal
 }
 
 // The same in double-word arithmetic, for any finite numbers: the nearest positive root, off by less than an ulp, and
-// from which side; 0 for a miss. `start`: what the ray starts on, NULL or with a radius of NaN if that is no sphere; of one
-// with the same centre the radii alone decide which of the two is inside of the other.
+// from which side; 0 for a miss. `start`: what the ray starts on, NULL or with a radius of NaN if that is no sphere; of
+// one with the same centre the radii alone decide which of the two is inside of the other.
 double sphere_exact(const SphereRay *ray, const Ball *ball, const Ball *start, bool *inside) __attribute__((cold));
 
-// Which of two spheres is met first, where both roots are within some ulps of t: below 0 when that is a. Roots that differ
-// by u² of the distances are told apart; spheres of one centre by their radii, however far their roots are apart.
+// Which of two spheres is met first, where both roots are within some ulps of t: below 0 when that is a. Roots that
+// differ by u² of the distances are told apart; spheres of one centre by their radii, however far their roots are
+// apart.
 int sphere_roots_compare(const SphereRay *ray, const Ball *a, bool a_inside, const Ball *b, bool b_inside, double t)
     __attribute__((cold));
 
@@ -190,8 +191,9 @@ RT_ALWAYS_INLINE Vec3 sphere_normal(Ray ray, const Ball *ball, double t)
     return vec3_normalize(offset);
 }
 
-// p(t) put back onto the sphere, t being refined, `normal` that of sphere_normal and the direction of about unit length: of
-// origin + t d, off by u t, and centre + r n, off the sphere by u r, the one that is off by less. docs/numerics.md has more.
+// p(t) put back onto the sphere, t being refined, `normal` that of sphere_normal and the direction of about unit
+// length: of origin + t d, off by u t, and centre + r n, off the sphere by u r, the one that is off by less.
+// docs/numerics.md has more.
 RT_ALWAYS_INLINE Vec3 sphere_point(Ray ray, const Ball *ball, double t, Vec3 normal)
 {
     double radius = sqrt(ball->radius_squared);

@@ -312,11 +312,12 @@ RT_ALWAYS_INLINE double nearest_limit(double t_max)
     return t_max + SPHERE_ROOT_SLACK * t_max;
 }
 
-// Two refined roots that differ by no more than this share of the greater, four ulps at most, may be in the wrong order.
+// Two refined roots that differ by no more than this share of the greater, four ulps at most, may be in the wrong
+// order.
 #define SPHERE_TIE 0x1p-51
 
-// A sphere that is met about where another one is, which the roots must tell apart once they are refined. Equal roots are
-// those of equal spheres, or as good as equal: then the order of declaration decides.
+// A sphere that is met about where another one is, which the roots must tell apart once they are refined. Equal roots
+// are those of equal spheres, or as good as equal: then the order of declaration decides.
 RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, uint32_t slot, const Ball *ball, double t,
                                  bool inside, bool is_rough, Nearest *nearest)
 {

@@ -78,7 +78,8 @@ RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const Ball *ball, un
         SphereRay ray = group_ray(group, at + i);
         bool inside;
         double end = group->distance[at + i];
-        double t = certain >> i & 1 ? sphere_refine(&ray, ball, root[i]) : sphere_exact(&ray, ball, &group->start, &inside);
+        double t = certain >> i & 1 ? sphere_refine(&ray, ball, root[i])
+                                    : sphere_exact(&ray, ball, &group->start, &inside);
         met |= (unsigned)(t < end && (t > 0.0 || certain >> i & 1)) << i;
     }
     return met;

@@ -22,7 +22,8 @@ static double power(Random *random, double low, double high)
 static ExactShape *shape(Random *random, ExactScene *scene)
 {
     ExactShape *own = &scene->shapes[scene->shape_count++];
-    *own = (ExactShape){.mirror = between(random, 0, 1) < 0.4 ? 0.4 : 0.0, .phong = between(random, 0, 1) < 0.5 ? 0.4 : 0.0};
+    *own = (ExactShape){.mirror = between(random, 0, 1) < 0.4 ? 0.4 : 0.0,
+                        .phong = between(random, 0, 1) < 0.5 ? 0.4 : 0.0};
     for (int i = 0; i < 3; i++) {
         own->rgb[i] = between(random, 0.3, 1.0);
     }
@@ -95,7 +96,8 @@ static void many(Random *random, ExactScene *scene)
 {
     eye(scene, 0, 0, -6, 1);
     for (int i = 0; i < 40; i++) {
-        ball(random, scene, between(random, -3, 3), between(random, -3, 3), between(random, -2, 4), between(random, 0.1, 0.6));
+        ball(random, scene, between(random, -3, 3), between(random, -3, 3), between(random, -2, 4),
+             between(random, 0.1, 0.6));
     }
     light(scene, 5, 8, -9, 0.7);
 }
@@ -110,7 +112,8 @@ static void large_ball(Random *random, ExactScene *scene)
     ball(random, scene, 0, -radius, 0, radius)->mirror = 0.4;
     for (int i = few_or_many(random); i > 0; i--) {
         double own = size * between(random, 0.3, 0.8);
-        ball(random, scene, size * between(random, -2, 2), own + size * between(random, 0, 1), size * between(random, -2, 3), own);
+        ball(random, scene, size * between(random, -2, 2), own + size * between(random, 0, 1),
+             size * between(random, -2, 3), own);
     }
     light(scene, 5 * size, 8 * size, -6 * size, 0.8);
 }
@@ -138,15 +141,17 @@ static void far_receiver(Random *random, ExactScene *scene)
     *wall = (ExactShape){.is_plane = true, .axis = 2, .distance = distance, .rgb = {1, 0.9, 0.8}};
     light(scene, between(random, -1, 1), between(random, -1, 1), between(random, -1, 1), 0.9);
     for (int i = few_or_many(random); i > 0; i--) {
-        ball(random, scene, between(random, -3, 3), between(random, -3, 3), between(random, 1.5, 4), between(random, 0.1, 0.8));
+        ball(random, scene, between(random, -3, 3), between(random, -3, 3), between(random, 1.5, 4),
+             between(random, 0.1, 0.8));
     }
 }
 
 static void shells(Random *random, ExactScene *scene)
 {
-    eye(scene, 0, 0, -6, 1);
+    eye(scene, 0, 0, -6, 0.8);
     for (int i = few_or_many(random) / 2; i > 0; i--) {
-        double x = between(random, -2, 2), y = between(random, -2, 2), z = between(random, 0, 2), r = between(random, 0.4, 1);
+        double x = between(random, -2, 2), y = between(random, -2, 2), z = between(random, 0, 2);
+        double r = between(random, 0.4, 1);
         double gap = power(random, -16, -9), inner = r - gap * r;
         bool is_inner_first = between(random, 0, 1) < 0.5;
         ball(random, scene, x, y, z, is_inner_first ? inner : r);
@@ -169,7 +174,7 @@ static void shells_within(Random *random, ExactScene *scene)
 static void telescope(Random *random, ExactScene *scene)
 {
     double away = power(random, 3, 11);
-    eye(scene, 0, 0, -away, 6 / away);
+    eye(scene, 0, 0, -away, 5 / away);
     balls_about(random, scene, few_or_many(random), 2, 0);
     light(scene, 5, 8, -9, 0.7);
 }
@@ -355,8 +360,8 @@ static void ties(Random *random, ExactScene *scene)
     eye(scene, 0, 0, -6, 0.8);
     for (int i = 0; i < 10; i++) {
         double aside = power(random, -16, -6);
-        ball(random, scene, aside * between(random, -1, 1), aside * between(random, -1, 1), aside * between(random, -1, 1),
-             r * (1 + 0.3 * aside));
+        ball(random, scene, aside * between(random, -1, 1), aside * between(random, -1, 1),
+             aside * between(random, -1, 1), r * (1 + 0.3 * aside));
     }
     light(scene, 5, 8, -9, 0.8);
 }

@@ -1,5 +1,5 @@
-// Families of hard scenes, drawn at random: eyes close above large balls, telescopes, shells, slits, lights at surfaces,
-// chains of mirrors, any exponents, lengths that no double holds together.
+// Families of hard scenes, drawn at random: eyes close above large balls, telescopes, shells, slits, lights at
+// surfaces, chains of mirrors, any exponents, lengths that no double holds together.
 //
 // SPDX-License-Identifier: MIT
 #ifndef EXACT_FAMILIES_H

@@ -1,8 +1,8 @@
 // A picture in exact arithmetic, near enough: spheres, planes, point lights, highlights and mirrors, with MPFR.
 //
-// Written from POV-Ray's manual, for tests only: it knows nothing of the program under test but the numbers of a scene, and
-// shares no line with it. Numbers have as many bits as the family wants, so that rounding is far below anything that a
-// double can show; a ray that leaves a surface passes by what is nearer than half of these bits.
+// Written from POV-Ray's manual, for tests only: it knows nothing of the program under test but the numbers of a scene,
+// and shares no line with it. Numbers have as many bits as the family wants, so that rounding is far below anything
+// that a double can show; a ray that leaves a surface passes by what is nearer than half of these bits.
 //
 // SPDX-License-Identifier: MIT
 #ifndef EXACT_REFERENCE_H

@@ -1,9 +1,9 @@
-// Scenes with lengths of any exponents, from 1e-310 to 1e300: each ends in a picture or a message, never in a signal, and
-// in the same picture with every instruction set.
+// Scenes with lengths of any exponents, from 1e-310 to 1e300: each ends in a picture or a message, never in a signal,
+// and in the same picture with every instruction set.
 //
 // Kinds of shapes, lights and cameras are mixed; in a scene exponents are all alike, of a few clusters, or of all that
-// there are. Usage: fuzz_exponents [scenes]. With sanitizers (`configure --enable-sanitizers=address,undefined`) no float
-// may lead outside of an array, or become an integer that it is too great for.
+// there are. Usage: fuzz_exponents [scenes]. With sanitizers (`configure --enable-sanitizers=address,undefined`) no
+// float may lead outside of an array, or become an integer that it is too great for.
 //
 // SPDX-License-Identifier: MIT
 #include <signal.h>
@@ -47,7 +47,8 @@ static Exponents choose_exponents(Random *random)
 
 static double any_size(Random *random, const Exponents *e)
 {
-    int exponent = e->centre[random_below(random, CLUSTERS)] + (int)random_below(random, (unsigned)e->width) - e->width / 2;
+    int exponent = e->centre[random_below(random, CLUSTERS)] - e->width / 2;
+    exponent += (int)random_below(random, (unsigned)e->width);
     exponent = exponent < -310 ? -310 : exponent > 300 ? 300 : exponent;
     char number[40];
     snprintf(number, sizeof number, "%.17ge%d", random_between(random, 1.0, 10.0), exponent);
@@ -116,7 +117,8 @@ static void put_shape(Random *random, const Exponents *e, int depth)
         break;
     case 4:
         put("sphere { 0, 1 scale ");
-        put("<%.17g, %.17g, %.17g> rotate 30 translate ", any_size(random, e), any_size(random, e), any_size(random, e));
+        put("<%.17g, %.17g, %.17g> rotate 30 translate ", any_size(random, e), any_size(random, e),
+            any_size(random, e));
         put_vector(random, e);
         break;
     case 11:
@@ -212,7 +214,8 @@ int main(int argc, char **argv)
             }
         }
     }
-    tap_ok(drawn > scenes / 2, "%d of %d scenes with lengths of any exponents give a picture, none a signal", drawn, scenes);
+    tap_ok(drawn > scenes / 2, "%d of %d scenes with lengths of any exponents give a picture, none a signal", drawn,
+           scenes);
     test_far_plane();
     tap_ok(differ == 0, "%d of their pictures differ between instruction sets", differ);
     return tap_done();
