@@ -228,6 +228,7 @@ test_scripts = \
   %D%/povray/check_alpha.py \
   %D%/povray/check_alpha_samples.py \
   %D%/povray/check_antialias.py \
+  %D%/povray/check_cameras.py \
   %D%/povray/check_jitter.py \
   %D%/povray/check_area_lights.py \
   %D%/povray/check_pairs.py \
