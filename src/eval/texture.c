@@ -15,7 +15,14 @@ void texture_transform(TextureBlueprint *texture, const Transform *transform)
     texture->part.transform = transform_compose(texture->part.transform, *transform);
 }
 
-// Hands the transform of a texture on to its pigment and to what lies below, so that a new pigment is not moved by it.
+// Whether anything was said of bumps.
+static bool has_normal(const TextureBlueprint *texture)
+{
+    return texture->normal.part.pattern.type != PATTERN_NONE || normal_lacks_pattern(&texture->normal);
+}
+
+// Hands the transform of a texture on to what it has by now, so that a part that comes later is not moved by it. Each
+// texture has a pigment, if only the default one.
 static bool settle(Eval *ev, Arena *arena, TextureBlueprint *texture, Span span)
 {
     const Transform *transform = &texture->part.transform;
@@ -23,7 +30,9 @@ static bool settle(Eval *ev, Arena *arena, TextureBlueprint *texture, Span span)
         return true;
     }
     texture->pigment.part.transform = transform_compose(texture->pigment.part.transform, *transform);
-    texture->normal.part.transform = transform_compose(texture->normal.part.transform, *transform);
+    if (has_normal(texture)) {
+        texture->normal.part.transform = transform_compose(texture->normal.part.transform, *transform);
+    }
     if (texture->below) {
         TextureBlueprint *below = arena_copy(arena, texture->below, sizeof *below);
         if (!below) {
