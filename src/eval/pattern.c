@@ -238,68 +238,90 @@ static PatternType type_of(const char *word)
     return type;
 }
 
-// One kind of block after `checker` and the like: a colour or `pigment { }`, or `texture { }` in a texture.
-static bool read_block_entry(Block *block, EntryList *list, bool *is_there)
+// Blocks of one kind, pigments in a pigment, that follow `checker` and the like.
+static bool read_blocks(Block *block, uint32_t wanted, EntryList *list)
 {
-    PatternEntry entry = {.at = (double)list->count};
-    const AstNode *item = cursor_peek(&block->cursor);
     SchemaKind kind = block->kind;
-    *is_there = true;
-    if (item && block_kind(block->ev, item) == kind) {
+    const AstNode *item;
+    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && block_kind(block->ev, item) == kind) {
+        PatternEntry entry = {.at = (double)list->count};
         Blueprint record;
         SchemaKind is;
         block_defaults(block->ev, kind, &record);
         bool is_kept = block_read(block->ev, item, kind, block->arena, &record, &is) &&
                        has_pattern(block, kind, &record) && keep_entry(block, kind, &record, item->span, &entry);
         cursor_skip(&block->cursor);
-        return is_kept && add_entry(block, list, &entry, item->span);
+        if (!is_kept || !add_entry(block, list, &entry, item->span)) {
+            return false;
+        }
     }
-    if (item && kind == KIND_PIGMENT && cursor_at_value(&block->cursor)) {
-        return read_colour(block, &block->cursor, &entry.colour) && add_entry(block, list, &entry, item->span);
-    }
-    *is_there = false;
     return true;
 }
 
-// What POV-Ray takes where nothing is said, measured.
-static void block_defaults_of(PatternType type, PatternEntry entries[3])
+// Colours that follow them instead, in a pigment.
+static bool read_colours(Block *block, uint32_t wanted, EntryList *list)
+{
+    const AstNode *item;
+    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && cursor_at_value(&block->cursor)) {
+        PatternEntry entry = {.at = (double)list->count};
+        if (!read_colour(block, &block->cursor, &entry.colour) || !add_entry(block, list, &entry, item->span)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The colours that POV-Ray takes where none are said, measured.
+static bool fill_with_colours(Block *block, PatternType type, uint32_t wanted, EntryList *list, Span span)
 {
     static const Rgbft blue = {0.0, 0.0, 1.0, 0.0, 0.0}, green = {0.0, 1.0, 0.0, 0.0, 0.0},
                        red = {1.0, 0.0, 0.0, 0.0, 0.0}, grey = {0.5, 0.5, 0.5, 0.0, 0.0},
                        brick = {0.6f, 0.15f, 0.15f, 0.0, 0.0};
     bool is_brick = type == PATTERN_BRICK;
-    entries[0] = (PatternEntry){.at = 0.0, .colour = is_brick ? grey : blue};
-    entries[1] = (PatternEntry){.at = 1.0, .colour = is_brick ? brick : green};
-    entries[2] = (PatternEntry){.at = 2.0, .colour = red};
+    const PatternEntry defaults[3] = {{.at = 0.0, .colour = is_brick ? grey : blue},
+                                      {.at = 1.0, .colour = is_brick ? brick : green},
+                                      {.at = 2.0, .colour = red}};
+    while (list->count < wanted) {
+        if (!add_entry(block, list, &defaults[list->count], span)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The default pigment, texture or normal in the place of those that are missing. Without a default normal POV-Ray
+// crashes. Measured.
+static bool fill_with_defaults(Block *block, PatternType type, uint32_t wanted, EntryList *list, Span span)
+{
+    Blueprint record;
+    block_defaults(block->ev, block->kind, &record);
+    if (block->kind == KIND_NORMAL && list->count < wanted && record.normal.part.pattern.type == PATTERN_NONE) {
+        return block_fault(block, DIAG_E0253, span, "`%s` needs %u normals after it, or an amount",
+                           pattern_info(type)->word, wanted);
+    }
+    while (list->count < wanted) {
+        PatternEntry entry = {.at = (double)list->count};
+        if (!keep_entry(block, block->kind, &record, span, &entry) || !add_entry(block, list, &entry, span)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static bool read_block_entries(Block *block, PatternType type, Span span)
 {
     uint32_t wanted = pattern_info(type)->blocks;
     EntryList list = {0};
-    bool is_there = true;
-    while (is_there && list.count < wanted) {
-        if (!read_block_entry(block, &list, &is_there)) {
-            return false;
-        }
+    if (!read_blocks(block, wanted, &list)) {
+        return false;
     }
-    PatternEntry defaults[3];
-    block_defaults_of(type, defaults);
-    if (block->kind == KIND_TEXTURE && list.count < wanted) {
-        return block_fault(block, DIAG_E0253, span, "`%s` needs %u textures after it", pattern_info(type)->word,
-                           wanted);
-    }
+    bool has_colours = block->kind == KIND_PIGMENT && list.count == 0;
     if (block->kind == KIND_NORMAL && list.count == 0) {
         return true; // an amount follows
     }
-    if (block->kind == KIND_NORMAL && list.count < wanted) {
-        return block_fault(block, DIAG_E0253, span, "`%s` needs %u normals after it, or an amount",
-                           pattern_info(type)->word, wanted);
-    }
-    while (list.count < wanted) {
-        if (!add_entry(block, &list, &defaults[list.count], span)) {
-            return false;
-        }
+    if (has_colours ? !read_colours(block, wanted, &list) || !fill_with_colours(block, type, wanted, &list, span)
+                    : !fill_with_defaults(block, type, wanted, &list, span)) {
+        return false;
     }
     PatternMap map = {list.items, list.count};
     PatternMap *kept = arena_copy(block->arena, &map, sizeof map);
@@ -349,13 +371,13 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
                                   .at = offsetof(PatternPart, pattern.count)};
     Pattern *pattern = &block->record->patterned.pattern;
     PatternType type = type_of(property->word);
-    const PatternInfo *before = pattern_info((PatternType)pattern->type), *info = pattern_info(type);
+    const PatternInfo *info = pattern_info(type);
     if (block->items > 1 || block->arguments > 0) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s",
                            property->word, block_word(block));
     }
-    // A list of blocks is no map along values, nor the other way round; but a list of normals becomes one. Measured.
-    if (block->kind == KIND_NORMAL ? info->blocks != 0 : before->blocks != 0) {
+    // A list of blocks becomes a map along values: the first at 0, the second at 1. A map of normals is no list. Measured.
+    if (block->kind == KIND_NORMAL && info->blocks != 0) {
         block->record->patterned.map = NULL;
     }
     pattern->type = type;
