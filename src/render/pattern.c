@@ -124,6 +124,7 @@ static double checker(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
     (void)source;
+    p = pattern_nudged(p);
     const double most = 0x1p52; // beyond, the sum may be no whole number of 64 bits
     if (fabs(p.x) < most && fabs(p.y) < most && fabs(p.z) < most) {
         return (double)((whole_below(p.x) + whole_below(p.y) + whole_below(p.z)) & 1);
@@ -153,6 +154,7 @@ static double hexagon(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 static double brick(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)source;
+    p = pattern_nudged(p);
     Vec3 size = pattern->vector;
     bool is_odd = remainder_of(floor(p.y / size.y), 2.0) != 0.0;
     double x = remainder_of(is_odd ? p.x + size.x / 2.0 : p.x, size.x);

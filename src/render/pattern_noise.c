@@ -121,7 +121,7 @@ static Vec3 whole(Vec3 p)
 double pattern_cells(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
-    return noise_cell(source->noise, whole(p));
+    return noise_cell(source->noise, whole(pattern_nudged(p)));
 }
 
 // The length of a way, or for a metric m (|x|^m + |y|^m + |z|^m + |offset|^m)^(1/m).

@@ -9,6 +9,15 @@
 // A pattern's value before frequency, phase and wave, at a point that turbulence has moved.
 typedef double (*PatternFunction)(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 
+// Where the unit cubes of a point are counted from: POV-Ray's end 1e-10 before whole numbers, so that a surface that lies
+// in whole numbers but for rounding is of one kind. Measured by halving, for checker, brick and cells; in the pattern's
+// own space, so that the unit of a scene's lengths is nothing to it.
+static inline Vec3 pattern_nudged(Vec3 p)
+{
+    const double before = 1e-10;
+    return vec3(p.x + before, p.y + before, p.z + before);
+}
+
 double pattern_noise(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_agate(const Pattern *pattern, const NoiseSource *source, Vec3 p);

@@ -6,8 +6,8 @@
 // range and random ones, with a new seed each time (unit/random.h). What comes last are the figures of
 // docs/numerics.md.
 //
-// No pixel's middle may lie on a border of a pattern, where rounding decides. Of 16 by 12 pixels some do: at y = 1 of
-// cells, and at x = 0.45, where marble's wave is 0.9 and its map jumps.
+// No pixel's middle may lie on a border of a pattern, where rounding decides. Of 16 by 12 pixels some do: at x = 0.45,
+// where marble's wave is 0.9 and its map jumps.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
