@@ -197,6 +197,74 @@ static bool bind(Eval *ev, Symbol name, const Argument *argument, Span span)
                                       : scope_bind_value(ev, name, &argument->value, span);
 }
 
+static bool is_open_sum(const AstNode *node)
+{
+    return node->kind == AST_BINARY && (node->op == AST_OP_ADD || node->op == AST_OP_SUB) &&
+           !(node->flags & AST_IN_PARENTHESES);
+}
+
+// A sum without its first operand, whose sign becomes that of the second one: of `S - y + z` it is `-y + z`.
+static const AstNode *without_first(Eval *ev, const AstNode *sum)
+{
+    AstNode *rest = arena_copy(&ev->scratch, sum, sizeof *rest);
+    if (rest == NULL) {
+        return NULL;
+    }
+    rest->next = NULL;
+    rest->flags = (uint16_t)(rest->flags & ~(unsigned)AST_PASTES);
+    if (is_open_sum(sum->a)) {
+        rest->a = (AstNode *)without_first(ev, sum->a);
+        return rest->a != NULL ? rest : NULL;
+    }
+    rest->kind = AST_UNARY;
+    rest->op = sum->op == AST_OP_ADD ? AST_OP_PLUS : AST_OP_NEG;
+    rest->a = sum->b;
+    rest->b = NULL;
+    rest->span.begin = sum->b->span.begin;
+    return rest;
+}
+
+// An object ends its argument, with or without a comma after it, so that what looks like a sum is two arguments.
+static bool read_object_and_rest(Eval *ev, const AstNode *sum, Argument arguments[2], bool *is_object)
+{
+    const AstNode *first = sum;
+    while (is_open_sum(first)) {
+        first = first->a;
+    }
+    if (!read_argument(ev, first, &arguments[0])) {
+        return false;
+    }
+    *is_object = (arguments[0].variable != NULL ? arguments[0].variable : &arguments[0].value)->kind == VALUE_BLOCK;
+    const AstNode *rest = *is_object ? without_first(ev, sum) : NULL;
+    return *is_object && (rest != NULL ? read_argument(ev, rest, &arguments[1]) : eval_no_memory(ev, sum->span));
+}
+
+static bool fault_count(Eval *ev, const AstNode *call, const Macro *macro)
+{
+    if (eval_report(ev, DIAG_E0203, call->span, "the macro `%s` takes %u argument%s, and %u %s given",
+                    eval_text(ev, macro->name), macro->parameter_count, macro->parameter_count == 1 ? "" : "s",
+                    (unsigned)call->count, call->count == 1 ? "is" : "are")) {
+        diag_note(ev->options.diags, macro->span, "it is defined here");
+    }
+    return false;
+}
+
+// Fewer than there are parameters: some may be an object and what follows it.
+static bool read_fewer(Eval *ev, const AstNode *call, const Macro *macro, Argument *arguments)
+{
+    unsigned missing = macro->parameter_count - call->count;
+    for (const AstNode *node = call->a; node != NULL; node = node->next) {
+        bool is_divided = missing > 0 && is_open_sum(node), is_object = true;
+        if (!(is_divided ? read_object_and_rest(ev, node, arguments, &is_object)
+                         : read_argument(ev, node, arguments))) {
+            return is_object ? false : fault_count(ev, call, macro);
+        }
+        missing -= is_divided;
+        arguments += is_divided ? 2 : 1;
+    }
+    return missing == 0 || fault_count(ev, call, macro);
+}
+
 // All arguments are worked out in the caller's scope before the first is bound.
 static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
 {
@@ -207,9 +275,10 @@ static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
     if (arguments == NULL) {
         return eval_no_memory(ev, call->span);
     }
-    bool fine = true;
+    bool has_all = call->count == macro->parameter_count;
+    bool fine = has_all || read_fewer(ev, call, macro, arguments);
     unsigned i = 0;
-    for (const AstNode *node = call->a; node != NULL; node = node->next) {
+    for (const AstNode *node = has_all ? call->a : NULL; node != NULL; node = node->next) {
         fine = read_argument(ev, node, &arguments[i++]) && fine;
     }
     if (!fine || !scope_push(ev, call->span)) {
@@ -239,13 +308,12 @@ bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame)
         ev->stop = true;
         return false;
     }
-    if (call->count != macro->parameter_count) {
-        if (eval_report(ev, DIAG_E0203, call->span, "the macro `%s` takes %u argument%s, and %u %s given",
-                        eval_text(ev, macro->name), macro->parameter_count, macro->parameter_count == 1 ? "" : "s",
-                        (unsigned)call->count, call->count == 1 ? "is" : "are")) {
-            diag_note(ev->options.diags, macro->span, "it is defined here");
-        }
-        return false;
+    bool may_divide = false;
+    for (const AstNode *node = call->a; node != NULL && call->count < macro->parameter_count; node = node->next) {
+        may_divide = may_divide || is_open_sum(node);
+    }
+    if (call->count != macro->parameter_count && !may_divide) {
+        return fault_count(ev, call, macro);
     }
     ArenaMark mark = scratch_mark(ev);
     bool fine = bind_all(ev, call, macro);

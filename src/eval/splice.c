@@ -69,10 +69,25 @@ static bool is_unbalanced(void *client, Symbol name)
     return found != NULL && found->kind == VALUE_MACRO && found->macro->is_unbalanced;
 }
 
+// A sum that begins with an object is two arguments of a macro, see macro.c.
+static bool begins_with_object(const Eval *ev, const AstNode *node)
+{
+    while (node->kind == AST_BINARY && !(node->flags & AST_IN_PARENTHESES)) {
+        node = node->a;
+    }
+    const Value *value = node->kind != AST_NAME       ? NULL
+                         : node->flags & AST_KNOWN ? node->known
+                                                   : scope_find(ev, node->symbol);
+    return value != NULL && value->kind == VALUE_BLOCK;
+}
+
 static void fold(void *client, AstNode *node)
 {
     Eval *ev = eval_of(client);
     Value value;
+    if (node->kind == AST_BINARY && begins_with_object(ev, node)) {
+        return;
+    }
     ArenaMark mark = arena_mark(&ev->scratch);
     if (!eval_expression(ev, node, &value)) {
         ev->faulty = true;
