@@ -4,6 +4,7 @@
 // one of which the scene keeps once. Knows nothing of shapes.
 //
 // SPDX-License-Identifier: MIT
+#include "base/number.h"
 #include "eval/blocks.h"
 
 enum { TREE_DEPTH_WEIGHT = 2 }; // of native recursion, see eval_deepen
@@ -275,7 +276,8 @@ static bool add_interior(const Builder *builder, const TextureBlueprint *texture
 {
     static const Interior empty = {.ior = 1.0};
     Interior interior = blueprint ? blueprint->interior : empty;
-    interior.ior = texture->ior > 0.0 ? texture->ior : interior.ior > 0.0 ? interior.ior : 1.0;
+    // In single precision, as in POV-Ray: many bounces in glass make the rounding visible.
+    interior.ior = number_single(texture->ior > 0.0 ? texture->ior : interior.ior > 0.0 ? interior.ior : 1.0);
     if (interior.fade_distance == 0.0) {
         interior.fade_power = 0.0;
         interior.fade_colour = rgb_grey(0.0);
