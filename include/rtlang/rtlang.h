@@ -129,10 +129,6 @@ RT_API rt_status rt_load_text(rt_session *session, const char *name, const char 
  * and zooms along, so that what stands there has the same size in the picture. factor > 0. */
 RT_API rt_status rt_move_camera(rt_session *session, double factor);
 
-/* For study: the picture of the loaded scene is moved by parts of a pixel, as if the screen were. Of perspective and
- * orthographic cameras only; RT_FAULT_USAGE for others. */
-RT_API rt_status rt_move_picture(rt_session *session, double right, double down);
-
 /* Printable forms of each stage. Tokens and AST are made from a file that need not be a whole scene; the dump of the
  * scene needs rt_load_*. AST and scene are valid scene text again. *text is valid until the next call on the session,
  * and is set also when there were faults: it then holds what could be read. */

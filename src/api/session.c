@@ -616,14 +616,6 @@ void rt_get_range(const rt_session *session, rt_range *range)
     };
 }
 
-rt_status rt_move_picture(rt_session *session, double right, double down)
-{
-    if (!session->loaded || !isfinite(right) || !isfinite(down)) {
-        return RT_FAULT_USAGE;
-    }
-    return scene_move_picture(&session->scene, right / session->width, down / session->height) ? RT_OK : RT_FAULT_USAGE;
-}
-
 rt_status rt_move_camera(rt_session *session, double factor)
 {
     if (!session->loaded || !(factor > 0.0) || !isfinite(factor)) {

@@ -1,4 +1,5 @@
-// Puts a scene elsewhere by writing what rtlang made of it as text, draws that with POV-Ray, and compares.
+// Has POV-Ray draw a scene with its cameras turned by a billionth of a pixel, and what rtlang wrote of it in other
+// sizes.
 //
 // Owns two files of the folder that it is given while it runs.
 //
@@ -12,43 +13,41 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "check/camera_text.h"
 #include "check/load.h"
 #include "check/povray_run.h"
 
-// How much larger it is, how far beside its place, and how many pixels the picture is to the right and down.
+// How much larger it is, and how far beside its place.
 typedef struct Place {
-    double scale, beside, right, down;
+    double scale, beside;
 } Place;
 
-// Where the scene is; a thousand times as large; then its picture moved, in directions that are spread evenly, and every
-// other time the scene put into one of those sizes or beside its place as well. Powers of two change no other bit. The
-// lengths that POV-Ray takes for nothing are about 1e-3 and less, those that it takes for endless 1e7 and more.
+// In turn as it is, in other sizes, and beside its place; `i` from 0. Powers of two change no other bit. The lengths
+// that POV-Ray takes for nothing are about 1e-3 and less, those that it takes for endless 1e7 and more.
 static Place place_number(int i)
 {
     static const double scales[] = {0x1p10, 0x1p6, 0x1p14};
-    const double golden_angle = 2.399963229728653;
 
-    if (i < 2) {
-        return (Place){i == 0 ? 1.0 : 0x1p10, 0.0, 0.0, 0.0};
-    }
-    return (Place){i % 4 == 1 ? scales[i / 4 % 3] : 1.0, i % 4 == 3 ? 1.0 + 0.1 * i : 0.0,
-                   1e-6 * cos(golden_angle * i), 1e-6 * sin(golden_angle * i)};
+    return (Place){i % 2 == 1 ? scales[i / 2 % 3] : 1.0, i % 2 == 0 ? 0.2 * i : 0.0};
 }
 
-typedef struct Comparison {
-    const Image *ours, *theirs;   // of the scene where it is
-    const Image *unmoved, *other; // POV-Ray's of what rtlang made of it: where it is, and put elsewhere
-} Comparison;
-
-static rt_status place_load(rt_session *session, const ElsewhereJob *job, const Place *place)
+// A turn of the cameras by 5e-12, about a billionth of a pixel, in directions that are spread evenly: far more than
+// rounding is, and far less than what can be seen.
+static bool turned_write(const ElsewhereJob *job, int i, const char *path)
 {
-    World world = world_beside(place->scale, place->beside);
-    rt_status status = scene_load(session, job->options, job->include_paths, job->scene, &world);
+    const double golden_angle = 2.399963229728653, degrees = 3e-10;
+    char words[128];
 
-    return status == RT_OK && (place->right != 0.0 || place->down != 0.0)
-               ? rt_move_picture(session, place->right, place->down)
-               : status;
+    snprintf(words, sizeof words, "rotate <%.9g, %.9g, %.9g>", degrees * cos(golden_angle * i),
+             degrees * sin(golden_angle * i), 0.3 * degrees);
+    return camera_text_write(job->scene, words, path);
 }
+
+// POV-Ray's pictures of the scene itself, and of what rtlang made of it.
+typedef struct Comparison {
+    const Image *ours, *theirs;   // of the scene as it is
+    const Image *written, *other; // of what rtlang wrote of it, as it is, or NULL; and of what was changed
+} Comparison;
 
 static bool place_write(const ElsewhereJob *job, const Place *place, const char *path)
 {
@@ -56,8 +55,10 @@ static bool place_write(const ElsewhereJob *job, const Place *place, const char 
     rt_session *session = rt_session_new(&silent);
     const char *text;
     FILE *out = NULL;
+    World world = world_beside(place->scale, place->beside);
 
-    if (session != NULL && place_load(session, job, place) == RT_OK && rt_dump_scene(session, &text) == RT_OK) {
+    if (session != NULL && scene_load(session, job->options, job->include_paths, job->scene, &world) == RT_OK &&
+        rt_dump_scene(session, &text) == RT_OK) {
         out = fopen(path, "wb");
     }
     bool is_written = out != NULL && fputs(text, out) != EOF;
@@ -67,7 +68,7 @@ static bool place_write(const ElsewhereJob *job, const Place *place, const char 
 }
 
 // The scene's own folder comes first: files that the scene names stand there.
-static bool place_draw(const ElsewhereJob *job, const char *scene, const char *picture, Image *image)
+static bool draw(const ElsewhereJob *job, const char *scene, const char *picture, Image *image)
 {
     const Options *options = job->options;
     char log[PATH_MAX], detail[256];
@@ -94,6 +95,7 @@ static bool place_draw(const ElsewhereJob *job, const char *scene, const char *p
                      .include_path_count = job->include_path_count + 1,
                      .width = options->width,
                      .height = options->height,
+                     .clock = options->clock_given ? &options->clock : NULL,
                      .threads = options->threads};
     bool is_drawn = povray_run(&run, detail, sizeof detail) &&
                     image_read(picture, (uint64_t)options->width * (uint64_t)options->height, image, &error) == IMAGE_OK;
@@ -103,25 +105,43 @@ static bool place_draw(const ElsewhereJob *job, const char *scene, const char *p
     return is_drawn && image->width == options->width && image->height == options->height;
 }
 
-// Whether POV-Ray does not agree with itself in a pixel as little as with rtlang: elsewhere it draws what rtlang draws;
-// or its pictures before and after a move of a millionth of a pixel are half as far apart as it is from rtlang's.
-static bool is_unsure(const ElsewhereJob *job, const Comparison *pictures, const Place *place, size_t pixel)
+// Whether POV-Ray agrees with itself in a pixel no better than with rtlang. What it makes of the scene with the cameras
+// turned says so when it is rtlang's, or half as far from its first picture as that is. What it makes of rtlang's text
+// says so only where that text, as it is, gives the same as the scene: elsewhere rtlang may have misread the scene.
+static bool is_unsure(const ElsewhereJob *job, const Comparison *pictures, size_t pixel)
 {
-    double apart = image_pixel_difference(pictures->ours, pictures->theirs, pixel);
-    bool is_only_moved = place->scale == 1.0 && place->beside == 0.0 && pictures->unmoved->values != NULL;
+    bool is_ours = image_pixel_difference(pictures->ours, pictures->other, pixel) <= job->threshold;
 
-    return image_pixel_difference(pictures->ours, pictures->other, pixel) <= job->threshold ||
-           (is_only_moved && 2.0 * image_pixel_difference(pictures->unmoved, pictures->other, pixel) >= apart);
+    if (pictures->written != NULL) {
+        return is_ours && image_pixel_difference(pictures->theirs, pictures->written, pixel) <= job->threshold;
+    }
+    return is_ours || 2.0 * image_pixel_difference(pictures->theirs, pictures->other, pixel) >=
+                          image_pixel_difference(pictures->ours, pictures->theirs, pixel);
 }
 
-// Marks pixels that are beyond the threshold and not marked yet; returns how many.
-static uint64_t mark(const ElsewhereJob *job, const Comparison *pictures, const Place *place, bool *marked)
+static size_t pixel_count(const ElsewhereJob *job)
+{
+    return (size_t)job->options->width * (size_t)job->options->height;
+}
+
+static uint64_t count_apart(const ElsewhereJob *job, const Image *one, const Image *other)
 {
     uint64_t count = 0;
 
-    for (size_t i = 0; i < (size_t)pictures->ours->width * (size_t)pictures->ours->height; i++) {
+    for (size_t i = 0; i < pixel_count(job); i++) {
+        count += image_pixel_difference(one, other, i) > job->threshold;
+    }
+    return count;
+}
+
+// Marks pixels that are beyond the threshold and not marked yet; returns how many.
+static uint64_t mark(const ElsewhereJob *job, const Comparison *pictures, bool *marked)
+{
+    uint64_t count = 0;
+
+    for (size_t i = 0; i < pixel_count(job); i++) {
         if (!marked[i] && image_pixel_difference(pictures->ours, pictures->theirs, i) > job->threshold &&
-            is_unsure(job, pictures, place, i)) {
+            is_unsure(job, pictures, i)) {
             marked[i] = true;
             count++;
         }
@@ -129,31 +149,71 @@ static uint64_t mark(const ElsewhereJob *job, const Comparison *pictures, const 
     return count;
 }
 
+// The greatest number of pixels that may be excused.
+static uint64_t most_excused(const ElsewhereJob *job)
+{
+    return pixel_count(job) / 1000;
+}
+
+// The files and pictures of one count.
+typedef struct Count {
+    char scene[PATH_MAX], picture[PATH_MAX];
+    Image written;
+    bool is_witness; // what rtlang wrote gives the scene's own picture, in all but as many pixels as may be excused
+    bool *marked;
+} Count;
+
+// One more picture of the scene with its cameras turned.
+static uint64_t count_turned(const ElsewhereJob *job, Count *count, const Image *ours, const Image *theirs, int i)
+{
+    Image other = {0};
+    Comparison pictures = {ours, theirs, NULL, &other};
+    uint64_t more = 0;
+
+    if (turned_write(job, i, count->scene) && draw(job, count->scene, count->picture, &other)) {
+        more = mark(job, &pictures, count->marked);
+    }
+    image_fini(&other);
+    return more;
+}
+
+// One more of what rtlang wrote; the first is what the others are judged by.
+static uint64_t count_written(const ElsewhereJob *job, Count *count, const Image *ours, const Image *theirs, int i)
+{
+    Place place = place_number(i);
+    Image other = {0};
+    Comparison pictures = {ours, theirs, &count->written, &other};
+    uint64_t more = 0;
+
+    if ((i > 0 && !count->is_witness) || !place_write(job, &place, count->scene) ||
+        !draw(job, count->scene, count->picture, &other)) {
+        return 0;
+    }
+    if (i == 0) {
+        count->written = other;
+        count->is_witness = count_apart(job, theirs, &count->written) <= most_excused(job);
+        return 0;
+    }
+    more = mark(job, &pictures, count->marked);
+    image_fini(&other);
+    return more;
+}
+
 uint64_t elsewhere_count(const ElsewhereJob *job, const Image *ours, const Image *theirs)
 {
-    char scene[PATH_MAX], picture[PATH_MAX];
-    bool *marked = calloc((size_t)ours->width * (size_t)ours->height, sizeof *marked);
-    Image unmoved = {0};
-    uint64_t count = 0;
+    Count count = {.marked = calloc(pixel_count(job), sizeof *count.marked)};
+    uint64_t most = most_excused(job), apart = count_apart(job, ours, theirs), found = 0;
+    bool may_suffice = (double)apart - (double)most <= job->options->ties * (double)pixel_count(job);
 
-    snprintf(scene, sizeof scene, "%s/elsewhere.pov", job->folder);
-    snprintf(picture, sizeof picture, "%s/elsewhere.png", job->folder);
-    for (int i = 0; marked != NULL && i < job->options->elsewhere; i++) {
-        Place place = place_number(i);
-        Image other = {0};
-        Comparison pictures = {ours, theirs, &unmoved, &other};
-        if (place_write(job, &place, scene) && place_draw(job, scene, picture, &other)) {
-            count += mark(job, &pictures, &place, marked);
-        }
-        if (i == 0) {
-            unmoved = other;
-        } else {
-            image_fini(&other);
-        }
+    snprintf(count.scene, sizeof count.scene, "%s/elsewhere.pov", job->folder);
+    snprintf(count.picture, sizeof count.picture, "%s/elsewhere.png", job->folder);
+    for (int i = 0; count.marked != NULL && may_suffice && found < apart && i < job->options->elsewhere; i++) {
+        found += i % 2 == 0 ? count_turned(job, &count, ours, theirs, i / 2)
+                            : count_written(job, &count, ours, theirs, i / 2);
     }
-    image_fini(&unmoved);
-    unlink(scene);
-    unlink(picture);
-    free(marked);
-    return count;
+    image_fini(&count.written);
+    unlink(count.scene);
+    unlink(count.picture);
+    free(count.marked);
+    return found < most ? found : most;
 }

@@ -1,8 +1,9 @@
-// Pixels of two pictures that differ, in which POV-Ray differs as much from itself where the scene is put elsewhere.
+// Pixels of two pictures that differ, in which POV-Ray differs as much from itself where the scene is all but the same.
 //
-// A picture stays the same when all lengths are multiplied, and all but the same when it is moved by a millionth of a
-// pixel: what then comes out otherwise hangs on lengths built into POV-Ray, or on the last bits of numbers. Reads no
-// list of scenes.
+// A picture stays the same when its camera is turned by a billionth of a pixel, and when all lengths are multiplied:
+// what then comes out otherwise hangs on the last bits of numbers, or on lengths built into POV-Ray. The turn is written
+// into the scene's own text, so that no reading of rtlang's takes part; other sizes are those of rtlang's text, which
+// counts only where POV-Ray draws it as it draws the scene. Reads no list of scenes.
 //
 // SPDX-License-Identifier: MIT
 #ifndef CHECK_ELSEWHERE_H
@@ -21,9 +22,9 @@ typedef struct ElsewhereJob {
     double threshold;                    // of a channel's difference
 } ElsewhereJob;
 
-// Of the pixels in which `ours` and `theirs`, of the options' size, are farther apart than the threshold, how many are
-// not so far from ours in one of options->elsewhere more of POV-Ray's pictures, or are half as far from its own when
-// the picture is moved.
+// Of the pixels in which `ours` and `theirs`, of the options' size, are farther apart than the threshold, in how many
+// POV-Ray does not agree with itself, by options->elsewhere more of its pictures. At most one of a thousand pixels is
+// excused; when that cannot be enough, none is, and nothing is drawn.
 uint64_t elsewhere_count(const ElsewhereJob *job, const Image *ours, const Image *theirs);
 
 #endif

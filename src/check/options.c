@@ -182,7 +182,7 @@ static const OptionRow rows[] = {
     {0, "doubts", "N", apply_doubts, "a whole number from 1 to 1000",
      "draw what differs N more times, put elsewhere: pixels that only rounding decides do not count"},
     {0, "elsewhere", "N", apply_elsewhere, "a whole number from 1 to 100",
-     "have POV-Ray draw what differs N more times, put elsewhere: where it does not agree with itself does not count"},
+     "have POV-Ray draw what differs N more times, all but the same: where it does not agree with itself does not count"},
     {0, "povray", "PROGRAM", apply_povray, "a program", "POV-Ray's program (default povray)"},
     {'I', "include-path", "FOLDER", apply_include_path, "a folder", "also look here for #include; may repeat"},
     {'j', "threads", "N", apply_threads, "a whole number from 1 to 512",

@@ -19,7 +19,7 @@ typedef struct Options {
     double threshold; // of a channel's difference, in linear light
     double ties;      // the share of pixels that may differ by more
     int doubts;       // how often a scene is drawn elsewhere, to find pixels that rounding decides
-    int elsewhere;    // how often POV-Ray draws it elsewhere, to find pixels in which it then draws what rtlang does
+    int elsewhere;    // how many more pictures POV-Ray draws, to find pixels in which it does not agree with itself
     const char *povray;
     const char *keep; // folder for the pictures and POV-Ray's messages; NULL: they are thrown away
     const char *report; // folder for the page; NULL: none is written

@@ -20,7 +20,7 @@ typedef struct Outcome {
     bool compared; // both pictures were made and read
     bool agrees;
     uint64_t decided_by_rounding; // pixels beyond the threshold that are other where the scene is put elsewhere
-    uint64_t povray_elsewhere;    // pixels beyond the threshold that POV-Ray draws as rtlang does, put elsewhere
+    uint64_t povray_elsewhere;    // pixels beyond the threshold in which POV-Ray does not agree with itself
     ImageDifference difference;
     double flip;
     double rtlang_seconds, povray_seconds; // whole run of a renderer, from text to file

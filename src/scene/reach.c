@@ -93,15 +93,3 @@ void scene_move_camera(Scene *scene, double factor)
         camera->direction = vec3_scale(factor, camera->direction);
     }
 }
-
-bool scene_move_picture(Scene *scene, double right, double down)
-{
-    Camera *camera = &scene->camera;
-    Vec3 *place = camera->type == CAMERA_PERSPECTIVE     ? &camera->direction
-                  : camera->type == CAMERA_ORTHOGRAPHIC ? &camera->location
-                                                        : NULL;
-    if (place) {
-        *place = vec3_add_scaled(vec3_add_scaled(*place, right, camera->right), -down, camera->up);
-    }
-    return place != NULL;
-}

@@ -22,9 +22,6 @@ typedef struct SceneReach {
 // perspective one zooms along.
 void scene_move_camera(Scene *scene, double factor);
 
-// Moves the screen of a perspective or orthographic camera by parts of its width and height; false for others.
-bool scene_move_picture(Scene *scene, double right, double down) RT_MUST_CHECK;
-
 void scene_reach(const Scene *scene, SceneReach *reach);
 
 #endif

@@ -74,7 +74,7 @@ MARK = "survey"
 STEPS = [2, 16, 256, 4096, 65535]
 MEETS, BUT_FOR, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses"
 CHANCE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\bjitter\b|\b(?:aperture|blur_samples)\s+[\d.]+(?:\s*,\s*\d+)?', re.DOTALL)
-ELSEWHERE = 24  # how often POV-Ray draws a scene that differs put elsewhere, to tell where it does not agree with itself
+ELSEWHERE = 24  # how often POV-Ray draws a scene that differs all but the same, to tell where it does not agree with itself
 
 
 def arguments():
@@ -282,7 +282,7 @@ def print_pictures(records):
     judged = [record for record in drawn if record not in failed]
     verdicts = collections.Counter(verdict(record["picture"]) for record in judged)
     print(f"{verdicts[MEETS]:6}  {MEETS}: within 2 of 65535 in all but 0.01 % of their pixels")
-    print(f"{verdicts[BUT_FOR]:6}  {BUT_FOR}: but for pixels that POV-Ray draws as rtlang does where the scene is put elsewhere")
+    print(f"{verdicts[BUT_FOR]:6}  {BUT_FOR}: but for at most 0.1 % that change with a billionth of a pixel or with the scene's size")
     print(f"{verdicts[MISSES]:6}  {MISSES}")
     print(f"{sum(record['without_chance'] for record in judged):6}  compared without `jitter` and focal blur, which are chance")
     for record in drawn:
