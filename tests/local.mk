@@ -184,13 +184,11 @@ check_PROGRAMS += tests/fuzz/fuzz_scene
 tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
 tests_fuzz_fuzz_scene_LDADD = libapi.la
 check_PROGRAMS += tests/fuzz/fuzz_exponents
-if WITH_MPFR
-exact_programs = tests/exact/test_exact
-endif
-check_PROGRAMS += $(exact_programs)
+check_PROGRAMS += tests/exact/test_exact
 tests_exact_test_exact_SOURCES = %D%/exact/test_exact.c %D%/exact/families.c %D%/exact/families.h \
   %D%/exact/reference.c %D%/exact/reference.h $(unit_headers)
-tests_exact_test_exact_LDADD = libapi.la -lmpfr -lgmp
+tests_exact_test_exact_LDADD = libapi.la $(MPFR_LIBS)
+tests/exact/test_exact.$(OBJEXT) tests/exact/reference.$(OBJEXT): src/study/optional.h
 tests_fuzz_fuzz_exponents_SOURCES = %D%/fuzz/fuzz_exponents.c $(unit_headers)
 tests_fuzz_fuzz_exponents_LDADD = libapi.la
 
@@ -252,7 +250,7 @@ check-local: check-TESTS
 	@test ! -e $(TEST_SUITE_LOG) || $(AWK) -f $(srcdir)/%D%/skipped.awk $(TEST_SUITE_LOG)
 EXTRA_DIST += %D%/skipped.awk
 
-TESTS += $(unit_programs) tests/fuzz/fuzz_exponents $(exact_programs) tests/lang/typos $(test_scripts)
+TESTS += $(unit_programs) tests/fuzz/fuzz_exponents tests/exact/test_exact tests/lang/typos $(test_scripts)
 AM_CPPFLAGS += -I$(srcdir)/tests
 # Whole folders only where nothing is built; the rest file by file.
 lang_cases = \
@@ -316,12 +314,12 @@ update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 .PHONY: check-long
 check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EXEEXT) \
   tests/unit/test_trace_secondary$(EXEEXT) tests/unit/test_range$(EXEEXT) tests/unit/test_invariance$(EXEEXT) \
-  tests/fuzz/fuzz_exponents$(EXEEXT) $(exact_programs)
+  tests/fuzz/fuzz_exponents$(EXEEXT) tests/exact/test_exact$(EXEEXT)
 	tests/unit/test_trace_certified$(EXEEXT) 1000000
 	tests/unit/test_trace_secondary$(EXEEXT) 1000000
 	tests/unit/test_range$(EXEEXT) 20000
 	tests/fuzz/fuzz_exponents$(EXEEXT) 10000
-	$(exact_programs:%=% 100000)
+	tests/exact/test_exact$(EXEEXT) 100000
 	$(AM_TESTS_ENVIRONMENT) tests/unit/test_invariance$(EXEEXT) all
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_stability.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_study.py

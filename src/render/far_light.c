@@ -20,20 +20,21 @@ typedef struct FarCrossing {
 static Rgb crossings_share(const Prepared *p, const ShadePoint *at, const FarCrossing *crossings, int count,
                            double distance)
 {
-    bool has_interiors = at->before;
-    Inside inside = {.count = 0};
+    MediumStack inside = at->before;
+    uint32_t kept = at->media ? at->media->count : 0;
     Rgb share = rgb_grey(1.0);
     double before = 0.0;
-    if (has_interiors) {
-        inside_copy(&inside, at->before);
-    }
     for (int i = count; i-- > 0;) {
         double way = distance - crossings[i].way;
         share = rgb_mul(share, crossings[i].through);
-        if (has_interiors) {
-            share = rgb_mul(share, shade_shadow_crossed(p, &crossings[i].surface, way - before, &inside));
+        if (at->media) {
+            share = rgb_mul(share, shade_shadow_crossed(p, &crossings[i].surface, way - before, at->media, &inside));
+            inside = medium_keep(at->media, kept, inside);
         }
         before = way;
+    }
+    if (at->media) {
+        at->media->count = kept;
     }
     return share;
 }

@@ -220,17 +220,17 @@ static int lengths_middle(const Lengths *lengths, bool *is_all_held)
     return middle;
 }
 
-// For each exponent, how much more is held than at the one before.
+// For each exponent, how much more is held than at the one before: there are less than 2^28 of each kind of shape.
 typedef struct Census {
-    int64_t change[EXPONENT_MOST - EXPONENT_LEAST + 2];
-    int64_t needed; // what is needed counts as so many
+    int32_t change[EXPONENT_MOST - EXPONENT_LEAST + 2];
+    int32_t needed; // what is needed counts as so many
 } Census;
 
 static void census_visit(void *client, double size, double place, bool is_needed)
 {
     Census *census = client;
     ExponentRange held = exponents_of(size, place);
-    int64_t count = is_needed ? census->needed : 1;
+    int32_t count = is_needed ? census->needed : 1;
     if (held.low <= held.high) {
         census->change[held.low - EXPONENT_LEAST] += count;
         census->change[held.high + 1 - EXPONENT_LEAST] -= count;
@@ -240,7 +240,7 @@ static void census_visit(void *client, double size, double place, bool is_needed
 // The exponents at which the most is held, the nearest such run to `middle`.
 static ExponentRange exponents_of_most(const Scene *scene, int middle)
 {
-    Census census = {.needed = (int64_t)(scene->spheres.count + scene->ellipsoids.count + scene->planes.count +
+    Census census = {.needed = (int32_t)(scene->spheres.count + scene->ellipsoids.count + scene->planes.count +
                                          scene->parts.count + scene->lights.count + 1)};
     int64_t held = 0, most = -1;
     int nearest = INT_MAX;

@@ -3,6 +3,9 @@
 // SPDX-License-Identifier: MIT
 #include "exact/reference.h"
 
+#include "study/optional.h"
+
+#ifdef WITH_MPFR
 #include <math.h>
 #include <mpfr.h>
 #include <stdlib.h>
@@ -255,3 +258,4 @@ void exact_colour(const ExactScene *scene, double u, double v, double rgb[3])
     ray_colour(scene, origin, direction, 1.0, 0, rgb);
     used = mark;
 }
+#endif

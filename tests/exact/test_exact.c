@@ -17,7 +17,10 @@
 #include "exact/families.h"
 #include "rtlang/rtlang.h"
 #include "unit/random.h"
+#include "study/optional.h"
 #include "unit/tap.h"
+
+#ifdef WITH_MPFR
 
 enum { SIZE = 16, TEXT_MOST = 1 << 16, SHAKEN = 24 };
 static const double TOLERANCE = 1e-4;
@@ -181,7 +184,7 @@ static void test_family(const Family *family, int pixels, Random *random)
 
 int main(int argc, char **argv)
 {
-    int pixels = argc > 1 ? atoi(argv[1]) : 512;
+    int pixels = argc > 1 ? atoi(argv[1]) : 2048;
     uint64_t seed = random_seed(argc > 2 ? argv[2] : NULL);
     exact_begin();
     for (int i = 0; i < family_count; i++) {
@@ -193,3 +196,13 @@ int main(int argc, char **argv)
     exact_end();
     return tap_done();
 }
+
+#else
+
+int main(void)
+{
+    tap_skip("pictures beside exact arithmetic", "built without MPFR (apt-get install libmpfr-dev)");
+    return tap_done();
+}
+
+#endif
