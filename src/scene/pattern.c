@@ -29,7 +29,7 @@ static const PatternInfo patterns[PATTERN_COUNT] = {
     [PATTERN_DENTS] = {.word = "dents", .uses_noise = true, .is_special_normal = true},
     [PATTERN_RIPPLES] = {.word = "ripples", .uses_noise = true, .is_special_normal = true},
     [PATTERN_WAVES] = {.word = "waves", .uses_noise = true, .is_special_normal = true},
-    [PATTERN_IMAGE_MAP] = {"image_map", PATTERN_OF_COLOURS},
+    [PATTERN_IMAGE_MAP] = {.word = "image_map", .form = PATTERN_OF_COLOURS},
     [PATTERN_CELLS] = {.word = "cells", .uses_noise = true},
     [PATTERN_CRACKLE] = {.word = "crackle", .uses_noise = true},
     [PATTERN_SPIRAL1] = {.word = "spiral1", .has_count = true, .wave = WAVE_TRIANGLE},

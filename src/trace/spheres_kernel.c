@@ -194,13 +194,27 @@ static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, uin
     return false;
 }
 
+// Whether this processor has what the compiler was allowed to use in this file. Asked feature by feature: clang before 17
+// does not know the levels by their names. Processors with these have the rest of their level, too.
 static bool is_supported(void)
 {
-#ifdef SPHERE_KERNELS_CPU
-    return __builtin_cpu_supports(SPHERE_KERNELS_CPU);
-#else
-    return true;
+#ifdef __SSE4_2__
+    if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) {
+        return false;
+    }
 #endif
+#ifdef __AVX2__
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("bmi2") || !__builtin_cpu_supports("fma")) {
+        return false;
+    }
+#endif
+#ifdef __AVX512VL__
+    if (!__builtin_cpu_supports("avx512bw") || !__builtin_cpu_supports("avx512cd") ||
+        !__builtin_cpu_supports("avx512dq") || !__builtin_cpu_supports("avx512vl")) {
+        return false;
+    }
+#endif
+    return true;
 }
 
 extern const SphereKernels ISA_NAMED(sphere_kernels_);
