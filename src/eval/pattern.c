@@ -195,6 +195,14 @@ bool pattern_map_body(Block *block)
     return is_fine;
 }
 
+// A texture that begins with an identifier takes no other pattern.
+static bool may_have_pattern(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    return block->kind != KIND_TEXTURE || !block->has_name ||
+           block_fault(block, DIAG_E0256, item->span, "`%s` cannot follow an identifier in %s", property->word,
+                       block_word(block));
+}
+
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     Blueprint record;
@@ -202,6 +210,9 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     SchemaKind kind = block_kind(block->ev, item);
     PatternType type = (PatternType)block->record->patterned.pattern.type;
     bool has_values = kind == KIND_SLOPE_MAP || kind == KIND_COLOUR_MAP;
+    if (!may_have_pattern(block, property, item)) {
+        return false;
+    }
     if (pattern_info(type)->blocks || type == PATTERN_QUILTED || (type == PATTERN_AVERAGE && has_values)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
                            pattern_info(type)->word);
@@ -372,6 +383,9 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     Pattern *pattern = &block->record->patterned.pattern;
     PatternType type = type_of(property->word);
     const PatternInfo *info = pattern_info(type);
+    if (!may_have_pattern(block, property, item)) {
+        return false;
+    }
     if (block->items > 1 || block->arguments > 0) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s",
                            property->word, block_word(block));
