@@ -390,7 +390,8 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
         return block_fault(block, DIAG_E0256, item->span, "`%s` must stand before everything else in %s",
                            property->word, block_word(block));
     }
-    // A list of blocks becomes a map along values: the first at 0, the second at 1. A map of normals is no list. Measured.
+    // A list of blocks becomes a map along values: the first at 0, the second at 1. A map of normals is no list.
+    // Measured.
     if (block->kind == KIND_NORMAL && info->blocks != 0) {
         block->record->patterned.map = NULL;
     }
