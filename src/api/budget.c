@@ -6,8 +6,8 @@
 #include "api/session.h"
 
 // What the tree takes for a shape, and the prepared forms of the records as a multiple of these: bounds that hold for
-// a million spheres (95 bytes each in all), ellipsoids (220), boxes (460) and differences (910). Plain spheres and their
-// materials have no other form than that in the tree.
+// a million spheres (95 bytes each in all), stretched spheres (370 in the tree), boxes (460) and differences (910). Plain
+// spheres and their materials have no other form than that in the tree.
 enum { TREE_BYTES_PER_SHAPE = 128, PREPARED_PER_RECORD = 2 };
 
 static rt_budget budget_of(const rt_session *session)

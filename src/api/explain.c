@@ -39,9 +39,8 @@ typedef enum Without {
 #define PARTS(PART)                                                                                                  \
     PART("spheres one by one", TRACE_SPHERES, "no sphere, or so many that they stand in a tree", WITHOUT_NOTHING)    \
     PART("tree of spheres", TRACE_SPHERE_BVH, "no sphere", WITHOUT_NOTHING)                                          \
-    PART("stretched spheres", TRACE_ELLIPSOIDS, "no sphere is stretched", WITHOUT_NOTHING)                           \
     PART("planes", TRACE_PLANES, "no plane", WITHOUT_NOTHING)                                                        \
-    PART("other shapes", TRACE_PARTS, "nothing but spheres and planes", WITHOUT_NOTHING)                             \
+    PART("other shapes", TRACE_PARTS, "nothing but spheres and planes, none stretched", WITHOUT_NOTHING)             \
     PART("shadow rays", RENDER_SHADOWS, "no light casts shadows", WITHOUT_SHADOWS)                                   \
     PART("lights of a form", RENDER_LIGHTS, "no spotlight, area light or light that fades", WITHOUT_NOTHING)         \
     PART("highlights", RENDER_HIGHLIGHTS, "no finish has phong or specular", WITHOUT_HIGHLIGHTS)                     \

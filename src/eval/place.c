@@ -164,9 +164,7 @@ static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, cons
     if (!may_add(ev, span) || !place_material(ev, inner, 0, span, &material)) {
         return false;
     }
-    if (is_plain && part->kind == PART_BALL) {
-        is_added = scene_add_ellipsoid(scene, &part->to_world, &part->to_object, material, part->source);
-    } else if (is_plain && part->kind == PART_PLANE) {
+    if (is_plain && part->kind == PART_PLANE) {
         is_added = scene_add_plane(scene, part->data[0], part->data[1].x, material, part->source);
     } else {
         Part alone = *part;

@@ -175,14 +175,6 @@ bool transform_invert(const Transform *transform, Transform *inverse)
     return true;
 }
 
-Vec3 transform_normal(const Transform *inverse, Vec3 normal)
-{
-    const double(*m)[3] = inverse->m;
-    return vec3(normal.x * m[0][0] + normal.y * m[0][1] + normal.z * m[0][2],
-                normal.x * m[1][0] + normal.y * m[1][1] + normal.z * m[1][2],
-                normal.x * m[2][0] + normal.y * m[2][1] + normal.z * m[2][2]);
-}
-
 bool transform_is_finite(const Transform *transform)
 {
     for (int row = 0; row < 4; row++) {

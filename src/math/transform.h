@@ -21,6 +21,11 @@ typedef struct Transform {
     double m[4][3]; // rows 0 to 2: images of x, y and z; row 3: image of the origin
 } Transform;
 
+// The linear part of one.
+typedef struct Linear {
+    double m[3][3];
+} Linear;
+
 Transform transform_identity(void);
 // Whether it is that, bit for bit.
 bool transform_is_identity(const Transform *transform);
@@ -34,12 +39,21 @@ Transform transform_compose(Transform first, Transform second);
 // False when the linear part is singular or its inverse is not finite; *inverse is then unchanged.
 bool transform_invert(const Transform *transform, Transform *inverse);
 
-static inline Vec3 transform_direction(const Transform *transform, Vec3 direction)
+static inline Vec3 rows_direction(const double (*m)[3], Vec3 direction)
 {
-    const double(*m)[3] = transform->m;
     return vec3(direction.x * m[0][0] + direction.y * m[1][0] + direction.z * m[2][0],
                 direction.x * m[0][1] + direction.y * m[1][1] + direction.z * m[2][1],
                 direction.x * m[0][2] + direction.y * m[1][2] + direction.z * m[2][2]);
+}
+
+static inline Vec3 transform_direction(const Transform *transform, Vec3 direction)
+{
+    return rows_direction(transform->m, direction);
+}
+
+static inline Vec3 linear_direction(const Linear *linear, Vec3 direction)
+{
+    return rows_direction(linear->m, direction);
 }
 
 static inline Vec3 transform_point(const Transform *transform, Vec3 point)
@@ -48,8 +62,23 @@ static inline Vec3 transform_point(const Transform *transform, Vec3 point)
     return vec3_add(transform_direction(transform, point), vec3(m[3][0], m[3][1], m[3][2]));
 }
 
+static inline Vec3 rows_normal(const double (*m)[3], Vec3 normal)
+{
+    return vec3(normal.x * m[0][0] + normal.y * m[0][1] + normal.z * m[0][2],
+                normal.x * m[1][0] + normal.y * m[1][1] + normal.z * m[1][2],
+                normal.x * m[2][0] + normal.y * m[2][1] + normal.z * m[2][2]);
+}
+
 // The image of a normal of a surface: `inverse` is the inverse of the surface's transform. Not normalised.
-Vec3 transform_normal(const Transform *inverse, Vec3 normal);
+static inline Vec3 transform_normal(const Transform *inverse, Vec3 normal)
+{
+    return rows_normal(inverse->m, normal);
+}
+
+static inline Vec3 linear_normal(const Linear *inverse, Vec3 normal)
+{
+    return rows_normal(inverse->m, normal);
+}
 
 bool transform_is_finite(const Transform *transform);
 

@@ -119,52 +119,33 @@ static LifeSphere stretched(const Follower *follower, Ray object, const StartSph
     return sphere;
 }
 
-static void follow_ellipsoid(Follower *follower, LifeRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
-{
-    const EllipsoidEntry *entry = &follower->p->geometry->ellipsoids[index];
-    const Scene *scene = follower->p->scene;
-    bool is_start = now->start.shape == shape_id(SHAPE_ELLIPSOID, index);
-    StartSphere on = {0, now->start.inward, is_start ? UNIT_BALL : (Ball){{0.0, 0.0, 0.0}, (double)NAN}};
-    SphereRay world = sphere_ray_make(now->ray.origin, now->ray.direction);
-    SphereRay object = ellipsoid_ray(&entry->shape, &world);
-    uint64_t source = 0;
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        source = scene->ellipsoids.items[i].order == entry->info.order ? scene->ellipsoids.items[i].source : source;
-    }
-    LifeSphere sphere = stretched(follower, (Ray){object.origin, object.direction}, &on, source);
-    if (sphere.t > 0.0) {
-        sphere.bound = ellipsoid_crossing_error(&entry->shape, &now->ray, sphere.t / follower->scale) * follower->scale;
-    }
-    keep_sphere(follower, ray, &sphere, is_of_few);
-}
-
-static bool is_round(const Transform *m)
-{
-    const double(*r)[3] = m->m;
-    return r[0][1] == 0.0 && r[0][2] == 0.0 && r[1][0] == 0.0 && r[1][2] == 0.0 && r[2][0] == 0.0 && r[2][1] == 0.0 &&
-           fabs(r[0][0]) == fabs(r[1][1]) && fabs(r[1][1]) == fabs(r[2][2]);
-}
-
-// Spheres that are cut, or that not all rays see: what their roots lead to is decided with the rest of the composite.
+// Balls among the parts. Of one that is cut, what its roots lead to is decided with the rest of the composite.
 static void follow_part(Follower *follower, LifeRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
 {
     const Solid *solid = &follower->p->geometry->shapes.solids[index];
-    const StartSphere none = {SLOT_NONE, false, {{0.0, 0.0, 0.0}, (double)NAN}};
     uint64_t source = follower->p->scene->parts.items[index].source;
+    bool is_cut = solid->node != NODE_NONE, is_round = part_map_is_round(solid->to_world.m);
+    bool is_start = !is_cut && starts_on_part(now->start) && part_index(now->start.shape) == index;
+    double radius = fabs(solid->to_world.m[0][0]);
+    Ball ball = is_round ? (Ball){solid->centre, radius * radius} : UNIT_BALL;
+    StartSphere on = {0, now->start.inward != solid->flips, is_start ? ball : (Ball){{0.0, 0.0, 0.0}, (double)NAN}};
+    Ray object = solid_ray(solid, &now->ray);
     LifeSphere sphere;
-    if (is_round(&solid->to_world)) {
-        double radius = fabs(solid->to_world.m[0][0]);
-        Ball ball = {solid->centre, radius * radius};
+    if (is_round) {
         sphere = (LifeSphere){
             .source = source, .centre = in_scene(follower, solid->centre), .radius = radius * follower->scale};
         textbook(&sphere, now->ray, &ball, follower->scale, follower->scale);
-        certify(&sphere, now->ray, &ball, &none, follower->scale);
+        certify(&sphere, now->ray, &ball, &on, follower->scale);
     } else {
-        sphere = stretched(follower, solid_ray(solid, &now->ray), &none, source);
+        sphere = stretched(follower, object, &on, source);
     }
-    sphere.choice = sphere.t > 0.0 ? LIFE_CUT : sphere.choice;
-    sphere.is_misjudged = false;
-    sphere.t = sphere.bound = 0.0;
+    if (is_cut) {
+        sphere.choice = sphere.t > 0.0 ? LIFE_CUT : sphere.choice;
+        sphere.is_misjudged = false;
+        sphere.t = sphere.bound = 0.0;
+    } else if (sphere.t > 0.0) {
+        sphere.bound = solid_ball_error(solid, &now->ray, &object, sphere.t / follower->scale) * follower->scale;
+    }
     keep_sphere(follower, ray, &sphere, is_of_few);
 }
 
@@ -174,7 +155,7 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const StackedRay *n
     const Geometry *g = follower->p->geometry;
     const SphereTable *table = &g->spheres;
     StartSphere on = query_start_sphere(g, TRACE_ALL_FEATURES, now->start);
-    bool is_of_few = table->count + g->ellipsoid_count + g->shapes.solid_count <= SPHERES_FEW;
+    bool is_of_few = table->count + g->shapes.solid_count <= SPHERES_FEW;
     ray->first_sphere = follower->life->spheres.count;
     for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
         Ball ball = sphere_table_ball(table, slot);
@@ -189,9 +170,6 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const StackedRay *n
             sphere.source = sphere_source(follower->p->scene, table->info[slot].order);
         }
         keep_sphere(follower, ray, &sphere, is_of_few);
-    }
-    for (uint32_t i = 0; i < g->ellipsoid_count; i++) {
-        follow_ellipsoid(follower, ray, now, i, is_of_few);
     }
     for (uint32_t i = 0; i < g->shapes.solid_count; i++) {
         if (g->shapes.solids[i].kind == PART_BALL && !(g->shapes.solids[i].hidden & now->start.use)) {
@@ -230,11 +208,6 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
         out->shape = "sphere";
         out->source = sphere_source(scene, at->order);
         break;
-    case SHAPE_ELLIPSOID:
-        out->shape = "stretched sphere";
-        SOURCE_BY_ORDER(scene->ellipsoids, at->order, out->source);
-        error = ellipsoid_crossing_error(&g->ellipsoids[index].shape, ray, t);
-        break;
     case SHAPE_PLANE:
         out->shape = "plane";
         SOURCE_BY_ORDER(scene->planes, at->order, out->source);
@@ -243,9 +216,11 @@ static void name_shape(const Follower *follower, const ShadePoint *at, const Ray
     case SHAPE_PART: {
         const Solid *solid = &g->shapes.solids[part_index(at->shape)];
         Ray object = solid_ray(solid, ray);
-        out->shape = part_word(solid->kind);
-        out->source = scene->parts.items[part_index(at->shape)].source;
-        error = solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
+        const Part *part = &scene->parts.items[part_index(at->shape)];
+        out->shape = part_name(part);
+        out->source = part->source;
+        error = solid->kind == PART_BALL ? solid_ball_error(solid, ray, &object, t)
+                                         : solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
         break;
     }
     }

@@ -15,9 +15,8 @@
 
 // What a kernel may have for its tiles to be shaded so.
 enum {
-    SHADE_TILE_FEATURES = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
-                          RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_LIGHTS |
-                          RENDER_PIGMENTS
+    SHADE_TILE_FEATURES = TRACE_ALL_FEATURES | RENDER_SHADOWS | RENDER_HIGHLIGHTS | RENDER_BRILLIANCE |
+                          RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_LIGHTS | RENDER_PIGMENTS
 };
 
 // Rays of a tile that may wait while what is mirrored is followed; each is on a level of its own.

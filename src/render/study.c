@@ -8,7 +8,7 @@
 
 // What the kernel has; a feature that is added later is refused until it is put here.
 enum {
-    COVERED = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_ELLIPSOIDS | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
+    COVERED = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
               RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_EXPONENT | RENDER_PIGMENTS | RENDER_TEXTURES |
               RENDER_INTERIORS,
     REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG | RENDER_NORMALS,
@@ -59,11 +59,6 @@ static uint64_t compound_source(const Scene *scene, size_t compound)
             return scene_sphere_source(scene, i);
         }
     }
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        if (scene->ellipsoids.items[i].material == material) {
-            return scene->ellipsoids.items[i].source;
-        }
-    }
     for (size_t i = 0; i < scene->planes.count; i++) {
         if (scene->planes.items[i].material == material) {
             return scene->planes.items[i].source;
@@ -81,9 +76,12 @@ bool study_covers(const Prepared *p, DiagSink *diags)
 {
     const Scene *scene = p->scene;
     bool covers = lights_are_covered(scene, p, diags);
-    if (scene->parts.count > 0) {
-        covers =
-            refuse(diags, scene_source_span(scene->parts.items[0].source), "a shape other than spheres and planes");
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        const Part *part = &scene->parts.items[i];
+        if (part->kind != PART_BALL || part->node != NODE_NONE || part->hidden || part->flags) {
+            covers = refuse(diags, scene_source_span(part->source), "a shape other than spheres and planes");
+            break;
+        }
     }
     if (scene->camera.type > CAMERA_ORTHOGRAPHIC) {
         covers = refuse(diags, scene->camera.span, "a camera that is neither perspective nor orthographic");

@@ -201,20 +201,20 @@ static Real real_sphere_root(const RealScene *s, uint32_t index, const RealRay *
     return real_ball_root(f, ray->d, radius * radius, inside);
 }
 
-// The ray in an ellipsoid's space.
-static RealRay real_ellipsoid_ray(const RealScene *s, const Ellipsoid *ellipsoid, const RealRay *ray)
+// The ray in the space of a part, which is a ball alone.
+static RealRay real_ball_ray(const RealScene *s, const Part *ball, const RealRay *ray)
 {
-    const double *centre = ellipsoid->to_world.m[3];
+    const double *centre = ball->to_world.m[3];
     RealVec offset = real_sub(ray->e, real_scale(s->inverse_scale, real_vec(vec3(centre[0], centre[1], centre[2]))));
     Real scale = (Real)1 / s->inverse_scale;
-    return (RealRay){real_scale(scale, real_linear(ellipsoid->to_object.m, offset)),
-                     real_scale(scale, real_linear(ellipsoid->to_object.m, ray->d))};
+    return (RealRay){real_scale(scale, real_linear(ball->to_object.m, offset)),
+                     real_scale(scale, real_linear(ball->to_object.m, ray->d))};
 }
 
-static Real real_ellipsoid_root(const RealScene *s, uint32_t index, const RealRay *ray, RealStart start, bool *inside)
+static Real real_part_root(const RealScene *s, uint32_t index, const RealRay *ray, RealStart start, bool *inside)
 {
-    RealRay object = real_ellipsoid_ray(s, &s->scene->ellipsoids.items[index], ray);
-    if (real_starts_on(start, SHAPE_ELLIPSOID) && start.index == index) {
+    RealRay object = real_ball_ray(s, &s->scene->parts.items[index], ray);
+    if (real_starts_on(start, SHAPE_PART) && start.index == index) {
         *inside = true;
         return start.inward ? real_ball_inward(object.e, object.d) : 0;
     }
@@ -254,10 +254,10 @@ static bool real_closest(const RealScene *s, const RealRay *ray, RealStart start
         Real t = real_sphere_root(s, i, ray, start, &inside);
         real_offer(hit, &has_hit, t, inside, SHAPE_SPHERE, i, scene_sphere_order(s->scene, i));
     }
-    for (uint32_t i = 0; i < s->scene->ellipsoids.count; i++) {
+    for (uint32_t i = 0; i < s->scene->parts.count; i++) {
         bool inside = false;
-        Real t = real_ellipsoid_root(s, i, ray, start, &inside);
-        real_offer(hit, &has_hit, t, inside, SHAPE_ELLIPSOID, i, s->scene->ellipsoids.items[i].order);
+        Real t = real_part_root(s, i, ray, start, &inside);
+        real_offer(hit, &has_hit, t, inside, SHAPE_PART, i, s->scene->parts.items[i].order);
     }
     for (uint32_t i = 0; i < s->scene->planes.count; i++) {
         bool inside;
@@ -279,18 +279,18 @@ static void real_surface(const RealScene *s, const RealRay *ray, RealHit *hit)
                                      : real_add_scaled(real_scale(s->inverse_scale, real_vec(sphere->centre)), radius,
                                                        hit->normal);
         hit->material = sphere->material;
-    } else if (hit->kind == SHAPE_ELLIPSOID) {
-        const Ellipsoid *ellipsoid = &s->scene->ellipsoids.items[hit->index];
-        const double(*m)[3] = ellipsoid->to_object.m, *centre = ellipsoid->to_world.m[3];
-        RealRay object = real_ellipsoid_ray(s, ellipsoid, ray);
+    } else if (hit->kind == SHAPE_PART) {
+        const Part *ball = &s->scene->parts.items[hit->index];
+        const double(*m)[3] = ball->to_object.m, *centre = ball->to_world.m[3];
+        RealRay object = real_ball_ray(s, ball, ray);
         RealVec n = real_unit(real_add_scaled(object.e, hit->t, object.d));
-        RealVec world = real_linear(ellipsoid->to_world.m, n);
+        RealVec world = real_linear(ball->to_world.m, n);
         hit->point =
             real_scale(s->inverse_scale, real_add_scaled(world, 1, real_vec(vec3(centre[0], centre[1], centre[2]))));
         hit->normal = real_unit((RealVec){(Real)m[0][0] * n.x + (Real)m[0][1] * n.y + (Real)m[0][2] * n.z,
                                           (Real)m[1][0] * n.x + (Real)m[1][1] * n.y + (Real)m[1][2] * n.z,
                                           (Real)m[2][0] * n.x + (Real)m[2][1] * n.y + (Real)m[2][2] * n.z});
-        hit->material = ellipsoid->material;
+        hit->material = ball->material;
     } else {
         const Plane *plane = &s->scene->planes.items[hit->index];
         hit->normal = real_vec(plane->normal);

@@ -212,13 +212,6 @@ static void dump_sphere(const Scene *scene, const Sphere *sphere, const uint32_t
     dump_texture(scene, sphere->material, around, out);
 }
 
-static void dump_ellipsoid(const Scene *scene, const Ellipsoid *ellipsoid, const uint32_t *around, TextBuffer *out)
-{
-    text_append(out, "sphere { 0, 1 matrix ");
-    dump_numbers(out, &ellipsoid->to_world.m[0][0], 12);
-    dump_texture(scene, ellipsoid->material, around, out);
-}
-
 static void dump_plane(const Scene *scene, const Plane *plane, const uint32_t *around, TextBuffer *out)
 {
     dump_vector(out, "plane { ", plane->normal);
@@ -268,7 +261,7 @@ static const uint32_t *interior_around(const OpenBodies *open, uint32_t order)
 // Each array is in the order of declaration, so they are merged.
 static void dump_shapes(const Scene *scene, TextBuffer *out)
 {
-    size_t sphere = 0, ellipsoid = 0, plane = 0, part = 0, composite = 0;
+    size_t sphere = 0, plane = 0, part = 0, composite = 0;
     OpenBodies open = {scene, RECORD_NONE, 0};
     for (uint32_t order = 0; order < scene->shape_count; order++) {
         close_bodies(&open, order, out);
@@ -278,8 +271,6 @@ static void dump_shapes(const Scene *scene, TextBuffer *out)
             dump_sphere(scene, &scene->spheres.items[sphere++], around, out);
         } else if (plane < scene->planes.count && scene->planes.items[plane].order == order) {
             dump_plane(scene, &scene->planes.items[plane++], around, out);
-        } else if (ellipsoid < scene->ellipsoids.count && scene->ellipsoids.items[ellipsoid].order == order) {
-            dump_ellipsoid(scene, &scene->ellipsoids.items[ellipsoid++], around, out);
         } else if (composite < scene->composites.count && scene->composites.items[composite].order == order) {
             part += scene->composites.items[composite].part_count;
             dump_composite(scene, &scene->composites.items[composite++], around, open.innermost != RECORD_NONE, out);

@@ -54,9 +54,6 @@ static bool axis_gains(const Scene *scene, int number)
     for (size_t i = 0; axis.is_exact && i < scene->spheres.count; i++) {
         axis_add(&axis, coordinate_of(&scene->spheres.items[i].centre, number));
     }
-    for (size_t i = 0; axis.is_exact && i < scene->ellipsoids.count; i++) {
-        axis_add(&axis, scene->ellipsoids.items[i].to_world.m[3][number]);
-    }
     for (size_t i = 0; axis.is_exact && i < scene->planes.count; i++) {
         axis_add_plane(&axis, number, &scene->planes.items[i].normal, scene->planes.items[i].distance);
     }
@@ -91,9 +88,6 @@ static void move(Scene *scene, Vec3 by)
     }
     for (size_t i = 0; i < scene->spheres.count; i++) {
         scene->spheres.items[i].centre = vec3_add(scene->spheres.items[i].centre, by);
-    }
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        move_row(scene->ellipsoids.items[i].to_world.m[3], by);
     }
     for (size_t i = 0; i < scene->planes.count; i++) {
         scene->planes.items[i].distance += vec3_dot(scene->planes.items[i].normal, by);

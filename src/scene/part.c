@@ -4,6 +4,7 @@
 #include "scene/part.h"
 
 #include <float.h>
+#include <math.h>
 
 const char *part_word(PartKind kind)
 {
@@ -17,6 +18,18 @@ const char *part_word(PartKind kind)
         [PART_SMOOTH_TRIANGLE] = "smooth triangle",
     };
     return words[kind];
+}
+
+bool part_map_is_round(const double (*r)[3])
+{
+    return r[0][1] == 0.0 && r[0][2] == 0.0 && r[1][0] == 0.0 && r[1][2] == 0.0 && r[2][0] == 0.0 && r[2][1] == 0.0 &&
+           fabs(r[0][0]) == fabs(r[1][1]) && fabs(r[1][1]) == fabs(r[2][2]);
+}
+
+const char *part_name(const Part *part)
+{
+    bool is_stretched = part->kind == PART_BALL && !part_map_is_round(part->to_world.m);
+    return is_stretched ? "stretched sphere" : part_word(part->kind);
 }
 
 // The direction as the fixed shape sees it: p·n with p = q M + o is q·(M n) + o·n.

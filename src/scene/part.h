@@ -11,6 +11,12 @@
 // The word for a part of the kind, "cylinder or cone".
 const char *part_word(PartKind kind);
 
+// The same for a part: a ball may be a "stretched sphere".
+const char *part_name(const Part *part);
+
+// Whether a ball under the map of these rows is a sphere, with its axes where they were.
+bool part_map_is_round(const double (*rows)[3]);
+
 // The greatest p·direction over the part's points, inverse or not; INFINITY for a plane, save against its own normal.
 double part_support(const Part *part, Vec3 direction);
 

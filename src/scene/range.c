@@ -106,7 +106,7 @@ static Extent transform_extent(const Transform *to_world, uint64_t source, const
 
 static Extent part_extent(const Part *part)
 {
-    Extent extent = transform_extent(&part->to_world, part->source, part_word(part->kind));
+    Extent extent = transform_extent(&part->to_world, part->source, part_name(part));
     if (part->kind == PART_BOX) {
         const double *low = &part->data[0].x, *high = &part->data[1].x;
         extent.size = 0.0;
@@ -130,9 +130,6 @@ static void visit_extent(ExtentVisitor *visit, void *client, Extent extent)
 
 static void visit_others(const Scene *scene, ExtentVisitor *visit, void *client)
 {
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        visit_extent(visit, client, transform_extent(&scene->ellipsoids.items[i].to_world, 0, ""));
-    }
     for (size_t i = 0; i < scene->planes.count; i++) {
         visit(client, 0.0, fabs(scene->planes.items[i].distance), false);
     }
@@ -240,7 +237,7 @@ static void census_visit(void *client, double size, double place, bool is_needed
 // The exponents at which the most is held, the nearest such run to `middle`.
 static ExponentRange exponents_of_most(const Scene *scene, int middle)
 {
-    Census census = {.needed = (int32_t)(scene->spheres.count + scene->ellipsoids.count + scene->planes.count +
+    Census census = {.needed = (int32_t)(scene->spheres.count + scene->planes.count +
                                          scene->parts.count + scene->lights.count + 1)};
     int64_t held = 0, most = -1;
     int nearest = INT_MAX;
@@ -454,11 +451,6 @@ void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSin
     int exponent = scale_with(scene, survey).exponent;
     Watch watch = {diags, scene->camera.location, ldexp(1.0, RANGE_LEAST + exponent), ldexp(1.0, RANGE_END + exponent)};
     check_spheres(scene, survey, &watch);
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
-        Extent extent = transform_extent(&ellipsoid->to_world, ellipsoid->source, "stretched sphere");
-        check_extent(&watch, &extent, not_seen_perhaps);
-    }
     for (size_t i = 0; i < scene->planes.count; i++) {
         check_plane(&watch, scene->planes.items[i].distance, scene->planes.items[i].source);
     }

@@ -49,10 +49,6 @@ void scene_reach(const Scene *scene, SceneReach *reach)
     for (size_t i = 0; i < scene->spheres.count; i++) {
         reach_add(reach, eye, scene->spheres.items[i].centre, scene->spheres.items[i].radius);
     }
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        Part ball = {.kind = PART_BALL, .to_world = scene->ellipsoids.items[i].to_world};
-        reach_add_part(reach, eye, &ball);
-    }
     for (size_t i = 0; i < scene->parts.count; i++) {
         reach_add_part(reach, eye, &scene->parts.items[i]);
     }
@@ -77,9 +73,6 @@ void scene_move_camera(Scene *scene, double factor)
 
     for (size_t i = 0; i < scene->spheres.count; i++) {
         mean_add(&sum, &count, scene->spheres.items[i].centre);
-    }
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        mean_add(&sum, &count, transform_place(&scene->ellipsoids.items[i].to_world));
     }
     for (size_t i = 0; i < scene->parts.count; i++) {
         if (scene->parts.items[i].kind != PART_PLANE) {

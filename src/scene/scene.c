@@ -71,7 +71,6 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->compounds);
     ARRAY_FREE(&scene->spheres);
     ARRAY_FREE(&scene->sphere_runs);
-    ARRAY_FREE(&scene->ellipsoids);
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
     ARRAY_FREE(&scene->nodes);
@@ -230,8 +229,7 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->pigment_entries) + LIST_BYTES(scene->patterns) + LIST_BYTES(scene->slope_entries) +
            LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) + LIST_BYTES(scene->texture_entries) +
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
-           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) + LIST_BYTES(scene->ellipsoids) +
-           LIST_BYTES(scene->planes) +
+           LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) + LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
            LIST_BYTES(scene->bodies) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
@@ -352,17 +350,6 @@ const Material *scene_last_material(const Scene *scene, MaterialIndex *index)
 {
     *index = scene->material_index.last;
     return *index < scene->materials.count ? &scene->materials.items[*index] : NULL;
-}
-
-bool scene_add_ellipsoid(Scene *scene, const Transform *to_world, const Transform *to_object, MaterialIndex material,
-                         uint64_t source)
-{
-    Ellipsoid ellipsoid = {*to_world, *to_object, material, scene->shape_count, source};
-    if (scene->shape_count == UINT32_MAX || !ARRAY_PUSH(&scene->ellipsoids, ellipsoid)) {
-        return false;
-    }
-    scene->shape_count++;
-    return true;
 }
 
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material, uint64_t source)

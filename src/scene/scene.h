@@ -212,15 +212,6 @@ typedef struct SphereRun {
     uint32_t source;       // upper half, of all of them
 } SphereRun;
 
-// The unit sphere at the origin under an affine transform that is not a similarity.
-typedef struct Ellipsoid {
-    Transform to_world;
-    Transform to_object; // its inverse
-    MaterialIndex material;
-    uint32_t order;
-    uint64_t source;
-} Ellipsoid;
-
 // All points p with p·normal = distance.
 typedef struct Plane {
     Vec3 normal; // unit length
@@ -232,7 +223,7 @@ typedef struct Plane {
 
 // A shape of any other kind, or one that not all rays see, alone or as a leaf of a composite. Each but the plane is a
 // fixed shape under an affine map:
-//   ball            the unit sphere
+//   ball            the unit sphere; a sphere stretched by its transforms is one
 //   plane           all points p with p·data[0] = data[1].x, in the scene itself; inside is where p·data[0] is less
 //   box             from data[0] to data[1], each coordinate of data[0] no greater
 //   cone            z from 0 to 1, of radius 1 + (data[0].x - 1) z; a cylinder when data[0].x = 1, which is the greatest
@@ -380,14 +371,13 @@ typedef struct Scene {
     ARRAY(Compound) compounds;
     ARRAY(Sphere) spheres;
     ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
-    ARRAY(Ellipsoid) ellipsoids;
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     ARRAY(Body) bodies;
     uint32_t inner_body_count; // bodies within composites
-    uint32_t shape_count; // spheres, ellipsoids, planes, composites and parts that stand alone
+    uint32_t shape_count; // spheres, planes, composites and parts that stand alone
     UniqueIndex finish_index, material_index, pigment_entry_index, pattern_index, slope_entry_index, normal_entry_index,
         normal_index, texture_entry_index, texture_index, interior_index, compound_index, picture_source_index,
         picture_shade_index, image_map_index;
@@ -457,7 +447,7 @@ static inline Rgbft pigment_colour(const Pigment *pigment)
 // Each shape once, be it alone or in a composite.
 static inline uint64_t scene_shapes_in_all(const Scene *scene)
 {
-    return (uint64_t)scene->spheres.count + scene->ellipsoids.count + scene->planes.count + scene->parts.count;
+    return (uint64_t)scene->spheres.count + scene->planes.count + scene->parts.count;
 }
 
 // Add a record; `order` and shape_count are set here. False when out of memory.
@@ -479,8 +469,6 @@ void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials, uint64
 // The one that the next material is compared with, and where it stands; NULL: none.
 const Material *scene_last_material(const Scene *scene, MaterialIndex *index);
 
-bool scene_add_ellipsoid(Scene *scene, const Transform *to_world, const Transform *to_object, MaterialIndex material,
-                         uint64_t source) RT_MUST_CHECK;
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material,
                      uint64_t source) RT_MUST_CHECK;
 

@@ -37,7 +37,7 @@ typedef struct Slot {
 
 typedef struct Twins {
     const Scene *scene;
-    size_t ellipsoids, planes, parts, end; // numbers of the first ones; spheres begin at 0
+    size_t planes, parts, end; // numbers of the first ones; spheres begin at 0
     Slot *slots;
     uint32_t mask;
 } Twins;
@@ -78,11 +78,8 @@ static void key_transform(Key *key, const Transform *m)
 // A ball that is round is a sphere.
 static void key_ball(Key *key, const Transform *m)
 {
-    const double(*r)[3] = m->m;
-    bool is_round = r[0][1] == 0.0 && r[0][2] == 0.0 && r[1][0] == 0.0 && r[1][2] == 0.0 && r[2][0] == 0.0 &&
-                    r[2][1] == 0.0 && fabs(r[0][0]) == fabs(r[1][1]) && fabs(r[1][1]) == fabs(r[2][2]);
-    if (is_round) {
-        key_sphere(key, vec3(r[3][0], r[3][1], r[3][2]), fabs(r[0][0]));
+    if (part_map_is_round(m->m)) {
+        key_sphere(key, vec3(m->m[3][0], m->m[3][1], m->m[3][2]), fabs(m->m[0][0]));
     } else {
         key->kind = PART_BALL;
         key_transform(key, m);
@@ -115,18 +112,12 @@ static Key item_key(const Twins *twins, size_t item)
     key.count = 0;
     key.hidden = 0;
     key.is_turned = key.is_smooth = false;
-    if (item < twins->ellipsoids) {
+    if (item < twins->planes) {
         const Sphere *sphere = &scene->spheres.items[item];
         key.source = scene_sphere_source(scene, item);
         key.order = scene_sphere_order(scene, item);
         key.material = sphere->material;
         key_sphere(&key, sphere->centre, sphere->radius);
-    } else if (item < twins->planes) {
-        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[item - twins->ellipsoids];
-        key.source = ellipsoid->source;
-        key.order = ellipsoid->order;
-        key.material = ellipsoid->material;
-        key_ball(&key, &ellipsoid->to_world);
     } else if (item < twins->parts) {
         const Plane *plane = &scene->planes.items[item - twins->planes];
         key.source = plane->source;
@@ -180,7 +171,7 @@ static inline uint32_t sphere_hash(const Sphere *sphere)
 
 static uint32_t item_hash(const Twins *twins, size_t item)
 {
-    if (item < twins->ellipsoids) {
+    if (item < twins->planes) {
         return sphere_hash(&twins->scene->spheres.items[item]);
     }
     Key key = item_key(twins, item);
@@ -436,14 +427,14 @@ static void gather_run(void *client, size_t begin, size_t end)
 
 static size_t sieve_runs(const Twins *twins)
 {
-    return (twins->ellipsoids + SPHERE_RUN - 1) / SPHERE_RUN;
+    return (twins->planes + SPHERE_RUN - 1) / SPHERE_RUN;
 }
 
 // Shapes that are round in another way are looked up, so that their equals must be in the table.
 static void sieve_others(const Sieve *sieve)
 {
     const Twins *twins = sieve->twins;
-    for (size_t item = twins->ellipsoids; item < twins->end; item++) {
+    for (size_t item = twins->planes; item < twins->end; item++) {
         Key key = item_key(twins, item);
         if (key.kind == KIND_SPHERE_KEY) {
             bit_set(sieve, sieve->twice, key_hash(&key));
@@ -460,7 +451,7 @@ static void sieve_fini(Sieve *sieve)
 // False when out of memory; fini is to be called anyway. *count: the spheres that are to be looked up.
 static bool sieve_init(Sieve *sieve, const Twins *twins, int threads, size_t *count)
 {
-    size_t spheres = twins->ellipsoids, bits = 64;
+    size_t spheres = twins->planes, bits = 64;
     while (bits < BITS_PER_SPHERE * spheres && bits < (size_t)UINT32_MAX + 1) {
         bits *= 2;
     }
@@ -520,7 +511,7 @@ static void visit_some(const Twins *twins, const uint32_t *items, size_t begin, 
 static bool visit_many_spheres(Twins *twins, DiagSink *diags, int threads)
 {
     Sieve sieve;
-    size_t count, others = twins->end - twins->ellipsoids + twins->scene->composites.count;
+    size_t count, others = twins->end - twins->planes + twins->scene->composites.count;
     bool done = sieve_init(&sieve, twins, threads, &count) && table_init(twins, count + others);
     for (size_t run = 0; done && run < sieve_runs(twins); run++) {
         visit_some(twins, &sieve.hashes[run * SPHERE_RUN], 0, sieve.counts[run], diags);
@@ -531,20 +522,19 @@ static bool visit_many_spheres(Twins *twins, DiagSink *diags, int threads)
 
 bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads)
 {
-    Twins twins = {.scene = scene, .ellipsoids = scene->spheres.count};
-    twins.planes = twins.ellipsoids + scene->ellipsoids.count;
+    Twins twins = {.scene = scene, .planes = scene->spheres.count};
     twins.parts = twins.planes + scene->planes.count;
     twins.end = twins.parts + scene->parts.count;
     if (twins.end < 2 || twins.end >= UINT32_MAX / 4 || !diag_is_on(diags, DIAG_W0444)) {
         return true;
     }
-    bool are_many = twins.ellipsoids > SPHERE_RUN;
+    bool are_many = twins.planes > SPHERE_RUN;
     if (!(are_many ? visit_many_spheres(&twins, diags, threads)
                    : table_init(&twins, twins.end + scene->composites.count))) {
         free(twins.slots);
         return false;
     }
-    size_t begin = are_many ? twins.ellipsoids : 0;
+    size_t begin = are_many ? twins.planes : 0;
     visit_some(&twins, NULL, begin, twins.end - begin, diags);
     for (uint32_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];

@@ -118,13 +118,6 @@ static bool spheres_are_valid(const Scene *scene, const SphereSurvey *survey, Di
 static bool shapes_are_valid(const Scene *scene, const SphereSurvey *survey, DiagSink *diags)
 {
     bool valid = spheres_are_valid(scene, survey, diags);
-    for (size_t i = 0; i < scene->ellipsoids.count; i++) {
-        const Ellipsoid *ellipsoid = &scene->ellipsoids.items[i];
-        if (!transform_is_finite(&ellipsoid->to_world) || !transform_is_finite(&ellipsoid->to_object) ||
-            !scene_has_material(scene, ellipsoid->material)) {
-            valid = fault(diags, DIAG_E0413, ellipsoid->source, "the stretched sphere cannot be represented");
-        }
-    }
     for (size_t i = 0; i < scene->planes.count; i++) {
         const Plane *plane = &scene->planes.items[i];
         if (!vec3_is_finite(plane->normal) || !isfinite(plane->distance) ||

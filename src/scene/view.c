@@ -69,7 +69,7 @@ static bool sees_plane(const Camera *camera, const Plane *plane)
 
 static bool sees_anything(const Scene *scene, const View *view)
 {
-    bool is_seen = scene->ellipsoids.count > 0; // not looked at
+    bool is_seen = false;
     for (size_t i = 0; !is_seen && i < scene->planes.count; i++) {
         is_seen = sees_plane(&scene->camera, &scene->planes.items[i]);
     }
@@ -105,7 +105,7 @@ static bool holds(const Sphere *sphere, Vec3 point)
 // A sky around the whole scene has shapes or lights in it as well.
 static bool holds_other_things(const Scene *scene, const Sphere *outer)
 {
-    bool holds_some = scene->ellipsoids.count + scene->planes.count + scene->parts.count > 0;
+    bool holds_some = scene->planes.count + scene->parts.count > 0;
     for (size_t i = 0; !holds_some && i < scene->lights.count; i++) {
         holds_some = holds(outer, scene->lights.items[i].position);
     }

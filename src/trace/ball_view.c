@@ -131,7 +131,7 @@ bool geometry_sees_ball(const Geometry *g, const SurfaceSpot *from, Vec3 centre,
     cone.radius = radius + cone.slack;
     cone.direction = vec3_scale(1.0 / cone.length, offset);
     cone.sine = cone.radius / cone.length;
-    if (!(cone.sine < 1.0) || g->ellipsoid_count > 0 || g->shapes.unbounded_count > 0) {
+    if (!(cone.sine < 1.0) || g->shapes.unbounded_count > 0) {
         return false;
     }
     cone.cosine = sqrt(1.0 - cone.sine * cone.sine);

@@ -107,10 +107,14 @@ static inline BvhRef bvh_ref(const Bvh *bvh, Vec3 low, Vec3 high, uint32_t index
                     {bvh_float_above(b.x), bvh_float_above(b.y), bvh_float_above(b.z), parts[1]}};
 }
 
+// How many things a leaf may hold, as a power of two: one each where a test costs more than that of its box, eight where
+// they are tested at once.
+typedef enum BvhLeafBits { BVH_LEAF_ONE = 0, BVH_LEAF_EIGHT = 3 } BvhLeafBits;
+
 // Builds the tree of a placed *bvh over 1 <= count < 2^28 refs and puts them into its order, in which leaves are runs
 // and follow each other as their nodes do. The result does not depend on the number of threads. False when out of
 // memory; *bvh is then empty.
-bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads) RT_MUST_CHECK;
+bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, int threads) RT_MUST_CHECK;
 void bvh_fini(Bvh *bvh);
 
 #endif

@@ -62,10 +62,13 @@ void bvh_place(Bvh *bvh, Vec3 low, Vec3 high)
 
 // How many nodes a tree may have. A node that is not full has leaves only, so that one with k nodes below it has 8 - k
 // leaves, and all but the root hold more things than a leaf: by induction n things have at most (n - 2) / 7 nodes, or the
-// root. What is left of each thread's supply comes to that.
-static size_t nodes_most(uint32_t count, int builders)
+// root, where leaves hold eight. Leaves of one thing: F full nodes and E others have 8 F + 2 E children or more, of which
+// F + E - 1 are nodes and the rest n leaves, so 7 F + E < n, and E is at most n / 2: at most 4 n / 7 nodes. What is left
+// of each thread's supply comes to that.
+static size_t nodes_most(uint32_t count, unsigned leaf_bits, int builders)
 {
-    return 1 + count / 7 + (size_t)builders * SUPPLY_NODES;
+    size_t nodes = leaf_bits == BVH_LEAF_EIGHT ? count / 7 : (size_t)count * 4 / 7;
+    return 1 + nodes + (size_t)builders * SUPPLY_NODES;
 }
 
 // The number of a new node, for now.
@@ -103,7 +106,7 @@ static int node_split(BvhRef *refs, const Range *range, int threads, BvhRef spar
         float largest_area = -1.0f;
         for (int i = 0; i < count; i++) {
             float area = box_half_area(&children[i].box);
-            if (range_count(&children[i]) > BVH_LEAF_MOST && !(area <= largest_area)) {
+            if (!range_is_leaf(&children[i]) && !(area <= largest_area)) {
                 largest = i;
                 largest_area = area;
             }
@@ -146,11 +149,10 @@ static void builder_make(Builder *builder, int thread, int splitters, const Task
             node->box[axis][0][i] = children[i].box.low[axis];
             node->box[axis][1][i] = children[i].box.high[axis];
         }
-        uint32_t refs = range_count(&children[i]);
         Task below = {children[i], &node->child[i]};
-        if (refs <= BVH_LEAF_MOST) {
-            node->child[i] = bvh_leaf(children[i].begin, refs);
-        } else if (refs <= TASK_REFS_LEAST || !builder_push(builder, &below)) {
+        if (range_is_leaf(&children[i])) {
+            node->child[i] = bvh_leaf(children[i].begin, range_count(&children[i]));
+        } else if (range_count(&children[i]) <= TASK_REFS_LEAST || !builder_push(builder, &below)) {
             builder_make(builder, thread, 1, &below);
         }
     }
@@ -222,18 +224,19 @@ static bool order_nodes(Bvh *bvh, uint32_t made, BvhChild root)
 
 // ---- the whole
 
-static void builder_run(Builder *builder, uint32_t count, int threads, BvhChild *root)
+static void builder_run(Builder *builder, uint32_t count, unsigned leaf_bits, int threads, BvhChild *root)
 {
-    Task task = {range_measure(builder->refs, 0, count, 0, threads), root};
+    Range whole = {.end = count, .leaf_bits = leaf_bits};
+    Task task = {range_measure(builder->refs, whole, threads), root};
     builder_make(builder, 0, threads, &task);
     parallel_run(threads, builder_work, builder);
 }
 
-bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads)
+bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, BvhLeafBits leaf_bits, int threads)
 {
     Builder *builder = calloc(1, sizeof(*builder));
     int builders = count <= 4 * TASK_REFS_LEAST ? 1 : threads < BUILDERS_MOST ? threads : BUILDERS_MOST;
-    if (!builder || !pages_take(&bvh->pages, nodes_most(count, builders) * sizeof(BvhNode))) {
+    if (!builder || !pages_take(&bvh->pages, nodes_most(count, leaf_bits, builders) * sizeof(BvhNode))) {
         free(builder);
         return false;
     }
@@ -243,7 +246,7 @@ bool bvh_build(Bvh *bvh, BvhRef *refs, uint32_t count, int threads)
     bvh->node_count = 0;
     pthread_mutex_init(&builder->lock, NULL);
     pthread_cond_init(&builder->changed, NULL);
-    builder_run(builder, count, builders, &root);
+    builder_run(builder, count, leaf_bits, builders, &root);
     bool done = order_nodes(bvh, atomic_load(&builder->next_node), root);
     pthread_cond_destroy(&builder->changed);
     pthread_mutex_destroy(&builder->lock);

@@ -109,17 +109,26 @@ static void measure_piece(void *client, size_t begin, size_t end)
     measuring->sums[begin / measuring->piece] = refs_sum(measuring->refs, first, first + (uint32_t)(end - begin));
 }
 
-Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth, int threads)
+Range range_measure(const BvhRef *refs, Range range, int threads)
 {
-    Measuring measuring = {.refs = refs, .begin = begin, .piece = (end - begin) / PIECES + 1};
+    uint32_t count = range_count(&range);
+    Measuring measuring = {.refs = refs, .begin = range.begin, .piece = count / PIECES + 1};
     for (int i = 0; i < PIECES; i++) {
         measuring.sums[i] = EMPTY_SUM;
     }
-    parallel_share(end - begin > VERY_LONG ? threads : 1, end - begin, measuring.piece, measure_piece, &measuring);
+    parallel_share(count > VERY_LONG ? threads : 1, count, measuring.piece, measure_piece, &measuring);
     for (int i = 1; i < PIECES; i++) {
         sum_join(&measuring.sums[0], &measuring.sums[i]);
     }
-    return (Range){measuring.sums[0].box, measuring.sums[0].centres, begin, end, depth};
+    range.box = measuring.sums[0].box;
+    range.centres = measuring.sums[0].centres;
+    return range;
+}
+
+// A part of a range that is cut.
+static Range range_part(const Range *range, const Sum *sum, uint32_t begin, uint32_t end)
+{
+    return (Range){sum->box, sum->centres, begin, end, range->depth + 1, range->leaf_bits};
 }
 
 // ---- bins
@@ -173,13 +182,14 @@ static inline void bin_add(Bin *bin, const BvhRef *ref)
 }
 
 // A leaf is tested whole, so cost counts leaves, not things.
-static inline float side_cost(const Box *box, uint32_t count)
+static inline float side_cost(const Box *box, uint32_t count, unsigned leaf_bits)
 {
-    return count ? (float)((count + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST) * box_half_area(box) : INFINITY;
+    uint32_t leaves = (count + (1u << leaf_bits) - 1) >> leaf_bits;
+    return count ? (float)leaves * box_half_area(box) : INFINITY;
 }
 
 // The cheapest place to cut: the first bin of the right side.
-static int bins_cut(const Bin *bins, int bin_count)
+static int bins_cut(const Bin *bins, int bin_count, unsigned leaf_bits)
 {
     float right_cost[BIN_MOST];
     Box box = EMPTY_BOX;
@@ -187,7 +197,7 @@ static int bins_cut(const Bin *bins, int bin_count)
     for (int i = bin_count - 1; i > 0; i--) {
         box_join(&box, &bins[i].sum.box);
         count += bins[i].count;
-        right_cost[i] = side_cost(&box, count);
+        right_cost[i] = side_cost(&box, count, leaf_bits);
     }
     box = EMPTY_BOX;
     count = 0;
@@ -196,7 +206,7 @@ static int bins_cut(const Bin *bins, int bin_count)
     for (int i = 1; i < bin_count; i++) {
         box_join(&box, &bins[i - 1].sum.box);
         count += bins[i - 1].count;
-        float cost = side_cost(&box, count) + right_cost[i];
+        float cost = side_cost(&box, count, leaf_bits) + right_cost[i];
         if (cost < best) {
             best = cost;
             cut = i;
@@ -246,14 +256,14 @@ static bool short_split(BvhRef *refs, const Range *range, const Binning *binning
         bin_of[i] = (uint8_t)bin;
         bin_add(&bins[bin], &first[i]);
     }
-    int cut = bins_cut(bins, binning->count);
+    int cut = bins_cut(bins, binning->count, range->leaf_bits);
     if (cut == 0) {
         return false;
     }
     Sum sums[2] = {bins_sum(bins, 0, cut), bins_sum(bins, cut, binning->count)};
     uint32_t middle = range->begin + short_move(first, count, bin_of, cut, spare);
-    *left = (Range){sums[0].box, sums[0].centres, range->begin, middle, range->depth + 1};
-    *right = (Range){sums[1].box, sums[1].centres, middle, range->end, range->depth + 1};
+    *left = range_part(range, &sums[0], range->begin, middle);
+    *right = range_part(range, &sums[1], middle, range->end);
     return true;
 }
 
@@ -477,7 +487,7 @@ static bool long_split(BvhRef *refs, const Range *range, const Binning *binning,
     for (uint32_t i = range->begin; i < range->end; i += stride) {
         bin_add(&bins[binning_bin(binning, ref_centre(&refs[i], binning->axis))], &refs[i]);
     }
-    int cut = bins_cut(bins, binning->count);
+    int cut = bins_cut(bins, binning->count, range->leaf_bits);
     if (cut == 0) {
         return false;
     }
@@ -491,8 +501,8 @@ static bool long_split(BvhRef *refs, const Range *range, const Binning *binning,
         return false; // bins were too narrow for their edges
     }
     const Sum *sums = mover.sums[0];
-    *left = (Range){sums[0].box, sums[0].centres, range->begin, middle, range->depth + 1};
-    *right = (Range){sums[1].box, sums[1].centres, middle, range->end, range->depth + 1};
+    *left = range_part(range, &sums[0], range->begin, middle);
+    *right = range_part(range, &sums[1], middle, range->end);
     return true;
 }
 
@@ -516,8 +526,9 @@ void range_split(BvhRef *refs, const Range *range, int threads, BvhRef spare[RAN
         return;
     }
     // In half by full leaves.
-    uint32_t leaves = (range_count(range) + BVH_LEAF_MOST - 1) / BVH_LEAF_MOST;
-    uint32_t middle = range->begin + leaves / 2 * BVH_LEAF_MOST;
-    *left = range_measure(refs, range->begin, middle, range->depth + 1, threads);
-    *right = range_measure(refs, middle, range->end, range->depth + 1, threads);
+    uint32_t leaves = ((range_count(range) - 1) >> range->leaf_bits) + 1;
+    uint32_t middle = range->begin + (leaves / 2 << range->leaf_bits);
+    const Sum empty = EMPTY_SUM;
+    *left = range_measure(refs, range_part(range, &empty, range->begin, middle), threads);
+    *right = range_measure(refs, range_part(range, &empty, middle, range->end), threads);
 }

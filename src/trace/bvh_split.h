@@ -21,6 +21,7 @@ typedef struct Range {
     Box box, centres;
     uint32_t begin, end;
     unsigned depth;
+    unsigned leaf_bits; // a leaf holds 2^leaf_bits things at most
 } Range;
 
 static inline float box_half_area(const Box *box)
@@ -34,8 +35,13 @@ static inline uint32_t range_count(const Range *range)
     return range->end - range->begin;
 }
 
-// The box and centres of a range, from its refs.
-Range range_measure(const BvhRef *refs, uint32_t begin, uint32_t end, unsigned depth, int threads);
+static inline bool range_is_leaf(const Range *range)
+{
+    return range_count(range) <= 1u << range->leaf_bits;
+}
+
+// The range with its box and centres, from its refs.
+Range range_measure(const BvhRef *refs, Range range, int threads);
 
 enum { RANGE_SPARE = 1023 }; // refs of the longest range that is moved by way of spare room
 

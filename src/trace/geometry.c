@@ -9,47 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static Vec3 vec3_ldexp(Vec3 a, int exponent)
-{
-    return vec3(ldexp(a.x, exponent), ldexp(a.y, exponent), ldexp(a.z, exponent));
-}
-
-// The linear part only, with every entry times 2^exponent.
-static Transform linear_ldexp(const Transform *transform, int exponent)
-{
-    Transform linear = {0};
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 3; column++) {
-            linear.m[row][column] = ldexp(transform->m[row][column], exponent);
-        }
-    }
-    return linear;
-}
-
-static bool ellipsoids_init(Geometry *geometry, const Scene *scene, int exponent)
-{
-    size_t count = scene->ellipsoids.count;
-    if (count == 0) {
-        return true;
-    }
-    geometry->ellipsoids = malloc(count * sizeof(*geometry->ellipsoids));
-    if (!geometry->ellipsoids) {
-        return false;
-    }
-    for (size_t i = 0; i < count; i++) {
-        const Ellipsoid *from = &scene->ellipsoids.items[i];
-        const double *origin = from->to_world.m[3];
-        geometry->ellipsoids[i] = (EllipsoidEntry){
-            .shape = {.centre = vec3_ldexp(vec3(origin[0], origin[1], origin[2]), -exponent),
-                      .to_world = linear_ldexp(&from->to_world, -exponent),
-                      .to_object = linear_ldexp(&from->to_object, exponent)},
-            .info = {from->material, from->order},
-        };
-    }
-    geometry->ellipsoid_count = (uint32_t)count;
-    geometry->features |= TRACE_ELLIPSOIDS;
-    return true;
-}
+#include "scene/part.h"
 
 static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
 {
@@ -75,16 +35,9 @@ static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
 
 // ---- balls that equal spheres
 
-static bool solid_is_round(const Solid *solid)
-{
-    const double(*m)[3] = solid->to_world.m;
-    return solid->kind == PART_BALL && m[0][1] == 0.0 && m[0][2] == 0.0 && m[1][0] == 0.0 && m[1][2] == 0.0 &&
-           m[2][0] == 0.0 && m[2][1] == 0.0 && m[0][0] == m[1][1] && m[1][1] == m[2][2];
-}
-
 static Ball solid_ball(const Solid *solid)
 {
-    return ball_make(solid->centre, solid->to_world.m[0][0]);
+    return ball_make(solid->centre, fabs(solid->to_world.m[0][0]));
 }
 
 static int place_compare(Vec3 a, Vec3 b)
@@ -119,8 +72,9 @@ static bool twins_init(Geometry *geometry)
     Solid **balls = malloc((shapes->solid_count + 1) * sizeof *balls);
     size_t count = 0;
     for (uint32_t i = 0; balls && i < shapes->solid_count; i++) {
-        if (solid_is_round(&shapes->solids[i])) {
-            balls[count++] = &shapes->solids[i];
+        Solid *solid = &shapes->solids[i];
+        if (solid->kind == PART_BALL && part_map_is_round(solid->to_world.m)) {
+            balls[count++] = solid;
         }
     }
     if (count > 0) {
@@ -162,7 +116,7 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels ||
         !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent) ||
-        !ellipsoids_init(geometry, scene, exponent) || !planes_init(geometry, scene, exponent) ||
+        !planes_init(geometry, scene, exponent) ||
         !shapes_init(&geometry->shapes, scene, exponent, options->threads) || !twins_init(geometry)) {
         geometry_free(geometry);
         return NULL;
@@ -182,7 +136,6 @@ void geometry_free(Geometry *geometry)
 {
     if (geometry) {
         sphere_table_fini(&geometry->spheres);
-        free(geometry->ellipsoids);
         free(geometry->planes);
         shapes_fini(&geometry->shapes);
         free(geometry);
@@ -198,8 +151,8 @@ size_t geometry_bytes(const Geometry *geometry)
 {
     const SphereTable *spheres = &geometry->spheres;
     return sizeof(*geometry) + spheres->block_count * (sizeof(SphereBlock) + SPHERE_BLOCK * sizeof(ShapeInfo)) +
-           spheres->bvh.node_count * sizeof(BvhNode) + geometry->ellipsoid_count * sizeof(EllipsoidEntry) +
-           geometry->plane_count * sizeof(PlaneEntry) + shapes_bytes(&geometry->shapes);
+           spheres->bvh.node_count * sizeof(BvhNode) + geometry->plane_count * sizeof(PlaneEntry) +
+           shapes_bytes(&geometry->shapes);
 }
 
 const char *geometry_isa_name(const Geometry *geometry)

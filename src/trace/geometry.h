@@ -9,16 +9,10 @@
 
 #include <stdint.h>
 
-#include "trace/ellipsoid.h"
 #include "trace/plane.h"
 #include "trace/shapes.h"
 #include "trace/spheres.h"
 #include "trace/trace.h"
-
-typedef struct EllipsoidEntry {
-    EllipsoidShape shape;
-    ShapeInfo info;
-} EllipsoidEntry;
 
 typedef struct PlaneEntry {
     PlaneShape shape;
@@ -29,8 +23,6 @@ struct Geometry {
     unsigned features;
     const SphereKernels *kernels; // for this processor, or as told
     SphereTable spheres;
-    EllipsoidEntry *ellipsoids;
-    uint32_t ellipsoid_count;
     PlaneEntry *planes;
     uint32_t plane_count;
     ShapeTable shapes; // everything else

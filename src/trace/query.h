@@ -82,18 +82,17 @@ RT_ALWAYS_INLINE bool query_spheres_occluded(const Geometry *g, unsigned feature
     return false;
 }
 
-// Whether the ray starts on another surface that an ellipsoid, or a plane, may coincide with but for rounding. It has
-// passed what lies within rounding of its start.
-RT_ALWAYS_INLINE bool query_starts_beside(const Geometry *g, unsigned features, RayStart start, ShapeKind kind)
+// Whether the ray starts on another surface that a plane may coincide with but for rounding. It has passed what lies
+// within rounding of its start.
+RT_ALWAYS_INLINE bool query_starts_beside_plane(const Geometry *g, unsigned features, RayStart start)
 {
     if (start.shape == SHAPE_NONE) {
         return false;
     }
     if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        bool is_round = g->shapes.solids[part_index(start.shape)].kind == PART_BALL;
-        return is_round == (kind == SHAPE_ELLIPSOID);
+        return g->shapes.solids[part_index(start.shape)].kind != PART_BALL;
     }
-    return shape_kind(start.shape) == kind;
+    return shape_kind(start.shape) == SHAPE_PLANE;
 }
 
 // How far along the ray its start may be off the surface that it starts on, where others may coincide with that.
@@ -108,44 +107,6 @@ RT_ALWAYS_INLINE double query_start_error(const Geometry *g, unsigned features, 
     return is_plane && may_coincide ? plane_crossing_error(&g->planes[shape_index(start.shape)].shape, own, 0.0) : 0.0;
 }
 
-// The root of an ellipsoid that the ray may start on but for rounding, as `object` in its space: a start on it goes in
-// or out.
-RT_ALWAYS_INLINE double query_ellipsoid_beside(const EllipsoidShape *shape, const SphereRay *ray,
-                                               const SphereRay *object, double start_error, double t, bool *inside)
-{
-    const Ball unit = UNIT_BALL;
-    Ray own = {ray->origin, ray->direction};
-    if (!(t > 0.0) || t > ellipsoid_crossing_error(shape, &own, t) + start_error) {
-        return t;
-    }
-    double far_side = *inside ? 0.0 : sphere_root_inward(object, &unit);
-    *inside = true;
-    return far_side > 0.0 && far_side > ellipsoid_crossing_error(shape, &own, far_side) + start_error
-               ? far_side
-               : 0.0;
-}
-
-// The parameter at which an ellipsoid is met, by the rules for spheres; not positive when it is not. `beside`: the
-// start's error, NULL when the ray starts on nothing that may coincide with it.
-RT_ALWAYS_INLINE double query_ellipsoid_root(const Geometry *g, uint32_t index, const SphereRay *ray, RayStart start,
-                                             const double *beside, bool *inside)
-{
-    const EllipsoidShape *shape = &g->ellipsoids[index].shape;
-    const Ball unit = UNIT_BALL;
-    bool on_ellipsoid = start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_ELLIPSOID;
-    if (on_ellipsoid && ellipsoid_equal(shape, &g->ellipsoids[shape_index(start.shape)].shape)) {
-        if (!start.inward) {
-            return 0.0;
-        }
-        SphereRay object = ellipsoid_ray(shape, ray);
-        *inside = true;
-        return sphere_root_inward(&object, &unit);
-    }
-    SphereRay object = ellipsoid_ray(shape, ray);
-    double t = sphere_hit(&object, &unit, inside);
-    return beside ? query_ellipsoid_beside(shape, ray, &object, *beside, t, inside) : t;
-}
-
 // The parameter at which a plane is met; not positive when it is not.
 RT_ALWAYS_INLINE double query_plane_root(const Geometry *g, uint32_t index, const SphereRay *ray, RayStart start)
 {
@@ -157,21 +118,12 @@ RT_ALWAYS_INLINE double query_plane_root(const Geometry *g, uint32_t index, cons
     return plane_root(shape, ray->origin, ray->direction);
 }
 
-// What rounding may do to a plane's or an ellipsoid's root. Only where there is something that they may coincide with:
-// 0 else.
+// What rounding may do to a plane's root. Only where there is something that it may coincide with: 0 else.
 RT_ALWAYS_INLINE double query_plane_error(const Geometry *g, unsigned features, uint32_t index, const SphereRay *ray,
                                           double t)
 {
     bool may_coincide = (features & TRACE_PARTS) || g->plane_count > 1;
     return may_coincide ? plane_crossing_error(&g->planes[index].shape, (Ray){ray->origin, ray->direction}, t) : 0.0;
-}
-
-RT_ALWAYS_INLINE double query_ellipsoid_error(const Geometry *g, unsigned features, uint32_t index,
-                                              const SphereRay *ray, double t)
-{
-    bool may_coincide = (features & TRACE_PARTS) || g->ellipsoid_count > 1;
-    Ray own = {ray->origin, ray->direction};
-    return may_coincide && t > 0.0 ? ellipsoid_crossing_error(&g->ellipsoids[index].shape, &own, t) : 0.0;
 }
 
 // Whether a plane that is crossed at t is met on a way to t_max: it is not when the end lies on it but for rounding.
@@ -182,21 +134,13 @@ RT_ALWAYS_INLINE bool query_plane_before(const PlaneShape *shape, const SphereRa
                                         way_end_error(t_max)));
 }
 
-// The same of an ellipsoid.
-RT_ALWAYS_INLINE bool query_ellipsoid_before(const EllipsoidShape *shape, const SphereRay *ray, double t, double t_max)
-{
-    Ray own = {ray->origin, ray->direction};
-    return t < t_max && !(t_max < (double)INFINITY &&
-                          roots_are_one(t, ellipsoid_crossing_error(shape, &own, t), t_max, way_end_error(t_max)));
-}
-
 // Brings the nearest of the spheres up to date with all other shapes.
 RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
                                            Nearest *nearest)
 {
     double start_error = query_start_error(g, features, ray, start);
     if (features & TRACE_PLANES) {
-        bool is_beside = query_starts_beside(g, features, start, SHAPE_PLANE);
+        bool is_beside = query_starts_beside_plane(g, features, start);
         for (uint32_t i = 0; i < g->plane_count; i++) {
             bool inside = vec3_dot(g->planes[i].shape.normal, ray->direction) > 0.0;
             double t = query_plane_root(g, i, ray, start);
@@ -208,22 +152,8 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
             }
         }
     }
-    if (features & TRACE_ELLIPSOIDS) {
-        bool is_beside = query_starts_beside(g, features, start, SHAPE_ELLIPSOID);
-        for (uint32_t i = 0; i < g->ellipsoid_count; i++) {
-            bool inside = false;
-            double t = query_ellipsoid_root(g, i, ray, start, is_beside ? &start_error : NULL, &inside);
-            double error = query_ellipsoid_error(g, features, i, ray, t);
-            bool is_at_end = nearest->hit.shape == SHAPE_NONE && t > 0.0 &&
-                             !query_ellipsoid_before(&g->ellipsoids[i].shape, ray, t, nearest->hit.t);
-            if (!is_at_end) {
-                nearest_offer_within(nearest, t, error, shape_id(SHAPE_ELLIPSOID, i), inside,
-                                     g->ellipsoids[i].info.order);
-            }
-        }
-    }
     if (features & TRACE_PARTS) {
-        shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, nearest);
+        g->kernels->shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, nearest);
     }
 }
 
@@ -247,14 +177,13 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
 // The only other shape is a plane, which nothing coincides with.
 RT_ALWAYS_INLINE bool query_has_one_plane(const Geometry *g, unsigned features)
 {
-    return !(features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) && (features & TRACE_PLANES) && g->plane_count == 1;
+    return !(features & TRACE_PARTS) && (features & TRACE_PLANES) && g->plane_count == 1;
 }
 
 // Brings the hits of a tile up to date with all shapes but spheres.
 RT_ALWAYS_INLINE void query_tile_others(const Geometry *g, unsigned features, const SphereTile *tile, TileHits *hits)
 {
-    bool has_others = features & (TRACE_ELLIPSOIDS | TRACE_PARTS);
-    uint64_t open = has_others || ((features & TRACE_PLANES) && g->plane_count > 0) ? UINT64_MAX : 0;
+        uint64_t open = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 0) ? UINT64_MAX : 0;
     if (query_has_one_plane(g, features)) {
         open = g->kernels->plane_closest(&g->planes[0].shape, shape_id(SHAPE_PLANE, 0), tile, hits);
     }
@@ -293,7 +222,7 @@ RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, c
 RT_ALWAYS_INLINE bool geometry_view_passes(const Geometry *g, unsigned features, const TileView *view,
                                            const double u[TILE_RAYS], const double v[TILE_RAYS])
 {
-    bool has_others = (features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) || ((features & TRACE_PLANES) && g->plane_count > 0);
+    bool has_others = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 0);
     return (features & TRACE_SPHERES) && !has_others && g->kernels->view_passes(&g->spheres, view, u, v);
 }
 
@@ -310,11 +239,11 @@ RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features
 // Whether there are but few spheres, and a plane at most.
 RT_ALWAYS_INLINE bool query_is_few(const Geometry *g, unsigned features)
 {
-    bool has_others = (features & (TRACE_ELLIPSOIDS | TRACE_PARTS)) || ((features & TRACE_PLANES) && g->plane_count > 1);
+    bool has_others = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 1);
     return !has_others && sphere_table_is_few(&g->spheres);
 }
 
-// What rays that go on from surfaces of spheres and planes meet, as geometry_closest says of each; there is at least one.
+// What rays that go on from surfaces meet, as geometry_closest says of each; there is at least one.
 RT_ALWAYS_INLINE void geometry_closest_onward(const Geometry *g, unsigned features, OnwardRays *rays, TileHits *hits)
 {
     uint64_t open = ~UINT64_C(0) >> (TILE_RAYS - rays->count);
@@ -338,7 +267,7 @@ RT_ALWAYS_INLINE void geometry_closest_onward(const Geometry *g, unsigned featur
 RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
                                             double start_error, double t_max)
 {
-    bool is_beside = query_starts_beside(g, features, start, SHAPE_PLANE);
+    bool is_beside = query_starts_beside_plane(g, features, start);
     for (uint32_t i = 0; i < g->plane_count; i++) {
         double t = query_plane_root(g, i, ray, start);
         if (t > (is_beside ? query_plane_error(g, features, i, ray, t) + start_error : 0.0) &&
@@ -361,20 +290,10 @@ RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool 
     if ((features & TRACE_PLANES) && query_planes_occluded(g, features, &sphere_ray, start, start_error, t_max)) {
         return true;
     }
-    if (features & TRACE_ELLIPSOIDS) {
-        bool is_beside = query_starts_beside(g, features, start, SHAPE_ELLIPSOID);
-        for (uint32_t i = 0; i < g->ellipsoid_count; i++) {
-            bool inside;
-            double t = query_ellipsoid_root(g, i, &sphere_ray, start, is_beside ? &start_error : NULL, &inside);
-            if (t > 0.0 && query_ellipsoid_before(&g->ellipsoids[i].shape, &sphere_ray, t, t_max)) {
-                return true;
-            }
-        }
-    }
     if ((features & TRACE_ANY_SPHERES) && asks_spheres && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
         return true;
     }
-    return (features & TRACE_PARTS) && shapes_occluded(&g->shapes, &ray, start, start_error, t_max);
+    return (features & TRACE_PARTS) && g->kernels->shapes_occluded(&g->shapes, &ray, start, start_error, t_max);
 }
 
 // True when anything is met at 0 < t < t_max.
@@ -398,8 +317,19 @@ RT_ALWAYS_INLINE uint64_t query_plane_before_surfaces(const PlaneShape *shape, c
     return before;
 }
 
+// The surfaces of `asked` that are on no part.
+RT_ALWAYS_INLINE uint64_t query_not_on_parts(const TileSurfaces *from, uint64_t asked)
+{
+    uint64_t others = asked;
+    for (; asked; asked &= asked - 1) {
+        int i = __builtin_ctzll(asked);
+        others &= ~((uint64_t)(shape_kind(from->shape[i]) == SHAPE_PART) << i);
+    }
+    return others;
+}
+
 // The surfaces, of those asked for, that anything is before on their way to a point; `together` when that is the same
-// one. Surfaces are of spheres and planes. The same as geometry_occluded says of each.
+// one. The same as geometry_occluded says of each.
 RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned features, const TileSurfaces *from,
                                                      const SurfaceRays *rays, bool together, uint64_t asked)
 {
@@ -410,11 +340,14 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
         occluded = query_plane_before_surfaces(&g->planes[0].shape, from, rays, occluded);
         left &= ~occluded;
     }
-    if (together) {
-        occluded |= g->kernels->occluded_surfaces(&g->spheres, from, rays, left, &left);
+    if (together && (!(features & TRACE_PARTS) || g->spheres.count > 0)) {
+        // A part may equal a sphere, which is passed over then: ray by ray.
+        uint64_t grouped = features & TRACE_PARTS ? query_not_on_parts(from, left) : left, rest = left & ~grouped;
+        occluded |= g->kernels->occluded_surfaces(&g->spheres, from, rays, grouped, &left);
+        left |= rest;
     }
-    bool asks_planes = (features & TRACE_PLANES) && g->plane_count > 1;
-    uint64_t open = asks_planes ? asked & ~occluded : left;
+    bool asks_others = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 1);
+    uint64_t open = asks_others ? asked & ~occluded : left;
     for (; open; open &= open - 1) {
         int i = __builtin_ctzll(open);
         Vec3 direction = vec3(rays->towards[0][i], rays->towards[1][i], rays->towards[2][i]);
@@ -462,7 +395,6 @@ RT_ALWAYS_INLINE bool geometry_is_same(const Geometry *g, ShapeId a, ShapeId b)
         return ball_equal(&ball, &other);
     }
     case SHAPE_PLANE: return plane_equal(&g->planes[i].shape, &g->planes[j].shape);
-    case SHAPE_ELLIPSOID: return ellipsoid_equal(&g->ellipsoids[i].shape, &g->ellipsoids[j].shape);
     default: return solid_equal(&g->shapes.solids[part_index(a)], &g->shapes.solids[part_index(b)]);
     }
 }
@@ -483,12 +415,6 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
         const PlaneEntry *plane = &g->planes[index];
         return (Surface){plane_point(&plane->shape, ray, hit.t), plane->shape.normal, plane->info.material,
                          plane->info.order, 0};
-    }
-    if ((features & TRACE_ELLIPSOIDS) && kind == SHAPE_ELLIPSOID) {
-        const EllipsoidEntry *ellipsoid = &g->ellipsoids[index];
-        Surface surface = {.material = ellipsoid->info.material, .order = ellipsoid->info.order};
-        ellipsoid_surface(&ellipsoid->shape, ray, hit.t, &surface.point, &surface.normal);
-        return surface;
     }
     if ((features & TRACE_PARTS) && kind == SHAPE_PART) {
         return shapes_surface(&g->shapes, &ray, &hit);

@@ -1,7 +1,8 @@
 // The other shapes of a Geometry: parts that stand alone and composites, in a tree of their boxes.
 //
-// One function for each query, not inline: a kernel of a scene that has none of these holds a call it never reaches, or
-// no call at all. Knows nothing of spheres and planes that are kept in arrays of their own.
+// The tree is walked by a function for each query in the table of kernels (trace/spheres.h): a kernel of a scene that has
+// none of these holds a call it never reaches, or no call at all. Knows nothing of spheres and planes that are kept in
+// arrays of their own.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SHAPES_H
@@ -52,7 +53,7 @@ typedef struct Assembly {
 // What stands for itself: a solid, or an assembly when the number is not below solid_count.
 typedef uint32_t ShapeItem;
 
-typedef struct ShapeTable {
+struct ShapeTable {
     Solid *solids;
     uint32_t solid_count;
     TreeNode *nodes;
@@ -61,7 +62,7 @@ typedef struct ShapeTable {
     ShapeItem *items; // unbounded ones first, then those of the tree in its order
     uint32_t unbounded_count, bounded_count;
     Bvh tree; // of the bounded ones; its leaves are runs of their items
-} ShapeTable;
+};
 
 // Takes over the scene's parts and composites, lengths multiplied by 2^-exponent. False when out of memory; the table
 // may then be given to shapes_fini.
@@ -83,12 +84,6 @@ static inline bool starts_beside(const ShapeTable *table, RayStart start, const 
 
 // How far along the ray its start may be off the part that it starts on.
 double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart start);
-
-// Brings `nearest` up to date. `start_error`: how far along the ray its start may be off the surface that it starts on.
-void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, Nearest *nearest);
-
-// True when anything is met at 0 < t < t_max.
-bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max);
 
 // Where the ray hit. The normal points out of what the solid is in.
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);

@@ -141,7 +141,7 @@ static bool tree_init(ShapeTable *table, const Work *work, int threads)
     for (uint32_t i = 0; i < table->bounded_count; i++) {
         refs[i] = bvh_ref(&table->tree, work->in_tree[i].low, work->in_tree[i].high, i);
     }
-    bool done = bvh_build(&table->tree, refs, table->bounded_count, threads);
+    bool done = bvh_build(&table->tree, refs, table->bounded_count, BVH_LEAF_ONE, threads);
     for (uint32_t i = 0; done && i < table->bounded_count; i++) {
         table->items[table->unbounded_count + i] = work->bounded[bvh_ref_index(&refs[i])];
     }

@@ -12,15 +12,6 @@
 #include "trace/plane.h"
 #include "trace/sphere.h"
 
-Ray solid_ray(const Solid *solid, const Ray *ray)
-{
-    if (solid->kind == PART_PLANE) {
-        return *ray;
-    }
-    return (Ray){transform_direction(&solid->to_object, vec3_sub(ray->origin, solid->centre)),
-                 transform_direction(&solid->to_object, ray->direction)};
-}
-
 // Of the unit sphere; the roots are those of trace/sphere.h, both of them.
 static bool ball_chord(const Ray *object, uint8_t left_side, Chord *chord)
 {
@@ -177,16 +168,10 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
     return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }
 
-double ellipsoid_crossing_error(const EllipsoidShape *ellipsoid, const Ray *ray, double t)
+double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, double t)
 {
-    Solid solid = {.kind = PART_BALL,
-                   .centre = ellipsoid->centre,
-                   .to_world = ellipsoid->to_world,
-                   .to_object = ellipsoid->to_object};
-    solid.extent = solid_extent(&solid);
-    Ray object = solid_ray(&solid, ray);
-    double chord = 2.0 * fabs(vec3_dot(object.origin, object.direction) / vec3_length_squared(object.direction) + t);
-    return fmin(solid_crossing_error(&solid, ray, &object, t, 0), chord);
+    double chord = 2.0 * fabs(vec3_dot(object->origin, object->direction) / vec3_length_squared(object->direction) + t);
+    return fmin(solid_crossing_error(ball, ray, object, t, 0), chord);
 }
 
 double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves)
@@ -206,8 +191,8 @@ void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, V
     }
     Ray object = solid_ray(solid, ray);
     Vec3 own = object_point(solid, ray_at(object, t), side);
-    *point = vec3_add(solid->centre, transform_direction(&solid->to_world, own));
-    *normal = vec3_normalize(transform_normal(&solid->to_object, object_normal(solid, own, side)));
+    *point = vec3_add(solid->centre, linear_direction(&solid->to_world, own));
+    *normal = vec3_normalize(linear_normal(&solid->to_object, object_normal(solid, own, side)));
 }
 
 bool solid_equal(const Solid *a, const Solid *b)

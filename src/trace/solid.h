@@ -1,6 +1,7 @@
 // A ray against any part: prepared parts, their chords, and surfaces at a hit.
 //
-// The ray is taken into the part's own space, where its parameter means the same. Knows nothing of composites.
+// The ray is taken into the part's own space, where its parameter means the same; its direction is not of unit length
+// there. Knows nothing of composites.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SOLID_H
@@ -10,7 +11,7 @@
 #include "math/transform.h"
 #include "scene/scene.h"
 #include "trace/chord.h"
-#include "trace/ellipsoid.h"
+#include "trace/sphere.h"
 
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
 // the origin.
@@ -25,7 +26,7 @@ typedef struct Solid {
     uint32_t order, body;
     Vec3 centre;
     double extent;         // solid_extent
-    Transform to_world, to_object; // linear parts; the last rows are 0
+    Linear to_world, to_object;
     Vec3 data[3];
 } Solid;
 
@@ -35,7 +36,14 @@ RT_ALWAYS_INLINE bool solid_is_flat(const Solid *solid)
 }
 
 // The ray in the solid's own space; for a plane as it is.
-Ray solid_ray(const Solid *solid, const Ray *ray);
+RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)
+{
+    if (solid->kind == PART_PLANE) {
+        return *ray;
+    }
+    return (Ray){linear_direction(&solid->to_object, vec3_sub(ray->origin, solid->centre)),
+                 linear_direction(&solid->to_object, ray->direction)};
+}
 
 // The line inside a solid that is not flat; `object` is the ray in its space. `left_side`: as in chord.h.
 bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord *chord) RT_MUST_CHECK;
@@ -50,8 +58,8 @@ double solid_extent(const Solid *solid);
 // How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
 double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side);
 
-// The same for an ellipsoid, which is a unit ball under a map.
-double ellipsoid_crossing_error(const EllipsoidShape *ellipsoid, const Ray *ray, double t);
+// The same for a ball, whose crossing is not off by more than its chord is long.
+double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, double t);
 
 // The same for an end of a chord. Where the ray grazes a round side the bound has no bounds, but a crossing is not off
 // by more than the chord is long. 0 for an end that is infinite.

@@ -36,6 +36,8 @@ typedef struct SphereRay {
     double inverse_square; // 1 / |direction|²
 } SphereRay;
 
+#define UNIT_BALL ((Ball){{0.0, 0.0, 0.0}, 1.0})
+
 // A radius that is not positive, or outside 2^-480..2^511, gives a sphere that is never met. Below, the squares would
 // underflow where the filter's bound does not say so; prepared scenes are scaled to the middle of that range.
 RT_ALWAYS_INLINE Ball ball_make(Vec3 centre, double radius)

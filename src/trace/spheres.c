@@ -374,7 +374,7 @@ static bool maker_plant(Maker *maker, uint32_t count, int threads)
     maker->refs = maker->ref_pages.memory;
     maker_place(maker);
     maker_share(maker, threads, refs_work);
-    return bvh_build(&maker->table->bvh, maker->refs, count, threads) && maker_count_blocks(maker);
+    return bvh_build(&maker->table->bvh, maker->refs, count, BVH_LEAF_EIGHT, threads) && maker_count_blocks(maker);
 }
 
 static bool maker_number_slots(Maker *maker, int threads)

@@ -124,6 +124,8 @@ typedef struct TileView {
     Vec3 origin, direction, right, up;
 } TileView;
 
+typedef struct ShapeTable ShapeTable; // trace/shapes.h
+
 // Brings `nearest` up to date with all spheres, and settles it; tells whether one is met at 0 < t < t_max. Spheres equal
 // to that of the slot `start`, which may be SLOT_NONE, are passed over.
 typedef struct SphereKernels {
@@ -169,6 +171,12 @@ typedef struct SphereKernels {
     // Whether it is certain, before the rays are made, that none of them meets a sphere. Never where there is a tree.
     bool (*view_passes)(const SphereTable *table, const TileView *view, const double u[TILE_RAYS],
                         const double v[TILE_RAYS]);
+    // Brings `nearest` up to date with all other shapes. `start_error`: how far along the ray its start may be off the
+    // surface that it starts on.
+    void (*shapes_closest)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error,
+                           Nearest *nearest);
+    // True when any of them is met at 0 < t < t_max.
+    bool (*shapes_occluded)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max);
 } SphereKernels;
 
 // The kernels of an instruction set by name, or, for NULL, the best that this processor has. NULL when it has not.

@@ -7,6 +7,7 @@
 #include "base/isa.h"
 #include "trace/bvh_walk.h"
 #include "trace/plane_tile.h"
+#include "trace/shapes_walk.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
 #include "trace/spheres_crossed.h"
@@ -234,4 +235,6 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .plane_occluded = plane_occluded,
     .view_tile = view_tile,
     .view_passes = view_passes,
+    .shapes_closest = shapes_closest,
+    .shapes_occluded = shapes_occluded,
 };

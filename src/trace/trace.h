@@ -24,17 +24,16 @@
 typedef enum TraceFeature {
     TRACE_SPHERES = 1 << 0,    // a few spheres, tested one after the other
     TRACE_SPHERE_BVH = 1 << 1, // many spheres, in a tree (then TRACE_SPHERES is not set)
-    TRACE_ELLIPSOIDS = 1 << 2,
-    TRACE_PLANES = 1 << 3,
-    TRACE_PARTS = 1 << 4, // any other shape
-    TRACE_ALL_FEATURES = (1 << 5) - 1,
+    TRACE_PLANES = 1 << 2,
+    TRACE_PARTS = 1 << 3, // any other shape, stretched spheres among them
+    TRACE_ALL_FEATURES = (1 << 4) - 1,
 } TraceFeature;
 
 // A shape of a Geometry: its kind in the top two bits, its index in the Geometry's array below. A part's index is
 // followed by the side of it that was met, in PART_SIDE_BITS.
 typedef uint32_t ShapeId;
 enum { SHAPE_INDEX_BITS = 30, PART_SIDE_BITS = 3 };
-typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_ELLIPSOID, SHAPE_PLANE, SHAPE_PART } ShapeKind;
+typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_PLANE, SHAPE_PART } ShapeKind;
 #define SHAPE_NONE UINT32_MAX
 
 static inline ShapeId shape_id(ShapeKind kind, uint32_t index)

@@ -42,13 +42,13 @@ static void test_materials(void)
 static bool build_scene(Scene *scene)
 {
     Transform stretch = transform_scale(vec3(1.0, 2.0, 3.0));
-    Transform back;
+    Part ball = {.kind = PART_BALL, .to_world = stretch, .source = 9};
     MaterialIndex index;
     scene_init(scene);
-    return transform_invert(&stretch, &back) && add_material(scene, 0.1, 0.6, &index) &&
+    return transform_invert(&stretch, &ball.to_object) && add_material(scene, 0.1, 0.6, &index) &&
            scene_add_sphere(scene, vec3(0.0, 1.0, -0.1), 0.5, index, 7) &&
            scene_add_plane(scene, vec3(0.0, 1.0, 0.0), -1.0, index, 8) &&
-           scene_add_ellipsoid(scene, &stretch, &back, index, 9) &&
+           scene_add_part(scene, &ball) &&
            scene_add_sphere(scene, vec3(1e300, 1.0, 1.0 / 3.0), 1e-9, index, 10);
 }
 
@@ -58,7 +58,7 @@ static void test_order_and_dump(void)
     TextBuffer out;
     text_init(&out);
     tap_ok(build_scene(&scene) && scene.shape_count == 4 && scene_sphere_order(&scene, 1) == 3 &&
-               scene.planes.items[0].order == 1 && scene.ellipsoids.items[0].order == 2,
+               scene.planes.items[0].order == 1 && scene.parts.items[0].order == 2,
            "shapes are numbered in the order of declaration over all kinds");
     scene.settings.version = 3.7;
     scene.settings.gamma_model = GAMMA_POWER;
@@ -129,7 +129,7 @@ static void spoil_light(Scene *scene)
 
 static void spoil_all_shapes(Scene *scene)
 {
-    scene->spheres.count = scene->ellipsoids.count = scene->planes.count = 0;
+    scene->spheres.count = scene->parts.count = scene->planes.count = 0;
     scene->shape_count = 0;
 }
 
@@ -145,7 +145,7 @@ static void spoil_material(Scene *scene)
 
 static void spoil_inverse(Scene *scene)
 {
-    scene->ellipsoids.items[0].to_object.m[2][2] = INFINITY;
+    scene->parts.items[0].to_object.m[2][2] = INFINITY;
 }
 
 static void spoil_finish(Scene *scene)
@@ -303,7 +303,7 @@ static void test_reach(void)
            "the farthest sphere, and how small it looks: %g", reach.least_angle);
     scene.spheres.count = 1;
     scene_reach(&scene, &reach);
-    // The ellipsoid's box reaches from <-1, -2, -3> to <1, 2, 3>.
+    // The stretched sphere's box reaches from <-1, -2, -3> to <1, 2, 3>.
     tap_ok(reach.least_size == 0.5 && fabs(reach.reach - (sqrt(916.0) + sqrt(14.0))) < 1e-12,
            "a stretched sphere's box");
     scene_fini(&scene);

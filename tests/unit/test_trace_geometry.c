@@ -30,13 +30,13 @@ static void test_shapes(void)
         {"sphere, leaving outward", {{0, 0, 1}, {0, 0, 1}}, {0, false, 0}, 9, false, {0, 0, false}},
         {"sphere, leaving inward", {{0, 0, -1}, {0, 0, 1}}, {0, true, 0}, 9, true, {2, 0, true}},
         {"sphere, inward but not going in", {{0, 0, 1}, {0, 0, 1}}, {0, true, 0}, 9, false, {0, 0, false}},
-        {"ellipsoid", {{10, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false, 0}, 9, true, {3, 1u << 30, false}},
-        {"ellipsoid across", {{15, 0, 0}, {-1, 0, 0}}, {SHAPE_NONE, false, 0}, 9, true, {4, 1u << 30, false}},
-        {"ellipsoid, leaving outward", {{10, 0, 2}, {0, 0, 1}}, {1u << 30, false, 0}, 9, false, {0, 0, false}},
-        {"ellipsoid, leaving inward", {{10, 0, -2}, {0, 0, 1}}, {1u << 30, true, 0}, 9, true, {4, 1u << 30, true}},
-        {"plane from its outer side", {{3, 0, 3}, {0, -1, 0}}, {SHAPE_NONE, false, 0}, 9, true, {3, 2u << 30, false}},
-        {"plane from its inner side", {{3, -5, 3}, {0, 1, 0}}, {SHAPE_NONE, false, 0}, 9, true, {2, 2u << 30, true}},
-        {"plane, leaving it", {{3, -3.0000001, 3}, {0, 1, 0}}, {2u << 30, false, 0}, 9, false, {0, 0, false}},
+        {"ellipsoid", {{10, 0, -5}, {0, 0, 1}}, {SHAPE_NONE, false, 0}, 9, true, {3, 2u << 30, false}},
+        {"ellipsoid across", {{15, 0, 0}, {-1, 0, 0}}, {SHAPE_NONE, false, 0}, 9, true, {4, 2u << 30, false}},
+        {"ellipsoid, leaving outward", {{10, 0, 2}, {0, 0, 1}}, {2u << 30, false, 0}, 9, false, {0, 0, false}},
+        {"ellipsoid, leaving inward", {{10, 0, -2}, {0, 0, 1}}, {2u << 30, true, 0}, 9, true, {4, 2u << 30, true}},
+        {"plane from its outer side", {{3, 0, 3}, {0, -1, 0}}, {SHAPE_NONE, false, 0}, 9, true, {3, 1u << 30, false}},
+        {"plane from its inner side", {{3, -5, 3}, {0, 1, 0}}, {SHAPE_NONE, false, 0}, 9, true, {2, 1u << 30, true}},
+        {"plane, leaving it", {{3, -3.0000001, 3}, {0, 1, 0}}, {1u << 30, false, 0}, 9, false, {0, 0, false}},
         {"plane, along it", {{3, -3, 3}, {1, 0, 0}}, {SHAPE_NONE, false, 0}, 9, false, {0, 0, false}},
         {"plane behind", {{3, 0, 3}, {0, 1, 0}}, {SHAPE_NONE, false, 0}, 9, false, {0, 0, false}},
     };
@@ -59,7 +59,7 @@ static void test_shapes(void)
     tap_ok(met && fabs(p.x * p.x + p.y * p.y + p.z * p.z / 4 - 1) < 8 * U &&
                vec3_max_abs(vec3_sub(surface.normal, gradient)) < 8 * U,
            "an ellipsoid's point and normal");
-    tap_ok(geometry_features(geometry) == (TRACE_SPHERES | TRACE_ELLIPSOIDS | TRACE_PLANES), "features are told");
+    tap_ok(geometry_features(geometry) == (TRACE_SPHERES | TRACE_PARTS | TRACE_PLANES), "features are told");
     geometry_free(geometry);
     scene_fini(&scene);
 }
@@ -136,6 +136,77 @@ static void test_not_numbers(void)
     scene_fini(&scene);
 }
 
+// ---- many stretched spheres, by the tree and one by one
+
+static Transform random_stretch(Random *random, double thinnest)
+{
+    double size[3];
+    for (int i = 0; i < 3; i++) {
+        size[i] = exp(random_between(random, log(thinnest), 0.0));
+    }
+    Transform to_world = transform_compose(transform_scale(vec3(size[0], size[1], size[2])),
+                                           transform_rotate(random_point(random, 180)));
+    return transform_compose(to_world, transform_translate(random_point(random, 10)));
+}
+
+// The nearest of all, each asked by the formula for spheres in its own space. `from`: the one that the ray leaves.
+static bool nearest_one_by_one(const Geometry *g, Ray ray, RayStart start, uint32_t from, Hit *hit)
+{
+    const Ball unit = UNIT_BALL;
+    hit->t = (double)INFINITY;
+    for (uint32_t i = 0; i < g->shapes.solid_count; i++) {
+        Ray object = solid_ray(&g->shapes.solids[i], &ray);
+        SphereRay own = sphere_ray_make(object.origin, object.direction);
+        bool inside = true;
+        double t = i != from ? sphere_hit(&own, &unit, &inside) : start.inward ? sphere_root_inward(&own, &unit) : 0.0;
+        if (t > 0.0 && t < hit->t) {
+            *hit = (Hit){t, part_shape(i, 0), inside};
+        }
+    }
+    return hit->t < (double)INFINITY;
+}
+
+static void test_stretched(double thinnest, int count)
+{
+    Random random = {(uint64_t)count};
+    Scene scene;
+    scene_init(&scene);
+    for (int i = 0; i < count; i++) {
+        add_ellipsoid(&scene, random_stretch(&random, thinnest));
+    }
+    Geometry *g = prepare(&scene, 0);
+    int met = 0, wrong = 0;
+    for (int i = 0; i < 5000; i++) {
+        Vec3 eye = random_point(&random, 30), aim = g->shapes.solids[random_below(&random, (unsigned)count)].centre;
+        Ray ray = {eye, vec3_normalize(vec3_sub(aim, eye))};
+        RayStart start = RAY_START_FREE;
+        Hit hit = {0}, known, next;
+        uint32_t from = UINT32_MAX;
+        for (int leg = 0; leg < 3; leg++) {
+            bool is_met = nearest_one_by_one(g, ray, start, from, &known);
+            bool is_found = closest(g, ray, start, (double)INFINITY, &hit);
+            wrong += is_met != is_found || geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, (double)INFINITY) != is_met;
+            if (!is_met) {
+                break;
+            }
+            met++;
+            wrong += hit.t != known.t || hit.shape != known.shape || hit.inside != known.inside;
+            wrong += closest(g, ray, start, 0.999 * known.t, &next) ||
+                     geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, 0.999 * known.t) ||
+                     !geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, 1.001 * known.t);
+            Surface surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit);
+            from = part_index(hit.shape);
+            ray = (Ray){surface.point, random_direction(&random)};
+            start = (RayStart){hit.shape, vec3_dot(surface.normal, ray.direction) < 0.0, 0};
+        }
+    }
+    double bytes = (double)geometry_bytes(g) / count;
+    tap_ok(wrong == 0 && met >= 5000 && (count < 100 || bytes < 440), "%d stretched spheres, as thin as %g: the tree says what each says "
+           "alone, bit for bit (%d hits, %d differ, %.0f bytes each)", count, thinnest, met, wrong, bytes);
+    geometry_free(g);
+    scene_fini(&scene);
+}
+
 static void test_empty(void)
 {
     Scene scene;
@@ -155,5 +226,9 @@ int main(void)
     test_shapes();
     test_equal_distances();
     test_not_numbers();
+    test_stretched(0.1, 1);
+    test_stretched(0.1, 10);
+    test_stretched(0.1, 300);
+    test_stretched(1e-6, 1000);
     return tap_done();
 }

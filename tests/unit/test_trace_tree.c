@@ -240,7 +240,8 @@ static bool same_spheres(const SphereTable *a, const SphereTable *b)
 static bool same_bytes(const Geometry *a, const Geometry *b)
 {
     return same_spheres(&a->spheres, &b->spheres) &&
-           memcmp(&a->ellipsoids[0].shape, &b->ellipsoids[0].shape, sizeof(EllipsoidShape)) == 0 &&
+           solid_equal(&a->shapes.solids[0], &b->shapes.solids[0]) &&
+           memcmp(&a->shapes.solids[0].to_world, &b->shapes.solids[0].to_world, sizeof(Linear)) == 0 &&
            memcmp(&a->planes[0].shape, &b->planes[0].shape, sizeof(PlaneShape)) == 0;
 }
 

@@ -34,8 +34,8 @@ __attribute__((unused)) static Geometry *prepare(const Scene *scene, int exponen
 
 __attribute__((unused)) static void add_ellipsoid(Scene *scene, Transform to_world)
 {
-    Transform to_object;
-    if (!transform_invert(&to_world, &to_object) || !scene_add_ellipsoid(scene, &to_world, &to_object, 0, 0)) {
+    Part ball = {.kind = PART_BALL, .to_world = to_world};
+    if (!transform_invert(&to_world, &ball.to_object) || !scene_add_part(scene, &ball)) {
         abort();
     }
 }
