@@ -95,12 +95,13 @@ RT_ALWAYS_INLINE bool query_starts_beside_plane(const Geometry *g, unsigned feat
     return shape_kind(start.shape) == SHAPE_PLANE;
 }
 
-// How far along the ray its start may be off the surface that it starts on, where others may coincide with that.
+// How far along the ray its start may be off the surface that it starts on, where others may coincide with that. Less than
+// 0 where only parts may, which ask for it when they need it.
 RT_ALWAYS_INLINE double query_start_error(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start)
 {
     Ray own = {ray->origin, ray->direction};
     if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        return shapes_start_error(&g->shapes, &own, start);
+        return g->plane_count > 0 ? shapes_start_error(&g->shapes, &own, start) : -1.0;
     }
     bool is_plane = (features & TRACE_PLANES) && start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_PLANE;
     bool may_coincide = (features & TRACE_PARTS) || g->plane_count > 1;
@@ -134,9 +135,9 @@ RT_ALWAYS_INLINE bool query_plane_before(const PlaneShape *shape, const SphereRa
                                         way_end_error(t_max)));
 }
 
-// Brings the nearest of the spheres up to date with all other shapes.
-RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
-                                           Nearest *nearest)
+// Brings the nearest of the spheres up to date with all other shapes; of a beam that the ray is in, or NULL.
+RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const ShapeBeam *beam,
+                                           const SphereRay *ray, RayStart start, Nearest *nearest)
 {
     double start_error = query_start_error(g, features, ray, start);
     if (features & TRACE_PLANES) {
@@ -153,7 +154,7 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
         }
     }
     if (features & TRACE_PARTS) {
-        g->kernels->shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, nearest);
+        g->kernels->shapes_closest(&g->shapes, beam, &(Ray){ray->origin, ray->direction}, start, start_error, nearest);
     }
 }
 
@@ -169,7 +170,7 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     if (features & TRACE_ANY_SPHERES) {
         query_spheres_closest(g, features, &sphere_ray, start, &nearest);
     }
-    query_others_closest(g, features, &sphere_ray, start, &nearest);
+    query_others_closest(g, features, NULL, &sphere_ray, start, &nearest);
     *hit = nearest.hit;
     return nearest.hit.shape != SHAPE_NONE;
 }
@@ -180,21 +181,42 @@ RT_ALWAYS_INLINE bool query_has_one_plane(const Geometry *g, unsigned features)
     return !(features & TRACE_PARTS) && (features & TRACE_PLANES) && g->plane_count == 1;
 }
 
+// Brings the hit of a tile's ray up to date with all shapes but spheres; of parts those of the beam, or, for NULL, all.
+RT_ALWAYS_INLINE void query_tile_ray_others(const Geometry *g, unsigned features, const ShapeBeam *beam,
+                                            const SphereTile *tile, unsigned i, TileHits *hits)
+{
+    bool is_met = hits->met >> i & 1;
+    uint32_t order = is_met ? g->spheres.info[shape_index(hits->shape[i])].order : 0;
+    Nearest nearest = {{hits->t[i], hits->shape[i], hits->inside >> i & 1}, order, false, 0.0};
+    SphereRay ray = sphere_tile_ray(tile, i);
+    query_others_closest(g, features, beam, &ray, RAY_START_CAMERA, &nearest);
+    tile_hit_set(hits, i, &nearest.hit);
+}
+
+// Brings the hits of a tile up to date with parts, and planes if there are any. Not inline: a beam is large.
+static __attribute__((noinline, unused)) void query_tile_parts(const Geometry *g, const SphereTile *tile,
+                                                               TileHits *hits)
+{
+    ShapeBeam beam; // not cleared
+    bool has_beam = g->kernels->shapes_gather(&g->shapes, tile, &beam);
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        query_tile_ray_others(g, TRACE_ALL_FEATURES, has_beam ? &beam : NULL, tile, i, hits);
+    }
+}
+
 // Brings the hits of a tile up to date with all shapes but spheres.
 RT_ALWAYS_INLINE void query_tile_others(const Geometry *g, unsigned features, const SphereTile *tile, TileHits *hits)
 {
-        uint64_t open = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 0) ? UINT64_MAX : 0;
+    if (features & TRACE_PARTS) {
+        query_tile_parts(g, tile, hits);
+        return;
+    }
+    uint64_t open = (features & TRACE_PLANES) && g->plane_count > 0 ? UINT64_MAX : 0;
     if (query_has_one_plane(g, features)) {
         open = g->kernels->plane_closest(&g->planes[0].shape, shape_id(SHAPE_PLANE, 0), tile, hits);
     }
     for (; open; open &= open - 1) {
-        unsigned i = (unsigned)__builtin_ctzll(open);
-        bool is_met = hits->met >> i & 1;
-        uint32_t order = is_met ? g->spheres.info[shape_index(hits->shape[i])].order : 0;
-        Nearest nearest = {{hits->t[i], hits->shape[i], hits->inside >> i & 1}, order, false, 0.0};
-        SphereRay ray = sphere_tile_ray(tile, i);
-        query_others_closest(g, features, &ray, RAY_START_CAMERA, &nearest);
-        tile_hit_set(hits, i, &nearest.hit);
+        query_tile_ray_others(g, features, NULL, tile, (unsigned)__builtin_ctzll(open), hits);
     }
 }
 

@@ -6,6 +6,7 @@
 #define TRACE_SHAPES_WALK_H
 
 #include "trace/bvh_walk.h"
+#include "trace/cone_test.h"
 #include "trace/shapes.h"
 
 // What a ray asks of all shapes.
@@ -13,17 +14,26 @@ typedef struct ShapeQuery {
     const ShapeTable *table;
     const Ray *ray;
     RayStart start;
-    double start_error;
+    double start_error; // less than 0: not asked for yet
     const Solid *left; // that it starts on; NULL for none
     bool is_any;       // whatever is met before the end of the way will do
     const Solid *bounded; // the ball that is nearest, where its hit's error is only bounded; NULL: no such
 } ShapeQuery;
 
+// Most rays meet nothing that it matters for.
+static double start_error(ShapeQuery *q)
+{
+    if (q->start_error < 0.0) {
+        q->start_error = shapes_start_error(q->table, q->ray, q->start);
+    }
+    return q->start_error;
+}
+
 // What a ray starts on has been passed up to the error of the start and the root's own, where they may coincide: how
 // much of that is the start's. Less than 0 where nothing has been passed.
-static double passed_error(const ShapeQuery *q, const Solid *solid)
+static double passed_error(ShapeQuery *q, const Solid *solid)
 {
-    return starts_beside(q->table, q->start, solid) ? q->start_error : -1.0;
+    return starts_beside(q->table, q->start, solid) ? start_error(q) : -1.0;
 }
 
 static bool is_passed(double t, double error, double passed)
@@ -31,7 +41,7 @@ static bool is_passed(double t, double error, double passed)
     return passed >= 0.0 && !(t > error + passed);
 }
 
-static void flat_closest(const ShapeQuery *q, uint32_t index, const Ray *object, Nearest *nearest)
+static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Nearest *nearest)
 {
     const Solid *solid = &q->table->solids[index];
     double t;
@@ -88,11 +98,10 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Nearest *nearest)
     if (verdict == SPHERE_MISS) {
         return;
     }
-    double passed = passed_error(q, solid);
     if (verdict == SPHERE_DOUBTFUL) {
         t = sphere_exact(&ray, &unit, NULL, &leaves);
         if (t > 0.0) {
-            ball_offer(q, index, &object, &ray, t, leaves, passed, nearest);
+            ball_offer(q, index, &object, &ray, t, leaves, passed_error(q, solid), nearest);
         }
         return;
     }
@@ -100,6 +109,7 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Nearest *nearest)
     if (t - bound > nearest->hit.t + nearest->error) {
         return;
     }
+    double passed = passed_error(q, solid);
     bool is_nearest = t + bound < nearest->hit.t - nearest->error && !is_passed(t, bound, passed);
     t = is_nearest && q->is_any ? t : sphere_refine(&ray, &unit, t);
     if (is_nearest) {
@@ -122,7 +132,7 @@ static void ball_closest_inward(ShapeQuery *q, uint32_t index, Nearest *nearest)
     }
 }
 
-static void chord_closest(const ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Nearest *nearest)
+static void chord_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Nearest *nearest)
 {
     const Solid *solid = &q->table->solids[index];
     Chord chord;
@@ -178,13 +188,14 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Nearest *nearest)
         solid_closest(q, item, nearest);
     } else {
         settle_error(q, nearest);
-        assembly_closest(table, &table->assemblies[item - table->solid_count], q->ray, q->start, q->start_error, nearest);
+        assembly_closest(table, &table->assemblies[item - table->solid_count], q->ray, q->start, start_error(q),
+                         nearest);
     }
 }
 
 // A leaf that begins within rounding of the nearest hit is still looked into, since ties are decided by order of
 // declaration.
-static void table_closest(ShapeQuery *q, Nearest *nearest)
+static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Nearest *nearest)
 {
     const ShapeTable *table = q->table;
     BvhWalk walk;
@@ -198,6 +209,12 @@ static void table_closest(ShapeQuery *q, Nearest *nearest)
     if (table->bounded_count == 0 || !bvh_walk_start(&walk, &table->tree, q->ray->origin, q->ray->direction)) {
         return;
     }
+    if (beam) {
+        walk.nodes = beam->nodes;
+        for (walk.waiting = 0; walk.waiting < beam->node_count; walk.waiting++) {
+            walk.stack[walk.waiting] = beam->node_count - 1 - walk.waiting; // the nearest last; no distance is known
+        }
+    }
     const ShapeItem *bounded = table->items + table->unbounded_count;
     while (bvh_walk_next(&walk, bvh_walk_limit(&walk, nearest->hit.t + nearest->error), &leaf)) {
         item_closest(q, bounded[bvh_leaf_first(leaf)], nearest);
@@ -207,22 +224,100 @@ static void table_closest(ShapeQuery *q, Nearest *nearest)
     }
 }
 
+// ---- what the rays of a tile may meet
+
+static bool beam_add(ShapeBeam *beam, const BvhNode *from, unsigned child)
+{
+    unsigned at = beam->count % BVH_WIDTH;
+    if (at == 0) {
+        if (beam->node_count == SHAPE_BEAM_NODES) {
+            return false;
+        }
+        BvhNode *fresh = &beam->nodes[beam->node_count++];
+        for (unsigned i = 0; i < BVH_WIDTH; i++) {
+            for (int axis = 0; axis < 3; axis++) {
+                fresh->box[axis][0][i] = INFINITY;
+                fresh->box[axis][1][i] = -INFINITY;
+            }
+            fresh->child[i] = BVH_CHILD_NONE;
+        }
+        fresh->present = 0;
+    }
+    BvhNode *node = &beam->nodes[beam->node_count - 1];
+    for (int axis = 0; axis < 3; axis++) {
+        node->box[axis][0][at] = from->box[axis][0][child];
+        node->box[axis][1][at] = from->box[axis][1][child];
+    }
+    node->child[at] = from->child[child];
+    node->present |= 1u << at;
+    beam->count++;
+    return true;
+}
+
+// The leaves of one walk, those of near nodes first.
+static bool beam_gather(ShapeBeam *beam, BvhWalk *walk)
+{
+    while (walk->waiting > 0) {
+        const BvhNode *node = &walk->nodes[(BvhChild)walk->stack[--walk->waiting]];
+        _Alignas(64) float enters[BVH_WIDTH];
+        if (walk->waiting > BVH_STACK - BVH_WIDTH) {
+            return false;
+        }
+        for (unsigned met = bvh_walk_boxes(walk, node, INFINITY, enters); met; met &= met - 1) {
+            unsigned i = (unsigned)__builtin_ctz(met);
+            if (!(node->child[i] & BVH_LEAF)) {
+                bvh_walk_push(walk, 0, bvh_walk_key(enters[i], node->child[i]));
+            } else if (!beam_add(beam, node, i)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool shapes_gather(const ShapeTable *table, const SphereTile *tile, ShapeBeam *beam)
+{
+    DirectionRange range;
+    beam->count = beam->node_count = 0;
+    if (table->tree.node_count <= 1) {
+        return false;
+    }
+    direction_range(tile->direction, TILE_RAYS, &range);
+    for (unsigned octant = 0; octant < OCTANTS && direction_range_is_narrow(&range); octant++) {
+        BvhWalk walk;
+        Vec3 least, greatest;
+        bool is_too_far;
+        if (!direction_octant(&range, octant, &least, &greatest)) {
+            continue;
+        }
+        if (bvh_walk_start_beam(&walk, &table->tree, tile->origin, 0.0, least, greatest, &is_too_far)
+                ? !beam_gather(beam, &walk)
+                : is_too_far) {
+            return false;
+        }
+    }
+    return direction_range_is_narrow(&range);
+}
+
+// ---- the whole
+
 static const Solid *solid_left(const ShapeTable *table, RayStart start)
 {
     return starts_on_part(start) ? &table->solids[part_index(start.shape)] : NULL;
 }
 
-static void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, Nearest *nearest)
+static void shapes_closest(const ShapeTable *table, const ShapeBeam *beam, const Ray *ray, RayStart start,
+                           double start_error, Nearest *nearest)
 {
     ShapeQuery q = {table, ray, start, start_error, solid_left(table, start), false, NULL};
-    table_closest(&q, nearest);
+    table_closest(&q, beam, nearest);
 }
 
 static bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max)
 {
     ShapeQuery q = {table, ray, start, start_error, solid_left(table, start), true, NULL};
     Nearest nearest = {.hit = {.t = t_max, .shape = SHAPE_NONE}, .error = way_end_error(t_max)};
-    table_closest(&q, &nearest);
+    table_closest(&q, NULL, &nearest);
     return nearest.hit.shape != SHAPE_NONE;
 }
 

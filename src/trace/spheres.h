@@ -125,6 +125,7 @@ typedef struct TileView {
 } TileView;
 
 typedef struct ShapeTable ShapeTable; // trace/shapes.h
+typedef struct ShapeBeam ShapeBeam;
 
 // Brings `nearest` up to date with all spheres, and settles it; tells whether one is met at 0 < t < t_max. Spheres equal
 // to that of the slot `start`, which may be SLOT_NONE, are passed over.
@@ -171,10 +172,13 @@ typedef struct SphereKernels {
     // Whether it is certain, before the rays are made, that none of them meets a sphere. Never where there is a tree.
     bool (*view_passes)(const SphereTable *table, const TileView *view, const double u[TILE_RAYS],
                         const double v[TILE_RAYS]);
-    // Brings `nearest` up to date with all other shapes. `start_error`: how far along the ray its start may be off the
-    // surface that it starts on.
-    void (*shapes_closest)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error,
-                           Nearest *nearest);
+    // What the rays of a tile may meet of other shapes. False when that is too much, or they are too far apart, to gather
+    // it; `beam` means nothing then.
+    bool (*shapes_gather)(const ShapeTable *shapes, const SphereTile *tile, ShapeBeam *beam);
+    // Brings `nearest` up to date with all other shapes, those of a beam that the ray is in, or NULL. `start_error`: how far
+    // along the ray its start may be off the surface that it starts on; less than 0: not known, and that is a part.
+    void (*shapes_closest)(const ShapeTable *shapes, const ShapeBeam *beam, const Ray *ray, RayStart start,
+                           double start_error, Nearest *nearest);
     // True when any of them is met at 0 < t < t_max.
     bool (*shapes_occluded)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max);
 } SphereKernels;

@@ -235,6 +235,7 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .plane_occluded = plane_occluded,
     .view_tile = view_tile,
     .view_passes = view_passes,
+    .shapes_gather = shapes_gather,
     .shapes_closest = shapes_closest,
     .shapes_occluded = shapes_occluded,
 };
