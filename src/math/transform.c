@@ -196,11 +196,14 @@ static double middle_of_three(double a, double b, double c)
 bool transform_is_similarity(const Transform *transform, double *factor)
 {
     const double tolerance = 8 * 18 * UNIT_ROUNDOFF;
-    double greatest = 0.0;
+    double greatest = 0.0, least = INFINITY;
     for (int i = 0; i < 3; i++) {
-        greatest = fmax(greatest, vec3_max_abs(transform_row(transform, i)));
+        double size = vec3_max_abs(transform_row(transform, i));
+        greatest = fmax(greatest, size);
+        least = fmin(least, size);
     }
-    if (!transform_is_finite(transform) || greatest == 0.0) {
+    // The greatest entries of rows of one length differ by no more than sqrt(3).
+    if (greatest >= 1.75 * least || !transform_is_finite(transform)) {
         return false;
     }
     int exponent;

@@ -8,8 +8,15 @@
 #include "trace/bounds.h"
 #include "trace/shapes.h"
 
+// The same as ldexp where the power is a number.
+static double times_power(double x, int exponent, double power)
+{
+    return RT_LIKELY(isfinite(power)) ? x * power : ldexp(x, exponent);
+}
+
 static Solid solid_of(const Part *part, int exponent)
 {
+    double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);
     Solid solid = {
         .kind = part->kind,
         .flags = part->flags,
@@ -28,11 +35,12 @@ static Solid solid_of(const Part *part, int exponent)
         return solid;
     }
     const double *origin = part->to_world.m[3];
-    solid.centre = vec3(ldexp(origin[0], -exponent), ldexp(origin[1], -exponent), ldexp(origin[2], -exponent));
+    solid.centre = vec3(times_power(origin[0], -exponent, down), times_power(origin[1], -exponent, down),
+                        times_power(origin[2], -exponent, down));
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++) {
-            solid.to_world.m[row][column] = ldexp(part->to_world.m[row][column], -exponent);
-            solid.to_object.m[row][column] = ldexp(part->to_object.m[row][column], exponent);
+            solid.to_world.m[row][column] = times_power(part->to_world.m[row][column], -exponent, down);
+            solid.to_object.m[row][column] = times_power(part->to_object.m[row][column], exponent, up);
         }
     }
     solid.extent = solid_extent(&solid);
@@ -45,12 +53,12 @@ static Bounds part_bounds(const Part *part, int exponent)
     if (part->kind == PART_PLANE || (part->flags & PART_INVERSE)) {
         return BOUNDS_ALL;
     }
-    double low[3], high[3];
+    double low[3], high[3], down = ldexp(1.0, -exponent);
     for (int axis = 0; axis < 3; axis++) {
         Vec3 n = vec3(axis == 0, axis == 1, axis == 2);
         double error = 12.0 * (DBL_EPSILON / 2) * part_reach(part, n);
-        high[axis] = ldexp(part_support(part, n) + error, -exponent);
-        low[axis] = ldexp(-part_support(part, vec3_neg(n)) - error, -exponent);
+        high[axis] = times_power(part_support(part, n) + error, -exponent, down);
+        low[axis] = times_power(-part_support(part, vec3_neg(n)) - error, -exponent, down);
     }
     return (Bounds){vec3(low[0], low[1], low[2]), vec3(high[0], high[1], high[2])};
 }
