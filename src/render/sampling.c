@@ -22,6 +22,8 @@ typedef struct Cost {
     double seconds, by_pilot; // of the rounds since, and as the pilot lets expect; the last counts most
 } Cost;
 
+static const double AUDIT_FACTOR = 1.25; // the width of an audit's interval, as a factor, before one was made
+static const double AUDIT_CHANCE = 1.1;  // how much less the error must be, since audits fail by chance; measured
 static const double COST_FADE = 0.8; // of what is known from earlier rounds
 
 typedef struct Sampling {
@@ -34,6 +36,9 @@ typedef struct Sampling {
     Round round;
     Estimate estimate;
     Choice choice;
+    Audit audit;
+    bool is_audit;         // what is traced are replicas
+    double audit_scale;    // the upper end of an audit's interval, over what the rounds say of the error
     Predictor *predictor;  // NULL: nobody asks
     Cost cost;
     float *corners;        // owned by the caller; NULL: there is no such pilot
@@ -89,8 +94,10 @@ static void forward_progress(void *client, double done)
 
 static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
-    const Sampling *s = client;
-    if (s->round.is_corners) {
+    Sampling *s = client;
+    if (s->is_audit) {
+        round_trace_replicas(&s->round, &s->audit, tile, scratch, counted);
+    } else if (s->round.is_corners) {
         round_trace_corners(&s->round, tile, scratch, counted);
     } else {
         round_trace(&s->round, tile, scratch, counted);
@@ -141,6 +148,24 @@ static bool run_round(Sampling *s)
     return is_whole;
 }
 
+// Judges the picture by replicas of some pixels; false when it was cancelled.
+static bool run_audit(Sampling *s)
+{
+    // Sets that are no sequences are two independent halves, which need no audit.
+    bool is_wanted = s->error->is_known && sampler_is_sequence(s->wanted->sampler);
+    if (!is_wanted || audit_draw(&s->audit, &s->estimate, &s->round) == 0) {
+        return true;
+    }
+    TileWork work = {s, s->film->width, s->film->height, trace_tile, NULL};
+    s->is_audit = true;
+    bool is_whole = tiles_run(&work, s->options, s->statistics) == RENDER_OK;
+    s->is_audit = false;
+    if (is_whole) {
+        audit_judge(&s->audit, &s->estimate, s->error);
+    }
+    return is_whole;
+}
+
 // What is left of a goal: samples of the whole run, and seconds.
 static void predict(Sampling *s)
 {
@@ -154,7 +179,8 @@ static void predict(Sampling *s)
     s->round_seconds = fmin(round, fmax(all - had, 0.0)) * s->sample_seconds;
     s->later_seconds = fmax(all - had - round, 0.0) * s->sample_seconds;
     if (s->predictor && s->choice.power > 0.0) {
-        Forecast to_goal = predictor_run(s->predictor, &s->choice, &s->estimate, &s->round, wanted->target_error);
+        Forecast to_goal = predictor_run(s->predictor, &s->choice, &s->estimate, &s->round,
+                                         wanted->target_error / (AUDIT_CHANCE * s->audit_scale));
         double between = clock_seconds() - s->round_end;
         s->round_pixels = to_goal.round_pixels;
         if (to_goal.samples > 0.0 && to_goal.samples <= all) {
@@ -167,12 +193,23 @@ static void predict(Sampling *s)
     s->all_samples = isfinite(all) ? all : 0.0;
 }
 
+// Whether an audit finds the goal reached. The next one is made when the rounds let expect that it does.
+static bool is_on_target(Sampling *s)
+{
+    double by_rounds = s->error->rmse, target = s->wanted->target_error;
+    if (!(target > 0.0) || s->choice.power <= 0.0 || by_rounds * s->audit_scale > target || !run_audit(s)) {
+        return false;
+    }
+    s->audit_scale = by_rounds > 0.0 ? s->error->high / by_rounds : s->audit_scale;
+    return s->error->high <= target;
+}
+
 // Whether one of the goals is reached, or a round more would miss one.
 static bool is_enough(Sampling *s)
 {
     const SamplingOptions *wanted = s->wanted;
     SamplingError *error = s->error;
-    if (wanted->target_error > 0.0 && s->choice.power > 0.0 && error->high <= wanted->target_error) {
+    if (is_on_target(s)) {
         error->end = SAMPLING_TARGET;
         return true;
     }
@@ -298,6 +335,7 @@ static bool draws_more(const Prepared *prepared)
 static void sampling_free(Sampling *s)
 {
     if (s) {
+        free(s->audit.memory);
         free(s->choice.of_pixel);
         free(s->choice.memory);
         free(s->corners);
@@ -314,6 +352,9 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     bool predicts = wanted->is_adaptive && wanted->target_error > 0.0 && has_progress;
     Sampling *s = calloc(1, sizeof *s);
     film->records = calloc(width * height, sizeof *film->records);
+    if (s) {
+        s->audit.memory = calloc(width, NEAR_ROWS * sizeof *s->audit.memory);
+    }
     if (s && wanted->is_adaptive) {
         s->choice.of_pixel = calloc(width * height, sizeof *s->choice.of_pixel);
         s->choice.memory = calloc(width, NEAR_ROWS * sizeof *s->choice.memory);
@@ -324,8 +365,8 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     if (s && predicts) {
         s->predictor = predictor_new(width * height);
     }
-    bool is_whole = s && film->records && (!has_pilot || s->corners) && (!predicts || s->predictor) &&
-                    (!wanted->is_adaptive || (s->choice.of_pixel && s->choice.memory));
+    bool is_whole = s && film->records && s->audit.memory && (!has_pilot || s->corners) &&
+                    (!predicts || s->predictor) && (!wanted->is_adaptive || (s->choice.of_pixel && s->choice.memory));
     if (!is_whole) {
         sampling_free(s);
         return NULL;
@@ -350,6 +391,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->statistics = statistics;
     s->error = error;
     s->start = s->round_end = clock_seconds();
+    s->audit_scale = AUDIT_FACTOR;
     s->round.prepared = prepared;
     s->round.sampling = wanted;
     s->round.film = film;
@@ -361,6 +403,9 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
         error->end = SAMPLING_INTERRUPTED;
     } else if ((s->corners || run_alike(s, alike)) && wanted->is_adaptive) {
         run_adaptive(s);
+    }
+    if (error->end != SAMPLING_INTERRUPTED && error->end != SAMPLING_TARGET && !wanted->has_no_estimate) {
+        run_audit(s);
     }
     bool is_whole = error->end != SAMPLING_INTERRUPTED;
     for (size_t i = 0; !is_whole && i < pixels; i++) {

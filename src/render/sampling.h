@@ -69,6 +69,7 @@ typedef struct ChosenPixel {
     uint32_t count; // samples that it gets
     bool starts;    // anew
     bool is_judged; // its samples are to tell of its error
+    uint32_t replica; // another set of points than the pixel's own; 0: that
 } ChosenPixel;
 
 // Sums over the halves of a pixel's new samples; over their quarters where the pixel starts.
@@ -111,8 +112,6 @@ typedef struct Estimate {
     // Of pixels that have their corners only, by sort: the sum of what they are taken to be off by, and its relative
     // variance.
     double sort_sum[PILOT_SORTS], sort_variance[PILOT_SORTS];
-    // Of the logarithm of the error told, by chance: that in pixels with corners only, and that in all others.
-    double corners_variance, others_variance;
 } Estimate;
 
 // Before the first round: which pixels tell of the error.
@@ -125,14 +124,45 @@ void estimate_update(Estimate *estimate, const Film *film, const Round *round, b
 // The same after pixels were judged otherwise.
 void estimate_now(Estimate *estimate, const Film *film, const Round *round, SamplingError *error);
 
-// By how much the law of the ratios may be wrong at a level, as a share of the error.
-double estimate_law_error(const Round *round, int level);
-
 // The level of a pixel with so many samples.
 static inline int estimate_level(uint32_t count)
 {
     return count > 1 ? 31 - __builtin_clz(count) : 0;
 }
+
+// ---- sampling_audit.c: what the picture is off by, from pixels that are sampled once more
+
+enum {
+    AUDIT_MOST = 512,    // picks
+    AUDIT_SAMPLES = 16, // of a replica of a pixel that has its corners only
+};
+
+// A replica of a pixel: as many samples as it has, under another scrambling.
+typedef struct AuditPick {
+    size_t pixel;
+    uint32_t replica; // from 1, of several of one pixel
+    double weight;    // the inverse of the pixel's share of the draw
+    double square;    // what the replica says that the pixel is off by, squared; may be below 0 by chance
+} AuditPick;
+
+typedef struct Audit {
+    AuditPick picks[AUDIT_MOST]; // in the order of their pixels
+    int count;
+    double *memory;      // NEAR_ROWS * width; owned by the caller
+    double size;         // the sum of all pixels' shares
+    double own_variance; // of the picture's mean square error about its expectation, relative
+    double samples;      // that the replicas take
+} Audit;
+
+// Draws pixels from what is known of all; returns how many, 0 when no pixel is taken to be off by anything.
+int audit_draw(Audit *audit, const Estimate *estimate, const Round *round);
+
+// When round_trace_replicas has put in the squares: sets the error and its interval.
+void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *error);
+
+// sampling_round.c: traces the replicas of a tile's pixels, which changes no pixel.
+void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
+                          RenderStatistics *counted);
 
 // ---- sampling_near.c: means over a pixel and its neighbours
 
@@ -212,7 +242,7 @@ typedef struct Forecast {
     double rounds;       // after that
 } Forecast;
 
-// What it takes to bring `high` to the target, before a round that is chosen.
+// What it takes to bring the error to the target, before a round that is chosen.
 Forecast predictor_run(Predictor *predictor, const Choice *choice, const Estimate *estimate, const Round *round,
                        double target);
 

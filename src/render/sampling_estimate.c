@@ -159,7 +159,7 @@ static double corners_variance(const Estimate *estimate)
 // By how much the law of the ratios may be wrong, by level: less, the more steps were seen, and the least where all
 // sets are nets. Where samples went by what was seen, some pixels are left that seemed better than they are; where
 // lights or a lens draw numbers, too, points are nets of more dimensions at some numbers only. Measured.
-double estimate_law_error(const Round *round, int level)
+static double law_error(const Round *round, int level)
 {
     static const double errors[] = {0.35, 0.35, 0.25, 0.25, 0.12, 0.08}, not_net = 0.12, chosen = 0.18, more = 0.25;
     if (!sampler_is_sequence(round->sampling->sampler)) {
@@ -174,9 +174,7 @@ double estimate_law_error(const Round *round, int level)
 static void tell(Estimate *estimate, const Film *film, const Round *round, SamplingError *error)
 {
     const double normal = 1.96; // 95 % of a normal distribution is within
-    const double of_log = 0.25 * normal * normal;
     double pixels = (double)film->width * film->height, sum = 0.0, variance = 0.0, slope = 0.0, law = 0.0;
-    double corners = 0.0, corners_part = 0.0;
     for (int level = 0; level < LEVELS; level++) {
         const LevelSums *sums = &estimate->levels[level];
         int steps;
@@ -185,17 +183,11 @@ static void tell(Estimate *estimate, const Film *film, const Round *round, Sampl
         sum += part;
         slope += part * log2(ratio);
         bool is_corners = level == 0 && round->has_corners;
-        double own = part * part * (is_corners ? corners_variance(estimate) : relative_variance(sums, ratio, steps));
-        variance += own;
-        corners += is_corners ? own : 0.0;
-        corners_part += is_corners ? part : 0.0;
-        law += part * estimate_law_error(round, level);
+        variance += part * part * (is_corners ? corners_variance(estimate) : relative_variance(sums, ratio, steps));
+        law += part * law_error(round, level);
     }
     double relative = sum > 0.0 ? normal * 0.5 * sqrt(variance) / sum : 0.0, wrong = sum > 0.0 ? law / sum : 0.0;
     double spread = exp(sqrt(relative * relative + wrong * wrong));
-    double others = sum - corners_part;
-    estimate->corners_variance = corners_part > 0.0 ? of_log * corners / (corners_part * corners_part) : 0.0;
-    estimate->others_variance = others > 0.0 ? of_log * (variance - corners) / (others * others) : 0.0;
     error->samples = (double)estimate->samples / pixels;
     error->is_known = round->has_corners ? !round->is_pilot : error->samples >= 2.0;
     error->rmse = sqrt(sum / estimate->judged);

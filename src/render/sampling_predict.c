@@ -106,7 +106,6 @@ typedef struct Play {
     int lowest, highest, top; // buckets and levels that have pixels
 
     double gain[LEVELS];  // what goes from `outer` to the error
-    double law[LEVELS];   // by how much that may be wrong
     double stays[LEVELS]; // of `outer`, when pixels come to a level,
     int fall[LEVELS];     // by how many buckets they fall then,
     double count[LEVELS]; // and how many samples they have
@@ -115,8 +114,7 @@ typedef struct Play {
     double worse_count, worse_outer, better_count, better_outer;
 
     double samples, visits;            // of pixels, in rounds
-    double square, of_corners, of_law; // sums of squares of errors; in pixels that have their corners only; times law
-    double started;                    // pixels that have more than corners
+    double square; // the sum of the squares of errors
 } Play;
 
 // The logarithm of the ratio of the next level: each part falls by its own, and the smooth one is soon gone. From below
@@ -151,7 +149,6 @@ static void play_powers(Play *play, const Estimate *estimate, const Round *round
     for (int level = 0; level < LEVELS; level++) {
         play->stays[level] = exp2(-powers[level]);
         play->gain[level] = level == 0 && round->has_corners ? 1.0 : 1.0 / (exp2(powers[level]) - 1.0);
-        play->law[level] = estimate_law_error(round, level);
         play->fall[level] = (int)lround(BUCKET_FINE * (powers[level] + 1.0));
         play->count[level] = exp2(level);
     }
@@ -162,16 +159,6 @@ static void play_powers(Play *play, const Estimate *estimate, const Round *round
     play->better_outer = (1.0 - worse) / factor;
 }
 
-// Adds pixels to the sums, or takes them away.
-static void play_sum(Play *play, int level, double count, double outer, bool is_corner)
-{
-    double square = outer * play->gain[level];
-    play->square += square;
-    play->of_law += square * play->law[level];
-    play->of_corners += is_corner ? square : 0.0;
-    play->started += is_corner ? 0.0 : count;
-}
-
 static void play_put(Play *play, int bucket, int level, double count, double outer)
 {
     bucket = bucket > 0 ? bucket : 0;
@@ -180,7 +167,7 @@ static void play_put(Play *play, int bucket, int level, double count, double out
     Class *class = &play->predictor->classes[bucket][level];
     class->count += count;
     class->outer += outer;
-    play_sum(play, level, count, outer, false);
+    play->square += outer * play->gain[level];
 }
 
 // Fills the classes, which are empty.
@@ -210,7 +197,7 @@ static void play_begin(Play *play, const Choice *choice, const Estimate *estimat
     for (int bucket = play->lowest; bucket <= play->highest; bucket++) {
         for (int level = 0; level <= play->top; level++) {
             const Class *class = &play->predictor->classes[bucket][level];
-            play_sum(play, level, class->count, class->outer, level == 0 && round->has_corners);
+            play->square += class->outer * play->gain[level];
         }
     }
 }
@@ -272,7 +259,7 @@ static int play_bucket(Play *play, int bucket, bool has_corners)
         bool is_corner = level == 0 && has_corners;
         if (class.count > 0.0) {
             play->predictor->classes[bucket][level] = (Class){0.0, 0.0};
-            play_sum(play, level, -class.count, -class.outer, is_corner);
+            play->square -= class.outer * play->gain[level];
             play->visits += class.count;
             if (is_corner) {
                 next = play_start(play, bucket, &class);
@@ -284,23 +271,11 @@ static int play_bucket(Play *play, int bucket, bool has_corners)
     return next;
 }
 
-// The upper end of the interval: its width is what the law may be wrong by and what so few pixels tell. The more have
-// started, the less those that have are by chance.
-static double play_high(const Play *play, const Play *begin, const Estimate *estimate)
-{
-    double corners = play->of_corners / play->square, others = 1.0 - corners, law = play->of_law / play->square;
-    double by_few = play->started > 0.0 ? begin->started / play->started : 1.0;
-    double variance =
-        estimate->corners_variance * corners * corners + by_few * estimate->others_variance * others * others;
-    return sqrt(play->square / estimate->judged) * exp(sqrt(variance + law * law));
-}
-
 // Plays until the goal is reached; false when it is not.
 static bool play_run(Play *play, const Estimate *estimate, bool has_corners, double target)
 {
-    const Play begin = *play;
     int bucket = play->highest;
-    while (play->square > 0.0 && play_high(play, &begin, estimate) > target) {
+    while (play->square > target * target * estimate->judged) {
         if (bucket < LEAST_BUCKET) {
             return false;
         }

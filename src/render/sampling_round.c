@@ -172,9 +172,11 @@ static uint32_t pixel_seed(const Round *round, int x, int y)
 
 static void pixel_add(const Round *round, Batch *batch, const ChosenPixel *pixel, SampleSums *parts, RenderStatistics *counted)
 {
-    uint32_t before = pixel->starts ? 0 : round->film->records[pixel->index].count, count = pixel->count;
+    bool is_new = pixel->starts || pixel->replica > 0;
+    uint32_t before = is_new ? 0 : round->film->records[pixel->index].count, count = pixel->count;
+    uint32_t seed = pixel_seed(round, pixel->x, pixel->y);
     SampleStream stream = {.kind = round->sampling->sampler,
-                           .seed = pixel_seed(round, pixel->x, pixel->y),
+                           .seed = pixel->replica > 0 ? sample_hash_add(seed, pixel->replica) : seed,
                            .first = before,
                            .count = count};
     for (uint32_t i = 0; i < count;) {
@@ -351,7 +353,7 @@ static ChosenPixel *block_choose(const Round *round, Tile block, ChosenPixel *ch
             if (count > 0) {
                 uint32_t had = film->records[begin + (size_t)x].count;
                 is_judged = is_whole ? is_judged : has_estimate && round_judges(round, x, y);
-                *chosen++ = (ChosenPixel){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged};
+                *chosen++ = (ChosenPixel){x, y, begin + (size_t)x, count, round_starts(round, had), is_judged, 0};
             }
         }
     }
@@ -379,6 +381,57 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
     batch_flush(round, &batch, counted);
     for (const ChosenPixel *pixel = chosen; pixel < end; pixel++) {
         pixel_finish(round, &shares, pixel, &parts[pixel - chosen]);
+    }
+}
+
+// Of a pixel that has samples, half the square of how far its replica is from it: its variance. Of one that is made of
+// corners, the product of how far two replicas are, which leaves out their own errors.
+static double replica_square(const Round *round, const AuditPick *pick, const SampleSums sets[2])
+{
+    const float *value = &round->film->rgb[3 * pick->pixel];
+    uint32_t count = round->film->records[pick->pixel].count;
+    Rgb place, own = rgb(value[0], value[1], value[2]), apart[2];
+    bool is_single = count > 1;
+    for (int i = 0; i < 2; i++) {
+        Rgb sum = rgb_add(sets[i].sum[0], sets[i].sum[1]);
+        Rgb mean = rgb_scale(1.0 / (is_single ? (double)count : (double)AUDIT_SAMPLES), sum);
+        apart[i] = rgb_add_scaled(mean, -1.0, own);
+    }
+    const Rgb *slope = slope_at(round, value, &place);
+    Rgb product = rgb_mul(apart[0], apart[is_single ? 0 : 1]);
+    product = slope ? rgb_mul(product, rgb_mul(*slope, *slope)) : product;
+    return (is_single ? 0.5 : 1.0) / 3.0 * (product.red + product.green + product.blue);
+}
+
+// The replicas go through batches together.
+void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
+                          RenderStatistics *counted)
+{
+    const Film *film = round->film;
+    _Static_assert(2 * AUDIT_MOST <= TILE_SIZE * TILE_SIZE, "a tile's sums hold two sets of each pick");
+    SampleSums(*sets)[2] = (void *)scratch->round.sums;
+    int order[AUDIT_MOST], count = 0;
+    Batch batch;
+    batch_init(&batch, round, scratch);
+    for (int next = 0; next < audit->count; next++) {
+        const AuditPick *pick = &audit->picks[next];
+        int x = (int)(pick->pixel % (size_t)film->width), y = (int)(pick->pixel / (size_t)film->width);
+        if (x < tile.left || x >= tile.right || y < tile.top || y >= tile.bottom) {
+            continue;
+        }
+        uint32_t had = film->records[pick->pixel].count;
+        sets[count][0] = sets[count][1] = (SampleSums){.squares = rgb_grey(0.0)};
+        for (uint32_t i = 0; i < (had > 1 ? 1u : 2u); i++) {
+            ChosenPixel chosen = {.x = x, .y = y, .index = pick->pixel, .count = had > 1 ? had : AUDIT_SAMPLES,
+                                  .replica = 2 * pick->replica + i};
+            pixel_add(round, &batch, &chosen, &sets[count][i], counted);
+        }
+        order[count++] = next;
+    }
+    batch_flush(round, &batch, counted);
+    for (int i = 0; i < count; i++) {
+        AuditPick *pick = &audit->picks[order[i]];
+        pick->square = replica_square(round, pick, sets[i]);
     }
 }
 

@@ -16,6 +16,8 @@
 #define SCENE_HEAD   "#version 3.7; global_settings { assumed_gamma 1 }\n"
 #define SCENE_CAMERA "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 }\n"
 
+#define SCENE_SUN    "light_source { <-8,12,-10> rgb 1 } background { rgb <0.2,0.3,0.5> }\n"
+
 typedef struct SamplingScene {
     const char *name, *text;
 } SamplingScene;
@@ -82,6 +84,49 @@ __attribute__((unused)) static const SamplingScene scene_rods = {
                             "#for (I, 1, 60) cylinder { Place(), Place(), 0.03\n"
                             "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.2 diffuse 0.7 } } #end\n"};
 
+// Balls of a third of a pixel and less.
+__attribute__((unused)) static const SamplingScene scene_dust = {
+    "dust", SCENE_HEAD SCENE_CAMERA SCENE_SUN
+    "#declare S = seed(3);\n"
+    "#for (I, 1, 600) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*4-2>, 0.0175+0.035*rand(S)\n"
+    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.3 diffuse 0.7 } } #end\n"};
+
+__attribute__((unused)) static const SamplingScene scene_marble = {
+    "marble", SCENE_HEAD SCENE_CAMERA SCENE_SUN
+    "plane { y, -1.5 pigment { marble turbulence 0.8 scale 0.15\n"
+    "color_map { [0 rgb 0] [0.5 rgb 1] [1 rgb <0.8,0.2,0.1>] } } }\n"};
+
+__attribute__((unused)) static const SamplingScene scene_cut = {
+    "cut boxes", SCENE_HEAD SCENE_CAMERA SCENE_SUN
+    "#for (I,-2,2) difference { box { <-0.7,-0.7,-0.7>+x*I*1.7, <0.7,0.7,0.7>+x*I*1.7 }\n"
+    "sphere { <0.3,0.3,-0.4>+x*I*1.7, 0.7 } cylinder { <I*1.7,-2,0>, <I*1.7,2,0.1>, 0.25 }\n"
+    "pigment { rgb <0.9,0.6,0.3> } finish { phong 0.7 } rotate <10*I,20*I,0> } #end\n"
+    "plane { y, -2 pigment { checker rgb 1 rgb 0.3 } }\n"};
+
+// Thin lines of a texture.
+__attribute__((unused)) static const SamplingScene scene_lines = {
+    "lines", SCENE_HEAD SCENE_CAMERA SCENE_SUN
+    "plane { z, 2 pigment { gradient x color_map { [0 rgb 1] [0.93 rgb 1] [0.93 rgb 0] [1 rgb 0] }\n"
+    "scale 0.5 rotate z*23 } finish { ambient 1 diffuse 0 } }\n"};
+
+// One thing is much brighter than all else.
+__attribute__((unused)) static const SamplingScene scene_lamp = {
+    "lamp", SCENE_HEAD SCENE_CAMERA
+    "light_source { <-8,12,-10> rgb 1 } sphere { 0, 1.5 pigment { rgb 0.6 } }\n"
+    "sphere { <2.5,1,0>, 0.4 pigment { rgb 1 } finish { ambient 8 } }\n"};
+
+__attribute__((unused)) static const SamplingScene scene_glints = {
+    "glints", SCENE_HEAD SCENE_CAMERA SCENE_SUN
+    "sphere { 0, 2 pigment { rgb 0.3 } finish { phong 3 phong_size 4000 } normal { bumps 0.3 scale 0.2 } }\n"
+    "plane { y, -2 pigment { rgb 0.6 } }\n"};
+
+__attribute__((unused)) static const SamplingScene scene_lens_balls = {
+    "lens before balls", SCENE_HEAD
+    "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 aperture 0.4 blur_samples 50\n"
+    "focal_point <0,0,2> } " SCENE_SUN "#declare S = seed(17);\n"
+    "#for (I, 1, 80) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*10-6>, 0.1+0.3*rand(S)\n"
+    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 0.1 diffuse 0.8 phong 1 } } #end\n"};
+
 // Even light almost everywhere.
 __attribute__((unused)) static const SamplingScene scene_even = {
     "even light",
@@ -91,6 +136,13 @@ __attribute__((unused)) static const SamplingScene scene_even = {
 
 __attribute__((unused)) static const SamplingScene *const sampling_scenes[] = {
     &scene_balls, &scene_soft, &scene_mirrors, &scene_checker, &scene_glass};
+
+// Of all kinds, for what is told of the error; the first five above are among them.
+__attribute__((unused)) static const SamplingScene *const error_scenes[] = {
+    &scene_balls, &scene_soft,   &scene_mirrors, &scene_checker, &scene_glass, &scene_lens, &scene_noise, &scene_rods,
+    &scene_even,  &scene_marble, &scene_cut,     &scene_lamp,    &scene_glints, &scene_lens_balls, &scene_dust,
+    &scene_lines};
+enum { ERROR_SCENES = sizeof error_scenes / sizeof error_scenes[0] };
 
 typedef struct Picture {
     int width, height;
