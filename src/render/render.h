@@ -113,6 +113,7 @@ typedef struct SamplingError {
     double rmse, low, high; // root mean square, linear light, and the ends of its 95 % interval
     double samples;         // a pixel, in the mean
     double slope;           // of the logarithm of rmse in that of samples, as it is taken to go on; < 0
+    double pixel_scale;     // of render_pixel_error, so that its mean square is that of rmse
     double bias;            // what rays that were not followed would add at the least; more samples do not help
     double bias_by_level;   // of it: beyond max_trace_level; the rest is below adc_bailout
     SamplingEnd end;

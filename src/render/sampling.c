@@ -38,6 +38,7 @@ typedef struct Sampling {
     Choice choice;
     Audit audit;
     bool is_audit;         // what is traced are replicas
+    RenderStatistics audited; // their rays: no part of what the picture's own say
     double audit_scale;    // the upper end of an audit's interval, over what the rounds say of the error
     Predictor *predictor;  // NULL: nobody asks
     Cost cost;
@@ -158,7 +159,7 @@ static bool run_audit(Sampling *s)
     }
     TileWork work = {s, s->film->width, s->film->height, trace_tile, NULL};
     s->is_audit = true;
-    bool is_whole = tiles_run(&work, s->options, s->statistics) == RENDER_OK;
+    bool is_whole = tiles_run(&work, s->options, &s->audited) == RENDER_OK;
     s->is_audit = false;
     if (is_whole) {
         audit_judge(&s->audit, &s->estimate, s->error);
@@ -335,7 +336,6 @@ static bool draws_more(const Prepared *prepared)
 static void sampling_free(Sampling *s)
 {
     if (s) {
-        free(s->audit.memory);
         free(s->choice.of_pixel);
         free(s->choice.memory);
         free(s->corners);
@@ -352,9 +352,6 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     bool predicts = wanted->is_adaptive && wanted->target_error > 0.0 && has_progress;
     Sampling *s = calloc(1, sizeof *s);
     film->records = calloc(width * height, sizeof *film->records);
-    if (s) {
-        s->audit.memory = calloc(width, NEAR_ROWS * sizeof *s->audit.memory);
-    }
     if (s && wanted->is_adaptive) {
         s->choice.of_pixel = calloc(width * height, sizeof *s->choice.of_pixel);
         s->choice.memory = calloc(width, NEAR_ROWS * sizeof *s->choice.memory);
@@ -365,7 +362,7 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     if (s && predicts) {
         s->predictor = predictor_new(width * height);
     }
-    bool is_whole = s && film->records && s->audit.memory && (!has_pilot || s->corners) &&
+    bool is_whole = s && film->records && (!has_pilot || s->corners) &&
                     (!predicts || s->predictor) && (!wanted->is_adaptive || (s->choice.of_pixel && s->choice.memory));
     if (!is_whole) {
         sampling_free(s);
@@ -407,6 +404,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     if (error->end != SAMPLING_INTERRUPTED && error->end != SAMPLING_TARGET && !wanted->has_no_estimate) {
         run_audit(s);
     }
+    statistics_add(statistics, &s->audited);
     bool is_whole = error->end != SAMPLING_INTERRUPTED;
     for (size_t i = 0; !is_whole && i < pixels; i++) {
         if (film->records[i].count == 0) {

@@ -35,7 +35,7 @@ typedef struct Round {
     bool judges_some;        // the error is taken from those of one block in JUDGED_SHARE, chosen by chance
 } Round;
 
-enum { JUDGED_SHARE = 4, JUDGED_BLOCK = KERNEL_ROW };
+enum { JUDGED_SHARE = 8, JUDGED_BLOCK = KERNEL_ROW };
 
 // Whether a pixel tells of the error. Blocks are those of the whole picture.
 static inline bool round_judges(const Round *round, int left, int top)
@@ -44,6 +44,13 @@ static inline bool round_judges(const Round *round, int left, int top)
              y = (uint32_t)(round->film->top + top) / JUDGED_BLOCK;
     return !round->judges_some ||
            sample_hash_add(sample_hash_add((uint32_t)round->sampling->seed, x), y) % JUDGED_SHARE == 0;
+}
+
+// Where the picture's block ends, in the film, that holds a column or row of it.
+static inline int round_block_end(int at, int origin, int end)
+{
+    int next = at + JUDGED_BLOCK - (origin + at) % JUDGED_BLOCK;
+    return next < end ? next : end;
 }
 
 enum { START_SAMPLES = 4 };
@@ -146,12 +153,10 @@ typedef struct AuditPick {
 } AuditPick;
 
 typedef struct Audit {
-    AuditPick picks[AUDIT_MOST]; // in the order of their pixels
+    AuditPick picks[AUDIT_MOST];
     int count;
-    double *memory;      // NEAR_ROWS * width; owned by the caller
     double size;         // the sum of all pixels' shares
     double own_variance; // of the picture's mean square error about its expectation, relative
-    double samples;      // that the replicas take
 } Audit;
 
 // Draws pixels from what is known of all; returns how many, 0 when no pixel is taken to be off by anything.

@@ -12,116 +12,104 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
-#include <string.h>
 
 #include "render/sampling.h"
 
 // How many replicas are drawn: one for so many pixels, within these.
-enum { AUDIT_LEAST = 128, AUDIT_PIXELS = 128 };
+enum { AUDIT_LEAST = 96, AUDIT_PIXELS = 256 };
 
-// A pixel's share of the draw: half its own difference, half that of its surroundings, since a pixel may look even only
-// because no sample has met what its neighbours show; and a part of the mean for what nothing has shown yet.
-static const double NEAR_PART = 0.5, MEAN_PART = 0.7;
-
-static bool is_corners_only(const Round *round, const PixelRecord *record)
-{
-    return round->has_corners && record->count == 1;
-}
-
-// What a pixel is taken to be off by before it is audited.
-static double expected_of(const Estimate *estimate, const Round *round, size_t pixel)
-{
-    const PixelRecord *record = &round->film->records[pixel];
-    return record->outer / (estimate->ratio[estimate_level(record->count)] - 1.0);
-}
-
-// Calls `visit` for each judged pixel with what it and what its surroundings are taken to be off by, squared.
-typedef void Visit(void *client, size_t pixel, double own, double near);
-
-static void visit_row(const Estimate *estimate, const Round *round, const Near *near, int y, Visit *visit, void *client)
-{
-    const Film *film = round->film;
-    for (int x = 0; x < film->width; x++) {
-        size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-        if (round_judges(round, x, y)) {
-            visit(client, pixel, expected_of(estimate, round, pixel), near->values[x]);
-        }
-    }
-}
-
-static void visit_pixels(const Estimate *estimate, const Round *round, double *memory, Visit *visit, void *client)
-{
-    const Film *film = round->film;
-    Near near = near_begin(memory, film->width, film->height);
-    for (int y = 0; y <= film->height; y++) {
-        for (int x = 0; y < film->height && x < film->width; x++) {
-            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            near.values[x] = round_judges(round, x, y) ? expected_of(estimate, round, pixel) : 0.0;
-        }
-        near_give(&near, y);
-        if (y > 0) {
-            near_take(&near, y - 1);
-            visit_row(estimate, round, &near, y - 1, visit, client);
-        }
-    }
-}
+// A pixel's share of the draw is what its halves say of it, and so much of the mean for what nothing has shown yet: a
+// pixel may look even only because no sample has met what is in it.
+static const double MEAN_PART = 0.7;
 
 typedef struct Draw {
-    AuditPick *picks;
-    double sum, squares, sizes; // over all pixels: what they are taken to be off by, its squares, their shares
-    double floor;               // added to each share
-    double step, reached, next; // between picks, of the cumulated shares; these; where the next pick is
-    int count, most;
+    Audit *audit;
+    const Round *round;
+    double gain[LEVELS];         // what goes from `outer` to what a pixel is taken to be off by, squared
+    double floor;                // added to each share
+    double step, reached, next;  // between picks, of the cumulated shares; these; where the next pick is
+    double blocks, sum, squares; // judged blocks, and what they are taken to be off by
+    int most;
 } Draw;
 
-static void add_size(void *client, size_t pixel, double own, double near)
+static void draw_block(Draw *draw, Tile block)
 {
-    Draw *draw = client;
-    (void)pixel;
-    draw->sum += own;
-    draw->sizes += (1.0 - NEAR_PART) * own + NEAR_PART * near;
-    draw->squares += own * own;
+    const Film *film = draw->round->film;
+    Audit *audit = draw->audit;
+    double sum = 0.0;
+    for (int y = block.top; y < block.bottom; y++) {
+        for (int x = block.left; x < block.right; x++) {
+            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
+            const PixelRecord *record = &film->records[pixel];
+            double own = record->outer * draw->gain[estimate_level(record->count)], share = own + draw->floor;
+            sum += own;
+            draw->reached += share;
+            for (uint32_t replica = 1; draw->next < draw->reached && audit->count < draw->most; replica++) {
+                audit->picks[audit->count++] =
+                    (AuditPick){.pixel = pixel, .replica = replica, .weight = 1.0 / share};
+                draw->next += draw->step;
+            }
+        }
+    }
+    draw->blocks++;
+    draw->sum += sum;
+    draw->squares += sum * sum;
 }
 
-static void pick(void *client, size_t pixel, double own, double near)
+static void draw_blocks(Draw *draw)
 {
-    Draw *draw = client;
-    double size = (1.0 - NEAR_PART) * own + NEAR_PART * near + draw->floor;
-    draw->reached += size;
-    for (uint32_t replica = 1; draw->next < draw->reached && draw->count < draw->most; replica++) {
-        draw->picks[draw->count++] = (AuditPick){.pixel = pixel, .replica = replica, .weight = 1.0 / size};
-        draw->next += draw->step;
+    const Film *film = draw->round->film;
+    for (int top = 0, bottom; top < film->height; top = bottom) {
+        bottom = round_block_end(top, film->top, film->height);
+        for (int left = 0, right; left < film->width; left = right) {
+            right = round_block_end(left, film->left, film->width);
+            if (round_judges(draw->round, left, top)) {
+                draw_block(draw, (Tile){left, top, right, bottom});
+            }
+        }
     }
+}
+
+// What the choice of the judged blocks does to the mean: the relative variance of a mean of so many of all blocks.
+static double blocks_variance(const Draw *draw)
+{
+    double mean = draw->sum / draw->blocks;
+    if (!draw->round->judges_some || draw->blocks < 2.0) {
+        return 0.0;
+    }
+    double spread = (draw->squares / draw->blocks - mean * mean) / (draw->blocks - 1.0);
+    return (1.0 - 1.0 / JUDGED_SHARE) * fmax(spread, 0.0) / (mean * mean);
 }
 
 int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
 {
-    Draw draw = {.picks = audit->picks};
-    visit_pixels(estimate, round, audit->memory, add_size, &draw);
-    if (!(draw.sum > 0.0)) {
-        return audit->count = 0;
+    Draw draw = {.audit = audit, .round = round};
+    double sum = 0.0, squares = 0.0, picks = estimate->judged / AUDIT_PIXELS;
+    for (int level = 0; level < LEVELS; level++) {
+        const LevelSums *sums = &estimate->levels[level];
+        double gain = draw.gain[level] = 1.0 / (estimate->ratio[level] - 1.0);
+        sum += gain * sums->outer_now;
+        squares += gain * gain * sums->outer_squares;
     }
-    double share = estimate->judged / AUDIT_PIXELS;
-    draw.most = share < AUDIT_LEAST ? AUDIT_LEAST : share > AUDIT_MOST ? AUDIT_MOST : (int)share;
-    draw.floor = MEAN_PART * draw.sum / estimate->judged;
-    audit->size = draw.sizes + MEAN_PART * draw.sum;
-    // Squares of normal errors have a variance of two thirds of their own mean square.
-    audit->own_variance = 2.0 / 3.0 * draw.squares / (draw.sum * draw.sum);
+    audit->count = 0;
+    if (!(sum > 0.0)) {
+        return 0;
+    }
+    draw.most = picks < AUDIT_LEAST ? AUDIT_LEAST : picks > AUDIT_MOST ? AUDIT_MOST : (int)picks;
+    draw.floor = MEAN_PART * sum / estimate->judged;
+    audit->size = (1.0 + MEAN_PART) * sum;
     draw.step = audit->size / draw.most;
     draw.next = draw.step * sample_unit(sampler_pixel_seed(~round->sampling->seed, AUDIT_MOST, (uint32_t)draw.most));
-    visit_pixels(estimate, round, audit->memory, pick, &draw);
-    audit->samples = 0.0;
-    for (int i = 0; i < draw.count; i++) {
-        const PixelRecord *record = &round->film->records[draw.picks[i].pixel];
-        audit->samples += is_corners_only(round, record) ? 2.0 * AUDIT_SAMPLES : record->count;
-    }
-    return audit->count = draw.count;
+    draw_blocks(&draw);
+    // Squares of normal errors have a variance of two thirds of their own mean square.
+    audit->own_variance = 2.0 / 3.0 * squares / (sum * sum) + blocks_variance(&draw);
+    return audit->count;
 }
 
 void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *error)
 {
     // 95 % of a normal distribution is within 1.96; terms have longer tails, and so few tell less of their own spread.
-    const double normal = 2.2;
+    const double normal = 2.4;
     double sum = 0.0, squares = 0.0, count = audit->count;
     for (int i = 0; i < audit->count; i++) {
         double term = audit->picks[i].square * audit->picks[i].weight;
@@ -133,9 +121,11 @@ void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *er
         return;
     }
     double spread = (squares / count - mean * mean) / (count - 1.0) / (mean * mean);
-    // The error of this picture varies about its expectation, too.
+    // The error of this picture varies about its expectation, and judged blocks about all, too.
     double factor = exp(normal * 0.5 * sqrt(spread + audit->own_variance));
-    error->rmse = sqrt(mean * audit->size / estimate->judged);
+    double rmse = sqrt(mean * audit->size / estimate->judged);
+    error->pixel_scale = rmse / error->rmse;
+    error->rmse = rmse;
     error->low = error->rmse / factor;
     error->high = error->rmse * factor;
 }

@@ -98,21 +98,14 @@ static void add_pixels(LevelSums *sums, const Film *film, Tile part)
     }
 }
 
-// Where the picture's block ends, in the film, that holds a column or row of it.
-static int block_end(int at, int origin, int end)
-{
-    int next = at + JUDGED_BLOCK - (origin + at) % JUDGED_BLOCK;
-    return next < end ? next : end;
-}
-
 // Both at once, where all pixels have just come to one number of samples.
 static void add_alike(Estimate *estimate, const Film *film, const Round *round)
 {
     LevelSums sums = {0};
     for (int top = 0, bottom; top < film->height; top = bottom) {
-        bottom = block_end(top, film->top, film->height);
+        bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {
-            right = block_end(left, film->left, film->width);
+            right = round_block_end(left, film->left, film->width);
             if (round_judges(round, left, top)) {
                 add_pixels(&sums, film, (Tile){left, top, right, bottom});
             }
@@ -191,6 +184,7 @@ static void tell(Estimate *estimate, const Film *film, const Round *round, Sampl
     error->samples = (double)estimate->samples / pixels;
     error->is_known = round->has_corners ? !round->is_pilot : error->samples >= 2.0;
     error->rmse = sqrt(sum / estimate->judged);
+    error->pixel_scale = 1.0;
     error->low = error->rmse / spread;
     error->high = error->rmse * spread;
     error->slope = sum > 0.0 ? -0.5 * slope / sum : -0.5;
@@ -201,9 +195,9 @@ void estimate_begin(Estimate *estimate, const Round *round)
     const Film *film = round->film;
     estimate->judged = 0.0;
     for (int top = 0, bottom; top < film->height; top = bottom) {
-        bottom = block_end(top, film->top, film->height);
+        bottom = round_block_end(top, film->top, film->height);
         for (int left = 0, right; left < film->width; left = right) {
-            right = block_end(left, film->left, film->width);
+            right = round_block_end(left, film->left, film->width);
             estimate->judged += round_judges(round, left, top) ? (double)(right - left) * (bottom - top) : 0.0;
         }
     }
@@ -228,5 +222,5 @@ void estimate_now(Estimate *estimate, const Film *film, const Round *round, Samp
 
 double render_pixel_error(const Film *film, const SamplingError *error, size_t pixel)
 {
-    return sqrt(film->records[pixel].outer / (exp2(-2.0 * error->slope) - 1.0));
+    return error->pixel_scale * sqrt(film->records[pixel].outer / (exp2(-2.0 * error->slope) - 1.0));
 }

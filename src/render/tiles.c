@@ -49,7 +49,7 @@ static Tile tile_at(const Run *run, int index)
                   bottom < run->work->height ? bottom : run->work->height};
 }
 
-static void statistics_add(RenderStatistics *sum, const RenderStatistics *more)
+void statistics_add(RenderStatistics *sum, const RenderStatistics *more)
 {
     sum->camera_rays += more->camera_rays;
     sum->shadow_rays += more->shadow_rays;

@@ -29,6 +29,8 @@ static inline Tile tile_block(Tile tile, int left, int top)
 // ones again. Returns those of the block, a bit for each. The lens is left as it is.
 uint64_t block_places(const Film *film, Tile block, double aside, KernelPlaces *places);
 
+void statistics_add(RenderStatistics *sum, const RenderStatistics *more);
+
 // Runs on options->threads threads, or as many of them as memory is found for; adds to the statistics.
 RenderResult tiles_run(const TileWork *work, const RenderOptions *options, RenderStatistics *statistics) RT_MUST_CHECK;
 

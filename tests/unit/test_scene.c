@@ -234,7 +234,9 @@ enum { CROWD = 50 * 1000, CROWD_TWINS = 6, ROUND_TWINS = 3 };
 static bool make_crowd(Scene *scene, const uint32_t twins[CROWD_TWINS][2])
 {
     Random random = {3};
-    bool is_made = true;
+    Finish finish = {.diffuse = 0.6};
+    MaterialIndex clear; // two surfaces of it are not one
+    bool is_made = scene_add_material(scene, (Rgbft){0.5, 0.5, 0.5, 0.0, 0.5}, &finish, &clear);
     uint32_t index;
     for (uint32_t i = 0, twin = 0; i < CROWD && is_made; i++) {
         Vec3 centre = vec3(random_between(&random, -9.0, 9.0), random_between(&random, -9.0, 9.0), i);

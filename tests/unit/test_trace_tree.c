@@ -12,19 +12,25 @@
 
 // ---- The tree against testing every sphere.
 
-// Every sphere in order of declaration; a later one has to be strictly nearer.
+// Every sphere in order of declaration; a later one has to be strictly nearer, and so by exact arithmetic where the roots
+// are the same but for their last bits.
 static double brute_force(const Scene *scene, const SphereRay *ray, const Ball *start, bool inward, double t_max,
                           uint32_t *order)
 {
     double t_best = t_max;
+    Ball best = *start;
+    bool best_inside = false;
     *order = UINT32_MAX;
     for (size_t i = 0; i < scene->spheres.count; i++) {
         Ball ball = ball_make(scene->spheres.items[i].centre, scene->spheres.items[i].radius);
-        bool inside;
+        bool inside = inward;
         double t = ball_equal(&ball, start) ? (inward ? sphere_root_inward(ray, &ball) : (double)NAN)
                                             : sphere_hit(ray, &ball, &inside);
-        if (t > 0.0 && t < t_best) {
+        bool is_tie = *order != UINT32_MAX && fabs(t - t_best) <= SPHERE_TIE * t_best;
+        if (t > 0.0 && (is_tie ? sphere_roots_compare(ray, &ball, inside, &best, best_inside, t) < 0 : t < t_best)) {
             t_best = t;
+            best = ball;
+            best_inside = inside;
             *order = scene_sphere_order(scene, i);
         }
     }
