@@ -341,7 +341,7 @@ static void test_pipe(void)
         _exit(0);
     }
     SourceMap *map = source_map_new();
-    Source *source;
+    Source *source = NULL;
     int error_number;
     SourceLocation at;
     tap_ok(child > 0 && source_open_file(map, path.text, NO_LIMIT, &source, &error_number) == SOURCE_OK,

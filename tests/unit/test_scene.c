@@ -237,7 +237,7 @@ static bool make_crowd(Scene *scene, const uint32_t twins[CROWD_TWINS][2])
     Finish finish = {.diffuse = 0.6};
     MaterialIndex clear; // two surfaces of it are not one
     bool is_made = scene_add_material(scene, (Rgbft){0.5, 0.5, 0.5, 0.0, 0.5}, &finish, &clear);
-    uint32_t index;
+    uint32_t index = 0;
     for (uint32_t i = 0, twin = 0; i < CROWD && is_made; i++) {
         Vec3 centre = vec3(random_between(&random, -9.0, 9.0), random_between(&random, -9.0, 9.0), i);
         if (twin < CROWD_TWINS && twins[twin][1] == i) {

@@ -429,7 +429,7 @@ static void random_light(Random *random, int kinds, Scene *scene)
 // A checkered material, whose one layer may stand on another that is not seen.
 static bool add_checkered(Scene *scene, Random *random, const Finish *finish, bool is_doubled, MaterialIndex *material)
 {
-    uint32_t last, first, pattern, below = RECORD_NONE, texture;
+    uint32_t last, first = RECORD_NONE, pattern = RECORD_NONE, below = RECORD_NONE, texture = RECORD_NONE;
     PigmentEntry entry = {.at = 1.0, .pigment = pigment_of((Rgbft){0.1, 0.9, 0.3, 0, 0}), .next = RECORD_NONE};
     bool is_fine = scene_add_pigment_entry(scene, &entry, &last);
     entry = (PigmentEntry){.pigment = pigment_of((Rgbft){random_between(random, 0, 1), 0.2, 0.7, 0, 0}), .next = last};
