@@ -295,6 +295,7 @@ EXTRA_DIST += \
   $(lang_cases) \
   %D%/format/layout.scn \
   %D%/format/layout.expected \
+  %D%/fuzz/cut_far_apart.scn \
   %D%/golden \
   %D%/system \
   %D%/povray

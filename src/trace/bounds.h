@@ -34,9 +34,10 @@ static inline bool bounds_are_finite(Bounds b)
     return vec3_is_finite(b.low) && vec3_is_finite(b.high);
 }
 
+// What is not a number may be anywhere.
 static inline bool bounds_are_empty(Bounds b)
 {
-    return !(b.low.x <= b.high.x && b.low.y <= b.high.y && b.low.z <= b.high.z);
+    return b.low.x > b.high.x || b.low.y > b.high.y || b.low.z > b.high.z;
 }
 
 #endif

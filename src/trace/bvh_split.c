@@ -152,8 +152,9 @@ static inline float ref_centre(const BvhRef *ref, int axis)
 
 static inline int binning_bin(const Binning *binning, float centre)
 {
-    int bin = (int)((centre - binning->low) * binning->bins_per_unit);
-    return bin < binning->count ? bin : binning->count - 1;
+    // Whatever the numbers, it is one of them.
+    float place = (centre - binning->low) * binning->bins_per_unit;
+    return place < (float)binning->count ? (place > 0.0f ? (int)place : 0) : binning->count - 1;
 }
 
 // False when all centres are the same.

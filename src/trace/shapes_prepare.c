@@ -127,10 +127,13 @@ typedef struct Work {
 
 static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds *bounds)
 {
+    if (bounds_are_empty(*bounds)) {
+        return; // nothing is left of what is cut with one another
+    }
     if (bounds_are_finite(*bounds)) {
         work->in_tree[table->bounded_count] = *bounds;
         work->bounded[table->bounded_count++] = item;
-    } else if (!bounds_are_empty(*bounds)) {
+    } else {
         table->items[table->unbounded_count++] = item;
     }
 }

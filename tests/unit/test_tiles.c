@@ -53,14 +53,18 @@ typedef struct Shadows {
     int different, dark, lit, together;
 } Shadows;
 
+// `near`: rays longer than this whose light is nearer to the middle than they are start at the light (render/far_light.c),
+// since next to it they are off by more than what may stand there.
 static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, double aside,
-                        uint64_t asked, Random *random, Shadows *found)
+                        double near, uint64_t asked, Random *random, Shadows *found)
 {
     SurfaceRays rays = {.end = light, .aside = aside};
     for (int i = 0; i < from->count; i++) {
         Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), random_direction(random));
         Vec3 offset = vec3_sub(aside > 0.0 ? end : light, tile_surface_point(from, i));
         rays.distance[i] = vec3_length(offset);
+        bool is_far = rays.distance[i] > near && vec3_max_abs(tile_surface_point(from, i)) > vec3_max_abs(light);
+        asked &= ~((uint64_t)is_far << i);
         Vec3 towards = vec3_scale(1.0 / rays.distance[i], offset);
         rays.towards[0][i] = towards.x;
         rays.towards[1][i] = towards.y;
@@ -292,6 +296,16 @@ static void test_onward_ties(uint64_t seed)
            different, met);
 }
 
+// As prepared_new has it of the least size.
+static double near_of(const Scene *scene)
+{
+    double least = (double)INFINITY;
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        least = fmin(least, scene->spheres.items[i].radius);
+    }
+    return 0x1p26 * least;
+}
+
 // A light anywhere: among the spheres, near a surface, or far away.
 static Vec3 light_place(Random *random, const TraceFamily *family, const TileSurfaces *surfaces)
 {
@@ -335,7 +349,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
                 surfaces_different += surfaces_differing(g, &tile, &hits, &surfaces, material);
                 Vec3 light = light_place(&same, family, &surfaces);
                 double aside = turn % 2 ? family->size * pow(10.0, random_between(&same, -3, 0)) : 0.0;
-                shadows_try(g, features, &surfaces, light, aside, asked, &same, &shadows);
+                shadows_try(g, features, &surfaces, light, aside, near_of(&scene), asked, &same, &shadows);
                 onward_different += onward_try(g, features, &surfaces, &same, &onward_met, &together);
                 crossed_try(g, features, &surfaces, &same, &crossed);
             }
