@@ -56,6 +56,20 @@ typedef struct BvhNode {
     uint32_t unused[BVH_WIDTH - 1]; // 0; so that a node is four lines of cache
 } BvhNode;
 
+// A node without children.
+static inline void bvh_node_clear(BvhNode *node)
+{
+    for (int child = 0; child < BVH_WIDTH; child++) {
+        for (int axis = 0; axis < 3; axis++) {
+            node->box[axis][0][child] = INFINITY;
+            node->box[axis][1][child] = -INFINITY;
+        }
+        node->child[child] = BVH_CHILD_NONE;
+    }
+    node->present = 0;
+    memset(node->unused, 0, sizeof node->unused);
+}
+
 typedef struct Bvh {
     BvhNode *nodes; // the root first, parents before children; in `pages`; NULL in a tree of nothing
     uint32_t node_count;

@@ -82,19 +82,6 @@ static BvhChild builder_node(Builder *builder, int thread)
     return supply->next++;
 }
 
-static void node_clear(BvhNode *node)
-{
-    for (int child = 0; child < BVH_WIDTH; child++) {
-        for (int axis = 0; axis < 3; axis++) {
-            node->box[axis][0][child] = INFINITY;
-            node->box[axis][1][child] = -INFINITY;
-        }
-        node->child[child] = BVH_CHILD_NONE;
-    }
-    node->present = 0;
-    memset(node->unused, 0, sizeof node->unused);
-}
-
 // Splits the child of the largest box, again and again, until there are eight or all are leaves.
 static int node_split(BvhRef *refs, const Range *range, int threads, BvhRef spare[RANGE_SPARE],
                       Range children[BVH_WIDTH])
@@ -140,7 +127,7 @@ static void builder_make(Builder *builder, int thread, int splitters, const Task
     BvhChild number = builder_node(builder, thread);
     BvhNode *node = &builder->nodes[number];
     *task->place = number;
-    node_clear(node);
+    bvh_node_clear(node);
     Range children[BVH_WIDTH];
     int count = node_split(builder->refs, &task->range, splitters, builder->spares[thread], children);
     node->present = (1u << count) - 1;

@@ -233,15 +233,7 @@ static bool beam_add(ShapeBeam *beam, const BvhNode *from, unsigned child)
         if (beam->node_count == SHAPE_BEAM_NODES) {
             return false;
         }
-        BvhNode *fresh = &beam->nodes[beam->node_count++];
-        for (unsigned i = 0; i < BVH_WIDTH; i++) {
-            for (int axis = 0; axis < 3; axis++) {
-                fresh->box[axis][0][i] = INFINITY;
-                fresh->box[axis][1][i] = -INFINITY;
-            }
-            fresh->child[i] = BVH_CHILD_NONE;
-        }
-        fresh->present = 0;
+        bvh_node_clear(&beam->nodes[beam->node_count++]);
     }
     BvhNode *node = &beam->nodes[beam->node_count - 1];
     for (int axis = 0; axis < 3; axis++) {
