@@ -248,6 +248,10 @@ static bool picture_load(rt_session *session, size_t index)
         return false;
     }
     const char *trouble = form_trouble(source, &file);
+    if (file.is_damaged) {
+        diag_report(&session->diags, DIAG_W0502, picture->span, "`%s` is damaged: parts of it are filled in",
+                    source->path);
+    }
     if (trouble) {
         diag_report(&session->diags, DIAG_E0511, picture->span, "`%s` cannot be used: %s", source->path, trouble);
         diag_suggest(&session->diags, "save the picture as PNG");

@@ -1,4 +1,4 @@
-// From a path to the reader that knows the file's format: PNG by its first bytes, everything else by the module.
+// From a path to the reader that knows the file's format, by its first bytes: PNG, JPEG, or the module for everything else.
 //
 // It owns the samples until they are handed over; it must not know what any format looks like.
 //
@@ -14,6 +14,7 @@
 
 #include "image/encode.h"
 #include "image/image_error.h"
+#include "image/jpeg_read.h"
 #include "image/module.h"
 #include "image/png_read.h"
 
@@ -58,46 +59,63 @@ static FILE *open_readable(const char *path, ImageError *error)
     return stream;
 }
 
-// How files of a format begin, and what OpenImageIO calls it.
+typedef ImageStatus (*StreamRead)(FILE *, const PictureLimit *, PictureFile *, ImageError *);
+
+// How files of a format begin, and who reads it: a function of ours, or OpenImageIO under its name for it.
 static const struct {
-    const char *format, *module_name;
+    const char *format;
     const char *beginnings[2]; // none: it cannot be told
     size_t length;
+    StreamRead read;
+    const char *module_name;
 } formats[] = {
-    {"png", "png", {"\x89PNG"}, 4},
-    {"jpeg", "jpeg", {"\xff\xd8\xff"}, 3},
-    {"tga", "targa", {NULL}, 0},
-    {"ppm", "pnm", {"P6", "P3"}, 2},
-    {"pgm", "pnm", {"P5", "P2"}, 2},
-    {"tiff", "tiff", {"II*\0", "MM\0*"}, 4},
-    {"exr", "openexr", {"\x76\x2f\x31\x01"}, 4},
-    {"hdr", "hdr", {"#?"}, 2},
+    {"png", {"\x89PNG\r\n\x1a\n"}, 8, png_read, NULL},
+    {"jpeg", {"\xff\xd8\xff"}, 3, jpeg_read, NULL},
+    {"tga", {NULL}, 0, NULL, "targa"},
+    {"ppm", {"P6", "P3"}, 2, NULL, "pnm"},
+    {"pgm", {"P5", "P2"}, 2, NULL, "pnm"},
+    {"tiff", {"II*\0", "MM\0*"}, 4, NULL, "tiff"},
+    {"exr", {"\x76\x2f\x31\x01"}, 4, NULL, "openexr"},
+    {"hdr", {"#?"}, 2, NULL, "hdr"},
 };
 
-// The place of a format in the table; NULL has none.
+enum { BEGINNING_MOST = 8 };
+
+// The place of a format in the table.
 static size_t format_place(const char *format)
 {
     size_t place = 0;
 
-    while (place < RT_COUNT_OF(formats) && (format == NULL || strcmp(formats[place].format, format) != 0)) {
+    while (place < RT_COUNT_OF(formats) && strcmp(formats[place].format, format) != 0) {
         place++;
     }
     return place;
 }
 
-// The stream stands at its beginning before and after.
+// Whether the stream begins as files of that format do; false for a format that does not tell. The stream stands at its
+// beginning before and after.
 static bool begins_as(FILE *stream, size_t place)
 {
-    char bytes[4] = {0};
+    char bytes[BEGINNING_MOST];
     size_t length = formats[place].length;
-    bool is_whole = fread(bytes, 1, length, stream) == length;
-    bool fits = formats[place].beginnings[0] == NULL;
+    bool is_whole = fread(bytes, 1, length, stream) == length, fits = false;
 
     rewind(stream);
     for (int i = 0; i < 2 && formats[place].beginnings[i] != NULL; i++) {
         fits = fits || (is_whole && memcmp(bytes, formats[place].beginnings[i], length) == 0);
     }
     return fits;
+}
+
+// The format that the stream begins as, of those that tell.
+static size_t place_found(FILE *stream)
+{
+    size_t place = 0;
+
+    while (place < RT_COUNT_OF(formats) && !begins_as(stream, place)) {
+        place++;
+    }
+    return place;
 }
 
 static ImageStatus read_by_module(const char *path, const char *name, const PictureLimit *limit, PictureFile *file,
@@ -111,10 +129,8 @@ static ImageStatus read_by_module(const char *path, const char *name, const Pict
 ImageStatus picture_file_read(const char *path, const char *format, const PictureLimit *limit, PictureFile *file,
                               ImageError *error)
 {
-    size_t place = format_place(format);
-    bool may_be_any = place == RT_COUNT_OF(formats);
     FILE *stream;
-    ImageStatus status;
+    ImageStatus status = IMAGE_NOT_A_PICTURE;
 
     *file = (PictureFile){0};
     image_error_clear(error);
@@ -122,14 +138,18 @@ ImageStatus picture_file_read(const char *path, const char *format, const Pictur
     if (stream == NULL) {
         return IMAGE_IO;
     }
-    bool is_png = png_is_there(stream);
-    bool fits = may_be_any || (begins_as(stream, place) && is_png == (strcmp(format, "png") == 0));
-    status = !fits || !is_png ? IMAGE_NOT_A_PICTURE : png_read(stream, limit, file, error);
+    size_t found = place_found(stream), asked = format == NULL ? found : format_place(format);
+    bool is_any = asked == RT_COUNT_OF(formats);
+    StreamRead read = is_any ? NULL : formats[asked].read;
+    bool fits = is_any || asked == found || (formats[asked].beginnings[0] == NULL && found == RT_COUNT_OF(formats));
+    if (fits && read != NULL) {
+        status = read(stream, limit, file, error);
+    }
     fclose(stream);
     if (!fits) {
         image_error_set(error, "it does not begin as files of type %s do", format);
-    } else if (!is_png) {
-        status = read_by_module(path, may_be_any ? NULL : formats[place].module_name, limit, file, error);
+    } else if (read == NULL) {
+        status = read_by_module(path, is_any ? NULL : formats[asked].module_name, limit, file, error);
     }
     if (status != IMAGE_OK) {
         picture_file_fini(file);

@@ -26,6 +26,7 @@ typedef struct PictureFile {
     bool has_gamma;     // the file says how its values are encoded:
     double gamma;       // light = value ^ gamma; 0: sRGB
     bool is_associated; // colours are multiplied with alpha
+    bool is_damaged;    // parts of it could not be decoded and are filled in
     bool has_key;       // a grey or colour that shall be transparent; it is not made so
 } PictureFile;
 

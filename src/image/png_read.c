@@ -13,7 +13,7 @@
 
 #include "image/png_fault.h"
 
-enum { SIGNATURE_BYTES = 8, PASSES_MAX = 7 };
+enum { PASSES_MAX = 7 };
 
 typedef struct PngReader {
     FILE *stream;
@@ -32,15 +32,6 @@ static void on_read(png_structp png, png_bytep data, size_t length)
     if (fread(data, 1, length, reader->stream) != length) {
         png_error(png, "the file ends too soon");
     }
-}
-
-bool png_is_there(FILE *stream)
-{
-    unsigned char bytes[SIGNATURE_BYTES];
-    bool is_png = fread(bytes, 1, sizeof bytes, stream) == sizeof bytes && png_sig_cmp(bytes, 0, sizeof bytes) == 0;
-
-    rewind(stream);
-    return is_png;
 }
 
 // Asks for whole bytes, 16 bits in the order of this machine. Grey of less than 8 bits is widened, places in a palette

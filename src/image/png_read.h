@@ -9,9 +9,6 @@
 #include "base/attributes.h"
 #include "image/picture_file.h"
 
-// Whether the stream begins as PNG does; it stands at its beginning before and after.
-bool png_is_there(FILE *stream) RT_MUST_CHECK;
-
 // Reads the picture of the stream, as picture_file_read does; on failure its samples may have been allocated.
 ImageStatus png_read(FILE *stream, const PictureLimit *limit, PictureFile *file, ImageError *error) RT_MUST_CHECK;
 

@@ -2,8 +2,8 @@
 """A build for aarch64, run by qemu: it compiles, and draws the same pictures as the usual build, bit for bit.
 
 Configures and builds in a folder of its own with a cross compiler; for `make check-long`. What it needs and does not find is
-told by the word that skips it; on Debian: dpkg --add-architecture arm64, then gcc-aarch64-linux-gnu, libpng-dev:arm64 and
-qemu-user. Wants RTLANG (the usual build's) and top_srcdir; AARCH64_BUILD names a folder to keep the build in. Prints TAP.
+told by the word that skips it; on Debian: dpkg --add-architecture arm64, then gcc-aarch64-linux-gnu, libjpeg-dev:arm64,
+libpng-dev:arm64 and qemu-user. Wants RTLANG (the usual build's) and top_srcdir; AARCH64_BUILD names a folder to keep the build in. Prints TAP.
 SPDX-License-Identifier: MIT
 """
 import glob
@@ -40,7 +40,10 @@ def missing():
     for program in f"{HOST}-gcc", "qemu-aarch64":
         if not shutil.which(program):
             return f"{program} is not installed"
-    return None if os.path.exists(f"{PACKAGES}/libpng.pc") else "libpng-dev:arm64 is not installed"
+    for name in "libpng", "libjpeg":
+        if not os.path.exists(f"{PACKAGES}/{name}.pc"):
+            return f"{name}-dev:arm64 is not installed"
+    return None
 
 
 def build(tap, folder):

@@ -1,0 +1,16 @@
+// Reading JPEG with libjpeg.
+//
+// SPDX-License-Identifier: MIT
+#ifndef IMAGE_JPEG_READ_H
+#define IMAGE_JPEG_READ_H
+
+#include <stdio.h>
+
+#include "base/attributes.h"
+#include "image/picture_file.h"
+
+// Reads the picture of the stream, as picture_file_read does; on failure its samples may have been allocated. Sets
+// file->is_damaged where libjpeg filled in for what it could not decode.
+ImageStatus jpeg_read(FILE *stream, const PictureLimit *limit, PictureFile *file, ImageError *error) RT_MUST_CHECK;
+
+#endif
