@@ -219,8 +219,8 @@ static void report_status(rt_session *session, const Picture *picture, const Pic
     case IMAGE_OK: break;
     case IMAGE_NO_MEMORY: diag_report(diags, DIAG_E0602, picture->span, "out of memory reading `%s`", path); break;
     case IMAGE_NO_MODULE:
-        diag_report(diags, DIAG_E0507, picture->span, "reading `%s` needs OpenImageIO, which cannot be loaded%s%s",
-                    path, colon, detail);
+        diag_report(diags, DIAG_E0507, picture->span, "reading `%s` needs %s, which cannot be loaded%s%s",
+                    path, source->format == PICTURE_JPEG ? "libjpeg" : "OpenImageIO", colon, detail);
         break;
     case IMAGE_TOO_LARGE: report_too_large(session, picture, path, file); break;
     case IMAGE_IO: diag_report(diags, DIAG_E0502, picture->span, "cannot read `%s`%s%s", path, colon, detail); break;

@@ -75,7 +75,7 @@ static ImageStatus format_find(const char *path, ImageDepth depth, char ending[s
     if (strcmp(ending, "png") == 0) {
         return depth == IMAGE_DEPTH_FLOAT ? IMAGE_BAD_DEPTH : IMAGE_OK;
     }
-    *module = module_load(error);
+    *module = module_load_oiio(error);
     if (*module == NULL) {
         return IMAGE_NO_MODULE;
     }

@@ -1,7 +1,7 @@
 // Pictures as files: encoding, atomic writing, reading, and comparing.
 //
-// PNG goes through libpng, reading JPEG through libjpeg. Everything else goes through OpenImageIO in a module that is
-// loaded on first use (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an
+// PNG goes through libpng. Everything else goes through modules that are loaded on first use: reading JPEG through libjpeg
+// (image/jpeg_module.c), the rest through OpenImageIO (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an
 // old picture is either kept or wholly replaced. The same picture and encoding give the same bytes.
 //
 // SPDX-License-Identifier: MIT

@@ -8,10 +8,6 @@
 #endif
 #include "image/module.h"
 
-#include "image/image_error.h"
-
-#ifdef WITH_OPENIMAGEIO
-
 #include <dlfcn.h>
 #include <limits.h>
 #include <stdio.h>
@@ -19,15 +15,20 @@
 
 #include "base/install.h"
 #include "base/text.h"
+#include "image/image_error.h"
 
-static const OiioModule *module_load_from(const char *folder, ImageError *error)
+typedef struct ModuleKind {
+    const char *file, *symbol;
+    unsigned version; // the first member of what the symbol names
+} ModuleKind;
+
+static const void *module_load_from(const char *folder, const ModuleKind *kind, ImageError *error)
 {
-    char path[PATH_MAX + sizeof "/" OIIO_MODULE_FILE];
-    const OiioModule *module;
+    char path[PATH_MAX];
+    const unsigned *version;
     void *handle;
 
-    snprintf(path, sizeof path, "%s/%s", folder, OIIO_MODULE_FILE);
-    if (access(path, R_OK) != 0) {
+    if (snprintf(path, sizeof path, "%s/%s", folder, kind->file) >= (int)sizeof path || access(path, R_OK) != 0) {
         return NULL;
     }
     // Not unloaded: OpenImageIO keeps threads, and a handle is counted, not copied.
@@ -36,18 +37,18 @@ static const OiioModule *module_load_from(const char *folder, ImageError *error)
         image_error_set(error, "%s", dlerror());
         return NULL;
     }
-    module = dlsym(handle, OIIO_MODULE_SYMBOL);
-    if (module == NULL || module->version != OIIO_MODULE_VERSION) {
+    version = dlsym(handle, kind->symbol);
+    if (version == NULL || *version != kind->version) {
         image_error_set(error, "%s: of another version of rtlang", path);
-        module = NULL;
+        version = NULL;
     }
     dlclose(handle);
-    return module;
+    return version;
 }
 
-const OiioModule *module_load(ImageError *error)
+static const void *module_load(const ModuleKind *kind, ImageError *error)
 {
-    const OiioModule *module = NULL;
+    const void *module = NULL;
     char folder[PATH_MAX];
     TextBuffer places;
 
@@ -55,25 +56,30 @@ const OiioModule *module_load(ImageError *error)
     image_error_clear(error);
     for (unsigned i = 0; i < INSTALL_PLACES && module == NULL; i++) {
         if (install_place(INSTALL_MODULES, i, folder)) {
-            module = module_load_from(folder, error);
+            module = module_load_from(folder, kind, error);
             text_printf(&places, "%s%s", places.length > 0 ? ", " : "", folder);
         }
     }
     if (module != NULL) {
         image_error_clear(error);
     } else if (error->detail[0] == '\0') {
-        image_error_set(error, "no %s in %s", OIIO_MODULE_FILE, text_get(&places));
+        image_error_set(error, "no %s in %s", kind->file, text_get(&places));
     }
     text_fini(&places);
     return module;
 }
 
-#else
-
-const OiioModule *module_load(ImageError *error)
+const JpegModule *module_load_jpeg(ImageError *error)
 {
-    image_error_set(error, "this rtlang was built without it");
-    return NULL;
+    return module_load(&(ModuleKind){JPEG_MODULE_FILE, JPEG_MODULE_SYMBOL, JPEG_MODULE_VERSION}, error);
 }
 
+const OiioModule *module_load_oiio(ImageError *error)
+{
+#ifdef WITH_OPENIMAGEIO
+    return module_load(&(ModuleKind){OIIO_MODULE_FILE, OIIO_MODULE_SYMBOL, OIIO_MODULE_VERSION}, error);
+#else
+    image_error_set(error, "this rtlang was built without it");
+    return NULL;
 #endif
+}

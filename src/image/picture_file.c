@@ -14,7 +14,6 @@
 
 #include "image/encode.h"
 #include "image/image_error.h"
-#include "image/jpeg_read.h"
 #include "image/module.h"
 #include "image/png_read.h"
 
@@ -59,6 +58,13 @@ static FILE *open_readable(const char *path, ImageError *error)
     return stream;
 }
 
+static ImageStatus read_jpeg(FILE *stream, const PictureLimit *limit, PictureFile *file, ImageError *error)
+{
+    const JpegModule *module = module_load_jpeg(error);
+
+    return module == NULL ? IMAGE_NO_MODULE : module->read(stream, limit, picture_file_allocate, file, error);
+}
+
 typedef ImageStatus (*StreamRead)(FILE *, const PictureLimit *, PictureFile *, ImageError *);
 
 // How files of a format begin, and who reads it: a function of ours, or OpenImageIO under its name for it.
@@ -70,7 +76,7 @@ static const struct {
     const char *module_name;
 } formats[] = {
     {"png", {"\x89PNG\r\n\x1a\n"}, 8, png_read, NULL},
-    {"jpeg", {"\xff\xd8\xff"}, 3, jpeg_read, NULL},
+    {"jpeg", {"\xff\xd8\xff"}, 3, read_jpeg, NULL},
     {"tga", {NULL}, 0, NULL, "targa"},
     {"ppm", {"P6", "P3"}, 2, NULL, "pnm"},
     {"pgm", {"P5", "P2"}, 2, NULL, "pnm"},
@@ -121,7 +127,7 @@ static size_t place_found(FILE *stream)
 static ImageStatus read_by_module(const char *path, const char *name, const PictureLimit *limit, PictureFile *file,
                                   ImageError *error)
 {
-    const OiioModule *module = module_load(error);
+    const OiioModule *module = module_load_oiio(error);
 
     return module == NULL ? IMAGE_NO_MODULE : module->read(path, name, limit, picture_file_allocate, file, error);
 }
