@@ -11,6 +11,7 @@ PY_LOG_COMPILER = $(PYTHON3)
 AM_TESTS_ENVIRONMENT = \
   RTLANG='$(abs_top_builddir)/rtlang$(EXEEXT)'; export RTLANG; \
   RTCHECK='$(abs_top_builddir)/rtcheck$(EXEEXT)'; export RTCHECK; \
+  RUN_LANG='$(abs_top_builddir)/tests/lang/run_lang'; export RUN_LANG; \
   PRINT_SCHEMA='$(abs_top_builddir)/tests/unit/print_schema'; export PRINT_SCHEMA; \
   PRINT_DIAGNOSTICS='$(abs_top_builddir)/tests/unit/print_diagnostics'; export PRINT_DIAGNOSTICS; \
   COUNT_SPHERE_TESTS='$(abs_top_builddir)/tests/unit/count_sphere_tests'; export COUNT_SPHERE_TESTS; \
@@ -203,6 +204,7 @@ test_scripts = \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
   %D%/system/check_growth.py \
+  %D%/system/check_grid.py \
   %D%/system/check_color.py \
   %D%/system/check_stack.py \
   %D%/system/check_literals.py \

@@ -434,11 +434,11 @@ static bool place_look(Eval *ev, const LightBlueprint *light, const Placement *o
     }
     Placement own = {
         .outer = transform_compose(light->look_transform, outer->outer),
-        .texture = outer->texture,
-        .texture_outer = outer->texture_outer,
+        .texture = light->part.texture ? light->part.texture : outer->texture,
+        .texture_outer = light->part.texture ? outer->outer : outer->texture_outer,
         .interior = outer->interior,
         .body = outer->body,
-        .hidden = outer->hidden | HIDDEN_SHADOW,
+        .hidden = outer->hidden | (outer->is_hidden_fixed ? 0 : hidden_of(&light->part)) | HIDDEN_SHADOW,
     };
     return place(ev, light->look->kind, light->look->object, &own);
 }

@@ -203,9 +203,11 @@ static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena 
 
 const TextureBlueprint **texture_place(Block *block)
 {
+    // The object of a `looks_like` may be missing: that is reported, and what follows it is read nevertheless.
+    bool is_object = schema_kind(block->is)->is_object || block->kind == KIND_LOOKS_LIKE;
     return block->kind == KIND_MATERIAL ? &block->record->material.texture
-           : schema_kind(block->is)->is_object && block->is != KIND_LIGHT_SOURCE ? &block->record->part.texture
-                                                                                  : NULL;
+           : is_object                  ? &block->record->part.texture
+                                        : NULL;
 }
 
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item)

@@ -36,9 +36,9 @@ bool block_transform(Block *block, const Transform *transform)
 {
     if (block->is == KIND_LIGHT_SOURCE) {
         light_transform(&block->record->light, transform);
-        return true;
+    } else {
+        block->record->transform = transform_compose(block->record->transform, *transform);
     }
-    block->record->transform = transform_compose(block->record->transform, *transform);
     if (block->is == KIND_FOG) {
         block->record->fog.up = transform_direction(transform, block->record->fog.up);
     }

@@ -126,7 +126,7 @@ typedef struct ObjectPart {
 typedef struct UnionMember UnionMember;
 
 typedef struct LightBlueprint {
-    ObjectPart part; // of a declared light that is used; a light has no material
+    ObjectPart part; // of a declared light that is used, or an object around it; its texture is for `look`
     Vec3 position, point_at;
     Rgbft colour;
     double radius, falloff, tightness, fade_distance, fade_power;
