@@ -250,10 +250,11 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     }
     SceneScale scale = scene_scale(scene, options->threads);
     int exponent = scale.exponent;
+    p->abandon = calloc(1, sizeof *p->abandon);
     p->geometry = geometry_new_with(scene, exponent, options);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
-    if (!p->geometry || !p->lights || !p->finishes || !texture_table_init(&p->textures, scene, exponent)) {
+    if (!p->abandon || !p->geometry || !p->lights || !p->finishes || !texture_table_init(&p->textures, scene, exponent)) {
         prepared_free(p);
         return NULL;
     }
@@ -285,6 +286,7 @@ void prepared_free(Prepared *prepared)
         return;
     }
     geometry_free(prepared->geometry);
+    free(prepared->abandon);
     free(prepared->lights);
     free(prepared->finishes);
     texture_table_fini(&prepared->textures);

@@ -4,6 +4,7 @@
 #ifndef RENDER_PREPARED_H
 #define RENDER_PREPARED_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -63,7 +64,14 @@ typedef struct PreparedFinish {
 // harm: it misses the light by no more than 2^-24 sizes.
 #define SHADOW_NEAR 0x1p26
 
+// Whether rays may be left untraced, since nothing of the picture will be kept.
+typedef struct Abandon {
+    const atomic_bool *cancel; // RenderOptions.cancel
+    atomic_bool keeps;         // what is done is a picture already: a tile in work is finished
+} Abandon;
+
 struct Prepared {
+    Abandon *abandon; // its own; a copy of this record shares it
     Geometry *geometry;
     PreparedCamera camera;
     Rgb background; // with has_alpha as mirrors see it
@@ -88,6 +96,13 @@ struct Prepared {
     const struct TileLights *tile_lights; // of the geometry's instruction set
     const struct SobolKernel *points;     // likewise
 };
+
+// Asked for each ray that goes on: one camera ray's tree may take longer than anybody waits.
+static inline bool prepared_is_abandoned(const Prepared *p)
+{
+    return p->abandon->cancel && atomic_load_explicit(p->abandon->cancel, memory_order_relaxed) &&
+           !atomic_load_explicit(&p->abandon->keeps, memory_order_relaxed);
+}
 
 // What a ray that starts at a point of prepared space is inside of, the outermost first.
 void prepared_inside(const Prepared *prepared, Vec3 point, MediumList *list);

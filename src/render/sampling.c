@@ -124,7 +124,7 @@ static bool trace_round(Sampling *s)
 {
     double start = clock_seconds();
     int more = s->round.is_corners ? 1 : 0; // there are more corners than pixels
-    TileWork work = {s, s->film->width + more, s->film->height + more, trace_tile,
+    TileWork work = {s, s->prepared, s->film->width + more, s->film->height + more, trace_tile,
                      s->options->progress ? forward_progress : NULL};
     s->result = tiles_run(&work, s->options, s->statistics);
     bool is_whole = s->result == RENDER_OK;
@@ -139,6 +139,11 @@ static bool trace_round(Sampling *s)
 static bool run_round(Sampling *s)
 {
     bool is_whole = trace_round(s);
+    if (is_whole) {
+        atomic_store(&s->prepared->abandon->keeps, true);
+    } else if (!atomic_load(&s->prepared->abandon->keeps)) {
+        return false; // rays were left out of what is there
+    }
     if (!s->wanted->has_no_estimate) {
         estimate_update(&s->estimate, s->film, &s->round, is_whole, s->error);
         find_bias(s);
@@ -157,7 +162,7 @@ static bool run_audit(Sampling *s)
     if (!is_wanted || audit_draw(&s->audit, &s->estimate, &s->round) == 0) {
         return true;
     }
-    TileWork work = {s, s->film->width, s->film->height, trace_tile, NULL};
+    TileWork work = {s, s->prepared, s->film->width, s->film->height, trace_tile, NULL};
     s->is_audit = true;
     bool is_whole = tiles_run(&work, s->options, &s->audited) == RENDER_OK;
     s->is_audit = false;
@@ -290,6 +295,7 @@ static bool run_pilot(Sampling *s)
     }
     estimate_now(&s->estimate, s->film, round, s->error);
     find_bias(s);
+    atomic_store(&s->prepared->abandon->keeps, true);
     return true;
 }
 

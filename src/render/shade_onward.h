@@ -96,7 +96,7 @@ RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadePoint *at)
 // Whether a mirrored ray of such a weight goes on: it is neither too deep nor worth too little.
 RT_ALWAYS_INLINE bool shade_is_followed(const Prepared *p, int level, double weight)
 {
-    return level < p->max_trace_level && !(weight < p->adc_bailout);
+    return level < p->max_trace_level && !(weight < p->adc_bailout) && !prepared_is_abandoned(p);
 }
 
 // The mirrored ray, if it is followed. The angle does not enter its weight.
@@ -136,6 +136,7 @@ RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ShadeOnward *onward
         *weight *= rgb_max(left);
     }
     return !(level >= p->max_trace_level || *weight < p->adc_bailout || passed >= p->crossings_max ||
+             prepared_is_abandoned(p) ||
              (onward->through_weight == 0.0 && fabs(rgb_luminance(*through)) < p->adc_bailout));
 }
 

@@ -74,11 +74,13 @@ RenderResult render_film(const Prepared *prepared, const RenderOptions *options,
 {
     *statistics = (RenderStatistics){0};
     *error = (SamplingError){0};
+    prepared->abandon->cancel = options->cancel;
+    atomic_store(&prepared->abandon->keeps, false);
     if (options->sampling) {
         return sampling_run(prepared, options, film, statistics, error);
     }
     Single single = {.prepared = prepared, .options = options, .film = film};
-    TileWork work = {&single, film->width, film->height, trace_tile, options->progress ? forward_progress : NULL};
+    TileWork work = {&single, prepared, film->width, film->height, trace_tile, options->progress ? forward_progress : NULL};
     RenderResult result = tiles_run(&work, options, statistics);
     return atomic_load(&single.has_no_memory) ? RENDER_NO_MEMORY : result;
 }

@@ -263,7 +263,8 @@ static bool real_reflected(const RealScene *s, const RealJunction *j, const Real
         .weight = way->weight * most,
         .level = way->level + 1,
     };
-    if (!j->finish->reflects || way->level >= s->p->max_trace_level || next.weight < (Real)s->p->adc_bailout) {
+    if (!j->finish->reflects || way->level >= s->p->max_trace_level || next.weight < (Real)s->p->adc_bailout ||
+        prepared_is_abandoned(s->p)) {
         return false;
     }
     *mirrored = (RealLevel){
@@ -305,7 +306,8 @@ static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way,
         weight *= real_rgb_max(left);
     }
     Real grey = (Real)0.297 * through.red + (Real)0.589 * through.green + (Real)0.114 * through.blue;
-    if (weight < (Real)s->p->adc_bailout || grey < (Real)s->p->adc_bailout || way->passed >= s->p->crossings_max) {
+    if (weight < (Real)s->p->adc_bailout || grey < (Real)s->p->adc_bailout || way->passed >= s->p->crossings_max ||
+        prepared_is_abandoned(s->p)) {
         return false;
     }
     way->weight = weight;

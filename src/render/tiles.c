@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/parallel.h"
+#include "render/prepared.h"
 #include "render/scratch.h"
 
 typedef struct Run {
@@ -74,6 +75,9 @@ static void trace_tiles(void *client, int thread)
     }
     for (int index; (index = atomic_fetch_add(&run->next, 1)) < run->tiles && !is_cancelled(run->options);) {
         run->work->trace(run->work->client, tile_at(run, index), scratch, &sum);
+        if (prepared_is_abandoned(run->work->prepared)) {
+            break; // rays of the tile were left out
+        }
         int done = atomic_fetch_add(&run->done, 1) + 1;
         if (thread == 0 && run->work->progress) {
             run->work->progress(run->work->client, (double)done / run->tiles);

@@ -12,6 +12,7 @@ enum { TILE_SIZE = 32 };
 // What is done. What it does for a tile depends on nothing that is done for another.
 typedef struct TileWork {
     void *client;
+    const Prepared *prepared;
     int width, height; // of the picture
     // In the thread's own scratch; adds to what was counted.
     void (*trace)(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted);

@@ -23,6 +23,14 @@ light_source { <5, 5, -10>, 1 }
 SLOW_OPTIONS = ["-t", "1", "-W", "8000", "-H", "6000", "-o", "old.png", "slow.scn"]
 QUICK = b"camera { location -5*z look_at 0 }\nlight_source { <5, 5, -5>, 1 }\nsphere { 0, 1 pigment { rgb 1 } }\n"
 OLD_PICTURE = b"an old picture"
+ENDLESS_RAY = b"""global_settings { max_trace_level 40 adc_bailout 0 }
+camera { location -9*z look_at 0 angle 20 }
+light_source { -10*z, rgb 1 }
+#for (I, 0, 29)
+    sphere { <mod(I, 5) - 2, mod(int(I/5), 3) - 1, int(I/15)>/2, 0.5
+        pigment { rgbt 0.9 } finish { reflection 0.9 } interior { ior 1.5 } }
+#end
+"""
 BAR = rb"\r\[#* *\] +\d+ %  \d+ s left"
 PEAK_BYTES = 400 * 1000 * 1000
 GENERATOR = os.path.join(os.environ["top_srcdir"], "bench", "generate.py")
@@ -122,6 +130,18 @@ def tests(tap, program):
                 tap.equal((process.returncode, message), (code, b"rtlang: interrupted; nothing was written\n"),
                           "%s while it works on %s" % (number.name, " ".join(arguments)))
 
+    def test_endless_ray():
+        """Rays whose trees would take years: 2^40 of them."""
+        write("endless_ray.scn", ENDLESS_RAY)
+        for options in [], ["--samples=4"], ["--adaptive", "--samples=4"], ["--precision=quad"], ["--alpha"], ["--antialias=2"]:
+            process = subprocess.Popen([program, "-W4", "-H4", "-o", "old.png", *options, "endless_ray.scn"],
+                                       stderr=subprocess.PIPE)
+            time.sleep(0.3)
+            process.send_signal(signal.SIGTERM)
+            message = process.communicate(timeout=60)[1]
+            tap.equal((process.returncode, message), (143, b"rtlang: interrupted; nothing was written\n"),
+                      "interrupted within one ray's tree " + " ".join(options))
+
     def test_progress():
         start = time.monotonic()
         text = terminal_output(lambda slave: start_slow(stderr=slave), 60, BAR)
@@ -157,5 +177,5 @@ def tests(tap, program):
         short = subprocess.run([*command, f"--max-memory={needs - 1}"], stderr=subprocess.PIPE, check=False)
         tap.ok(short.returncode == 4 and b"E0607" in short.stderr, "and less does not", short.stderr)
 
-    return [test_kill, test_kill_at_any_time, test_interrupt, test_interrupt_in_json, test_signals, test_progress,
-            test_million_spheres, test_budget]
+    return [test_kill, test_kill_at_any_time, test_interrupt, test_interrupt_in_json, test_signals, test_endless_ray,
+            test_progress, test_million_spheres, test_budget]
