@@ -25,6 +25,8 @@ typedef struct Passage {
     const Assembly *assembly;
     const Ray *ray;
     double start_error;    // how far along the ray its start may be off its surface
+    double enter;          // where the ray comes to the assembly's box
+    double nearest_share;  // no crossing is nearer than this share of its t
     uint32_t *inside;      // for each node
     bool *is_inside;       // for each solid, PART_INVERSE minded
     Crossing *crossings;   // a heap by t, then by number
@@ -100,6 +102,8 @@ static uint32_t heap_pop(Passage *p)
 
 static void passage_add(Passage *p, uint32_t index, double t, double error, uint8_t side, bool leaves, bool is_flat)
 {
+    double share = t / (t + error);
+    p->nearest_share = share < p->nearest_share ? share : p->nearest_share;
     p->crossings[p->count++] = (Crossing){t, error, index, side, leaves, is_flat, false};
 }
 
@@ -181,7 +185,7 @@ static bool crossing_has_surface(const Passage *p, const Crossing *c)
 }
 
 // Lets the crossings from `begin` to `end` happen, and offers the first of them that is seen. True when one was.
-static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Nearest *nearest)
+static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Foremost *first)
 {
     for (uint32_t i = begin; i < end; i++) {
         Crossing *c = &p->crossings[i];
@@ -200,14 +204,14 @@ static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Nearest *nea
         }
     }
     if (seen) {
-        solid_offer(p->table, p->assembly->first_solid + seen->solid, p->ray, seen->t, seen->error, seen->side,
-                    seen->leaves, nearest);
+        solid_offer(p->table, p->assembly->first_solid + seen->solid, p->ray, seen->t,
+                    crossing_span(seen->t, seen->error, p->enter), seen->side, seen->leaves, first);
     }
     return seen;
 }
 
 void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
-                      double start_error, Nearest *nearest)
+                      double start_error, double enter, Foremost *first)
 {
     if (assembly->hidden & start.use) {
         return;
@@ -215,7 +219,7 @@ void assembly_closest(const ShapeTable *table, const Assembly *assembly, const R
     uint32_t inside[assembly->node_count];
     bool is_inside[assembly->solid_count];
     Crossing crossings[2 * (size_t)assembly->solid_count];
-    Passage p = {table, assembly, ray, start_error, inside, is_inside, crossings, 0};
+    Passage p = {table, assembly, ray, start_error, enter, 1.0, inside, is_inside, crossings, 0};
     bool is_own =
         starts_on_part(start) && part_index(start.shape) - assembly->first_solid < assembly->solid_count;
     for (uint32_t i = 0; i < assembly->node_count; i++) {
@@ -234,14 +238,15 @@ void assembly_closest(const ShapeTable *table, const Assembly *assembly, const R
     for (uint32_t i = p.count / 2; i-- > 0;) {
         heap_sift(&p, i);
     }
-    while (p.count > 0 && p.crossings[0].t - p.crossings[0].error <= nearest->hit.t + nearest->error) {
+    // Rounding makes t times the share greater by 3 u.
+    while (p.count > 0 && !(p.crossings[0].t * p.nearest_share * (1.0 - 8.0 * 0x1p-53) > first->limit)) {
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         double until = crossings[begin].t + crossings[begin].error;
         while (p.count > 0 && crossings[0].t - crossings[0].error <= until) {
             begin = heap_pop(&p);
         }
-        if (passage_cross(&p, begin, end, nearest)) {
+        if (passage_cross(&p, begin, end, first)) {
             return;
         }
     }

@@ -130,32 +130,50 @@ RT_ALWAYS_INLINE double query_plane_error(const Geometry *g, unsigned features, 
 // Whether a plane that is crossed at t is met on a way to t_max: it is not when the end lies on it but for rounding.
 RT_ALWAYS_INLINE bool query_plane_before(const PlaneShape *shape, const SphereRay *ray, double t, double t_max)
 {
-    return t < t_max && !(t_max < (double)INFINITY &&
-                          roots_are_one(t, plane_crossing_error(shape, (Ray){ray->origin, ray->direction}, t), t_max,
-                                        way_end_error(t_max)));
+    return t_max < (double)INFINITY
+               ? t + plane_crossing_error(shape, (Ray){ray->origin, ray->direction}, t) <= way_end(t_max)
+               : t < t_max;
 }
 
-// Brings the nearest of the spheres up to date with all other shapes; of a beam that the ray is in, or NULL.
-RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const ShapeBeam *beam,
-                                           const SphereRay *ray, RayStart start, Nearest *nearest)
+RT_ALWAYS_INLINE void query_planes_offer(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start,
+                                         double start_error, double t_max, Foremost *first)
 {
-    double start_error = query_start_error(g, features, ray, start);
-    if (features & TRACE_PLANES) {
-        bool is_beside = query_starts_beside_plane(g, features, start);
-        for (uint32_t i = 0; i < g->plane_count; i++) {
-            bool inside = vec3_dot(g->planes[i].shape.normal, ray->direction) > 0.0;
-            double t = query_plane_root(g, i, ray, start);
-            double error = query_plane_error(g, features, i, ray, t);
-            bool is_at_end = nearest->hit.shape == SHAPE_NONE && t > 0.0 &&
-                             !query_plane_before(&g->planes[i].shape, ray, t, nearest->hit.t);
-            if (!is_at_end && (!is_beside || t > error + start_error)) {
-                nearest_offer_within(nearest, t, error, shape_id(SHAPE_PLANE, i), inside, g->planes[i].info.order);
-            }
+    bool is_beside = query_starts_beside_plane(g, features, start);
+    for (uint32_t i = 0; i < g->plane_count; i++) {
+        const PlaneShape *shape = &g->planes[i].shape;
+        bool inside = vec3_dot(shape->normal, ray->direction) > 0.0;
+        double t = query_plane_root(g, i, ray, start);
+        double error = query_plane_error(g, features, i, ray, t);
+        if (t > (is_beside ? error + start_error : 0.0) && query_plane_before(shape, ray, t, t_max)) {
+            foremost_offer(first, t, root_span(t, error), shape_id(SHAPE_PLANE, i), inside, g->planes[i].info.order);
         }
     }
-    if (features & TRACE_PARTS) {
-        g->kernels->shapes_closest(&g->shapes, beam, &(Ray){ray->origin, ray->direction}, start, start_error, nearest);
+}
+
+// Brings the nearest of the spheres, which has an order if it is one, up to date with all other shapes; of a beam that
+// the ray is in, or NULL.
+RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const ShapeBeam *beam,
+                                           const SphereRay *ray, RayStart start, double t_max, uint32_t order, Hit *hit)
+{
+    if (!(features & (TRACE_PLANES | TRACE_PARTS))) {
+        return;
     }
+    double start_error = query_start_error(g, features, ray, start);
+    Foremost first = foremost_start(hit, order, t_max);
+    for (;;) {
+        if (features & TRACE_PLANES) {
+            query_planes_offer(g, features, ray, start, start_error, t_max, &first);
+        }
+        if (features & TRACE_PARTS) {
+            g->kernels->shapes_closest(&g->shapes, beam, &(Ray){ray->origin, ray->direction}, start, start_error,
+                                       &first);
+        }
+        if (RT_LIKELY(!first.is_torn)) {
+            break;
+        }
+        first = foremost_restart(hit, order, t_max, first.limit);
+    }
+    *hit = first.hit;
 }
 
 // The nearest hit with 0 < t < t_max, which may be INFINITY. Of equal distances the shape declared first.
@@ -166,11 +184,11 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
-    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false, way_end_error(t_max)};
+    Nearest nearest = {{t_max, SHAPE_NONE, false}, 0, false};
     if (features & TRACE_ANY_SPHERES) {
         query_spheres_closest(g, features, &sphere_ray, start, &nearest);
     }
-    query_others_closest(g, features, NULL, &sphere_ray, start, &nearest);
+    query_others_closest(g, features, NULL, &sphere_ray, start, t_max, nearest.order, &nearest.hit);
     *hit = nearest.hit;
     return nearest.hit.shape != SHAPE_NONE;
 }
@@ -187,10 +205,10 @@ RT_ALWAYS_INLINE void query_tile_ray_others(const Geometry *g, unsigned features
 {
     bool is_met = hits->met >> i & 1;
     uint32_t order = is_met ? g->spheres.info[shape_index(hits->shape[i])].order : 0;
-    Nearest nearest = {{hits->t[i], hits->shape[i], hits->inside >> i & 1}, order, false, 0.0};
+    Hit hit = {hits->t[i], hits->shape[i], hits->inside >> i & 1};
     SphereRay ray = sphere_tile_ray(tile, i);
-    query_others_closest(g, features, beam, &ray, RAY_START_CAMERA, &nearest);
-    tile_hit_set(hits, i, &nearest.hit);
+    query_others_closest(g, features, beam, &ray, RAY_START_CAMERA, (double)INFINITY, order, &hit);
+    tile_hit_set(hits, i, &hit);
 }
 
 // Brings the hits of a tile up to date with parts, and planes if there are any. Not inline: a beam is large.

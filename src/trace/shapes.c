@@ -3,11 +3,11 @@
 // SPDX-License-Identifier: MIT
 #include "trace/shapes.h"
 
-void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, double error, uint8_t side,
-                 bool leaves, Nearest *nearest)
+void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, RootSpan span, uint8_t side,
+                 bool leaves, Foremost *first)
 {
     const Solid *solid = &table->solids[index];
-    if (!(t > 0.0 && t - error <= nearest->hit.t + nearest->error)) {
+    if (!(t > 0.0 && t < (double)INFINITY && foremost_admits(first, span))) {
         return;
     }
     bool inside = leaves != solid->flips;
@@ -16,7 +16,7 @@ void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double
         solid_surface(solid, ray, t, side, &point, &normal);
         inside = vec3_dot(normal, ray->direction) > 0.0;
     }
-    nearest_offer_within(nearest, t, error, part_shape(index, side), inside, solid->order);
+    foremost_offer(first, t, span, part_shape(index, side), inside, solid->order);
 }
 
 double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart start)

@@ -53,6 +53,11 @@ typedef struct Assembly {
 // What stands for itself: a solid, or an assembly when the number is not below solid_count.
 typedef uint32_t ShapeItem;
 
+// The box of an item as its leaf has it: in the tree's coordinates, rounded outward.
+typedef struct ItemBox {
+    float low[3], high[3];
+} ItemBox;
+
 struct ShapeTable {
     Solid *solids;
     uint32_t solid_count;
@@ -60,6 +65,7 @@ struct ShapeTable {
     Assembly *assemblies;
     uint32_t node_count, assembly_count;
     ShapeItem *items; // unbounded ones first, then those of the tree in its order
+    ItemBox *boxes;   // of those of the tree, in its order
     uint32_t unbounded_count, bounded_count;
     Bvh tree; // of the bounded ones; its leaves are runs of their items
 };
@@ -95,12 +101,19 @@ double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart star
 // Where the ray hit. The normal points out of what the solid is in.
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);
 
-// composite.c: the nearest crossing of an assembly that is seen.
+// composite.c: offers the nearest crossing of an assembly that is seen. None lies before `enter`, but for rounding.
 void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
-                      double start_error, Nearest *nearest);
+                      double start_error, double enter, Foremost *first);
 
-// Offers a crossing of a side of a solid, into it or out of it, as the nearest hit; t is off by no more than `error`.
-void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, double error, uint8_t side,
-                 bool leaves, Nearest *nearest);
+// Where a crossing may be that is off by no more than `error`, and not before `enter`, but for rounding.
+RT_ALWAYS_INLINE RootSpan crossing_span(double t, double error, double enter)
+{
+    RootSpan span = root_span(t, error);
+    return (RootSpan){span.from < enter ? enter : span.from, span.to < enter ? enter : span.to};
+}
+
+// Offers a crossing of a side of a solid, into it or out of it.
+void solid_offer(const ShapeTable *table, uint32_t index, const Ray *ray, double t, RootSpan span, uint8_t side,
+                 bool leaves, Foremost *first);
 
 #endif

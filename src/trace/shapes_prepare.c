@@ -142,7 +142,9 @@ static bool tree_init(ShapeTable *table, const Work *work, int threads)
 {
     Bounds all = BOUNDS_NONE;
     BvhRef *refs = malloc(table->bounded_count * sizeof *refs);
-    if (!refs) {
+    table->boxes = malloc(table->bounded_count * sizeof *table->boxes);
+    if (!refs || !table->boxes) {
+        free(refs);
         return false;
     }
     for (uint32_t i = 0; i < table->bounded_count; i++) {
@@ -155,6 +157,8 @@ static bool tree_init(ShapeTable *table, const Work *work, int threads)
     bool done = bvh_build(&table->tree, refs, table->bounded_count, BVH_LEAF_ONE, threads);
     for (uint32_t i = 0; done && i < table->bounded_count; i++) {
         table->items[table->unbounded_count + i] = work->bounded[bvh_ref_index(&refs[i])];
+        memcpy(table->boxes[i].low, refs[i].low, sizeof table->boxes[i].low);
+        memcpy(table->boxes[i].high, refs[i].high, sizeof table->boxes[i].high);
     }
     free(refs);
     return done;
@@ -223,6 +227,7 @@ void shapes_fini(ShapeTable *table)
     free(table->nodes);
     free(table->assemblies);
     free(table->items);
+    free(table->boxes);
     bvh_fini(&table->tree);
     *table = (ShapeTable){0};
 }
@@ -232,5 +237,6 @@ size_t shapes_bytes(const ShapeTable *table)
     return table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
            table->assembly_count * sizeof *table->assemblies +
            (table->unbounded_count + table->bounded_count) * sizeof *table->items +
+           table->bounded_count * sizeof *table->boxes +
            table->tree.node_count * sizeof *table->tree.nodes;
 }

@@ -9,6 +9,13 @@
 #include "trace/cone_test.h"
 #include "trace/shapes.h"
 
+// The ray's line in the coordinates of the tree, as the boxes of items want it.
+typedef struct BoxLine {
+    bool is_set;
+    double low_from[3], high_from[3]; // planes are met at (plane - from) * inverse
+    double inverse[3], unscale;
+} BoxLine;
+
 // What a ray asks of all shapes.
 typedef struct ShapeQuery {
     const ShapeTable *table;
@@ -17,8 +24,60 @@ typedef struct ShapeQuery {
     double start_error; // less than 0: not asked for yet
     const Solid *left; // that it starts on; NULL for none
     bool is_any;       // whatever is met before the end of the way will do
-    const Solid *bounded; // the ball that is nearest, where its hit's error is only bounded; NULL: no such
+    const Solid *bounded; // the ball that is the first, where its hit's span is only bounded; NULL: no such
+    double bounded_enter; // where the ray enters its box
+    const ItemBox *box;   // of the item that is asked; NULL: it has none
+    BoxLine line;
 } ShapeQuery;
+
+// ---- the boxes of items
+
+static void line_set(ShapeQuery *q)
+{
+    const Bvh *tree = &q->table->tree;
+    BoxLine *line = &q->line;
+    Vec3 o = vec3_scale(tree->scale, vec3_sub(q->ray->origin, tree->centre));
+    const double origin[3] = {o.x, o.y, o.z}, d[3] = {q->ray->direction.x, q->ray->direction.y, q->ray->direction.z};
+    double reach = fabs(o.x) + fabs(o.y) + fabs(o.z) + (tree->half.x + tree->half.y + tree->half.z);
+    double pad = 12.0 * (DBL_EPSILON / 2) * reach;
+    for (int axis = 0; axis < 3; axis++) {
+        line->low_from[axis] = origin[axis] + pad;
+        line->high_from[axis] = origin[axis] - pad;
+        line->inverse[axis] = 1.0 / copysign(fmax(fabs(d[axis]), 0x1p-60), d[axis]);
+    }
+    line->unscale = 1.0 / tree->scale;
+    line->is_set = true;
+}
+
+// Whether the ray meets the item's box, and where it enters it. Which leaves a walk comes to depends on how each
+// instruction set rounds floats, and on what was met before; so that no answer does, an item counts only if this says
+// so, and not before `enter`. In doubles the planes, moved outward by 12 u D, may be off by 5 u D: there is always more
+// of the box than rounding of the ray's origin takes away, and always less than of the walk's, which moves them by
+// 32 u D and more (see bvh_walk_start). So each item that counts with a root up to some limit is in a leaf that is
+// visited with that limit.
+static bool item_enters(ShapeQuery *q, double *enter)
+{
+    *enter = 0.0;
+    if (!q->box) {
+        return true;
+    }
+    if (!q->line.is_set) {
+        line_set(q);
+    }
+    const BoxLine *line = &q->line;
+    double in = 0.0, out = (double)INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double low = (q->box->low[axis] - line->low_from[axis]) * line->inverse[axis];
+        double high = (q->box->high[axis] - line->high_from[axis]) * line->inverse[axis];
+        double near = low < high ? low : high, far = low < high ? high : low;
+        in = in < near ? near : in;
+        out = far < out ? far : out;
+    }
+    *enter = in * line->unscale;
+    return in <= out;
+}
+
+// ---- errors
 
 // Most rays meet nothing that it matters for.
 static double start_error(ShapeQuery *q)
@@ -41,7 +100,19 @@ static bool is_passed(double t, double error, double passed)
     return passed >= 0.0 && !(t > error + passed);
 }
 
-static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Nearest *nearest)
+// Offers a root of the item that is asked.
+static void root_offer(ShapeQuery *q, uint32_t index, double t, double error, uint8_t side, bool leaves,
+                       Foremost *first)
+{
+    double enter;
+    if (item_enters(q, &enter)) {
+        solid_offer(q->table, index, q->ray, t, crossing_span(t, error, enter), side, leaves, first);
+    }
+}
+
+// ---- one solid
+
+static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     double t;
@@ -50,27 +121,30 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Neare
     }
     double error = solid_crossing_error(solid, q->ray, object, t, 0);
     if (!is_passed(t, error, passed_error(q, solid))) {
-        solid_offer(q->table, index, q->ray, t, error, 0, false, nearest);
+        root_offer(q, index, t, error, 0, false, first);
     }
 }
 
-// The error of a nearest hit of which only a bound is known.
-static void settle_error(ShapeQuery *q, Nearest *nearest)
+// The span of a first hit of which only a bound is known.
+static void settle_span(ShapeQuery *q, Foremost *first)
 {
     if (q->bounded) {
         Ray object = solid_ray(q->bounded, q->ray);
-        nearest->error = solid_ball_error(q->bounded, q->ray, &object, nearest->hit.t);
+        double error = solid_ball_error(q->bounded, q->ray, &object, first->hit.t);
+        RootSpan span = crossing_span(first->hit.t, error, q->bounded_enter);
+        first->from = span.from;
+        first->limit = span.to;
         q->bounded = NULL;
     }
 }
 
 // A root of a ball, which it may be that the ray has passed: then the other root.
 static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const SphereRay *ray, double t, bool leaves,
-                       double passed, Nearest *nearest)
+                       double passed, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     const Ball unit = UNIT_BALL;
-    settle_error(q, nearest);
+    settle_span(q, first);
     double error = solid_ball_error(solid, q->ray, object, t);
     if (is_passed(t, error, passed)) {
         t = leaves ? 0.0 : sphere_root_inward(ray, &unit);
@@ -80,20 +154,40 @@ static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const S
             return;
         }
     }
-    solid_offer(q->table, index, q->ray, t, error, 0, leaves, nearest);
+    root_offer(q, index, t, error, 0, leaves, first);
+}
+
+// Takes a ball, whose root is in t ± bound, as the first where that is certain; its span is worked out when somebody
+// asks. True when it was.
+static bool ball_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
+                          Foremost *first)
+{
+    const Solid *solid = &q->table->solids[index];
+    double to = t + bound < enter ? enter : t + bound;
+    if (!(to < first->from && to < first->beaten && to < first->limit)) {
+        return false;
+    }
+    first->hit = (Hit){t, part_shape(index, 0), leaves != solid->flips};
+    first->order = solid->order;
+    first->is_torn = false;
+    first->from = t - bound < enter ? enter : t - bound;
+    first->limit = to;
+    q->bounded = solid;
+    q->bounded_enter = enter;
+    return true;
 }
 
 // The rules for spheres (trace/sphere.h) in the ball's own space: the class is certain and the root right to an ulp, for
 // the ray as it is rounded there. No error is greater than the chord is long, and a root of sphere_test has 13 bits:
 // nearly always that is enough.
-static void ball_closest(ShapeQuery *q, uint32_t index, Nearest *nearest)
+static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     const Ball unit = UNIT_BALL;
     Ray object = solid_ray(solid, q->ray);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     bool leaves;
-    double t;
+    double t, enter;
     SphereVerdict verdict = sphere_test(&ray, &unit, &t, &leaves);
     if (verdict == SPHERE_MISS) {
         return;
@@ -101,38 +195,40 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Nearest *nearest)
     if (verdict == SPHERE_DOUBTFUL) {
         t = sphere_exact(&ray, &unit, NULL, &leaves);
         if (t > 0.0) {
-            ball_offer(q, index, &object, &ray, t, leaves, passed_error(q, solid), nearest);
+            ball_offer(q, index, &object, &ray, t, leaves, passed_error(q, solid), first);
         }
         return;
     }
     double bound = 2.0 * fabs(t + vec3_dot(ray.origin, ray.dual)) + 0x1p-10 * t;
-    if (t - bound > nearest->hit.t + nearest->error) {
+    if (t - bound > first->limit || !item_enters(q, &enter) || enter > first->limit) {
         return;
     }
     double passed = passed_error(q, solid);
-    bool is_nearest = t + bound < nearest->hit.t - nearest->error && !is_passed(t, bound, passed);
-    t = is_nearest && q->is_any ? t : sphere_refine(&ray, &unit, t);
-    if (is_nearest) {
-        *nearest = (Nearest){{t, part_shape(index, 0), leaves != solid->flips}, solid->order, false, bound};
-        q->bounded = solid;
+    bool is_first = !is_passed(t, bound, passed) && ball_is_first(q, index, t, bound, leaves, enter, first);
+    if (is_first && q->is_any) {
+        return;
+    }
+    t = sphere_refine(&ray, &unit, t);
+    if (is_first) {
+        first->hit.t = t;
     } else {
-        ball_offer(q, index, &object, &ray, t, leaves, passed, nearest);
+        ball_offer(q, index, &object, &ray, t, leaves, passed, first);
     }
 }
 
 // A ball that the ray goes into where it starts.
-static void ball_closest_inward(ShapeQuery *q, uint32_t index, Nearest *nearest)
+static void ball_closest_inward(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const Ball unit = UNIT_BALL;
     Ray object = solid_ray(&q->table->solids[index], q->ray);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     double t = sphere_root_inward(&ray, &unit);
     if (t > 0.0) {
-        ball_offer(q, index, &object, &ray, t, true, -1.0, nearest);
+        ball_offer(q, index, &object, &ray, t, true, -1.0, first);
     }
 }
 
-static void chord_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Nearest *nearest)
+static void chord_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     Chord chord;
@@ -144,20 +240,20 @@ static void chord_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool
     if (!is_start && chord.enter > 0.0 && !(is_open && chord.enter_side != 0)) {
         double error = solid_chord_error(solid, q->ray, object, &chord, false);
         if (!is_passed(chord.enter, error, passed)) {
-            solid_offer(q->table, index, q->ray, chord.enter, error, chord.enter_side, false, nearest);
+            root_offer(q, index, chord.enter, error, chord.enter_side, false, first);
             return;
         }
     }
     if (chord.leave > 0.0 && !(is_open && chord.leave_side != 0)) {
         double error = solid_chord_error(solid, q->ray, object, &chord, true);
         if (!is_passed(chord.leave, error, passed)) {
-            solid_offer(q->table, index, q->ray, chord.leave, error, chord.leave_side, true, nearest);
+            root_offer(q, index, chord.leave, error, chord.leave_side, true, first);
         }
     }
 }
 
 // A solid alone. Outward from itself, it is not met again: all are convex or flat.
-static void solid_closest(ShapeQuery *q, uint32_t index, Nearest *nearest)
+static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     if (solid->hidden & q->start.use) {
@@ -169,40 +265,40 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Nearest *nearest)
         return;
     }
     if (solid->kind == PART_BALL) {
-        (is_start ? ball_closest_inward : ball_closest)(q, index, nearest);
+        (is_start ? ball_closest_inward : ball_closest)(q, index, first);
         return;
     }
     Ray object = solid_ray(solid, q->ray);
-    settle_error(q, nearest);
+    settle_span(q, first);
     if (solid_is_flat(solid)) {
-        flat_closest(q, index, &object, nearest);
+        flat_closest(q, index, &object, first);
     } else {
-        chord_closest(q, index, &object, is_start, nearest);
+        chord_closest(q, index, &object, is_start, first);
     }
 }
 
-static void item_closest(ShapeQuery *q, ShapeItem item, Nearest *nearest)
+static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
 {
     const ShapeTable *table = q->table;
+    double enter;
     if (item < table->solid_count) {
-        solid_closest(q, item, nearest);
-    } else {
-        settle_error(q, nearest);
-        assembly_closest(table, &table->assemblies[item - table->solid_count], q->ray, q->start, start_error(q),
-                         nearest);
+        solid_closest(q, item, first);
+    } else if (item_enters(q, &enter) && enter <= first->limit) {
+        settle_span(q, first);
+        assembly_closest(table, &table->assemblies[item - table->solid_count], q->ray, q->start, start_error(q), enter,
+                         first);
     }
 }
 
-// A leaf that begins within rounding of the nearest hit is still looked into, since ties are decided by order of
-// declaration.
-static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Nearest *nearest)
+// A leaf is looked into up to the limit, where rounding cannot tell whether what it holds is the first.
+static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
 {
     const ShapeTable *table = q->table;
     BvhWalk walk;
     BvhChild leaf;
     for (uint32_t i = 0; i < table->unbounded_count; i++) {
-        item_closest(q, table->items[i], nearest);
-        if (q->is_any && nearest->hit.shape != SHAPE_NONE) {
+        item_closest(q, table->items[i], first);
+        if (q->is_any && first->hit.shape != SHAPE_NONE) {
             return;
         }
     }
@@ -216,9 +312,11 @@ static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Nearest *nearest
         }
     }
     const ShapeItem *bounded = table->items + table->unbounded_count;
-    while (bvh_walk_next(&walk, bvh_walk_limit(&walk, nearest->hit.t + nearest->error), &leaf)) {
-        item_closest(q, bounded[bvh_leaf_first(leaf)], nearest);
-        if (q->is_any && nearest->hit.shape != SHAPE_NONE) {
+    while (bvh_walk_next(&walk, bvh_walk_limit(&walk, first->limit), &leaf)) {
+        uint32_t at = bvh_leaf_first(leaf);
+        q->box = &table->boxes[at];
+        item_closest(q, bounded[at], first);
+        if (q->is_any && first->hit.shape != SHAPE_NONE) {
             return;
         }
     }
@@ -293,24 +391,35 @@ static bool shapes_gather(const ShapeTable *table, const SphereTile *tile, Shape
 
 // ---- the whole
 
-static const Solid *solid_left(const ShapeTable *table, RayStart start)
+static void query_start(ShapeQuery *q, const ShapeTable *table, const Ray *ray, RayStart start, double start_error,
+                        bool is_any)
 {
-    return starts_on_part(start) ? &table->solids[part_index(start.shape)] : NULL;
+    q->table = table;
+    q->ray = ray;
+    q->start = start;
+    q->start_error = start_error;
+    q->left = starts_on_part(start) ? &table->solids[part_index(start.shape)] : NULL;
+    q->is_any = is_any;
+    q->bounded = NULL;
+    q->box = NULL;
+    q->line.is_set = false;
 }
 
 static void shapes_closest(const ShapeTable *table, const ShapeBeam *beam, const Ray *ray, RayStart start,
-                           double start_error, Nearest *nearest)
+                           double start_error, Foremost *first)
 {
-    ShapeQuery q = {table, ray, start, start_error, solid_left(table, start), false, NULL};
-    table_closest(&q, beam, nearest);
+    ShapeQuery q; // its line is not cleared
+    query_start(&q, table, ray, start, start_error, false);
+    table_closest(&q, beam, first);
 }
 
 static bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max)
 {
-    ShapeQuery q = {table, ray, start, start_error, solid_left(table, start), true, NULL};
-    Nearest nearest = {.hit = {.t = t_max, .shape = SHAPE_NONE}, .error = way_end_error(t_max)};
-    table_closest(&q, NULL, &nearest);
-    return nearest.hit.shape != SHAPE_NONE;
+    ShapeQuery q;
+    query_start(&q, table, ray, start, start_error, true);
+    Foremost first = foremost_start(&(Hit){t_max, SHAPE_NONE, false}, 0, t_max);
+    table_closest(&q, NULL, &first);
+    return first.hit.shape != SHAPE_NONE;
 }
 
 #endif

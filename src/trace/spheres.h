@@ -12,6 +12,7 @@
 #include "base/pages.h"
 #include "scene/scene.h"
 #include "trace/bvh.h"
+#include "trace/foremost.h"
 #include "trace/plane.h"
 #include "trace/sphere.h"
 #include "trace/trace.h"
@@ -58,7 +59,6 @@ typedef struct Nearest {
     Hit hit;
     uint32_t order; // of hit.shape
     bool is_rough;
-    double error; // what rounding may do to hit.t; 0 for spheres, whose roots are right to the last place
 } Nearest;
 
 enum { TILE_ROW = 8, TILE_RAYS = 64 };
@@ -175,10 +175,10 @@ typedef struct SphereKernels {
     // What the rays of a tile may meet of other shapes. False when that is too much, or they are too far apart, to gather
     // it; `beam` means nothing then.
     bool (*shapes_gather)(const ShapeTable *shapes, const SphereTile *tile, ShapeBeam *beam);
-    // Brings `nearest` up to date with all other shapes, those of a beam that the ray is in, or NULL. `start_error`: how far
+    // Offers what the ray meets of all other shapes, those of a beam that the ray is in, or NULL. `start_error`: how far
     // along the ray its start may be off the surface that it starts on; less than 0: not known, and that is a part.
     void (*shapes_closest)(const ShapeTable *shapes, const ShapeBeam *beam, const Ray *ray, RayStart start,
-                           double start_error, Nearest *nearest);
+                           double start_error, Foremost *first);
     // True when any of them is met at 0 < t < t_max.
     bool (*shapes_occluded)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max);
 } SphereKernels;
@@ -271,40 +271,7 @@ RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, b
 {
     if (t > 0.0 && (t < nearest->hit.t ||
                     (t == nearest->hit.t && nearest->hit.shape != SHAPE_NONE && order < nearest->order))) {
-        *nearest = (Nearest){{t, shape, inside}, order, false, 0.0};
-    }
-}
-
-// Whether rounding cannot tell two roots apart. Each error is of the root's own place; at the nearer one of the two it
-// is less by no more than the ratio of the roots.
-RT_ALWAYS_INLINE bool roots_are_one(double t, double error, double other, double other_error)
-{
-    double apart = fabs(t - other);
-    if (!(apart <= error + other_error)) {
-        return false;
-    }
-    double least = fmin(t, other);
-    return apart <= error * (least / t) + other_error * (least / other);
-}
-
-// How far the end of a way may be from the point that it leads to: its length comes from three rounded differences, a
-// sum of squares and a root, and its direction is rounded twice more. 0 for a way without an end.
-RT_ALWAYS_INLINE double way_end_error(double t_max)
-{
-    return t_max < (double)INFINITY ? 8.0 * 0x1p-53 * t_max : 0.0;
-}
-
-// The same for a root that may be off by `error`: where surfaces coincide but for rounding, too, the shape that was
-// declared first is seen. What the end of the way lies on but for rounding is not met: a light on a surface shines.
-RT_ALWAYS_INLINE void nearest_offer_within(Nearest *nearest, double t, double error, ShapeId shape, bool inside,
-                                           uint32_t order)
-{
-    if (!(t > 0.0 && t < (double)INFINITY)) {
-        return;
-    }
-    bool is_tie = roots_are_one(t, error, nearest->hit.t, nearest->error);
-    if (is_tie ? order < nearest->order : t < nearest->hit.t) {
-        *nearest = (Nearest){{t, shape, inside}, order, false, error};
+        *nearest = (Nearest){{t, shape, inside}, order, false};
     }
 }
 
@@ -344,7 +311,7 @@ RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray,
         }
     }
     if (t > 0.0 && is_nearer) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, false, 0.0};
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, false};
     }
 }
 
@@ -358,7 +325,7 @@ RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const Spher
         return;
     }
     if (RT_LIKELY(t < nearest->hit.t - slack || isinf(nearest->hit.t))) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, is_rough, 0.0};
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, is_rough};
     } else {
         nearest_offer_tie(table, ray, slot, ball, t, inside, is_rough, nearest);
     }

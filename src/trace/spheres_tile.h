@@ -293,8 +293,7 @@ RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, 
     ShapeId before = (ShapeId)beam->shape[i];
     Nearest nearest = {{hits->t[i], before, hits->inside & bit},
                        before == SHAPE_NONE ? 0 : beam->table->info[shape_index(before)].order,
-                       beam->rough & bit,
-                       0.0};
+                       beam->rough & bit};
     bool inside = sphere->c < 0.0;
     if (RT_UNLIKELY(is_doubtful)) {
         t = sphere_exact(&ray, &sphere->ball, NULL, &inside);
