@@ -199,6 +199,7 @@ test_scripts = \
   %D%/check-layers.py \
   %D%/check-headers.py \
   %D%/check-globals.py \
+  %D%/check-draws.py \
   %D%/check-diagnostics.py \
   %D%/check-docs.py \
   %D%/format/check_format.py \

@@ -27,11 +27,20 @@ static inline double random_between(Random *random, double low, double high)
     return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
 }
 
+// Each component evenly from one range. One after the other: C leaves open in which order arguments are worked out.
+static inline Vec3 random_vec3(Random *random, double low, double high)
+{
+    double x = random_between(random, low, high);
+    double y = random_between(random, low, high);
+    double z = random_between(random, low, high);
+    return vec3(x, y, z);
+}
+
 // Uniform on the unit sphere, of length 1 to rounding.
 static inline Vec3 random_direction(Random *random)
 {
     for (;;) {
-        Vec3 v = vec3(random_between(random, -1, 1), random_between(random, -1, 1), random_between(random, -1, 1));
+        Vec3 v = random_vec3(random, -1, 1);
         double square = vec3_length_squared(v);
         if (square <= 1.0 && square > 0.01) {
             return vec3_normalize(v);

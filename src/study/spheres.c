@@ -186,7 +186,8 @@ static bool meets(SecondaryRule rule, Ray ray, const Ball *other)
 
 static void count_secondary(double scale, Random *random, SecondaryRow *row)
 {
-    Vec3 centre = vec3_scale(scale * random_between(random, 0.0, 10.0), random_direction(random));
+    double away = scale * random_between(random, 0.0, 10.0);
+    Vec3 centre = vec3_scale(away, random_direction(random));
     Ball ball = ball_make(centre, scale * random_between(random, 0.1, 2.0));
     Vec3 normal = random_direction(random), aside = random_perpendicular(random, normal);
     Vec3 point = surface_point(&ball, normal);
@@ -225,7 +226,8 @@ void study_shells(double gap, uint64_t cases, uint64_t seed, ShellRow *row)
     for (uint64_t i = 0; i < cases; i++) {
         Vec3 centre = vec3_scale(0.5, random_direction(&random)), normal = random_direction(&random);
         Vec3 origin = vec3_add_scaled(centre, random_between(&random, 300.0, 1000.0), normal);
-        Vec3 aim = vec3_add_scaled(centre, random_between(&random, 0.0, 0.9), random_perpendicular(&random, normal));
+        double off_axis = random_between(&random, 0.0, 0.9);
+        Vec3 aim = vec3_add_scaled(centre, off_axis, random_perpendicular(&random, normal));
         Ray ray = {origin, vec3_normalize(vec3_sub(aim, origin))};
         Vec3 aside = vec3_add_scaled(centre, 0.25 * gap, random_direction(&random));
         for (int formula = 0; formula < FORMULAS; formula++) {

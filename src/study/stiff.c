@@ -92,7 +92,8 @@ void study_total_reflection(uint64_t cases, uint64_t seed, TotalRow *row)
     *row = (TotalRow){.cases = cases};
     for (uint64_t i = 0; i < cases; i++) {
         double ratio = random_between(&random, 0.3, 0.95), eta = 1.0 / ratio;
-        double width = pow(10.0, random_between(&random, -16.0, -3.0)) * (random_bits(&random) % 2 ? 1.0 : -1.0);
+        double width = pow(10.0, random_between(&random, -16.0, -3.0));
+        width = random_bits(&random) % 2 ? width : -width;
         double cosine = sqrt(1.0 - ratio * ratio) + width;
         double k = 1.0 - eta * eta * (1.0 - cosine * cosine);
         Quad exact_eta = 1 / (Quad)ratio;

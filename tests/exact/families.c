@@ -22,8 +22,8 @@ static double power(Random *random, double low, double high)
 static ExactShape *shape(Random *random, ExactScene *scene)
 {
     ExactShape *own = &scene->shapes[scene->shape_count++];
-    *own = (ExactShape){.mirror = between(random, 0, 1) < 0.4 ? 0.4 : 0.0,
-                        .phong = between(random, 0, 1) < 0.5 ? 0.4 : 0.0};
+    *own = (ExactShape){.mirror = between(random, 0, 1) < 0.4 ? 0.4 : 0.0};
+    own->phong = between(random, 0, 1) < 0.5 ? 0.4 : 0.0;
     for (int i = 0; i < 3; i++) {
         own->rgb[i] = between(random, 0.3, 1.0);
     }
@@ -76,8 +76,9 @@ static void look_down(ExactScene *scene, double slope)
 static void balls_about(Random *random, ExactScene *scene, int count, double spread, double z)
 {
     for (int i = 0; i < count; i++) {
-        ball(random, scene, between(random, -spread, spread), between(random, -spread, spread),
-             z + between(random, -spread, spread), between(random, 0.1, 0.45) * spread);
+        Vec3 at = random_vec3(random, -spread, spread);
+        double radius = between(random, 0.1, 0.45) * spread;
+        ball(random, scene, at.x, at.y, z + at.z, radius);
     }
 }
 
@@ -96,8 +97,9 @@ static void many(Random *random, ExactScene *scene)
 {
     eye(scene, 0, 0, -6, 1);
     for (int i = 0; i < 40; i++) {
-        ball(random, scene, between(random, -3, 3), between(random, -3, 3), between(random, -2, 4),
-             between(random, 0.1, 0.6));
+        Vec3 at = random_vec3(random, -3, 3);
+        double radius = between(random, 0.1, 0.6);
+        ball(random, scene, at.x, at.y, at.z + 1, radius);
     }
     light(scene, 5, 8, -9, 0.7);
 }
@@ -112,8 +114,10 @@ static void large_ball(Random *random, ExactScene *scene)
     ball(random, scene, 0, -radius, 0, radius)->mirror = 0.4;
     for (int i = few_or_many(random); i > 0; i--) {
         double own = size * between(random, 0.3, 0.8);
-        ball(random, scene, size * between(random, -2, 2), own + size * between(random, 0, 1),
-             size * between(random, -2, 3), own);
+        double x = size * between(random, -2, 2);
+        double above = size * between(random, 0, 1);
+        double z = size * between(random, -2, 3);
+        ball(random, scene, x, own + above, z, own);
     }
     light(scene, 5 * size, 8 * size, -6 * size, 0.8);
 }
@@ -136,13 +140,18 @@ static void eye_low(Random *random, ExactScene *scene)
 static void far_receiver(Random *random, ExactScene *scene)
 {
     double distance = power(random, 9, 16);
-    eye(scene, between(random, 1, 3), between(random, -2, 2), -2, 2.5);
+    double x = between(random, 1, 3);
+    double y = between(random, -2, 2);
+    eye(scene, x, y, -2, 2.5);
     ExactShape *wall = shape(random, scene);
     *wall = (ExactShape){.is_plane = true, .axis = 2, .distance = distance, .rgb = {1, 0.9, 0.8}};
-    light(scene, between(random, -1, 1), between(random, -1, 1), between(random, -1, 1), 0.9);
+    Vec3 lamp = random_vec3(random, -1, 1);
+    light(scene, lamp.x, lamp.y, lamp.z, 0.9);
     for (int i = few_or_many(random); i > 0; i--) {
-        ball(random, scene, between(random, -3, 3), between(random, -3, 3), between(random, 1.5, 4),
-             between(random, 0.1, 0.8));
+        Vec3 at = random_vec3(random, -3, 3);
+        double z = between(random, 1.5, 4);
+        double radius = between(random, 0.1, 0.8);
+        ball(random, scene, at.x, at.y, z, radius);
     }
 }
 
@@ -286,11 +295,16 @@ static void any_exponents(Random *random, ExactScene *scene)
     scene->bits = 1700;
     for (int i = few_or_many(random); i > 0; i--) {
         double away = power(random, -span, span);
-        ball(random, scene, away * between(random, -0.6, 0.6), away * between(random, -0.6, 0.6), away,
-             away * between(random, 0.05, 0.25));
+        double x = away * between(random, -0.6, 0.6);
+        double y = away * between(random, -0.6, 0.6);
+        double radius = away * between(random, 0.05, 0.25);
+        ball(random, scene, x, y, away, radius);
     }
     double away = power(random, -span, span);
-    light(scene, between(random, -1, 1) * away, between(random, 0, 1) * away, -between(random, 0, 1) * away, 0.8);
+    double x = between(random, -1, 1) * away;
+    double y = between(random, 0, 1) * away;
+    double z = -between(random, 0, 1) * away;
+    light(scene, x, y, z, 0.8);
 }
 
 // An ordinary scene with what cannot be held beside it.
@@ -298,11 +312,11 @@ static void extremes(Random *random, ExactScene *scene)
 {
     ordinary(random, scene);
     scene->bits = 2600;
-    if (between(random, 0, 1) < 0.5) {
-        ball(random, scene, between(random, -1, 1), between(random, -1, 1), -3, power(random, -315, -260));
-    } else {
-        ball(random, scene, power(random, 260, 300), power(random, 260, 300), 1, power(random, -5, 200));
-    }
+    bool is_small = between(random, 0, 1) < 0.5;
+    double x = is_small ? between(random, -1, 1) : power(random, 260, 300);
+    double y = is_small ? between(random, -1, 1) : power(random, 260, 300);
+    double radius = is_small ? power(random, -315, -260) : power(random, -5, 200);
+    ball(random, scene, x, y, is_small ? -3 : 1, radius);
 }
 
 static void tangent(Random *random, ExactScene *scene)
@@ -312,7 +326,9 @@ static void tangent(Random *random, ExactScene *scene)
     floor_at(random, scene, 0);
     for (int i = 0; i < 5; i++) {
         double r = between(random, 0.3, 0.9);
-        ball(random, scene, between(random, -2, 2), r, between(random, -1, 3), r);
+        double x = between(random, -2, 2);
+        double z = between(random, -1, 3);
+        ball(random, scene, x, r, z, r);
         ball(random, scene, 0, 0, 0, r);
         ExactShape *upper = &scene->shapes[scene->shape_count - 1], *lower = upper - 1;
         upper->centre[0] = lower->centre[0];
@@ -330,7 +346,9 @@ static void grazing_light(Random *random, ExactScene *scene)
     floor_at(random, scene, 0);
     for (int i = 0; i < 6; i++) {
         double r = height * between(random, 0.3, 3);
-        ball(random, scene, between(random, -2, 2), r, between(random, -1, 3), r);
+        double x = between(random, -2, 2);
+        double z = between(random, -1, 3);
+        ball(random, scene, x, r, z, r);
     }
     light(scene, -9, height, 0.5, 0.8);
 }
@@ -360,8 +378,8 @@ static void ties(Random *random, ExactScene *scene)
     eye(scene, 0, 0, -6, 0.8);
     for (int i = 0; i < 10; i++) {
         double aside = power(random, -16, -6);
-        ball(random, scene, aside * between(random, -1, 1), aside * between(random, -1, 1),
-             aside * between(random, -1, 1), r * (1 + 0.3 * aside));
+        Vec3 at = vec3_scale(aside, random_vec3(random, -1, 1));
+        ball(random, scene, at.x, at.y, at.z, r * (1 + 0.3 * aside));
     }
     light(scene, 5, 8, -9, 0.8);
 }

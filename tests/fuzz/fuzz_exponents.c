@@ -72,7 +72,10 @@ __attribute__((format(printf, 1, 2))) static void put(const char *format, ...)
 
 static void put_vector(Random *random, const Exponents *e)
 {
-    put("<%.17g, %.17g, %.17g>", any_coordinate(random, e), any_coordinate(random, e), any_coordinate(random, e));
+    double x = any_coordinate(random, e);
+    double y = any_coordinate(random, e);
+    double z = any_coordinate(random, e);
+    put("<%.17g, %.17g, %.17g>", x, y, z);
 }
 
 static void put_material(Random *random)
@@ -91,8 +94,10 @@ static void put_shape(Random *random, const Exponents *e, int depth)
     static const char *const operators[] = {"union", "difference", "intersection", "merge"};
     switch (random_below(random, depth < 2 ? 12 : 11)) {
     case 0:
-        put("plane { <%.17g, %.17g, %.17g>, %.17g", random_between(random, -1, 1), random_between(random, -1, 1),
-            random_between(random, 0.1, 1), any_coordinate(random, e));
+        put("plane { <%.17g, ", random_between(random, -1, 1));
+        put("%.17g, ", random_between(random, -1, 1));
+        put("%.17g>, ", random_between(random, 0.1, 1));
+        put("%.17g", any_coordinate(random, e));
         break;
     case 1:
         put("box { ");
@@ -116,9 +121,9 @@ static void put_shape(Random *random, const Exponents *e, int depth)
         put_vector(random, e);
         break;
     case 4:
-        put("sphere { 0, 1 scale ");
-        put("<%.17g, %.17g, %.17g> rotate 30 translate ", any_size(random, e), any_size(random, e),
-            any_size(random, e));
+        put("sphere { 0, 1 scale <%.17g, ", any_size(random, e));
+        put("%.17g, ", any_size(random, e));
+        put("%.17g> rotate 30 translate ", any_size(random, e));
         put_vector(random, e);
         break;
     case 11:

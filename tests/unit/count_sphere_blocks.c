@@ -87,7 +87,8 @@ int main(void)
     int met[2] = {0, 0}, doubtful = 0, differ = 0;
     for (int i = 0; i < BLOCKS * SPHERE_BLOCK; i++) {
         SphereBlock *block = &blocks[i / SPHERE_BLOCK];
-        Vec3 centre = vec3_scale(random_between(&random, 0, 10), random_direction(&random));
+        double away = random_between(&random, 0, 10);
+        Vec3 centre = vec3_scale(away, random_direction(&random));
         double radius = random_between(&random, 0.1, 1);
         block->x[i % SPHERE_BLOCK] = centre.x;
         block->y[i % SPHERE_BLOCK] = centre.y;

@@ -66,7 +66,8 @@ int main(void)
     Ball balls[SPHERES];
     Counted textbook = {0}, certified = {0};
     for (int i = 0; i < SPHERES; i++) {
-        Vec3 centre = vec3_scale(random_between(&random, 0, 10), random_direction(&random));
+        double away = random_between(&random, 0, 10);
+        Vec3 centre = vec3_scale(away, random_direction(&random));
         balls[i] = ball_make(centre, random_between(&random, 0.1, 1));
     }
     for (int i = 0; i < RAYS; i++) {

@@ -8,7 +8,7 @@ static void add_box(Scene *scene, Random *random)
 {
     Part part = {.kind = PART_BOX, .node = NODE_NONE, .data = {{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}}};
     double size = random_between(random, 0.05, 0.8);
-    Vec3 turn = vec3(random_between(random, 0, 360), random_between(random, 0, 360), 0.0);
+    Vec3 turn = random_vec3(random, 0, 360);
     part.to_world = transform_compose(transform_scale(vec3(size, 0.3 * size, size)), transform_rotate(turn));
     part.to_world = transform_compose(part.to_world, transform_translate(random_point(random, 10)));
     if (!transform_invert(&part.to_world, &part.to_object) || !scene_add_part(scene, &part)) {
@@ -26,7 +26,8 @@ static void draw_scene(Scene *scene, Random *random)
         add_box(scene, random);
     }
     for (unsigned i = random_below(random, 3); i > 0; i--) {
-        add_plane(scene, vec3_normalize(random_point(random, 1)), random_between(random, -12, 12));
+        Vec3 normal = vec3_normalize(random_point(random, 1));
+        add_plane(scene, normal, random_between(random, -12, 12));
     }
     if (random_below(random, 5) == 0) {
         make_far_cloud(scene, random, 50);
@@ -39,7 +40,8 @@ typedef struct Counts {
 
 static void look(const Geometry *geometry, Random *random, Counts *counts)
 {
-    Ray ray = {random_point(random, 12), vec3_normalize(random_point(random, 1))};
+    Ray ray = {.origin = random_point(random, 12)};
+    ray.direction = vec3_normalize(random_point(random, 1));
     Hit hit;
     if (!closest(geometry, ray, RAY_START_FREE, (double)INFINITY, &hit)) {
         return;

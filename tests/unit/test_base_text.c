@@ -219,7 +219,8 @@ static void literal_random(TextBuffer *text, uint64_t *seed, int style)
         memcpy(&value, &bits, sizeof(value));
         text_printf(text, "%.*e", (int)random_below(seed, 24), isfinite(value) ? value : 1.0);
     } else { // the middle of two doubles, exactly or nearly
-        uint64_t bits = (random_next(seed) >> 12) | (uint64_t)(1023 + random_below(seed, 52)) << 52;
+        uint64_t fraction = random_next(seed) >> 12;
+        uint64_t bits = fraction | (uint64_t)(1023 + random_below(seed, 52)) << 52;
         double value;
         memcpy(&value, &bits, sizeof(value));
         text_printf(text, "%.60Lf", (long double)value + (long double)(nextafter(value, INFINITY) - value) / 2);
@@ -258,7 +259,8 @@ static void test_from_decimal(void)
     int wrong = 0;
     for (int i = 0; i < LITERALS; i++) {
         char text[48];
-        uint64_t mantissa = random_next(&seed) >> random_below(&seed, 64);
+        uint64_t mantissa = random_next(&seed);
+        mantissa >>= random_below(&seed, 64);
         int power = (int)random_below(&seed, 80) - 40;
         snprintf(text, sizeof(text), "%" PRIu64 "e%d", mantissa, power);
         wrong += !same_bits(number_from_decimal(mantissa, power), strtod(text, NULL));
@@ -347,7 +349,8 @@ static double double_random(uint64_t *seed, int style)
     double value;
     uint64_t bits = random_next(seed) >> 1;
     if (style == 0) {
-        return (double)random_below(seed, 2000000000) / pow(10, random_below(seed, 10));
+        double digits = random_below(seed, 2000000000);
+        return digits / pow(10, random_below(seed, 10));
     }
     if (style == 1) {
         return (double)(bits >> 10) * 0x1p-53;

@@ -184,9 +184,9 @@ int main(int argc, char **argv)
     Random random = {random_seed(argc > 1 ? argv[1] : NULL)};
     char places[PLACES][PLACE_MOST] = {"rotate 0 translate 0"};
     for (int i = 1; i < PLACES; i++) {
-        snprintf(places[i], sizeof places[i], "rotate <%.17g, %.17g, %.17g> translate <%.17g, %.17g, %.17g>",
-                 random_between(&random, 0, 360), random_between(&random, 0, 360), random_between(&random, 0, 360),
-                 random_between(&random, -9, 9), random_between(&random, -9, 9), random_between(&random, -9, 9));
+        Vec3 turn = random_vec3(&random, 0, 360), move = random_vec3(&random, -9, 9);
+        snprintf(places[i], sizeof places[i], "rotate <%.17g, %.17g, %.17g> translate <%.17g, %.17g, %.17g>", turn.x,
+                 turn.y, turn.z, move.x, move.y, move.z);
     }
     for (size_t i = 0; i < sizeof families / sizeof families[0]; i++) {
         const Family *family = &families[i];

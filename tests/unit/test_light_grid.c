@@ -88,7 +88,8 @@ static void draw_shares(Lights *lights, Random *random)
                                       : i % 7 != 0;
             Rgb share = rgb_grey(is_lit);
             if (kind == 4) {
-                share = rgb(random_between(random, 0, 1), random_between(random, 0, 1), is_lit);
+                Vec3 drawn = random_vec3(random, 0, 1);
+                share = rgb(drawn.x, drawn.y, is_lit);
             }
             lights->shares[j * lights->area.size1 + i] = share;
         }

@@ -100,9 +100,11 @@ static unsigned pick_form(Random *random)
 
 static void write_sphere(TextBuffer *text, Random *random, Colour colour, unsigned form)
 {
-    double n[] = {random_between(random, -5, 5), random_between(random, -5, 5), random_between(random, -5, 5),
-                  random_between(random, 0.01, 0.1), random_between(random, 0, 1), random_between(random, 0, 1),
-                  random_between(random, 0, 1), random_between(random, 0, 1), random_between(random, 0, 1)};
+    double n[9];
+    for (int i = 0; i < 9; i++) {
+        n[i] = i < 3 ? random_between(random, -5, 5) : random_between(random, 0, 1);
+    }
+    n[3] = 0.01 + 0.09 * n[3];
     if (colour == COLOUR_ONE_OF_TWO) {
         n[4] = 0.5, n[5] = 0.25, n[6] = (double)random_below(random, 2), n[7] = n[8] = 0.25;
     }

@@ -207,7 +207,8 @@ static void test_similarities(void)
     for (int turn = 0; turn < 10000; turn++) {
         Transform chain = transform_identity();
         for (int step = 0; step < 3; step++) {
-            Vec3 degrees = vec3_scale(random_between(&random, 0, 360), random_direction(&random));
+            double angle = random_between(&random, 0, 360);
+            Vec3 degrees = vec3_scale(angle, random_direction(&random));
             chain = transform_compose(chain, transform_rotate(degrees));
         }
         lost += !transform_is_similarity(&chain, &factor);

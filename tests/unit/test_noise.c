@@ -86,7 +86,8 @@ static void test_everywhere(const Noise *noise)
     Random random = {4};
     int outside = 0, odd_period = 0, jumps = 0;
     for (int turn = 0; turn < 20000; turn++) {
-        Vec3 p = vec3_scale(random_between(&random, 0, 3000), random_direction(&random));
+        double away = random_between(&random, 0, 3000);
+        Vec3 p = vec3_scale(away, random_direction(&random));
         for (int generator = NOISE_ORIGINAL; generator <= NOISE_PERLIN; generator++) {
             NoiseGenerator which = (NoiseGenerator)generator;
             double value = noise_value(noise, which, p);

@@ -59,7 +59,8 @@ static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
 
 static double any_length(Random *random, int least, int most)
 {
-    return ldexp(random_between(random, 1, 2), least + (int)(random_bits(random) % (unsigned)(most - least)));
+    double mantissa = random_between(random, 1, 2);
+    return ldexp(mantissa, least + (int)(random_bits(random) % (unsigned)(most - least)));
 }
 
 static double any_coordinate(Random *random, int most)
@@ -68,20 +69,28 @@ static double any_coordinate(Random *random, int most)
     return random_bits(random) & 1 ? length : -length;
 }
 
+static Vec3 any_place(Random *random, int most)
+{
+    double x = any_coordinate(random, most);
+    double y = any_coordinate(random, most);
+    double z = any_coordinate(random, most);
+    return vec3(x, y, z);
+}
+
 // Places within some powers of two, sizes within others: of one scene alike, so that not all of it is beyond.
 static void write_scene(Random *random, char *text)
 {
     static const int spans[] = {4, 40, 120, 500, 1000};
     int about = (int)(random_bits(random) % 400) - 200;
     int places = spans[random_bits(random) % 5] / 2, sizes = spans[random_bits(random) % 5];
-    size_t length =
-        (size_t)snprintf(text, TEXT_MOST, "camera { location <%.17g, %.17g, %.17g> direction z }\n",
-                         any_coordinate(random, about), any_coordinate(random, about), any_coordinate(random, about));
+    Vec3 at = any_place(random, about);
+    size_t length = (size_t)snprintf(text, TEXT_MOST, "camera { location <%.17g, %.17g, %.17g> direction z }\n", at.x,
+                                     at.y, at.z);
     for (int i = 0; i < SPHERES; i++) {
         double radius = random_bits(random) % 30 == 0 ? 0.0 : any_length(random, about - sizes, about + sizes / 2);
-        length += (size_t)snprintf(text + length, TEXT_MOST - length, "sphere { <%.17g, %.17g, %.17g>, %.17g }\n",
-                                   any_coordinate(random, about + places), any_coordinate(random, about + places),
-                                   any_coordinate(random, about + places), radius);
+        at = any_place(random, about + places);
+        length += (size_t)snprintf(text + length, TEXT_MOST - length, "sphere { <%.17g, %.17g, %.17g>, %.17g }\n", at.x,
+                                   at.y, at.z, radius);
     }
 }
 

@@ -239,7 +239,8 @@ static bool make_crowd(Scene *scene, const uint32_t twins[CROWD_TWINS][2])
     bool is_made = scene_add_material(scene, (Rgbft){0.5, 0.5, 0.5, 0.0, 0.5}, &finish, &clear);
     uint32_t index = 0;
     for (uint32_t i = 0, twin = 0; i < CROWD && is_made; i++) {
-        Vec3 centre = vec3(random_between(&random, -9.0, 9.0), random_between(&random, -9.0, 9.0), i);
+        Vec3 centre = random_vec3(&random, -9.0, 9.0);
+        centre.z = i;
         if (twin < CROWD_TWINS && twins[twin][1] == i) {
             centre = scene->spheres.items[twins[twin++][0]].centre;
         }

@@ -60,7 +60,8 @@ static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces
 {
     SurfaceRays rays = {.end = light, .aside = aside};
     for (int i = 0; i < from->count; i++) {
-        Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), random_direction(random));
+        double away = random_between(random, 0, aside);
+        Vec3 end = vec3_add_scaled(light, away, random_direction(random));
         Vec3 offset = vec3_sub(aside > 0.0 ? end : light, tile_surface_point(from, i));
         rays.distance[i] = vec3_length(offset);
         bool is_far = rays.distance[i] > near && vec3_max_abs(tile_surface_point(from, i)) > vec3_max_abs(light);
@@ -192,7 +193,8 @@ static void crossed_try(const Geometry *g, unsigned features, const TileSurfaces
         lane_set(rays.towards, (unsigned)i, direction);
         rays.distance[i] = distance;
     }
-    uint64_t asked = random_bits(random) | random_bits(random);
+    uint64_t asked = random_bits(random);
+    asked |= random_bits(random);
     asked &= ~UINT64_C(0) >> (TILE_RAYS - from->count);
     uint64_t told = geometry_crossed(g, features, from, &rays, asked, &crossings);
     found->asked += __builtin_popcountll(asked);
@@ -285,7 +287,8 @@ static void test_onward_ties(uint64_t seed)
             OnwardRays rays = {.count = 0};
             g->kernels = sphere_kernels_choose(geometry_isa(isa));
             for (int i = 0; i < 61; i++) {
-                onward_ray_add(&rays, random_point(&random, 1), random_direction(&random), SHAPE_NONE, false);
+                Vec3 origin = random_point(&random, 1);
+                onward_ray_add(&rays, origin, random_direction(&random), SHAPE_NONE, false);
             }
             different += onward_differing(g, geometry_features(g), &rays, &met);
         }
@@ -323,7 +326,8 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
     scene_init(&scene);
     family->make(&scene, &random, count);
     for (int i = 0; i < planes; i++) {
-        add_plane(&scene, random_direction(&random), random_between(&random, -1, 1) * family->size);
+        Vec3 normal = random_direction(&random);
+        add_plane(&scene, normal, random_between(&random, -1, 1) * family->size);
     }
     Geometry *g = prepare(&scene, 0);
     unsigned features = geometry_features(g);
@@ -335,7 +339,9 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
         Vec3 eye = vec3_add(family->middle, random_point(&random, 2 * family->size));
         Vec3 at = scene.spheres.items[random_bits(&random) % scene.spheres.count].centre;
         tile_of(&random, eye, vec3_normalize(vec3_sub(at, eye)), pow(10, random_between(&random, -6, -1)), &tile);
-        uint64_t asked = random_bits(&random) | random_bits(&random), light_seed = random_bits(&random);
+        uint64_t asked = random_bits(&random);
+        asked |= random_bits(&random);
+        uint64_t light_seed = random_bits(&random);
         for (size_t isa = 0; geometry_isa(isa); isa++) {
             TileHits hits;
             TileSurfaces surfaces;
@@ -382,31 +388,31 @@ static Finish random_finish(Random *random)
 {
     static const double amounts[] = {0, 0, 0.3, 1.2}, exponents[] = {1, 1, 2, 40, 0.5, 7.25, 5000}, levels[] = {0, 0.1};
     double glow = one_of(random, levels, 2), mirror = random_bits(random) % 3 ? 0.0 : 0.4;
-    return (Finish){.flags = random_bits(random) % 4 ? 0 : FINISH_CONSERVE_ENERGY,
-                    .ambient = {glow, 0.1, glow},
-                    .diffuse = one_of(random, amounts, 4),
-                    .diffuse_back = one_of(random, amounts, 4),
-                    .brilliance = one_of(random, exponents, 6),
-                    .phong = one_of(random, amounts, 4),
-                    .phong_size = one_of(random, exponents, 7),
-                    .specular = one_of(random, amounts, 4),
-                    .roughness = 1.0 / one_of(random, exponents, 7),
-                    .metallic = one_of(random, amounts, 4),
-                    .reflection_min = {mirror, 0.5 * mirror, mirror},
-                    .reflection_max = {mirror, mirror, mirror},
-                    .reflection_falloff = 1.0,
-                    .reflection_exponent = 1.0,
-                    .refraction = random_bits(random) % 4 ? 1.0 : 0.8};
+    Finish finish = {.ambient = {glow, 0.1, glow},
+                     .reflection_min = {mirror, 0.5 * mirror, mirror},
+                     .reflection_max = {mirror, mirror, mirror},
+                     .reflection_falloff = 1.0,
+                     .reflection_exponent = 1.0};
+    finish.flags = random_bits(random) % 4 ? 0 : FINISH_CONSERVE_ENERGY;
+    finish.diffuse = one_of(random, amounts, 4);
+    finish.diffuse_back = one_of(random, amounts, 4);
+    finish.brilliance = one_of(random, exponents, 6);
+    finish.phong = one_of(random, amounts, 4);
+    finish.phong_size = one_of(random, exponents, 7);
+    finish.specular = one_of(random, amounts, 4);
+    finish.roughness = 1.0 / one_of(random, exponents, 7);
+    finish.metallic = one_of(random, amounts, 4);
+    finish.refraction = random_bits(random) % 4 ? 1.0 : 0.8;
+    return finish;
 }
 
 // kinds > 1: of any kind, else points and parallel ones.
 static void random_light(Random *random, int kinds, Scene *scene)
 {
-    Light light = {.type = random_bits(random) % 4 ? LIGHT_POINT : LIGHT_PARALLEL,
-                   .shadowless = random_bits(random) % 5 == 0,
-                   .position = random_point(random, random_bits(random) % 2 ? 5 : 40),
-                   .point_at = {0, 0, 0},
-                   .colour = {0.9, random_between(random, -0.2, 1), 0.7}};
+    Light light = {.point_at = {0, 0, 0}, .colour = {0.9, random_between(random, -0.2, 1), 0.7}};
+    light.type = random_bits(random) % 4 ? LIGHT_POINT : LIGHT_PARALLEL;
+    light.shadowless = random_bits(random) % 5 == 0;
+    light.position = random_point(random, random_bits(random) % 2 ? 5 : 40);
     uint64_t kind = random_bits(random);
     if (kinds > 1 && kind % 4 == 0) {
         light.type = kind & 16 ? LIGHT_SPOT : LIGHT_CYLINDER;
@@ -420,8 +426,10 @@ static void random_light(Random *random, int kinds, Scene *scene)
     }
     if (kinds > 1 && kind % 2 == 0) {
         double size = random_between(random, 0, 6);
-        light.area = (LightArea){.axis1 = vec3_scale(size, random_direction(random)),
-                                 .axis2 = vec3_scale(size, random_direction(random)),
+        Vec3 axis1 = vec3_scale(size, random_direction(random));
+        Vec3 axis2 = vec3_scale(size, random_direction(random));
+        light.area = (LightArea){.axis1 = axis1,
+                                 .axis2 = axis2,
                                  .size1 = kind & 128 ? 5 : 2,
                                  .size2 = kind & 256 ? 3 : 1,
                                  .adaptive = 1,
@@ -469,9 +477,10 @@ static bool add_glass(Scene *scene, Random *random, Rgbft pigment, const Finish 
     static const double iors[] = {1, 1.05, 1.5, 0.8}, powers[] = {0, 0, 2, 1001};
     Texture texture = {.to_world = transform_identity(), .entries = RECORD_NONE, .below = RECORD_NONE,
                        .normal = RECORD_NONE, .pigment = pigment_of(pigment)};
-    Interior interior = {.ior = one_of(random, iors, 4), .fade_distance = random_bits(random) % 2 ? 3.0 : 0.0,
-                         .fade_power = one_of(random, powers, 4), .fade_colour = {0.3, 0.9, 0.5},
-                         .caustics = random_bits(random) % 4 ? 0.0 : 0.5};
+    Interior interior = {.ior = one_of(random, iors, 4), .fade_colour = {0.3, 0.9, 0.5}};
+    interior.fade_distance = random_bits(random) % 2 ? 3.0 : 0.0;
+    interior.fade_power = one_of(random, powers, 4);
+    interior.caustics = random_bits(random) % 4 ? 0.0 : 0.5;
     Compound compound = {.interior = RECORD_NONE};
     bool is_fine = scene_add_finish(scene, finish, &texture.finish) &&
                    scene_add_texture(scene, &texture, &compound.texture) &&
@@ -512,7 +521,8 @@ static void random_scene(Random *random, const Extras *extras, Scene *scene)
     }
     for (int i = 0; i < count; i++) {
         MaterialIndex material;
-        Rgbft pigment = {random_between(random, -0.1, 1), 0.5, random_between(random, 0, 1), 0, 0};
+        Rgbft pigment = {random_between(random, -0.1, 1), 0.5, 0, 0, 0};
+        pigment.blue = random_between(random, 0, 1);
         const Finish *finish = &finishes[random_bits(random) % 4];
         if (extras->clear) {
             random_clearness(random, &pigment);

@@ -200,12 +200,13 @@ static void test_family(const SphereFamily *family, int cases, uint64_t seed, Ex
 // hundred radii away or from near by.
 static void shell_case(Random *random, double gap, SphereCase out[2])
 {
-    Vec3 centre = vec3_scale(random_between(random, 0.0, 2.0), random_direction(random));
+    double away = random_between(random, 0.0, 2.0);
+    Vec3 centre = vec3_scale(away, random_direction(random));
     Vec3 outward = random_direction(random);
     double distance = pow(10.0, random_between(random, 0.1, 3.0)), radius = random_between(random, 0.5, 2.0);
     Vec3 origin = vec3_add_scaled(centre, radius * distance, outward);
-    Vec3 aim =
-        vec3_add_scaled(centre, random_between(random, 0.0, 0.95 * radius), random_perpendicular(random, outward));
+    double aside = random_between(random, 0.0, 0.95 * radius);
+    Vec3 aim = vec3_add_scaled(centre, aside, random_perpendicular(random, outward));
     Ray ray = {origin, vec3_normalize(vec3_sub(aim, origin))};
     out[0] = (SphereCase){ray, centre, radius};
     out[1] = (SphereCase){ray, vec3_add_scaled(centre, 0.25 * gap * radius, random_direction(random)),

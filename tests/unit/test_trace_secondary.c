@@ -44,8 +44,8 @@ static void secondary_case(Random *random, double scale, SecondaryCounts *counts
     Vec3 centre = vec3_scale(offset, random_direction(random));
     Vec3 outward = random_direction(random);
     Ray ray = {vec3_add_scaled(centre, radius * random_between(random, 1.5, 4), outward), {0, 0, 0}};
-    Vec3 aim = vec3_add_scaled(centre, radius * 0.999 * sqrt(random_between(random, 0, 1)),
-                               random_perpendicular(random, outward));
+    double aside = radius * 0.999 * sqrt(random_between(random, 0, 1));
+    Vec3 aim = vec3_add_scaled(centre, aside, random_perpendicular(random, outward));
     ray.direction = vec3_normalize(vec3_sub(aim, ray.origin));
     Scene scene;
     scene_init(&scene);

@@ -14,9 +14,8 @@ static const PartKind alone_kinds[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIA
 
 static Transform random_map(Random *random, double size)
 {
-    Vec3 stretch = vec3(exp(random_between(random, -2, 2)), exp(random_between(random, -2, 2)),
-                        exp(random_between(random, -2, 2)));
-    Vec3 turn = vec3(random_between(random, 0, 360), random_between(random, 0, 360), random_between(random, 0, 360));
+    Vec3 powers = random_vec3(random, -2, 2), turn = random_vec3(random, 0, 360);
+    Vec3 stretch = vec3(exp(powers.x), exp(powers.y), exp(powers.z));
     Transform map = transform_compose(transform_scale(vec3_scale(size, stretch)), transform_rotate(turn));
     map = transform_compose(map, transform_scale(vec3(1.0, 1.0, exp(random_between(random, -1, 1)))));
     return transform_compose(map, transform_translate(random_point(random, size)));
@@ -30,7 +29,8 @@ static Part random_part(Random *random, PartKind kind, double size)
     }
     if (kind == PART_BOX) {
         part.data[0] = vec3(-1.0, -1.0, -1.0);
-        part.data[1] = vec3(random_between(random, 0, 1), 1.0, random_between(random, -0.5, 1));
+        part.data[1] = vec3(random_between(random, 0, 1), 1.0, 0.0);
+        part.data[1].z = random_between(random, -0.5, 1);
     } else if (kind == PART_CONE || kind == PART_DISC) {
         part.data[0].x = random_bits(random) % 3 == 0 ? 1.0 : random_between(random, 0, 0.9);
         part.data[0].x = kind == PART_DISC ? 0.5 * part.data[0].x : part.data[0].x;
@@ -319,7 +319,7 @@ static void test_coincident(void)
             !scene_add_node(&scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
             abort();
         }
-        Vec3 turn = vec3(random_between(&random, 0, 360), random_between(&random, 0, 360), 0.0);
+        Vec3 turn = random_vec3(&random, 0, 360);
         Transform map = transform_compose(transform_rotate(turn), transform_translate(random_point(&random, 3.0)));
         for (int k = 0; k < 2; k++) {
             Part part = {.kind = PART_BOX, .node = root, .flags = k ? PART_INVERSE : 0};
@@ -338,8 +338,8 @@ static void test_coincident(void)
         for (int k = 0; k < 200; k++) {
             bool is_hole = k % 2;
             double reach = is_hole ? 0.29 : 0.65;
-            Vec3 own = vec3(random_between(&random, -reach, reach), 0.0, is_hole ? random_between(&random, -0.29, 0.29)
-                                                                                 : 0.65);
+            Vec3 own = vec3(random_between(&random, -reach, reach), 0.0, 0.65);
+            own.z = is_hole ? random_between(&random, -0.29, 0.29) : own.z;
             Vec3 target = transform_point(&map, own);
             Ray ray = {vec3_add_scaled(target, 7.0, axis), vec3_neg(axis)};
             Hit hit;

@@ -66,8 +66,8 @@ static Ray hard_ray(const Scene *scene, Random *random, double size, Vec3 middle
         if (bits & 16) {
             // From very far and nearly along an axis, the touching sphere and its box end together.
             Vec3 far_away = {bits & 32 ? 1 : 0.01, bits & 64 ? 1 : 0.01, bits & 128 ? 1 : 0.01};
-            origin = vec3_add_scaled(middle, size * pow(10.0, random_between(random, 0, 12)),
-                                     vec3_mul(far_away, random_direction(random)));
+            double away = size * pow(10.0, random_between(random, 0, 12));
+            origin = vec3_add_scaled(middle, away, vec3_mul(far_away, random_direction(random)));
         }
         Vec3 towards = vec3_normalize(vec3_sub(sphere->centre, origin));
         Vec3 edge = vec3_add_scaled(sphere->centre, sphere->radius, random_perpendicular(random, towards));

@@ -49,28 +49,30 @@ __attribute__((unused)) static void add_plane(Scene *scene, Vec3 normal, double 
 
 __attribute__((unused)) static Vec3 random_point(Random *random, double size)
 {
-    return vec3(random_between(random, -size, size), random_between(random, -size, size),
-                random_between(random, -size, size));
+    return random_vec3(random, -size, size);
 }
 
 __attribute__((unused)) static void make_cloud(Scene *scene, Random *random, int count)
 {
     for (int i = 0; i < count; i++) {
-        add_sphere(scene, random_point(random, 10), random_between(random, 0.05, 0.5));
+        Vec3 centre = random_point(random, 10);
+        add_sphere(scene, centre, random_between(random, 0.05, 0.5));
     }
 }
 
 __attribute__((unused)) static void make_far_cloud(Scene *scene, Random *random, int count)
 {
     for (int i = 0; i < count; i++) {
-        add_sphere(scene, vec3_add(vec3(1e6, -1e6, 1e6), random_point(random, 10)), random_between(random, 0.05, 0.5));
+        Vec3 centre = vec3_add(vec3(1e6, -1e6, 1e6), random_point(random, 10));
+        add_sphere(scene, centre, random_between(random, 0.05, 0.5));
     }
 }
 
 __attribute__((unused)) static void make_sizes(Scene *scene, Random *random, int count)
 {
     for (int i = 0; i < count; i++) {
-        add_sphere(scene, random_point(random, 10), exp(random_between(random, -25, 1)));
+        Vec3 centre = random_point(random, 10);
+        add_sphere(scene, centre, exp(random_between(random, -25, 1)));
     }
 }
 
@@ -118,7 +120,8 @@ __attribute__((unused)) static void make_spread(Scene *scene, Random *random, in
 {
     for (int i = 0; i < count; i++) {
         double scale = pow(10, random_between(random, -100, 100));
-        add_sphere(scene, vec3_scale(scale, random_direction(random)), scale * random_between(random, 0.1, 0.9));
+        Vec3 centre = vec3_scale(scale, random_direction(random));
+        add_sphere(scene, centre, scale * random_between(random, 0.1, 0.9));
     }
 }
 
