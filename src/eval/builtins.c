@@ -306,11 +306,9 @@ static bool array_dimensions(Eval *ev, const AstNode *node, Value *value)
     if (!eval_number(ev, second, &dimension)) {
         return false;
     }
-    if (!(dimension >= 1.0 && trunc(dimension) <= array.array->dimension_count)) {
-        return eval_fault(ev, DIAG_E0301, second->span, "this array has dimensions 1 to %u, not %g",
-                          array.array->dimension_count, dimension);
-    }
-    return give_number(value, array.array->sizes[(unsigned)dimension - 1]);
+    // As POV-Ray: a dimension that the array does not have has no elements.
+    bool is_there = dimension >= 1.0 && trunc(dimension) <= array.array->dimension_count;
+    return give_number(value, is_there ? array.array->sizes[(unsigned)dimension - 1] : 0.0);
 }
 
 static bool file_exists(Eval *ev, const AstNode *node, Value *value)
@@ -386,11 +384,11 @@ static const Builtin builtins[WORD_COUNT] = {
     [W_substr] = {builtin_substr, NULL, 3, 3},
     [W_strupr] = {builtin_strupr, NULL, 1, 1},
     [W_strlwr] = {builtin_strlwr, NULL, 1, 1},
+    [W_datetime] = {builtin_datetime, NULL, 1, 2},
     // Words of the language that rtlang does not have.
     [W_trace] = {not_supported, NULL, 0, ANY_COUNT},
     [W_inside] = {not_supported, NULL, 0, ANY_COUNT},
     [W_vturbulence] = {vector_turbulence, NULL, 4, 4},
-    [W_datetime] = {not_supported, NULL, 0, ANY_COUNT},
     [W_sum] = {not_supported, NULL, 0, ANY_COUNT},
     [W_prod] = {not_supported, NULL, 0, ANY_COUNT},
 };
@@ -469,7 +467,7 @@ static const struct {
 // Days since the first moment of the year 2000, universal time.
 static double days_since_2000(void)
 {
-    return ((double)time(NULL) - 946684800.0) / 86400.0;
+    return ((double)time(NULL) - EPOCH_2000) / 86400.0;
 }
 
 bool builtin_constant(Eval *ev, const AstNode *node, Value *value)

@@ -167,11 +167,8 @@ static FunctionNode *compile_constant(Compiler *compiler, const AstNode *node)
         return builtin_constant(compiler->ev, node, &value) ? constant_value(compiler, node, &value) : NULL;
     }
     Symbol name = function_slot_name(node->symbol);
-    bool is_coordinate = name == W_x || name == W_y || name == W_z;
-    if (is_coordinate) {
-        eval_fault(compiler->ev, DIAG_E0201, node->span, "`%s` is not a parameter of this function",
-                   eval_text(compiler->ev, node->symbol));
-        return NULL;
+    if (name == W_x || name == W_y || name == W_z) {
+        return number_node(compiler, node, 0.0); // as POV-Ray: a coordinate that is no parameter is zero
     }
     return fault_word(compiler, node, "write its number, or declare it under another name");
 }

@@ -410,6 +410,7 @@ static inline void number_check(Eval *ev, double number, Span span)
 }
 
 #define NUMBER_PI 3.14159265358979323846
+enum { EPOCH_2000 = 946684800 };     // seconds from 1970 to the first moment of the year 2000, universal time
 double number_to_int(double number); // as a C conversion to int does it on x86: what does not fit is the least int
 double number_degrees(double radians);
 double number_radians(double degrees);
@@ -465,6 +466,7 @@ bool builtin_strcmp(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool builtin_substr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool builtin_strupr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool builtin_strlwr(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool builtin_datetime(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 
 // ---- items of a block
 

@@ -50,12 +50,12 @@ bool operator_unary(Eval *ev, const AstNode *node, Value *value)
         }
         return true;
     }
-    if (!value_is_tuple(value) || node->op == AST_OP_NOT) {
-        return eval_fault(ev, DIAG_E0202, node->a->span, "`%s` needs a number%s, found %s", spelling(node),
-                          node->op == AST_OP_NOT ? "" : " or a vector", value_describe(value));
+    if (!value_is_tuple(value)) {
+        return eval_fault(ev, DIAG_E0202, node->a->span, "`%s` needs a number or a vector, found %s", spelling(node),
+                          value_describe(value));
     }
-    for (unsigned i = 0; node->op == AST_OP_NEG && i < value->components; i++) {
-        value->v[i] = -value->v[i];
+    for (unsigned i = 0; node->op != AST_OP_PLUS && i < value->components; i++) {
+        value->v[i] = node->op == AST_OP_NEG ? -value->v[i] : !number_is_true(value->v[i]);
     }
     return true;
 }

@@ -9,12 +9,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/number.h"
 #include "eval/internal.h"
 
-// The greatest width, precision and length of a number as text: POV-Ray writes longer ones in a different form.
-enum { FORMAT_MAX = 254 };
+enum {
+    NUMBER_MAX = 254,     // characters of a number as text
+    DIGITS_MAX = 1100,    // more than any number has, before the point or after it
+    FORMAT_MAX = 4000,    // width and precision
+    DATE_MAX = 256,       // characters of a date as text, with the zero at its end
+    SECONDS_A_DAY = 86400,
+};
 
 static bool give_string(Eval *ev, const AstNode *node, Value *value, const char *text, size_t length)
 {
@@ -48,15 +54,15 @@ static void use_point(char *text)
     }
 }
 
-// Appends a number as printf's %f does: width < 0 fills with zeros, precision < 0 is six decimals.
-static bool append_number(Eval *ev, Span span, TextBuffer *out, double number, int width, int precision)
+// Appends a number as printf's %f or %g does: width < 0 fills with zeros, precision < 0 is six digits. False, and
+// nothing is appended: it takes more than `most` characters.
+static bool append_number(TextBuffer *out, double number, int width, int precision, bool is_short, int most)
 {
-    char text[2 * FORMAT_MAX + 400];
-    int length = width < 0 ? snprintf(text, sizeof text, "%0*.*f", -width, precision, number)
-                           : snprintf(text, sizeof text, "%*.*f", width, precision, number);
-    if (length > FORMAT_MAX) {
-        return eval_fault(ev, DIAG_E0304, span, "this number takes %d characters, and at most %d can be written",
-                          length, FORMAT_MAX);
+    static const char *const formats[2][2] = {{"%*.*f", "%0*.*f"}, {"%*.*g", "%0*.*g"}};
+    char text[2 * FORMAT_MAX];
+    int length = snprintf(text, sizeof text, formats[is_short][width < 0], abs(width), precision, number);
+    if (length > most) {
+        return false;
     }
     use_point(text);
     text_append(out, text);
@@ -94,7 +100,13 @@ bool builtin_str(Eval *ev, const AstNode *node, Value *value)
     }
     TextBuffer out;
     text_init(&out);
-    return append_number(ev, node->span, &out, number, width, precision) && give_buffer(ev, node, value, &out);
+    // As POV-Ray: what is too long is written with an exponent, and if that is too long, too, it is no number.
+    precision = precision < DIGITS_MAX ? precision : DIGITS_MAX;
+    if (abs(width) > NUMBER_MAX || (!append_number(&out, number, width, precision, false, NUMBER_MAX) &&
+                                    !append_number(&out, number, width, precision, true, NUMBER_MAX))) {
+        text_append(&out, "<invalid>");
+    }
+    return give_buffer(ev, node, value, &out);
 }
 
 bool builtin_vstr(Eval *ev, const AstNode *node, Value *value)
@@ -121,10 +133,7 @@ bool builtin_vstr(Eval *ev, const AstNode *node, Value *value)
         if (i > 0) {
             text_append_n(&out, separator.text, separator.length);
         }
-        if (!append_number(ev, node->span, &out, v[i], width, precision)) {
-            text_fini(&out);
-            return false;
-        }
+        (void)append_number(&out, v[i], width, precision, false, 2 * FORMAT_MAX);
     }
     return give_buffer(ev, node, value, &out);
 }
@@ -251,9 +260,12 @@ bool builtin_substr(Eval *ev, const AstNode *node, Value *value)
     }
     start = trunc(start) - 1.0;
     count = trunc(count);
-    if (!(start >= 0.0 && count >= 0.0 && start + count <= (double)string.length)) {
+    if (!(start >= -1.0 && count >= 0.0 && start + count <= (double)string.length)) {
         return eval_fault(ev, DIAG_E0304, node->span, "%g characters from number %g on are not in a string of %zu",
                           count, start + 1.0, string.length);
+    }
+    if (start < 0.0) {
+        return give_string(ev, node, value, "", 0); // as POV-Ray: from number 0 on there are none
     }
     return give_string(ev, node, value, string.text + (size_t)start, (size_t)count);
 }
@@ -286,4 +298,69 @@ bool builtin_strupr(Eval *ev, const AstNode *node, Value *value)
 bool builtin_strlwr(Eval *ev, const AstNode *node, Value *value)
 {
     return change_case(ev, node, value, 'A', 'Z', 'a' - 'A');
+}
+
+// A form of a date without its time zones, `%z` and `%Z`: POV-Ray's moments have none.
+static void append_without_zones(TextBuffer *out, const char *format)
+{
+    while (*format != '\0') {
+        size_t length = strcspn(format, "%");
+        text_append_n(out, format, length);
+        format += length;
+        length = *format == '%' ? 1 + strspn(format + 1, "_-0^#123456789") : 0;
+        length += length > 0 ? strspn(format + length, "EO") : 0;
+        length += length > 0 && format[length] != '\0' ? 1 : 0;
+        if (length > 0 && format[length - 1] != 'z' && format[length - 1] != 'Z') {
+            text_append_n(out, format, length);
+        }
+        format += length;
+    }
+}
+
+// The moment of `seconds` since 1970, UTC, as strftime writes it in the C locale; false: it has no room or no year that
+// POV-Ray takes.
+static bool append_moment(TextBuffer *out, double seconds, const char *format)
+{
+    struct tm moment;
+    char text[DATE_MAX];
+    time_t time = (time_t)seconds;
+    if (gmtime_r(&time, &moment) == NULL) {
+        return false;
+    }
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (plain == (locale_t)0) {
+        return false;
+    }
+    size_t length = strftime_l(text, sizeof text, format, &moment, plain);
+    freelocale(plain);
+    text_append_n(out, text, length);
+    return length > 0;
+}
+
+bool builtin_datetime(Eval *ev, const AstNode *node, Value *value)
+{
+    static const double first = -219145.0, last = 2921939.0; // the years 1400 to 9999
+    double days;
+    Value format = {.text = "%Y-%m-%d %H:%M:%SZ"};
+    if (!eval_number(ev, node->a, &days) || (node->count > 1 && !eval_string(ev, argument(node, 1), &format))) {
+        return false;
+    }
+    double seconds = floor(days * SECONDS_A_DAY + 0.5);
+    if (!(seconds >= first * SECONDS_A_DAY && seconds < last * SECONDS_A_DAY)) {
+        return eval_fault(ev, DIAG_E0304, node->a->span, "%g days after 2000-01-01 are not in the years 1400 to 9999",
+                          days);
+    }
+    TextBuffer out;
+    text_init(&out);
+    TextBuffer form;
+    text_init(&form);
+    append_without_zones(&form, format.text);
+    bool is_written = append_moment(&out, seconds + EPOCH_2000, text_get(&form));
+    text_fini(&form);
+    if (!is_written) {
+        text_fini(&out);
+        return eval_fault(ev, DIAG_E0304, node->span, "this form gives no text, or more than %d characters",
+                          DATE_MAX - 1);
+    }
+    return give_buffer(ev, node, value, &out);
 }
