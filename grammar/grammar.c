@@ -12,16 +12,43 @@
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
 
+// Whether a branch of a conditional ends with the word of a block, whose braces must stand after the #end.
+static bool gives_word(const AstNode *item)
+{
+    if (item->kind == AST_WORD) {
+        return true;
+    }
+    bool is_conditional = item->kind == AST_IF || item->kind == AST_IFDEF || item->kind == AST_SWITCH ||
+                          item->kind == AST_CASE || item->kind == AST_RANGE || item->kind == AST_ELSE;
+    const AstNode *lists[] = {item->a, item->b, item->c};
+    bool found = false;
+    for (unsigned i = 0; i < RT_COUNT_OF(lists) && is_conditional; i++) {
+        const AstNode *last = lists[i];
+        while (last != NULL && last->next != NULL) {
+            found = found || (item->kind == AST_SWITCH && gives_word(last));
+            last = last->next;
+        }
+        found = found || (last != NULL && gives_word(last));
+    }
+    return found;
+}
+
 bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
 {
     if (state->builder.failed) {
+        return false;
+    }
+    if (state->kept == NULL && item->kind != AST_WORD && gives_word(item) && grammar_tear(state)) {
+        state->torn_by_fault = true;
         return false;
     }
     if (state->kept != NULL) {
         *state->kept = ast_append(*state->kept, item);
         return true;
     }
-    if (!state->item(state->client, item)) {
+    // It was run as a splice, as far as that went.
+    bool is_told = item->span.begin < state->told_to && item->kind != AST_MACRO;
+    if (!is_told && !state->item(state->client, item)) {
         state->client_ended = true;
         return false;
     }
@@ -154,6 +181,7 @@ typedef ARRAY(Token) Tokens;
 static bool read_tokens(GrammarState *state, Tokens *tokens)
 {
     Token token = {0};
+    state->is_quiet = true;
     bool fine = setjmp(state->escape) == 0 && grammar_scan_begin(state);
     while (fine) {
         grammar_read_token(state, &token);
@@ -208,6 +236,35 @@ GrammarText *grammar_text_again(const GrammarContext *context, Span span)
         diag_report(context->diags, DIAG_E0502, span, "this text cannot be read again");
     }
     return text;
+}
+
+// Scans its text once more.
+void grammar_report_unreadable(GrammarState *state, const Token *token)
+{
+    if (token->known == NULL) {
+        return;
+    }
+    GrammarState again;
+    DiagSink *diags = state->context->diags;
+    size_t length = (size_t)(token->span.end - token->span.begin), errors = diags->error_count;
+    char *bytes = malloc(length + 1);
+    grammar_begin(&again, state->context);
+    if (bytes != NULL && source_read_span(diags->sources, token->span, bytes)) {
+        again.offset = token->span.begin;
+        again.text = bytes;
+        again.text_length = length;
+        if (setjmp(again.escape) == 0 && grammar_scan_begin(&again)) {
+            do {
+                grammar_next_token(&again);
+            } while (again.current.kind != TOKEN_END_OF_FILE);
+        }
+        grammar_scan_end(&again);
+    }
+    free(bytes);
+    if (diags->error_count == errors) {
+        grammar_fault(state, DIAG_E0101, token->span, "this cannot be read");
+    }
+    state->faulty = true;
 }
 
 GrammarText *grammar_text_body(const GrammarContext *context, Span macro)

@@ -23,7 +23,8 @@ typedef struct Token {
         Symbol symbol; // words, names, strings; the directive's word
         double number;
     };
-    const void *known; // of a name that a splice delivers: what it stood for then; NULL: nothing
+    const void *known; // of a name that a splice delivers: what it stood for then; NULL: nothing. Of INVALID: not NULL
+                       // while it is not reported
 } Token;
 
 struct GrammarText {
@@ -72,6 +73,8 @@ typedef struct GrammarState {
     bool can_splice;   // a statement that a directive tears apart is to be read again, see grammar_tear
     bool torn;         // it was found to be one: nothing is said of it, and the end of the file is delivered
     Token torn_at;       // the token where that was found
+    bool torn_by_fault;  // which the parser refused: what is skipped may be anything
+    uint64_t told_to;    // the end of what is parsed once more for its messages, as it was found to be no splice either
     uint64_t item_begin; // where the present top-level item begins; 0 before its first token
     size_t faults_before; // errors that were reported before it
 
@@ -80,6 +83,8 @@ typedef struct GrammarState {
     jmp_buf escape;     // taken when the scanner is out of memory
     uint64_t offset;    // global offset of the next byte
     bool block_checked; // the first block was looked at for bytes that no text has
+    bool is_quiet;      // what cannot be read is a token INVALID, reported when somebody wants to have it
+    bool is_unreadable; // so is the token that is being read
     bool file_name;     // the next string is the file name of an #include: backslashes stand for themselves
     uint64_t begin;     // of the string or comment being read
     uint64_t hash;      // of the directive being read; a comment may stand in it
@@ -139,6 +144,12 @@ typedef struct GrammarState {
 int grammar_scan(Token *token, void *scanner);
 bool grammar_scan_begin(GrammarState *state) RT_MUST_CHECK;
 void grammar_scan_end(GrammarState *state);
+// Goes back or forth to an offset of the source, among items.
+void grammar_scan_seek(GrammarState *state, uint64_t offset);
+// Whether a fault of the scanner is reported later, see is_quiet; the token is INVALID then.
+bool grammar_scan_defers(GrammarState *state);
+// Reports what is wrong with a token INVALID, if that was deferred.
+void grammar_report_unreadable(GrammarState *state, const Token *token);
 
 // Between two top-level items, with nothing read ahead: hands over the literal spheres that come next.
 void grammar_scan_literals(GrammarState *state);
@@ -194,6 +205,9 @@ bool grammar_splice_statement(GrammarState *state) RT_MUST_CHECK;
 // The name of a macro that gave nothing between the last two tokens, or NULL.
 const Token *grammar_stream_silent(const GrammarStream *stream);
 bool grammar_stream_has_failed(const GrammarStream *stream);
+// Whether the place at which the statement was torn is wrong for the splice, too: the parser reads it once more, and
+// what it then says of it is all that is said. Ends the reading of the stream.
+bool grammar_stream_is_refused(GrammarStream *stream, Span at);
 
 // Builders for names and expressions, which are worked out at once in a splice.
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span);

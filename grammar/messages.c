@@ -5,6 +5,7 @@
 // the token stream; what happens after the message is the stream's matter.
 //
 // SPDX-License-Identifier: MIT
+#include <stdlib.h>
 #include <string.h>
 
 #include "grammar/lexer.h"
@@ -485,6 +486,30 @@ static bool cuts_branch(GrammarState *state)
     return is_inside && (role == ROLE_MIDDLE || role == ROLE_ELSE || role == ROLE_END);
 }
 
+// Whether a directive that holds other text, or a call of a macro, stands in the present item before the fault: it may
+// make sense once they are resolved, or never be read.
+static bool has_directives(const GrammarState *state)
+{
+    for (size_t i = 0; i < state->openers.count; i++) {
+        if (grammar_is_directive(state->openers.items[i].kind)) {
+            return true;
+        }
+    }
+    const GrammarHooks *hooks = state->context->hooks;
+    bool has_text = hooks != NULL && state->item_begin != 0 && state->item_begin < state->current.span.begin;
+    GrammarText *text =
+        has_text ? grammar_text_again(state->context, (Span){state->item_begin, state->current.span.begin}) : NULL;
+    bool found = false;
+    for (size_t i = 0; text != NULL && i < text->count && !found; i++) {
+        const Token *token = &text->tokens[i];
+        DirectiveRole role = grammar_role(token->kind);
+        found = (role != ROLE_NONE && role != ROLE_SIMPLE) || token->kind == TOKEN_HASH_INCLUDE ||
+                (token->kind == TOKEN_NAME && hooks->is_macro(hooks->client, token->symbol));
+    }
+    free(text);
+    return found;
+}
+
 void grammar_report_syntax(GrammarState *state, const char *const *names, size_t count)
 {
     if (state->ended || state->builder.failed) {
@@ -496,8 +521,13 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
     if (state->stream != NULL) {
         state->ended = true;
         state->skips = false;
-        bool is_reported = state->current.kind == TOKEN_INVALID; // when it was read
-        if (!is_reported && !grammar_stream_has_failed(state->stream) && !report_cut(state)) {
+        Span at = state->ended_by.kind != 0 ? state->ended_by.span : state->current.span;
+        if (grammar_stream_has_failed(state->stream) || grammar_stream_is_refused(state->stream, at)) {
+            return;
+        }
+        if (state->current.kind == TOKEN_INVALID) {
+            grammar_report_unreadable(state, &state->current);
+        } else if (!report_cut(state)) {
             report_general(state, &expected);
         }
         return;
@@ -505,7 +535,16 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
     if ((is_after_branch(state) || cuts_branch(state) || is_at_macro(state)) && grammar_tear(state)) {
         return;
     }
-    if (state->current.kind != TOKEN_INVALID && !report_reserved(state) && !report_split(state) &&
+    bool is_reported = state->current.kind == TOKEN_INVALID && state->current.known == NULL;
+    if (!is_reported && state->current.kind != TOKEN_END_OF_FILE && has_directives(state) && grammar_tear(state)) {
+        state->torn_by_fault = true;
+        return;
+    }
+    if (state->current.kind == TOKEN_INVALID) {
+        grammar_report_unreadable(state, &state->current);
+        return;
+    }
+    if (!report_reserved(state) && !report_split(state) &&
         !report_misplaced_directive(state, &expected)) {
         report_general(state, &expected);
     }

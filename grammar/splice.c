@@ -111,6 +111,15 @@ bool grammar_stream_has_failed(const GrammarStream *stream)
     return stream->failed;
 }
 
+bool grammar_stream_is_refused(GrammarStream *stream, Span at)
+{
+    const GrammarState *live = stream->live;
+    bool is_there = live != NULL && live->torn_by_fault && at.begin == live->torn_at.span.begin;
+    stream->is_refused = stream->is_refused || (is_there && !stream->failed);
+    stream->failed = stream->failed || is_there;
+    return stream->is_refused;
+}
+
 void grammar_stream_close(GrammarStream *stream)
 {
     stream_drop_to(stream, 0);
@@ -127,6 +136,7 @@ bool grammar_splice_statement(GrammarState *state)
     stream_begin(&stream, state->context, false);
     stream.live = state;
     state->torn = state->ended = state->skips = false;
+    state->is_quiet = true;
     state->openers.count = 0;
     grammar_hold_token(state, torn);
     stream.end = (Span){begin, begin};
@@ -150,5 +160,10 @@ bool grammar_splice_statement(GrammarState *state)
     arena_rewind(state->context->arena, state->mark);
     state->faulty |= stream.failed;
     state->item_begin = 0;
-    return !stream.failed && !state->client_ended;
+    state->is_quiet = state->torn_by_fault = false;
+    if (stream.is_refused && !state->client_ended) {
+        state->told_to = torn.span.begin + 1;
+        grammar_scan_seek(state, begin);
+    }
+    return (!stream.failed || stream.is_refused) && !state->client_ended;
 }

@@ -37,6 +37,8 @@ typedef struct Frame {
     GrammarLoop loop;
     double subject; // of a #switch
     bool is_found;  // its case
+    bool has_cases; // at least one, or an #else
+    bool is_last;   // its #else, or that of an #if, was begun: no other branch may follow
 } Frame;
 
 struct GrammarStream {
@@ -47,6 +49,7 @@ struct GrammarStream {
     bool within;  // the items stand inside braces or parentheses
     bool is_call; // the whole is a macro's body
     bool failed;  // reading cannot go on
+    bool is_refused; // at the place where the statement was torn: see grammar_stream_is_refused
     bool is_cut;  // a directive stood right after the last item
     bool is_open; // an item or a directive is being read
     Span end;     // of the last token

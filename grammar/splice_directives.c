@@ -50,8 +50,11 @@ static void begin_if(Reading *reading)
         if (stream->failed) {
             return;
         }
+        Frame *frame = holds ? stream_push(stream, FRAME_BRANCH, &reading->directive) : NULL;
+        if (holds && frame != NULL) {
+            frame->is_last = at.kind == TOKEN_HASH_ELSE;
+        }
         if (holds) {
-            stream_push(stream, FRAME_BRANCH, &reading->directive);
             return;
         }
         if (!stream_skip(stream, &reading->directive, 1, true, NULL, &at) || at.kind == TOKEN_HASH_END) {
@@ -99,7 +102,13 @@ static void next_case(GrammarStream *stream, size_t place, Token at)
 {
     while (!stream->failed) {
         Frame *frame = &stream->frames.items[place];
+        if (frame->is_last || at.kind == TOKEN_HASH_ELSEIF) {
+            stream_fault_stray(stream, &at);
+            return;
+        }
         bool was_found = frame->is_found;
+        frame->has_cases = true;
+        frame->is_last = at.kind == TOKEN_HASH_ELSE;
         bool holds = at.kind == TOKEN_HASH_ELSE || case_holds(stream, &at, frame->subject);
         frame = &stream->frames.items[place];
         if (stream->failed || was_found || holds) {
@@ -126,7 +135,7 @@ static void between_branches(Reading *reading)
     bool is_case = reading->directive.kind == TOKEN_HASH_CASE || reading->directive.kind == TOKEN_HASH_RANGE;
     if (kind == FRAME_SWITCH && reading->directive.kind != TOKEN_HASH_ELSEIF) {
         next_case(stream, place, reading->directive);
-    } else if (kind == FRAME_BRANCH && !is_case) {
+    } else if (kind == FRAME_BRANCH && !is_case && !stream->frames.items[place].is_last) {
         Token opener = stream->frames.items[place].opened_by;
         if (stream_skip(stream, &opener, 1, false, NULL, &last)) {
             stream_drop(stream, place);
@@ -230,6 +239,13 @@ static void end_directive(Reading *reading)
     switch (stream->frames.items[place].kind) {
     case FRAME_WHILE: next_while(stream, place); break;
     case FRAME_FOR: next_for(stream, place); break;
+    case FRAME_SWITCH:
+        if (!stream->frames.items[place].has_cases) {
+            stream_fault_stray(stream, &reading->directive);
+            return;
+        }
+        stream_drop(stream, place);
+        break;
     default: stream_drop(stream, place); break;
     }
 }
@@ -301,6 +317,21 @@ static AstNode *parse_whole_macro(const GrammarStream *stream, const Token *open
     return fine && items.first->kind == AST_MACRO ? items.first : NULL;
 }
 
+// A part of a directive that began outside of the body.
+static const Token *find_stray(const Tokens *kept)
+{
+    unsigned depth = 0;
+    for (size_t i = 0; i < kept->count; i++) {
+        DirectiveRole role = grammar_role(kept->items[i].kind);
+        if (depth == 0 && (role == ROLE_ELSE || role == ROLE_MIDDLE)) {
+            return &kept->items[i];
+        }
+        depth += role == ROLE_OPENS;
+        depth -= role == ROLE_END && depth > 0;
+    }
+    return NULL;
+}
+
 // Its text is kept; the definition is kept parsed as well when its body holds whole items.
 static void define_macro(Reading *reading)
 {
@@ -308,7 +339,11 @@ static void define_macro(Reading *reading)
     Tokens kept = {0};
     ArenaMark mark = arena_mark(stream->context->arena);
     AstNode *definition = NULL, *whole = NULL;
-    if (stream_keep_to_end(stream, &reading->directive, &kept)) {
+    bool is_whole = stream_keep_to_end(stream, &reading->directive, &kept);
+    const Token *stray = is_whole ? find_stray(&kept) : NULL;
+    if (stray != NULL) {
+        stream_fault_stray(stream, stray);
+    } else if (is_whole) {
         // The head is read again from what was kept.
         Frame *frame = stream_push(stream, FRAME_TEXT, &reading->directive);
         if (frame != NULL) {

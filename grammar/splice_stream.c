@@ -23,13 +23,15 @@ void stream_fail(GrammarStream *stream)
 
 void stream_fault(GrammarStream *stream, DiagCode code, Span span, const char *text)
 {
-    diag_report(stream->context->diags, code, span, "%s", text);
+    if (!grammar_stream_is_refused(stream, stream->end)) {
+        diag_report(stream->context->diags, code, span, "%s", text);
+    }
     stream_fail(stream);
 }
 
 void stream_fault_stray(GrammarStream *stream, const Token *token)
 {
-    if (!stream->failed) {
+    if (!stream->failed && !grammar_stream_is_refused(stream, stream->end)) {
         diag_report(stream->context->diags, DIAG_E0106, token->span, "`#%s` without the directive that it belongs to",
                     intern_get(stream->context->names, grammar_directive_word(token->kind)));
     }
@@ -38,7 +40,7 @@ void stream_fault_stray(GrammarStream *stream, const Token *token)
 
 void stream_fault_unclosed(GrammarStream *stream, const Token *token)
 {
-    if (stream->failed) {
+    if (stream->failed || grammar_stream_is_refused(stream, stream->end)) {
         return;
     }
     const char *word = intern_get(stream->context->names, grammar_directive_word(token->kind));

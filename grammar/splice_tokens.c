@@ -96,7 +96,8 @@ static bool is_at_own_end(GrammarStream *stream, const GrammarState *state)
         stream_drop(stream, at - 1);
     }
     const Frame *own = at == state->own_frame && at > 0 ? &stream->frames.items[at - 1] : NULL;
-    return own != NULL && own->kind != FRAME_LIVE && own->at == own->count;
+    bool is_read_again = own != NULL && own->kind == FRAME_TEXT && stream->live != NULL; // the live text goes on there
+    return own != NULL && own->kind != FRAME_LIVE && !is_read_again && own->at == own->count;
 }
 
 // A directive or a call that ends what is parsed.

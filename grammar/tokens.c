@@ -110,6 +110,9 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
             return directives[i].token;
         }
     }
+    if (grammar_scan_defers(state)) {
+        return TOKEN_INVALID;
+    }
     if (length == 0) {
         grammar_fault(state, DIAG_E0105, span, "the name of a directive must follow `#`");
         return TOKEN_INVALID;
@@ -280,6 +283,11 @@ void grammar_read_token(GrammarState *state, Token *token)
             supply_hash(state, token, state->last_read);
         }
         token->known = NULL;
+        if (RT_UNLIKELY(state->is_unreadable)) {
+            state->is_unreadable = false;
+            token->kind = TOKEN_INVALID;
+            token->known = token;
+        }
         state->last_read = token->kind;
     }
     if (RT_UNLIKELY(state->ended || state->builder.failed)) {
@@ -436,9 +444,26 @@ static bool is_doubtful_sign(const GrammarState *state)
     }
 }
 
+// Faults within what was found to be wrong as a splice, too, are reported as they are met.
+static bool can_tear(const GrammarState *state)
+{
+    return state->can_splice && state->context->diags->error_count == state->faults_before &&
+           state->current.span.begin >= state->told_to;
+}
+
+bool grammar_scan_defers(GrammarState *state)
+{
+    bool defers = state->is_quiet;
+    for (size_t i = 0; i < state->openers.count && !defers && can_tear(state); i++) {
+        defers = grammar_is_directive(state->openers.items[i].kind);
+    }
+    state->is_unreadable = defers;
+    return defers;
+}
+
 bool grammar_tear(GrammarState *state)
 {
-    if (!state->can_splice || state->context->diags->error_count != state->faults_before) {
+    if (!can_tear(state)) {
         return false;
     }
     state->torn = state->ended = true;

@@ -12,9 +12,12 @@ typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 
 // ---- declarations
 
-// A call of a macro whose text ends with the semicolon.
-static bool is_ended_by_call(const Eval *ev, const AstNode *node)
+// A call of a macro whose text ends with the semicolon, or a directive whose branch does.
+static bool is_ended_within(const Eval *ev, const AstNode *node)
 {
+    if (node->kind == AST_INLINE) {
+        return ev->is_value_ended;
+    }
     const Value *found = node->kind == AST_CALL ? scope_find(ev, node->symbol) : NULL;
     const AstNode *last =
         found != NULL && found->kind == VALUE_MACRO && !found->macro->is_torn ? found->macro->body->b : NULL;
@@ -28,7 +31,7 @@ static bool is_ended_by_call(const Eval *ev, const AstNode *node)
 static void check_end(Eval *ev, const AstNode *node, const Value *value)
 {
     bool needs_end = value->kind == VALUE_NUMBER || value_is_tuple(value);
-    if (!needs_end || (node->flags & AST_ENDED) || ev->version < 3.5 || is_ended_by_call(ev, node->b)) {
+    if (!needs_end || (node->flags & AST_ENDED) || ev->version < 3.5 || is_ended_within(ev, node->b)) {
         return;
     }
     Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
