@@ -12,25 +12,22 @@
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
 
-// Whether a branch of a conditional ends with the word of a block, whose braces must stand after the #end.
+// Whether a branch or a turn of a loop gives the word of a block, whose braces must stand after the #end.
 static bool gives_word(const AstNode *item)
 {
-    if (item->kind == AST_WORD) {
-        return true;
-    }
-    bool is_conditional = item->kind == AST_IF || item->kind == AST_IFDEF || item->kind == AST_SWITCH ||
-                          item->kind == AST_CASE || item->kind == AST_RANGE || item->kind == AST_ELSE;
-    const AstNode *lists[] = {item->a, item->b, item->c};
-    bool found = false;
-    for (unsigned i = 0; i < RT_COUNT_OF(lists) && is_conditional; i++) {
-        const AstNode *last = lists[i];
-        while (last != NULL && last->next != NULL) {
-            found = found || (item->kind == AST_SWITCH && gives_word(last));
-            last = last->next;
+    const AstNode *lists[] = {item->kind == AST_RANGE || item->kind == AST_FOR ? NULL : item->b, item->c,
+                              item->kind == AST_ELSE ? item->a : NULL};
+    bool holds_items = item->kind == AST_IF || item->kind == AST_IFDEF || item->kind == AST_SWITCH ||
+                       item->kind == AST_CASE || item->kind == AST_RANGE || item->kind == AST_ELSE ||
+                       item->kind == AST_WHILE || item->kind == AST_FOR;
+    for (unsigned i = 0; i < RT_COUNT_OF(lists) && holds_items; i++) {
+        for (const AstNode *each = lists[i]; each != NULL; each = each->next) {
+            if (each->kind == AST_WORD || gives_word(each)) {
+                return true;
+            }
         }
-        found = found || (last != NULL && gives_word(last));
     }
-    return found;
+    return false;
 }
 
 bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
@@ -38,7 +35,7 @@ bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
     if (state->builder.failed) {
         return false;
     }
-    if (state->kept == NULL && item->kind != AST_WORD && gives_word(item) && grammar_tear(state)) {
+    if (state->kept == NULL && gives_word(item) && grammar_tear(state)) {
         state->torn_by_fault = true;
         return false;
     }

@@ -490,6 +490,9 @@ static bool cuts_branch(GrammarState *state)
 // make sense once they are resolved, or never be read.
 static bool has_directives(const GrammarState *state)
 {
+    if (grammar_role(state->current.kind) == ROLE_OPENS && state->previous.kind == TOKEN_BUILTIN) {
+        return true;
+    }
     for (size_t i = 0; i < state->openers.count; i++) {
         if (grammar_is_directive(state->openers.items[i].kind)) {
             return true;

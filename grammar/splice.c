@@ -14,6 +14,11 @@ static int base_of_items(const GrammarStream *stream)
     return stream->within ? NO_BASE : 0;
 }
 
+static bool is_at_end(const Frame *frame)
+{
+    return frame->kind == FRAME_TEXT && frame->at == frame->count;
+}
+
 // Runs directives and calls up to the next item, and parses it; NULL at the end of the text, after a fault, or, for a
 // live text, where nothing is open any more and the token `past` has been read.
 static AstNode *next_item(GrammarStream *stream, uint64_t past)
@@ -24,6 +29,9 @@ static AstNode *next_item(GrammarStream *stream, uint64_t past)
     state.stream = stream;
     while (!stream->failed) {
         const GrammarState *live = stream->live;
+        if (live != NULL && stream->frames.count == 2 && is_at_end(&stream->frames.items[1])) {
+            stream_drop(stream, 1);
+        }
         bool is_done = live != NULL && stream->frames.count == 1 && stream->end.begin >= past &&
                        (live->held_count == 0 || live->held[live->held_count - 1].span.begin > past);
         Token token;
@@ -115,6 +123,9 @@ bool grammar_stream_is_refused(GrammarStream *stream, Span at)
 {
     const GrammarState *live = stream->live;
     bool is_there = live != NULL && live->torn_by_fault && at.begin == live->torn_at.span.begin;
+    for (size_t i = 0; i < stream->frames.count && is_there; i++) {
+        is_there = stream->frames.items[i].kind != FRAME_MACRO; // a text that was fine when it was defined
+    }
     stream->is_refused = stream->is_refused || (is_there && !stream->failed);
     stream->failed = stream->failed || is_there;
     return stream->is_refused;

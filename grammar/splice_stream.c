@@ -248,6 +248,7 @@ AstNode *stream_parse(GrammarStream *stream, int start, int base_depth, bool is_
     state.start = start;
     state.base_depth = base_depth;
     state.is_raw = is_raw;
+    state.is_for_head = start == TOKEN_START_FOR;
     state.takes_elements = start == TOKEN_START_SUBJECT;
     state.begins_raw = start == TOKEN_START_DIRECTIVE;
     bool was_open = stream->is_open;

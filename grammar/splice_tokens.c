@@ -96,8 +96,7 @@ static bool is_at_own_end(GrammarStream *stream, const GrammarState *state)
         stream_drop(stream, at - 1);
     }
     const Frame *own = at == state->own_frame && at > 0 ? &stream->frames.items[at - 1] : NULL;
-    bool is_read_again = own != NULL && own->kind == FRAME_TEXT && stream->live != NULL; // the live text goes on there
-    return own != NULL && own->kind != FRAME_LIVE && !is_read_again && own->at == own->count;
+    return own != NULL && own->kind != FRAME_LIVE && own->at == own->count;
 }
 
 // A directive or a call that ends what is parsed.
@@ -129,6 +128,18 @@ static bool takes_string(int directive)
     }
 }
 
+// After these words, and first in the head of a #for, stands a name itself: no directive and no call gives one.
+static bool wants_name(const GrammarState *state)
+{
+    switch (state->previous.kind) {
+    case TOKEN_HASH_DECLARE:
+    case TOKEN_HASH_LOCAL:
+    case TOKEN_HASH_UNDEF: return true;
+    case '(': return state->is_for_head && state->openers.count == 1;
+    default: return false;
+    }
+}
+
 void grammar_splice_token(GrammarState *state, Token *token)
 {
     GrammarStream *stream = state->stream;
@@ -150,6 +161,9 @@ void grammar_splice_token(GrammarState *state, Token *token)
             state->takes_string = takes_string(token->kind);
             state->takes_elements = token->kind == TOKEN_HASH_UNDEF || token->kind == TOKEN_HASH_READ;
             state->own_frame = stream_innermost_text(stream);
+            if (stream->live != NULL && stream->frames.items[state->own_frame - 1].kind == FRAME_TEXT) {
+                state->own_frame = 1; // what is read again ends where the live text goes on
+            }
             break;
         }
         // No operator continues a string.
@@ -158,7 +172,7 @@ void grammar_splice_token(GrammarState *state, Token *token)
             stream_deliver_end(stream, token);
             return;
         }
-        if (state->is_raw || (!is_directive && !stream_is_at_call(stream, state, token))) {
+        if (state->is_raw || wants_name(state) || (!is_directive && !stream_is_at_call(stream, state, token))) {
             break;
         }
         if (may_end && state->base_depth != NO_BASE && state->openers.count <= (size_t)state->base_depth) {
