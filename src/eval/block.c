@@ -32,6 +32,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
     [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
+    [ACTION_CHARSET] = settings_charset_action,
     [ACTION_NOISE_GENERATOR] = settings_generator_action,
     [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
     [ACTION_LOOKS_LIKE] = light_look_action,
@@ -54,7 +55,7 @@ static const BlockHook bodies[KIND_COUNT] = {
 static const BlockHook closings[KIND_COUNT] = {
     [KIND_CAMERA] = camera_close, [KIND_PLANE] = plane_close,           [KIND_UNION] = union_close,
     [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
-    [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close,
+    [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close, [KIND_DISC] = disc_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
     [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
     [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close, [KIND_NORMAL] = normal_close,
@@ -266,7 +267,8 @@ static bool name_fits(const Block *block, const Value *value)
     if (schema_kind(block->kind)->is_object || block->kind == KIND_LOOKS_LIKE) {
         return schema_kind((SchemaKind)value->block)->is_object;
     }
-    return value->block == block->kind || (block->kind == KIND_TEXTURE && value->block == KIND_PIGMENT);
+    bool is_part = value->block == KIND_PIGMENT || value->block == KIND_NORMAL || value->block == KIND_FINISH;
+    return value->block == block->kind || (block->kind == KIND_TEXTURE && is_part);
 }
 
 static void take_name(Block *block, const Value *value, const AstNode *item)
@@ -279,6 +281,12 @@ static void take_name(Block *block, const Value *value, const AstNode *item)
                     value_describe(value));
     } else if (value->block == KIND_PIGMENT && block->kind == KIND_TEXTURE) {
         block->record->texture.pigment = *(const PigmentBlueprint *)value->record;
+    } else if (value->block == KIND_NORMAL && block->kind == KIND_TEXTURE) {
+        block->record->texture.normal = *(const NormalBlueprint *)value->record;
+    } else if (value->block == KIND_FINISH && block->kind == KIND_TEXTURE) {
+        const FinishBlueprint *finish = value->record;
+        block->record->texture.finish = finish->finish;
+        block->record->texture.ior = finish->ior;
     } else {
         block->is = (SchemaKind)value->block;
         memcpy(block->record, value->record, schema_kind(block->is)->size);
@@ -536,6 +544,30 @@ static const SchemaProperty *find_loose_argument(Block *block, const AstNode *it
     return is_loose && !block_is_misspelt(block, item) && block_begins_like_colour(block, item) ? list->items : NULL;
 }
 
+// A colour directly in a shape is for pictures of the lowest quality, and says nothing here, as in POV-Ray.
+static bool is_idle_colour(Block *block, const AstNode *item)
+{
+    bool takes_pigment = block->ev->objects->properties[block->kind][W_pigment] != 0;
+    const AstNode *name = block_leading_name(block, item);
+    if (block_is_name(name) && !(name->kind == AST_NAME && is_declared(block->ev, name))) {
+        return false;
+    }
+    return takes_pigment && schema_kind(block->kind)->is_object && !block->has_fault &&
+           cursor_at_value(&block->cursor) && !block_is_misspelt(block, item) && block_begins_like_colour(block, item);
+}
+
+static void pass_colour(Block *block)
+{
+    Rgbft colour;
+    Span span;
+    if (!cursor_colour(&block->cursor, &colour, &span)) {
+        block->has_fault = true;
+        skip_values(block);
+    } else if (eval_report(block->ev, DIAG_W0405, span, "a colour directly in %s is not used", block_word(block))) {
+        diag_suggest(block->ev->options.diags, "a colour belongs in `pigment { }`");
+    }
+}
+
 static void read_properties(Block *block)
 {
     const AstNode *item;
@@ -543,7 +575,8 @@ static void read_properties(Block *block)
         const SchemaProperty *property = find_property(block, item);
         bool is_word = item->kind == AST_WORD || item->kind == AST_BLOCK;
         bool is_first = block->after_number && block->items == 0;
-        unsigned commas = is_first ? AST_BEFORE_COMMA : AST_AFTER_COMMA | AST_BEFORE_COMMA;
+        unsigned commas = is_first || block->after_list ? AST_BEFORE_COMMA : AST_AFTER_COMMA | AST_BEFORE_COMMA;
+        block->after_list = false;
         if (is_word && !block->has_fault && (item->flags & commas)) {
             block_fault(block, DIAG_E0259, item->span, "no comma is expected here in %s", block_word(block));
         }
@@ -552,6 +585,8 @@ static void read_properties(Block *block)
             read_property(block, property, item);
         } else if (loose) {
             block->has_fault = !block_value(block, loose, item->span) || block->has_fault;
+        } else if (!property && is_idle_colour(block, item)) {
+            pass_colour(block);
         } else if (is_word) {
             refuse_word(block, item);
         } else {

@@ -52,6 +52,7 @@ typedef struct Block {
     size_t arguments;  // that were given
     size_t items;      // properties so far
     bool has_name;     // it began with an identifier
+    bool after_list;   // a list of pigments, normals, textures or colours has been read: a comma may stand behind it
     bool after_number; // it is an entry of a map: a comma may stand before its first item
     bool has_unsupported;
     bool has_fault;
@@ -215,6 +216,7 @@ bool image_place(Eval *ev, const ImageBlueprint *image, uint32_t *index) RT_MUST
 // A gamma after its word, whose name and place are for messages: a number, or `srgb`, which leaves *gamma as it is.
 bool settings_read_gamma(Block *block, const char *name, Span word, GammaModel *model, double *gamma) RT_MUST_CHECK;
 bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool settings_charset_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_generator_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
 
@@ -241,6 +243,7 @@ bool clips_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 // shape.c
 bool plane_close(Block *block) RT_MUST_CHECK;
 bool cylinder_close(Block *block) RT_MUST_CHECK;
+bool disc_close(Block *block) RT_MUST_CHECK;
 bool cone_close(Block *block) RT_MUST_CHECK;
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
 // A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. SHAPE_NOTHING,

@@ -180,16 +180,29 @@ static bool is_like_bytes(const double v[COMPONENTS])
     return !is_usual && (v[RED] == 255.0 || v[RED] != v[GREEN] || v[GREEN] != v[BLUE]);
 }
 
+// What stands behind `color` when that is all of a colour.
+static bool is_no_colour(Cursor *cursor, const AstNode *item)
+{
+    bool is_word = item != NULL && item->kind == AST_WORD && component_of(word_of(item)) == COMPONENTS;
+    bool is_next = item != NULL && (item->flags & AST_AFTER_COMMA);
+    return item == NULL || is_next || is_word || !cursor_at_value(cursor);
+}
+
 bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span)
 {
     double v[COMPONENTS] = {0};
-    const AstNode *item = cursor_peek(cursor);
+    const AstNode *item = cursor_peek(cursor), *first = item;
     *span = item != NULL ? item->span : cursor->span;
     if (word_of(item) == W_color || word_of(item) == W_colour) {
         cursor_skip(cursor);
         item = cursor_peek(cursor);
     }
     const ColourModel *model = model_of(word_of(item));
+    bool is_alone = model == NULL && item != first && is_no_colour(cursor, item);
+    if (is_alone) { // `color` and nothing else is black
+        *colour = (Rgbft){0};
+        return true;
+    }
     if (item != NULL) {
         *span = span_join(*span, item->span);
     }

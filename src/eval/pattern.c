@@ -249,12 +249,19 @@ static PatternType type_of(const char *word)
     return type;
 }
 
+// A comma stands before an item that would be the first of a list.
+static bool is_after_comma(const EntryList *list, const AstNode *item)
+{
+    return list->count == 0 && (item->flags & AST_AFTER_COMMA);
+}
+
 // Blocks of one kind, pigments in a pigment, that follow `checker` and the like.
 static bool read_blocks(Block *block, uint32_t wanted, EntryList *list)
 {
     SchemaKind kind = block->kind;
     const AstNode *item;
-    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && block_kind(block->ev, item) == kind) {
+    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && block_kind(block->ev, item) == kind &&
+           !is_after_comma(list, item)) {
         PatternEntry entry = {.at = (double)list->count};
         Blueprint record;
         SchemaKind is;
@@ -273,7 +280,8 @@ static bool read_blocks(Block *block, uint32_t wanted, EntryList *list)
 static bool read_colours(Block *block, uint32_t wanted, EntryList *list)
 {
     const AstNode *item;
-    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && cursor_at_value(&block->cursor)) {
+    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && cursor_at_value(&block->cursor) &&
+           !is_after_comma(list, item)) {
         PatternEntry entry = {.at = (double)list->count};
         if (!read_colour(block, &block->cursor, &entry.colour) || !add_entry(block, list, &entry, item->span)) {
             return false;
@@ -327,10 +335,14 @@ static bool read_block_entries(Block *block, PatternType type, Span span)
         return false;
     }
     bool has_colours = block->kind == KIND_PIGMENT && list.count == 0;
+    if (has_colours && !read_colours(block, wanted, &list)) {
+        return false;
+    }
+    block->after_list = list.count > 0;
     if (block->kind == KIND_NORMAL && list.count == 0) {
         return true; // an amount follows
     }
-    if (has_colours ? !read_colours(block, wanted, &list) || !fill_with_colours(block, type, wanted, &list, span)
+    if (has_colours ? !fill_with_colours(block, type, wanted, &list, span)
                     : !fill_with_defaults(block, type, wanted, &list, span)) {
         return false;
     }

@@ -57,6 +57,17 @@ bool settings_generator_action(Block *block, const SchemaProperty *property, con
     return block_value(block, &number, item->span);
 }
 
+bool settings_charset_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    (void)property;
+    if (!cursor_at_word(&block->cursor, W_ascii) && !cursor_at_word(&block->cursor, W_utf8) &&
+        !cursor_at_word(&block->cursor, W_sys)) {
+        return block_fault(block, DIAG_E0253, item->span, "`charset` needs `ascii`, `utf8` or `sys` after it");
+    }
+    cursor_skip(&block->cursor);
+    return true;
+}
+
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)
 {
     if (kind == KIND_BACKGROUND) {

@@ -20,8 +20,20 @@ bool plane_close(Block *block)
 
 bool cylinder_close(Block *block)
 {
-    if (block->is == KIND_CYLINDER && vec3_equal(block->record->cylinder.base, block->record->cylinder.cap)) {
-        return block_fault(block, DIAG_E0361, block->node->span, "the ends of a cylinder cannot be one point");
+    CylinderBlueprint *cylinder = &block->record->cylinder;
+    if (block->is != KIND_CYLINDER) {
+        return true;
+    }
+    cylinder->radius = fabs(cylinder->radius);
+    return !vec3_equal(cylinder->base, cylinder->cap) ||
+           block_fault(block, DIAG_E0361, block->node->span, "the ends of a cylinder cannot be one point");
+}
+
+bool disc_close(Block *block)
+{
+    if (block->is == KIND_DISC) {
+        block->record->disc.radius = fabs(block->record->disc.radius);
+        block->record->disc.hole = fabs(block->record->disc.hole);
     }
     return true;
 }

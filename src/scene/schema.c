@@ -211,13 +211,15 @@ static const SchemaProperty box_arguments[] = {
 
 static const BoxBlueprint box_defaults = {.part = OBJECT_PART};
 
-// POV-Ray takes the absolute value of a negative radius of a cylinder, and draws a cone of one upside down.
+// POV-Ray takes the absolute value of a negative radius of a cylinder or disc, and so do we. It draws a sphere of one
+// in intersections, differences and where it is stretched only, and a cone of one as two that meet in their apex, with
+// wrong surfaces. Measured.
 #define RADIUS {RANGE_FAULT, false, 0.0, INFINITY}
 
 static const SchemaProperty cylinder_arguments[] = {
     {"base", TYPE_VECTOR, AT(CylinderBlueprint, base), .doc = "the middle of one end"},
     {"cap", TYPE_VECTOR, AT(CylinderBlueprint, cap), .doc = "the middle of the other end"},
-    {"radius", TYPE_NUMBER, AT(CylinderBlueprint, radius), .range = RADIUS, .doc = "0: not drawn"},
+    {"radius", TYPE_NUMBER, AT(CylinderBlueprint, radius), .doc = "0: not drawn; its sign is not looked at"},
 };
 
 static const SchemaProperty cylinder_properties[] = {
@@ -242,8 +244,8 @@ static const ConeBlueprint cone_defaults = {.part = OBJECT_PART};
 static const SchemaProperty disc_arguments[] = {
     {"centre", TYPE_VECTOR, AT(DiscBlueprint, centre), .doc = "its middle"},
     {"normal", TYPE_VECTOR, AT(DiscBlueprint, normal), .doc = "at right angles to it; any length, 0: not drawn"},
-    {"radius", TYPE_NUMBER, AT(DiscBlueprint, radius), .range = RADIUS, .doc = "0: not drawn"},
-    {"hole", TYPE_NUMBER, AT(DiscBlueprint, hole), .is_optional = true, .range = RADIUS,
+    {"radius", TYPE_NUMBER, AT(DiscBlueprint, radius), .doc = "0: not drawn; its sign is not looked at"},
+    {"hole", TYPE_NUMBER, AT(DiscBlueprint, hole), .is_optional = true,
      .doc = "radius of a hole; not less than the radius: not drawn"},
 };
 
@@ -326,6 +328,8 @@ static const SchemaProperty settings_properties[] = {
      .doc = "of patterns that name none: 1, 2 or 3; by default 2, before version 3.5 1"},
     {"number_of_waves", TYPE_INTEGER, AT(SettingsBlueprint, number_of_waves),
      .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of waves"},
+    {"charset", TYPE_ACTION, ACTION_CHARSET,
+     .doc = "`ascii`, `utf8` or `sys`: accepted; what is no ASCII in strings stays as it is"},
     {"max_intersections", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
     {"mm_per_unit", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
 };
