@@ -159,7 +159,7 @@ tests_sampling_test_sampling_LDADD = libapi.la
 tests_sampling_test_forward_SOURCES = %D%/sampling/test_forward.c %D%/sampling/scenes.h
 tests_sampling_test_forward_LDADD = libapi.la
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
-tests_lang_run_lang_LDADD = libeval.la libscene.la libgrammar.la libast.la libmath.la libbase.la
+tests_lang_run_lang_LDADD = libapi.la # for the tracer
 
 check_PROGRAMS += tests/lang/typos
 tests_lang_typos_SOURCES = %D%/lang/typos.c
@@ -236,6 +236,7 @@ test_scripts = \
   %D%/povray/check_standard_names.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \
+  %D%/povray/check_trace.py \
   %D%/povray/check_debug.py \
   %D%/povray/check_programs.py \
   %D%/povray/check_colors.py \

@@ -17,6 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "api/probe.h"
 #include "ast/words.h"
 #include "base/stack.h"
 #include "image/image.h"
@@ -215,6 +216,7 @@ static rt_status load(rt_session *session, void *argument)
         .world = session->world.scale > 0.0 ? &session->world : NULL,
         .no_literals = session->no_literals,
         .threads = session->load_threads > 0 ? session->load_threads : render_default_threads(),
+        .tracer = &probe_tracer,
         .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,

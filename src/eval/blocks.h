@@ -222,6 +222,8 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_
 
 // extent.c
 // Tells of a transform that is about to be applied; `keeps_spheres`: it moves, turns or scales evenly.
+// The object that the first argument of a call names; false after a fault.
+bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span) RT_MUST_CHECK;
 
 // object.c

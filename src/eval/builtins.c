@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "base/number.h"
-#include "eval/internal.h"
+#include "eval/probe.h"
 #include "math/transform.h"
 
 static bool give_number(Value *value, double number)
@@ -369,6 +369,8 @@ static const Builtin builtins[WORD_COUNT] = {
     [W_vaxis_rotate] = {rotate_about_axis, NULL, 3, 3},
     [W_min_extent] = {builtin_extent, NULL, 1, 1},
     [W_max_extent] = {builtin_extent, NULL, 1, 1},
+    [W_trace] = {builtin_trace, NULL, 3, 4},
+    [W_inside] = {builtin_inside, NULL, 2, 2},
     [W_defined] = {is_defined, NULL, 1, 1},
     [W_dimensions] = {array_dimensions, NULL, 1, 1},
     [W_dimension_size] = {array_dimensions, NULL, 2, 2},
@@ -386,8 +388,6 @@ static const Builtin builtins[WORD_COUNT] = {
     [W_strlwr] = {builtin_strlwr, NULL, 1, 1},
     [W_datetime] = {builtin_datetime, NULL, 1, 2},
     // Words of the language that rtlang does not have.
-    [W_trace] = {not_supported, NULL, 0, ANY_COUNT},
-    [W_inside] = {not_supported, NULL, 0, ANY_COUNT},
     [W_vturbulence] = {vector_turbulence, NULL, 4, 4},
     [W_sum] = {not_supported, NULL, 0, ANY_COUNT},
     [W_prod] = {not_supported, NULL, 0, ANY_COUNT},

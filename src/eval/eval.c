@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "eval/blocks.h"
+#include "eval/probe.h"
 
 // Levels of native recursion for each level that a text may nest: room for calls within calls.
 enum { DEEPENING_PER_AST_LEVEL = 6 };
@@ -145,6 +146,7 @@ static void fini(Eval *ev)
     objects_fini(ev);
     data_files_fini(ev);
     files_fini(ev);
+    probes_fini(ev);
     scope_fini(ev);
     text_fini(&ev->line);
     ARRAY_FREE(&ev->streams);

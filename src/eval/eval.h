@@ -48,6 +48,21 @@ typedef struct EvalNames {
 } EvalNames;
 
 // What an evaluation is given. Pointers must stay valid during the call; nothing is owned.
+// What a ray meets first of the parts of a scene.
+typedef struct EvalHit {
+    Vec3 point, normal; // of unit length, outward
+    uint32_t shape;     // the tracer's own
+    uint32_t part;      // Part.order
+} EvalHit;
+
+// The tracer, which the evaluator itself must not know.
+typedef struct EvalTracer {
+    void *(*open)(const Scene *parts); // NULL when out of memory; the scene stays as it is until `close`
+    // From a point, or going on from where a surface was met; the direction is of unit length. False: nothing is met.
+    bool (*closest)(const void *opened, Vec3 origin, Vec3 direction, const EvalHit *from, EvalHit *hit);
+    void (*close)(void *opened);
+} EvalTracer;
+
 typedef struct EvalOptions {
     SourceMap *sources;
     InternTable *names; // reserved words interned
@@ -67,6 +82,7 @@ typedef struct EvalOptions {
     bool no_literals;          // nothing is read or evaluated by a faster way than all else is
     int threads;               // for long runs of such statements; 0 and 1: the caller's alone
     size_t literal_piece;      // bytes of text that each of these takes at a time; 0: as is best
+    const EvalTracer *tracer;  // for `trace`; NULL: there is none
     EvalNames *declared;       // set in the end; may be NULL
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console

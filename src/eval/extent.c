@@ -324,23 +324,28 @@ static Extent object_extent(SchemaKind kind, const void *object)
     return extent;
 }
 
-bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
+bool extent_object(Eval *ev, const AstNode *node, Value *object)
 {
-    Value object;
     const AstNode *name = node->a;
     if (!block_is_name(name)) {
         return eval_fault(ev, DIAG_E0264, name->span, "`%s` needs the name of an object", eval_text(ev, node->symbol));
     }
-    if (!eval_expression(ev, name, &object)) {
+    if (!eval_expression(ev, name, object)) {
         return false;
     }
-    if (object.kind == VALUE_BLOCK && object.block == KIND_UNSUPPORTED) {
-        block_unsupported_name(ev, object.record, name->span);
+    if (object->kind == VALUE_BLOCK && object->block == KIND_UNSUPPORTED) {
+        block_unsupported_name(ev, object->record, name->span);
         return false;
     }
-    if (object.kind != VALUE_BLOCK || !schema_kind((SchemaKind)object.block)->is_object) {
-        return eval_fault(ev, DIAG_E0264, name->span, "expected the name of an object, found %s",
-                          value_describe(&object));
+    return (object->kind == VALUE_BLOCK && schema_kind((SchemaKind)object->block)->is_object) ||
+           eval_fault(ev, DIAG_E0264, name->span, "expected the name of an object, found %s", value_describe(object));
+}
+
+bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
+{
+    Value object;
+    if (!extent_object(ev, node, &object)) {
+        return false;
     }
     Extent extent = object_extent((SchemaKind)object.block, object.record);
     *value = (Value){.kind = VALUE_VECTOR, .components = 3};

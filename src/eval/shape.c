@@ -5,6 +5,7 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <stdlib.h>
 
 #include "eval/blocks.h"
 
@@ -179,11 +180,19 @@ static ShapeResult smooth_triangle_form(Eval *ev, const void *object, Part *part
     const SmoothTriangleBlueprint *triangle = object;
     part->kind = PART_SMOOTH_TRIANGLE;
     ShapeResult result = triangle_map(ev, triangle->corners, triangle->part.span, part);
+    int sides = 0;
     for (int i = 0; i < 3 && result == SHAPE_MADE; i++) {
+        double side = vec3_dot(triangle->normals[i], vec3(part->to_world.m[2][0], part->to_world.m[2][1],
+                                                          part->to_world.m[2][2]));
+        sides += (side > 0.0) - (side < 0.0);
         if (vec3_equal(triangle->normals[i], vec3(0.0, 0.0, 0.0))) {
             return nothing(ev, triangle->part.span, "a smooth triangle with a normal of 0 is not drawn");
         }
         part->data[i] = transform_normal(&part->to_world, triangle->normals[i]);
+    }
+    if (result == SHAPE_MADE && abs(sides) < 3) {
+        return nothing(ev, triangle->part.span,
+                       "a smooth triangle with a normal along it, or with normals on both sides, is not drawn");
     }
     return result;
 }

@@ -22,6 +22,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "api/probe.h"
 #include "ast/words.h"
 #include "eval/eval.h"
 #include "unit/tap.h"
@@ -250,6 +251,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
         .declaration_count = read_declarations(test, declared_names, declarations),
         .image_width = 320,
         .image_height = 240,
+        .tracer = &probe_tracer,
         .message = take_message,
         .client = outcome,
     };

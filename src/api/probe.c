@@ -1,0 +1,36 @@
+// Rays of the language's function `trace`: the evaluator's shapes as a geometry, and what a ray meets.
+//
+// SPDX-License-Identifier: MIT
+#include "api/probe.h"
+
+#include <math.h>
+
+#include "trace/query.h"
+
+static void *probe_open(const Scene *shapes)
+{
+    return geometry_new(shapes, 0);
+}
+
+static void probe_close(void *geometry)
+{
+    geometry_free(geometry);
+}
+
+static bool probe_closest(const void *geometry, Vec3 origin, Vec3 direction, const EvalHit *from, EvalHit *met)
+{
+    Ray ray = {origin, direction};
+    RayStart start = RAY_START_FREE;
+    Hit hit;
+    if (from != NULL) {
+        start = (RayStart){from->shape, vec3_dot(direction, from->normal) < 0.0, 0};
+    }
+    if (!geometry_closest(geometry, TRACE_PARTS, ray, start, (double)INFINITY, &hit)) {
+        return false;
+    }
+    Surface surface = geometry_surface(geometry, TRACE_PARTS, ray, hit);
+    *met = (EvalHit){surface.point, surface.normal, hit.shape, surface.order};
+    return true;
+}
+
+const EvalTracer probe_tracer = {probe_open, probe_closest, probe_close};
