@@ -57,7 +57,7 @@ def shape(rng, deep):
         group = rng.choice(["union", "merge", "intersection", "difference"])
         text = f"{group} {{ " + " ".join(shape(rng, deep - 1) for _ in range(rng.randint(2, 3)))
     words = [word(rng) for _ in range(rng.randrange(3))]
-    if text.startswith(("difference", "intersection")):  # POV-Ray keeps its box, although it is boundless then
+    if kind > 4:  # POV-Ray keeps the box of a group, although it may be boundless then
         words = [each for each in words if each != "inverse"]
     return " ".join([text, *words]) + " }"
 
