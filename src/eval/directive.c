@@ -8,6 +8,8 @@
 
 #include "eval/scope.h"
 
+enum { REPEATS_MOST = 20000 }; // messages that repeat what has been said, before loops of a faulty scene end
+
 typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 
 // ---- declarations
@@ -331,6 +333,9 @@ bool loop_continues(Eval *ev, CursorFrame *frame)
     if (frame->kind == FRAME_WHILE) {
         bool holds;
         double number;
+        if (ev->repeated_reports > REPEATS_MOST && ev->options.diags->error_count > 0) {
+            return false; // what would have ended the loop may be what is not understood
+        }
         if (quick_number(ev, node->a, &number)) {
             return number_is_true(number) && eval_step(ev, node->span);
         }

@@ -177,6 +177,7 @@ typedef struct Eval {
     uint64_t clear_count; // shapes that some light may go through
     bool has_unbalanced;          // a macro that is_unbalanced was defined
     unsigned splice_nesting;      // of fragments that are being parsed
+    size_t repeated_reports;         // of what was reported at its place before
     ARRAY(struct Probe *) probes; // objects that were traced, see probe.c
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;

@@ -76,6 +76,7 @@ static bool is_new(Eval *ev, DiagCode code, Span span)
     size_t mask = ev->reported.count - 1;
     for (size_t slot = key & mask; ev->reported.items[slot] != 0; slot = (slot + 1) & mask) {
         if (ev->reported.items[slot] == key) {
+            ev->repeated_reports++;
             return false;
         }
     }
