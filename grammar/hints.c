@@ -174,6 +174,8 @@ void grammar_hint_token(GrammarState *state, bool only_closes)
         suggest_vector(state, &open[count - 1]);
     } else if (token->kind == '=' && is_in_for) {
         diag_suggest(diags, "a loop is `#for (Name, From, To, Step) ... #end`");
+    } else if (state->previous.kind == TOKEN_ARRAY) {
+        diag_suggest(diags, "the size of an array stands before its elements: `array[2] { 1, 2 }`");
     } else if (token->kind == TOKEN_DIRECTIVE_WORD) {
         const char *word = intern_get(state->context->names, token->symbol);
         diag_suggest(diags, "did you mean `#%s`?", word);

@@ -127,7 +127,11 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
     suggest.best = foreign != NULL ? foreign : suggest.best;
     size_t kept = state->context->diags->count;
     grammar_fault(state, DIAG_E0105, span, "`#%.40s` is not a directive", word);
-    if (suggest.best == NULL) {
+    bool is_apart = span.end - span.begin > length + 1;
+    if (suggest.best == NULL || (is_apart && foreign == NULL && suggest.best_cost > 0)) {
+        if (is_apart && state->context->diags->count > kept) {
+            diag_suggest(state->context->diags, "a comment begins with `//`");
+        }
         state->unknown_directives++;
         return TOKEN_INVALID;
     }
@@ -349,6 +353,29 @@ static void skip_semicolon(GrammarState *state)
     }
 }
 
+// Those of a case that belongs to nothing.
+static void skip_parentheses(GrammarState *state, DirectiveRole role)
+{
+    Token token;
+    if (role != ROLE_MIDDLE) {
+        return;
+    }
+    grammar_read_token(state, &token);
+    if (token.kind != '(') {
+        grammar_hold_token(state, token);
+        return;
+    }
+    for (unsigned depth = 1; depth > 0;) {
+        grammar_read_token(state, &token);
+        depth += token.kind == '(';
+        depth -= token.kind == ')';
+        if (token.kind == TOKEN_END_OF_FILE || token.kind == ';' || grammar_is_directive(token.kind)) {
+            grammar_hold_token(state, token);
+            return;
+        }
+    }
+}
+
 // Among items: to the `}` that ends the block, up to a directive, or past a `;` or a whole block.
 static void skip_items(GrammarState *state, size_t level, Token token)
 {
@@ -358,6 +385,7 @@ static void skip_items(GrammarState *state, size_t level, Token token)
     bool inside_value = state->past_directive;
     unsigned semicolons = inside_value && role == ROLE_SIMPLE ? 2 : 1;
     if (was_among_items && role != ROLE_NONE && !inside_value && role != ROLE_SIMPLE && role != ROLE_OPENS) {
+        skip_parentheses(state, role);
         return; // it belongs to nothing
     }
     bool passes = inside_value;

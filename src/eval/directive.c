@@ -37,7 +37,14 @@ static void check_end(Eval *ev, const AstNode *node, const Value *value)
         return;
     }
     Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
-    if (eval_report(ev, DIAG_E0205, end, "a `;` is missing after the declaration of %s", value_describe(value))) {
+    if (!eval_report(ev, DIAG_E0205, end, "a `;` is missing after the declaration of %s", value_describe(value))) {
+        return;
+    }
+    char next = ' ';
+    bool is_read = source_read_span(ev->options.diags->sources, (Span){end.end, end.end + 1}, &next);
+    if (is_read && node->b->kind == AST_NUMBER && (next == '_' || ((next | ' ') >= 'a' && (next | ' ') <= 'z'))) {
+        diag_suggest(ev->options.diags, "numbers are decimal and have no suffix: this one ends here");
+    } else {
         diag_suggest(ev->options.diags, "write `;` after it");
         diag_replace(ev->options.diags, (Span){end.end, end.end}, ";");
     }

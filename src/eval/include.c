@@ -84,6 +84,13 @@ static Source *open_included(Eval *ev, const AstNode *node)
         ev->stop = true;
         return NULL;
     }
+    if (node->a->kind == AST_VECTOR && !(node->a->flags & AST_KNOWN)) {
+        if (eval_report(ev, DIAG_E0202, node->a->span, "expected a string, found a vector")) {
+            diag_suggest(ev->options.diags, "the name of a file stands between two `\"`");
+        }
+        ev->faulty = true;
+        return NULL;
+    }
     return file_open(ev, node->a, FILE_INCLUDE, &source) ? source : NULL;
 }
 
