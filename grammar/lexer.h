@@ -47,6 +47,7 @@ typedef struct Opener {
     Span span;
     Symbol word;      // the word before a `{`, or the directive's; SYMBOL_NONE if there is none
     bool header_done; // of a directive: its parentheses are closed
+    const void *callee; // of a `(` in a splice: what the name before it stands for
 } Opener;
 
 typedef struct LiteralPattern LiteralPattern;
@@ -213,7 +214,11 @@ bool grammar_stream_is_refused(GrammarStream *stream, Span at);
 // Builders for names and expressions, which are worked out at once in a splice.
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span);
 AstNode *grammar_element(GrammarState *state, AstNode *node);
+AstNode *grammar_call(GrammarState *state, AstNode *node); // of a name
 AstNode *grammar_fold(GrammarState *state, AstNode *node);
+// A #declare or #version without `;`: the token after it has been read.
+AstNode *grammar_end_declare(GrammarState *state, AstNode *node);
+AstNode *grammar_end_version(GrammarState *state, AstNode *node);
 // Ends a fragment: `has_lookahead` when a token after it was read.
 void grammar_finish(GrammarState *state, AstNode *result, bool has_lookahead);
 

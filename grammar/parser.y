@@ -44,6 +44,7 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
 #define ONE(node) ast_append(EMPTY, (node))
 #define LEARN(items, opens, closes) grammar_learn_items(state, (Span){(opens).begin, (closes).end}, (items))
 #define FOLD(node) grammar_fold(state, (node))
+#define CALL(node) grammar_call(state, (node))
 #define FINISH(node)                                                                                                   \
     do {                                                                                                               \
         grammar_finish(state, (node), yychar != TOKEN_GRAMMAR_YYEMPTY);                                                      \
@@ -86,12 +87,12 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token HASH_FOPEN "#fopen" HASH_FCLOSE "#fclose" HASH_READ "#read" HASH_WRITE "#write"
 
 %type <node> item block layer entry array function directive simple declare assignment conditional message file case
-%type <node> last_case
+%type <node> last_case parameter
 %type <node> value initialiser unreadable
 %type <node> full logic relation sum indexed inline include target subject condition
 %type <list> items entry_items body block_body components arguments operands colour colour_open layers sizes rows
 %type <list> parameters names bounds written cases branches else_part function_body
-%type <symbol> word block_word parameter mode member reserved
+%type <symbol> word block_word mode member reserved
 
 %printer { fprintf(yyo, "symbol %u", (unsigned)$$); } <symbol>
 %printer { fprintf(yyo, "%g", $$); } <number>
@@ -294,12 +295,15 @@ function_body:
 ;
 
 parameters:
-  parameter                         { $$ = ONE(LEAF(NAME, $parameter, @$)); }
-| parameters parameter              { $$ = ast_append($1, LEAF(NAME, $parameter, @parameter)); }
-| parameters ',' parameter          { $$ = ast_append($1, LEAF(NAME, $parameter, @parameter)); }
+  parameter                         { $$ = ONE($parameter); }
+| parameters parameter              { $$ = ast_append($1, $parameter); }
+| parameters ',' parameter          { $$ = ast_append($1, $parameter); }
 ;
 
-parameter: NAME | CONSTANT;
+parameter:
+  NAME                              { $$ = grammar_name(state, $NAME, @$); }
+| CONSTANT                          { $$ = LEAF(NAME, $CONSTANT, @$); }
+;
 
 comma:
   %empty                            %prec JUXTAPOSED
@@ -334,14 +338,15 @@ simple:
 | include                           { $$ = $include; }
 | HASH_UNDEF target                 { $$ = NODE(UNDEF, NONE, SYMBOL_NONE, @$, $target, NULL, NULL); }
 | HASH_DEFAULT '{' block_body '}'   { $$ = LIST(DEFAULT, SYMBOL_NONE, @$, $block_body); }
-| HASH_VERSION sum                  %prec JUXTAPOSED { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
-| HASH_VERSION sum ';'              { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
+| HASH_VERSION sum                  %prec JUXTAPOSED
+    { $$ = grammar_end_version(state, NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL)); }
+| HASH_VERSION sum ';'              { $$ = ast_flag(NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL), AST_ENDED); }
 ;
 
 include: HASH_INCLUDE sum           %prec JUXTAPOSED { $$ = NODE(INCLUDE, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); };
 
 declare:
-  assignment                        %prec JUXTAPOSED { $$ = $assignment; }
+  assignment                        %prec JUXTAPOSED { $$ = grammar_end_declare(state, $assignment); }
 | assignment ';'                    %prec JUXTAPOSED { $$ = ast_flag($assignment, AST_ENDED); }
 | assignment ';' ';'                { $$ = ast_flag($assignment, AST_ENDED); }
 ;
@@ -505,11 +510,11 @@ sum:
     { $$ = FOLD(LIST(VECTOR, SYMBOL_NONE, @$, ast_flag_last($components, AST_BEFORE_COMMA))); }
 | '(' full ')'                      { $$ = ast_flag($full, AST_IN_PARENTHESES); }
 | '(' inline ')'                    { $$ = ast_flag($inline, AST_IN_PARENTHESES); }
-| NAME '(' arguments ')'            { $$ = FOLD(LIST(CALL, $NAME, @$, $arguments)); }
-| NAME '(' arguments ',' ')'        { $$ = FOLD(LIST(CALL, $NAME, @$, ast_flag_last($arguments, AST_BEFORE_COMMA))); }
+| NAME '(' arguments ')'            { $$ = CALL(LIST(CALL, $NAME, @$, $arguments)); }
+| NAME '(' arguments ',' ')'        { $$ = CALL(LIST(CALL, $NAME, @$, ast_flag_last($arguments, AST_BEFORE_COMMA))); }
 | NAME '(' arguments ',' WORD ')'
-    { $$ = FOLD(LIST(CALL, $NAME, @$, ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD)))); }
-| NAME '(' ')'                      { $$ = FOLD(LIST(CALL, $NAME, @$, EMPTY)); }
+    { $$ = CALL(LIST(CALL, $NAME, @$, ast_append_after_comma($arguments, LEAF(WORD, $WORD, @WORD)))); }
+| NAME '(' ')'                      { $$ = CALL(LIST(CALL, $NAME, @$, EMPTY)); }
 | indexed '(' arguments ')'         { $$ = FOLD(LISTS(CALL, NONE, SYMBOL_NONE, @$, $arguments, ONE($indexed), EMPTY)); }
 | indexed '(' arguments ',' WORD ')'
     { $$ = FOLD(LISTS(CALL, NONE, SYMBOL_NONE, @$,

@@ -64,9 +64,14 @@ static void track_more(GrammarState *state)
     }
 }
 
+// In the parameters or the numbers of a function, but not in a block that it is made of.
 static bool is_in_function(const GrammarState *state)
 {
-    return state->function_begins || state->function_level > 0;
+    bool is_there = state->function_begins || state->function_level > 0;
+    for (size_t i = state->function_level; is_there && state->function_level > 0 && i < state->openers.count; i++) {
+        is_there = state->openers.items[i].kind != '{';
+    }
+    return is_there;
 }
 
 // Where an element of an array or an item in it begins or has ended, no directive and no call may stand.
@@ -107,10 +112,10 @@ static void cut(GrammarStream *stream, GrammarState *state, Token *token)
     *token = (Token){.kind = TOKEN_END_OF_FILE, .span = {token->span.begin, token->span.begin}};
 }
 
-static void capture(GrammarStream *stream, const GrammarState *state, Token *token)
+static void capture(GrammarStream *stream, Token *token)
 {
     // The base of an element is looked up with its index.
-    if (token->kind == TOKEN_NAME && !is_in_function(state) && stream_peek_kind(stream) != '[') {
+    if (token->kind == TOKEN_NAME && stream_peek_kind(stream) != '[') {
         token->known = stream->hooks->capture(stream->hooks->client, token->symbol, token->span);
     }
 }
@@ -149,7 +154,7 @@ void grammar_splice_token(GrammarState *state, Token *token)
     bool begins = state->begins_raw;
     state->begins_raw = false;
     for (;;) {
-        bool may_end = state->ends_before || state->previous.kind == ';';
+        bool may_end = (state->ends_before || state->previous.kind == ';') && !state->function_begins;
         bool is_over = may_end && state->own_frame > 0 && state->openers.count == 0 && is_at_own_end(stream, state);
         if (is_over || stream->failed || state->ended || state->builder.failed) {
             stream_deliver_end(stream, token);
@@ -193,19 +198,47 @@ void grammar_splice_token(GrammarState *state, Token *token)
         stream->silent.kind = 0;
     }
     if (!state->is_raw) {
-        capture(stream, state, token);
+        capture(stream, token);
     }
 }
 
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span)
 {
     AstNode *node = ast_node(&state->builder, AST_NAME, AST_OP_NONE, symbol, span, NULL, NULL, NULL);
-    if (RT_UNLIKELY(state->stream != NULL) && !is_in_function(state)) {
+    if (RT_UNLIKELY(state->stream != NULL)) {
         // With a token after it read, the name is the one before.
         const Token *token = state->current.span.begin == span.begin ? &state->current : &state->previous;
         ast_flag(node, AST_KNOWN)->known = token->known;
     }
     return node;
+}
+
+// The name of a function that is called stands for what it is now, too. Its `(` is still open.
+AstNode *grammar_call(GrammarState *state, AstNode *node)
+{
+    if (RT_LIKELY(state->stream == NULL) || !is_in_function(state)) {
+        return grammar_fold(state, node);
+    }
+    node->b = ast_node(&state->builder, AST_NAME, AST_OP_NONE, node->symbol, node->span, NULL, NULL, NULL);
+    ast_flag(node->b, AST_KNOWN)->known = grammar_innermost(state)->callee;
+    return node;
+}
+
+AstNode *grammar_end_declare(GrammarState *state, AstNode *node)
+{
+    const AstNode *target = node->a;
+    bool is_own = target != NULL && target->kind == AST_NAME && state->current.kind == TOKEN_NAME &&
+                  state->current.symbol == target->symbol && state->current.span.begin >= node->span.end;
+    return is_own ? ast_flag(node, AST_BEFORE_NAME) : node;
+}
+
+AstNode *grammar_end_version(GrammarState *state, AstNode *node)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    const Token *next = state->ended_by.kind != 0 ? &state->ended_by : &state->current;
+    bool is_name = next->kind == TOKEN_NAME && next->span.begin >= node->span.end;
+    bool is_call = is_name && hooks != NULL && hooks->is_macro(hooks->client, next->symbol);
+    return is_call ? ast_flag(node, AST_BEFORE_NAME) : node;
 }
 
 static bool is_bare_call(const AstNode *node)
@@ -237,16 +270,6 @@ static AstNode *mark_pastes(AstNode *node)
     return pastes ? ast_flag(node, AST_PASTES) : node;
 }
 
-// Before a token after it is read, which may be a call that changes the array.
-AstNode *grammar_element(GrammarState *state, AstNode *node)
-{
-    if (RT_LIKELY(state->stream == NULL) || state->takes_elements) {
-        return node;
-    }
-    int next = stream_peek_kind(state->stream);
-    return next == '[' || next == '=' ? node : grammar_fold(state, node);
-}
-
 // Twelve components, which are worked out each by itself: no value holds them all.
 static bool is_matrix(const AstNode *node)
 {
@@ -257,15 +280,29 @@ static bool is_matrix(const AstNode *node)
     return count == MATRIX_COMPONENTS;
 }
 
+static AstNode *fold(GrammarState *state, AstNode *node)
+{
+    if (!is_matrix(node) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->stream->failed) {
+        state->stream->hooks->fold(state->stream->hooks->client, node);
+        state->stream->failed = state->stream->hooks->is_stopped(state->stream->hooks->client);
+    }
+    return node;
+}
+
 AstNode *grammar_fold(GrammarState *state, AstNode *node)
 {
     if (RT_LIKELY(state->stream == NULL)) {
         return mark_pastes(node);
     }
-    if (!is_matrix(node) && !is_in_function(state) && !(node->flags & AST_KNOWN) && !state->builder.failed &&
-        !state->stream->failed) {
-        state->stream->hooks->fold(state->stream->hooks->client, node);
-        state->stream->failed = state->stream->hooks->is_stopped(state->stream->hooks->client);
+    return is_in_function(state) ? node : fold(state, node);
+}
+
+// Before a token after it is read, which may be a call that changes the array.
+AstNode *grammar_element(GrammarState *state, AstNode *node)
+{
+    if (RT_LIKELY(state->stream == NULL) || state->takes_elements) {
+        return node;
     }
-    return node;
+    int next = stream_peek_kind(state->stream);
+    return next == '[' || next == '=' ? node : fold(state, node);
 }

@@ -178,6 +178,9 @@ static bool is_open(GrammarState *state, int kind)
 static void push_opener(GrammarState *state, const Token *token)
 {
     Opener opener = {.kind = token->kind, .span = token->span};
+    if (token->kind == '(' && state->previous.kind == TOKEN_NAME) {
+        opener.callee = state->previous.known;
+    }
     if (token->kind == '(' && state->previous.kind == TOKEN_WORD) {
         opener.word = state->previous.symbol; // a block that was meant
     }

@@ -23,23 +23,26 @@ static bool same_type(const Value *one, const Value *other)
            (one->kind != VALUE_BLOCK || same_block(one, other));
 }
 
-bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span)
+bool array_takes(Eval *ev, const ValueArray *array, const Value *element, const Value *value, Span span)
 {
-    Value kept;
-    const Value *other = array->example;
+    const Value *other = &array->first;
     if (element->kind == VALUE_FUNCTION) {
         return eval_fault(ev, DIAG_E0262, span, "this element is a function, which cannot be declared again");
     }
-    if (!value_store(ev, value, &ev->program, span, &kept)) {
+    return other->kind == VALUE_NONE || same_type(other, value) ||
+           eval_fault(ev, DIAG_E0215, span, "the elements of this array are each %s, not %s", value_describe(other),
+                      value_describe(value));
+}
+
+bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span)
+{
+    Value kept;
+    if (!value_store(ev, value, &ev->program, span, &kept) || !array_takes(ev, array, element, &kept, span)) {
         return false;
     }
-    if (other != NULL && !same_type(other, &kept)) {
-        return eval_fault(ev, DIAG_E0215, span, "the elements of this array are each %s, not %s",
-                          value_describe(other), value_describe(&kept));
-    }
     *element = kept;
-    if (other == NULL || kept.kind != VALUE_BLOCK || kept.block != KIND_UNSUPPORTED) {
-        array->example = element;
+    if (array->first.kind == VALUE_NONE || (kept.kind == VALUE_BLOCK && kept.block != KIND_UNSUPPORTED)) {
+        array->first = kept;
     }
     return true;
 }
@@ -107,14 +110,15 @@ static bool read_sizes(Eval *ev, const AstNode *node, ValueArray *array)
         if (!eval_number(ev, part, &size)) {
             return false;
         }
-        if (!(size >= 1.0)) {
+        double whole = number_index(size);
+        if (!(whole >= 1.0)) {
             return eval_fault(ev, DIAG_E0306, part->span, "the size of an array must be at least 1, not %g", size);
         }
-        if (!(trunc(size) * (double)array->count <= (double)ARRAY_ELEMENTS_MAX)) {
+        if (!(whole * (double)array->count <= (double)ARRAY_ELEMENTS_MAX)) {
             return eval_fault(ev, DIAG_E0306, part->span, "an array has at most %d elements", ARRAY_ELEMENTS_MAX);
         }
-        array->sizes[array->dimension_count++] = (uint32_t)size;
-        array->count *= (size_t)size;
+        array->sizes[array->dimension_count++] = (uint32_t)whole;
+        array->count *= (size_t)whole;
     }
     return true;
 }
@@ -200,10 +204,11 @@ static bool locate(Eval *ev, const AstNode *node, Place *place)
         return false;
     }
     uint32_t size = place->array->sizes[place->used];
-    if (!(index > -1.0 && trunc(index) < (double)size)) {
+    double whole = number_index(index);
+    if (!(whole >= 0.0 && whole < (double)size)) {
         return eval_fault(ev, DIAG_E0301, node->b->span, "index %g is outside 0 to %u", index, (unsigned)size - 1);
     }
-    place->offset = place->offset * size + (size_t)fmax(index, 0.0);
+    place->offset = place->offset * size + (size_t)whole;
     place->used++;
     return true;
 }

@@ -16,21 +16,42 @@ const Value *call_callee(Eval *ev, const AstNode *call)
     if (call->b == NULL) {
         return scope_find(ev, call->symbol);
     }
+    if (call->b->flags & AST_KNOWN) {
+        return call->b->known;
+    }
     return array_locate(ev, call->b, &element, &array) ? element : NULL;
+}
+
+bool call_is_of_element(const AstNode *call)
+{
+    return call->b != NULL && call->b->kind == AST_INDEX;
 }
 
 bool call_is_value(const Eval *ev, const AstNode *call)
 {
-    const Value *callee = call->b == NULL ? scope_find(ev, call->symbol) : NULL;
-    return call->b != NULL || (callee != NULL && (callee->kind == VALUE_FUNCTION || callee->kind == VALUE_SPLINE));
+    if (call_is_of_element(call)) {
+        return true;
+    }
+    const Value *callee = call->b == NULL ? scope_find(ev, call->symbol) : call->b->known;
+    return callee != NULL && (callee->kind == VALUE_FUNCTION || callee->kind == VALUE_SPLINE);
 }
 
 // With its quotes; an element has no name.
-#define QUOTE(call) ((call)->b != NULL ? "" : "`")
+#define QUOTE(call) (call_is_of_element(call) ? "" : "`")
 
 static const char *name_of(const Eval *ev, const AstNode *call)
 {
-    return call->b != NULL ? "this element" : eval_text(ev, call->symbol);
+    return call_is_of_element(call) ? "this element" : eval_text(ev, call->symbol);
+}
+
+void call_fault_callee(Eval *ev, const AstNode *call, const Value *callee)
+{
+    if (callee == NULL) {
+        (void)name_fault_undeclared(ev, call, "the macro");
+    } else if (callee->kind != VALUE_NONE) {
+        eval_fault(ev, DIAG_E0208, call->span, "`%s` is %s and cannot be called", eval_text(ev, call->symbol),
+                   value_describe(callee));
+    }
 }
 
 bool call_fault_count(Eval *ev, const AstNode *call, const char *what, unsigned wanted)
@@ -131,7 +152,7 @@ bool call_value(Eval *ev, const AstNode *call, Value *value)
     } else if (callee->kind == VALUE_SPLINE) {
         fine = call_spline(ev, call, callee->spline, value);
     } else if (callee->kind == VALUE_NONE) {
-        eval_fault(ev, DIAG_E0207, call->b != NULL ? call->b->span : call->span,
+        eval_fault(ev, DIAG_E0207, call_is_of_element(call) ? call->b->span : call->span,
                    "this element of the array has no value yet");
     } else if (eval_report(ev, DIAG_E0208, call->span, "%s%s%s is %s and cannot be called", QUOTE(call),
                            name_of(ev, call), QUOTE(call), value_describe(callee))) {

@@ -88,6 +88,8 @@ typedef struct FunctionBody {
 } FunctionBody;
 
 Symbol function_slot_name(Symbol symbol);
+// What a name of a function's text stood for when it was read; NULL: nothing.
+const Value *function_meaning(const Eval *ev, const AstNode *name);
 // NULL when a fault was reported.
 const FunctionNode *function_compile(FunctionBody *body, const AstNode *node);
 // The node of a built-in function; false when a function's body may not hold the word. `least` and `greatest` are the
@@ -119,6 +121,9 @@ bool function_fault_unsupported(Eval *ev, const Function *function, const AstNod
 // What a CALL node names: an element of an array or an identifier. NULL when the identifier is not declared, or when a
 // fault in the element was reported.
 const Value *call_callee(Eval *ev, const AstNode *call);
+bool call_is_of_element(const AstNode *call);
+// Reports that what an identifier stands for cannot be called; NULL: it is not declared.
+void call_fault_callee(Eval *ev, const AstNode *call, const Value *callee);
 // False, with a fault, when a comma stands after the last argument.
 bool call_ends_well(Eval *ev, const AstNode *call) RT_MUST_CHECK;
 // Reports a wrong number of arguments; returns false.

@@ -29,11 +29,26 @@ static bool is_ended_within(const Eval *ev, const AstNode *node)
     return found != NULL && (ev->is_value_ended || (last != NULL && (last->flags & AST_ENDED)));
 }
 
-// Numbers, vectors and colours end with a semicolon since version 3.5 of the language.
+// Before its end POV-Ray has read the name that comes next, which is the one that is being declared.
+static bool runs_into_name(const AstNode *node)
+{
+    const AstNode *value = node->b->kind == AST_SEQUENCE ? node->b->a : node->b;
+    bool is_open = value->kind == AST_ARRAY || (value->kind == AST_BLOCK && value->symbol == W_texture);
+    return (node->flags & AST_BEFORE_NAME) && is_open;
+}
+
+// Since version 3.5 of the language numbers, vectors and colours end with a semicolon, as do functions and splines that
+// have a name already.
+static bool needs_end(const Eval *ev, const AstNode *node, const Value *value)
+{
+    bool is_callable = value->kind == VALUE_FUNCTION || value->kind == VALUE_SPLINE;
+    bool is_expression = value->kind == VALUE_NUMBER || value_is_tuple(value) || (is_callable && !ev->is_value_made);
+    return (is_expression && !(ev->version < 3.5)) || runs_into_name(node);
+}
+
 static void check_end(Eval *ev, const AstNode *node, const Value *value)
 {
-    bool needs_end = value->kind == VALUE_NUMBER || value_is_tuple(value);
-    if (!needs_end || (node->flags & AST_ENDED) || ev->version < 3.5 || is_ended_within(ev, node->b)) {
+    if ((node->flags & AST_ENDED) || !needs_end(ev, node, value) || is_ended_within(ev, node->b)) {
         return;
     }
     Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
@@ -66,18 +81,38 @@ static void forget_value(Eval *ev, const AstNode *target, bool local)
 typedef struct Target {
     Value *element; // NULL: the name
     ValueArray *array;
+    bool is_left; // the element keeps the value that it has
 } Target;
+
+// As measured: #local leaves an array that it finds further out as it is, unless no element of it was ever set.
+static bool is_left(const Eval *ev, const AstNode *node, const ValueArray *array)
+{
+    const AstNode *base = node->a;
+    while (base->kind == AST_INDEX) {
+        base = base->a;
+    }
+    return node->op == AST_OP_LOCAL && array->first.kind != VALUE_NONE && scope_is_new(ev, base->symbol, true);
+}
 
 // Before the value is worked out: the macros that are called in an index come first.
 static bool find_target(Eval *ev, const AstNode *node, Target *target)
 {
     *target = (Target){0};
-    return node->a->kind == AST_NAME ? scope_declare_begin(ev, node->a->symbol, node->op == AST_OP_LOCAL, node->a->span)
-                                     : array_locate(ev, node->a, &target->element, &target->array);
+    if (node->a->kind == AST_NAME) {
+        return scope_declare_begin(ev, node->a->symbol, node->op == AST_OP_LOCAL, node->a->span);
+    }
+    bool is_found = array_locate(ev, node->a, &target->element, &target->array);
+    target->is_left = is_found && is_left(ev, node, target->array);
+    return is_found;
 }
 
 static bool assign(Eval *ev, const AstNode *node, const Target *target, const Value *value)
 {
+    if (target->is_left) {
+        Value kept;
+        return value_store(ev, value, &ev->scratch, node->b->span, &kept) &&
+               array_takes(ev, target->array, target->element, &kept, node->b->span);
+    }
     return target->element == NULL
                ? scope_declare(ev, node->a->symbol, node->op == AST_OP_LOCAL, value, node->a->span)
                : array_assign(ev, target->array, target->element, value, node->b->span);
@@ -114,7 +149,7 @@ static void run_declare(Cursor *cursor, const AstNode *node)
         ev->faulty = true;
         return;
     }
-    ev->is_value_ended = false;
+    ev->is_value_ended = ev->is_value_made = false;
     ev->at_colour = node->b->kind == AST_NAME && !(node->flags & AST_ENDED); // with a vector behind it
     bool fine = !(node->flags & AST_UNREADABLE) && eval_open_rvalue(ev, node->b, &value);
     ev->at_colour = false;
@@ -123,6 +158,7 @@ static void run_declare(Cursor *cursor, const AstNode *node)
         return;
     }
     check_end(ev, node, &value);
+    ev->is_value_made = false;
     ev->faulty = !assign(ev, node, &target, &value) || ev->faulty;
 }
 
@@ -139,7 +175,6 @@ static void run_undef(Cursor *cursor, const AstNode *node)
     ValueArray *array;
     if (array_locate(ev, node->a, &element, &array)) {
         element->kind = VALUE_NONE;
-        array->example = array->example == element ? NULL : array->example;
     }
 }
 
@@ -159,6 +194,10 @@ static void run_version(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     double version;
+    if (node->a->kind == AST_CALL && !(node->a->flags & AST_KNOWN) && !call_is_value(ev, node->a)) {
+        eval_fault(ev, DIAG_E0202, node->a->span, "`#version` takes a number, not the call of a macro");
+        return;
+    }
     ev->inner++;
     bool fine = eval_number(ev, node->a, &version);
     ev->inner--;
@@ -169,6 +208,13 @@ static void run_version(Cursor *cursor, const AstNode *node)
         eval_fault(ev, DIAG_E0212, node->a->span, "the scene asks for version %g of the language; this is 3.7",
                    version);
         return;
+    }
+    if (node->flags & AST_BEFORE_NAME) {
+        Span end = {node->span.end, node->span.end};
+        if (eval_report(ev, DIAG_E0205, end, "a `;` is missing between `#version` and the call of a macro")) {
+            diag_suggest(ev->options.diags, "write `;` after the number");
+            diag_replace(ev->options.diags, end, ";");
+        }
     }
     ev->version = version;
     ev->version_given = true;
@@ -207,7 +253,7 @@ static bool case_holds(Eval *ev, const AstNode *node, double value, bool *holds)
     *holds = node->kind == AST_ELSE;
     if (node->kind == AST_CASE && node->a != NULL) { // else its head was not readable
         bool fine = eval_number(ev, node->a, &low);
-        *holds = fine && numbers_equal(value, low);
+        *holds = fine && number_is_case(value, low);
         return fine;
     }
     if (node->kind == AST_RANGE) {

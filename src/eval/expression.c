@@ -7,7 +7,7 @@
 #include <limits.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/callable.h"
 #include "scene/blueprint.h"
 
 bool eval_number(Eval *ev, const AstNode *node, double *number)
@@ -64,7 +64,7 @@ static bool eval_text_literal(Eval *ev, const AstNode *node, Value *value)
 }
 
 // Once for each name, and not where the true fault is an #include that was not found.
-static bool fault_undeclared(Eval *ev, const AstNode *node, const char *what)
+bool name_fault_undeclared(Eval *ev, const AstNode *node, const char *what)
 {
     bool is_told = ev->include_is_missing || (ev->macro_is_missing && node->kind == AST_CALL);
     if (is_told || !eval_is_first(ev, DIAG_E0201, node->symbol)) {
@@ -96,7 +96,7 @@ static bool eval_name(Eval *ev, const AstNode *node, Value *value)
 {
     const Value *found = node->flags & AST_KNOWN ? node->known : scope_find(ev, node->symbol);
     if (RT_UNLIKELY(found == NULL)) {
-        return fault_undeclared(ev, node, "the name");
+        return name_fault_undeclared(ev, node, "the name");
     }
     if (RT_UNLIKELY(found->kind == VALUE_NONE)) {
         return false; // its declaration has been reported
@@ -135,21 +135,17 @@ static bool eval_element(Eval *ev, const AstNode *node, Value *value)
 bool macro_find(Eval *ev, const AstNode *call, Macro **macro)
 {
     const Value *found = scope_find(ev, call->symbol);
-    const char *name = eval_text(ev, call->symbol);
-    if (found == NULL) {
-        return fault_undeclared(ev, call, "the macro");
+    if (found == NULL || found->kind != VALUE_MACRO) {
+        call_fault_callee(ev, call, found);
+        return false;
     }
-    if (found->kind == VALUE_MACRO) {
-        *macro = found->macro;
-        return true;
-    }
-    return found->kind != VALUE_NONE &&
-           eval_fault(ev, DIAG_E0208, call->span, "`%s` is %s and cannot be called", name, value_describe(found));
+    *macro = found->macro;
+    return true;
 }
 
 static bool eval_call(Eval *ev, const AstNode *node, Value *value)
 {
-    return macro_value(ev, node, NULL, false, value);
+    return macro_value(ev, node, false, value);
 }
 
 static bool eval_inline(Eval *ev, const AstNode *node, Value *value)
@@ -241,6 +237,9 @@ bool value_component(Symbol name, unsigned width, unsigned *component)
 static bool eval_member(Eval *ev, const AstNode *node, Value *value)
 {
     unsigned component;
+    if (node->a->kind == AST_MEMBER && !(node->a->flags & AST_IN_PARENTHESES)) {
+        return eval_fault(ev, DIAG_E0204, node->span, "a component has no component `%s`", eval_text(ev, node->symbol));
+    }
     if (!eval_expression(ev, node->a, value)) {
         return false;
     }
@@ -303,6 +302,18 @@ static bool eval_special(Eval *ev, const AstNode *node, EvalFn evaluate, Value *
     return is_pasted ? paste_value(ev, node, value) : evaluate(ev, node, value);
 }
 
+// They stand around numbers and vectors only.
+static bool check_parentheses(Eval *ev, const AstNode *node, const Value *value)
+{
+    if (value->kind == VALUE_NUMBER || value_is_tuple(value)) {
+        return true;
+    }
+    if (eval_report(ev, DIAG_E0202, node->span, "%s cannot stand in parentheses", value_describe(value))) {
+        diag_suggest(ev->options.diags, "leave the parentheses out");
+    }
+    return false;
+}
+
 bool eval_expression(Eval *ev, const AstNode *node, Value *value)
 {
     if (node->kind == AST_NUMBER) {
@@ -322,7 +333,7 @@ bool eval_expression(Eval *ev, const AstNode *node, Value *value)
     bool fine = RT_UNLIKELY(is_special) ? eval_special(ev, node, evaluate, value) : evaluate(ev, node, value);
     ev->inner -= closes;
     eval_shallow(ev, 1);
-    return fine;
+    return RT_UNLIKELY(closes != 0) && fine ? check_parentheses(ev, node, value) : fine;
 }
 
 // ---- right-hand sides
@@ -360,12 +371,16 @@ bool eval_rvalue(Eval *ev, const AstNode *node, Value *value)
 {
     switch (node->kind) {
     case AST_SEQUENCE: return eval_sequence(ev, node, value);
-    case AST_BLOCK: return eval_braces(ev, node, value);
     case AST_ARRAY: return array_create(ev, node, value);
-    case AST_FUNCTION: return function_create(ev, node, value);
+    case AST_BLOCK:
+    case AST_FUNCTION: {
+        bool fine = node->kind == AST_BLOCK ? eval_braces(ev, node, value) : function_create(ev, node, value);
+        ev->is_value_made = true;
+        return fine;
+    }
     case AST_CALL:
         if (!(node->flags & (AST_IN_PARENTHESES | AST_KNOWN))) {
-            return macro_value(ev, node, NULL, true, value);
+            return macro_value(ev, node, true, value);
         }
         return eval_expression(ev, node, value);
     case AST_INLINE:

@@ -20,7 +20,7 @@ static bool add_parameter(FunctionBody *body, const AstNode *node)
     if (is_word && name != W_x && name != W_y && name != W_z) {
         return fault_parameter(body, node, "; of the words of the language only x, y, z, u and v can");
     }
-    if (!is_word && scope_find(body->ev, name) != NULL) {
+    if (!is_word && function_meaning(body->ev, node) != NULL) {
         return fault_parameter(body, node, ", since it is declared already");
     }
     for (unsigned i = 0; i < body->count; i++) {
@@ -123,6 +123,9 @@ static bool make_of_block(Eval *ev, const AstNode *node, Function *function)
 
 bool function_create(Eval *ev, const AstNode *node, Value *value)
 {
+    if (paste_is_needed_in_function(ev, node)) {
+        return !is_in_initialiser(ev) ? paste_function(ev, node, value) : initialiser_fault(ev, node->span);
+    }
     Function *function = arena_alloc(&ev->program, sizeof *function);
     if (function == NULL) {
         return eval_no_memory(ev, node->span);

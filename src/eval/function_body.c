@@ -1,7 +1,8 @@
 // The body of a function becomes a tree of nodes that compute.
 //
-// Names that are no parameters are taken at the declaration, as POV-Ray takes them; macros and directives are walked
-// once, here. A body that holds what rtlang has not makes a function that is a fault where it is called.
+// Names that are no parameters are taken as the text is read, as POV-Ray takes them: where directives and macros stand
+// in the body, it has been read in a splice (paste_function), and each name knows what it stood for then. A body that
+// holds what rtlang has not makes a function that is a fault where it is called.
 //
 // SPDX-License-Identifier: MIT
 #include <string.h>
@@ -14,16 +15,9 @@ enum { CALL_HEIGHT = 8 }; // of native recursion, see eval_deepen
 
 typedef FunctionBody Compiler;
 
-// Macros are walked in callbacks, with this.
-typedef struct Place {
-    Compiler *compiler;
-    FunctionNode *node; // the result
-} Place;
-
 typedef FunctionNode *(*CompileFn)(Compiler *compiler, const AstNode *node);
 
 static FunctionNode *compile(Compiler *compiler, const AstNode *node);
-static FunctionNode *compile_operand(Compiler *compiler, const AstNode *node, const AstNode *parent);
 
 // ---- nodes
 
@@ -89,6 +83,11 @@ Symbol function_slot_name(Symbol symbol)
     return symbol == W_u ? W_x : symbol == W_v ? W_y : symbol;
 }
 
+const Value *function_meaning(const Eval *ev, const AstNode *name)
+{
+    return name->flags & AST_KNOWN ? name->known : scope_find(ev, name->symbol);
+}
+
 static bool find_slot(const Compiler *compiler, Symbol symbol, unsigned *slot)
 {
     for (unsigned i = compiler->count; i-- > 0;) {
@@ -145,10 +144,12 @@ static FunctionNode *constant_value(Compiler *compiler, const AstNode *node, con
 static FunctionNode *compile_name(Compiler *compiler, const AstNode *node)
 {
     unsigned slot;
-    if (find_slot(compiler, node->symbol, &slot)) {
+    const Value *found = function_meaning(compiler->ev, node);
+    bool is_own = found == NULL || !(node->flags & AST_KNOWN);
+    // What a directive in the body has declared hides a parameter of that name.
+    if (is_own && find_slot(compiler, node->symbol, &slot)) {
         return slot_node(compiler, node, slot);
     }
-    const Value *found = scope_find(compiler->ev, node->symbol);
     if (found == NULL) {
         fault_undeclared(compiler, node);
         return NULL;
@@ -194,7 +195,7 @@ static FunctionNode *compile_unary(Compiler *compiler, const AstNode *node)
     if (node->a->kind == AST_UNARY && !(node->a->flags & AST_IN_PARENTHESES)) {
         return fault_body(compiler, node, "a second sign", "put the value with its sign in parentheses");
     }
-    FunctionNode *operand = compile_operand(compiler, node->a, node);
+    FunctionNode *operand = compile(compiler, node->a);
     if (operand == NULL) {
         return NULL;
     }
@@ -229,9 +230,9 @@ static bool split_logic(Compiler *compiler, const AstNode *node, FunctionNode **
         }
     } else {
         *sum = NULL;
-        *last = compile_operand(compiler, node->a, node);
+        *last = compile(compiler, node->a);
     }
-    FunctionNode *right = compile_operand(compiler, node->b, node);
+    FunctionNode *right = compile(compiler, node->b);
     if (*last == NULL || right == NULL) {
         return false;
     }
@@ -253,8 +254,8 @@ static FunctionNode *compile_binary(Compiler *compiler, const AstNode *node)
         }
         return sum == NULL ? last : join(compiler, node, AST_OP_OR, sum, last);
     }
-    FunctionNode *left = compile_operand(compiler, node->a, node);
-    FunctionNode *right = compile_operand(compiler, node->b, node);
+    FunctionNode *left = compile(compiler, node->a);
+    FunctionNode *right = compile(compiler, node->b);
     return join(compiler, node, (AstOp)node->op, left, right);
 }
 
@@ -298,7 +299,7 @@ static FunctionNode *compile_sequence(Compiler *compiler, const AstNode *node)
     Eval *ev = compiler->ev;
     const AstNode *name = node->a;
     FunctionNode *made = new_node(compiler, node, node->symbol == W_sum ? function_run_sum : function_run_product);
-    if (node->count != 4 || name->kind != AST_NAME || scope_find(ev, name->symbol) != NULL) {
+    if (node->count != 4 || name->kind != AST_NAME || function_meaning(ev, name) != NULL) {
         eval_fault(ev, DIAG_E0261, node->span, "`%s` takes a new name, two bounds and a term",
                    eval_text(ev, node->symbol));
         return NULL;
@@ -345,7 +346,6 @@ static FunctionNode *compile_builtin(Compiler *compiler, const AstNode *node)
     return compile_arguments(compiler, node->a, kept);
 }
 
-// `member` is the node of `.x` around the call, or NULL.
 static FunctionNode *call_node(Compiler *compiler, const AstNode *call, const Function *function, const AstNode *member)
 {
     Eval *ev = compiler->ev;
@@ -382,19 +382,10 @@ static FunctionNode *call_node(Compiler *compiler, const AstNode *call, const Fu
     return node;
 }
 
-static bool take_item(void *client, const AstNode *item)
+// `member` is the node of `.x` around the call, or NULL.
+static FunctionNode *compile_call_in(Compiler *compiler, const AstNode *node, const AstNode *member)
 {
-    Place *place = client;
-    place->node = compile(place->compiler, item);
-    return place->node != NULL;
-}
-
-static FunctionNode *compile_call_in(Compiler *compiler, const AstNode *node, const AstNode *parent,
-                                     const AstNode *member)
-{
-    Eval *ev = compiler->ev;
-    const Value *callee = call_callee(ev, node);
-    Place place = {.compiler = compiler};
+    const Value *callee = call_callee(compiler->ev, node);
     if (callee != NULL && callee->kind == VALUE_FUNCTION) {
         return call_node(compiler, node, callee->function, member);
     }
@@ -402,15 +393,16 @@ static FunctionNode *compile_call_in(Compiler *compiler, const AstNode *node, co
         return fault_body(compiler, node, "a spline",
                           "declare a `function { spline { … } }` and take a component of it");
     }
-    if (node->b != NULL) {
+    if (call_is_of_element(node)) {
         return callee == NULL ? NULL : constant_value(compiler, node, callee);
     }
-    return macro_expand(ev, node, member != NULL ? member : parent, take_item, &place) ? place.node : NULL;
+    call_fault_callee(compiler->ev, node, callee);
+    return NULL;
 }
 
 static FunctionNode *compile_call(Compiler *compiler, const AstNode *node)
 {
-    return compile_call_in(compiler, node, NULL, NULL);
+    return compile_call_in(compiler, node, NULL);
 }
 
 static FunctionNode *compile_member(Compiler *compiler, const AstNode *node)
@@ -421,13 +413,7 @@ static FunctionNode *compile_member(Compiler *compiler, const AstNode *node)
         return fault_body(compiler, node, "a component",
                           "only calls of functions of a transform or spline have components here");
     }
-    return compile_call_in(compiler, base, NULL, node);
-}
-
-static FunctionNode *compile_inline(Compiler *compiler, const AstNode *node)
-{
-    Place place = {.compiler = compiler};
-    return inline_expand(compiler->ev, node, take_item, &place) ? place.node : NULL;
+    return compile_call_in(compiler, base, node);
 }
 
 // ---- the table
@@ -437,8 +423,8 @@ static FunctionNode *compile(Compiler *compiler, const AstNode *node)
     static const CompileFn compilers[AST_KIND_COUNT] = {
         [AST_NUMBER] = compile_number,   [AST_NAME] = compile_name,       [AST_CONSTANT] = compile_constant,
         [AST_UNARY] = compile_unary,     [AST_BINARY] = compile_binary,   [AST_CONDITIONAL] = compile_conditional,
-        [AST_CALL] = compile_call,       [AST_BUILTIN] = compile_builtin, [AST_INLINE] = compile_inline,
-        [AST_INDEX] = compile_element,   [AST_MEMBER] = compile_member,
+        [AST_CALL] = compile_call,       [AST_BUILTIN] = compile_builtin, [AST_INDEX] = compile_element,
+        [AST_MEMBER] = compile_member,
     };
     CompileFn compiles = compilers[node->kind];
     if (compiles == NULL) {
@@ -452,12 +438,6 @@ static FunctionNode *compile(Compiler *compiler, const AstNode *node)
     FunctionNode *made = compiles(compiler, node);
     eval_shallow(compiler->ev, 1);
     return made;
-}
-
-static FunctionNode *compile_operand(Compiler *compiler, const AstNode *node, const AstNode *parent)
-{
-    bool is_bare_call = node->kind == AST_CALL && !(node->flags & AST_IN_PARENTHESES);
-    return is_bare_call ? compile_call_in(compiler, node, parent, NULL) : compile(compiler, node);
 }
 
 const FunctionNode *function_compile(FunctionBody *body, const AstNode *node)

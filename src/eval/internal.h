@@ -24,6 +24,7 @@
 #ifndef EVAL_INTERNAL_H
 #define EVAL_INTERNAL_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -90,13 +91,13 @@ enum { COLOUR_USUAL = 63 };
 
 enum { ARRAY_DIMENSIONS_MAX = 5, ARRAY_ELEMENTS_MAX = 1 << 28 };
 
-// All elements that are set are of one kind, as the first one that was set.
+// All elements are of one kind, that of the first one that was set.
 struct ValueArray {
     unsigned dimension_count;
     uint32_t sizes[ARRAY_DIMENSIONS_MAX];
     size_t count; // the product of the sizes
     Value *elements;
-    const Value *example; // an element that is set, or NULL
+    Value first; // what was set first, for its kind; VALUE_NONE: none ever was
 };
 
 // A macro's text lives in the program arena.
@@ -183,6 +184,7 @@ typedef struct Eval {
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     LiteralWatch literal;
     Repeat repeats[REPEATS];
+    bool is_value_made;  // the last function or spline was written where it is used, and has no name
     bool is_value_ended; // the last value of a macro's text has the semicolon behind it
     bool has_stray;      // at the top level, reported: the values after it are not reported as well
     bool lacks_brace;    // so is what follows a block's word without its brace, up to an object
@@ -351,8 +353,11 @@ bool array_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **array) RT_MUST_CHECK;
 // Reports the use of a name whose first value is being worked out; returns false.
 bool name_fault_unset(Eval *ev, const AstNode *node);
+// Reports that `what` of a name is not declared, once for each name; returns false.
+bool name_fault_undeclared(Eval *ev, const AstNode *node, const char *what);
 // Whether a NAME stands for something, or an INDEX node for an element that is set; false for any other node.
 bool name_is_declared(Eval *ev, const AstNode *target);
+bool array_takes(Eval *ev, const ValueArray *array, const Value *element, const Value *value, Span span) RT_MUST_CHECK;
 bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span) RT_MUST_CHECK;
 
 // ---- expressions
@@ -398,6 +403,14 @@ bool operator_conditional(Eval *ev, const AstNode *node, Value *value) RT_MUST_C
 
 // As the language compares: numbers that differ by 1e-10 or less are equal, and such a number is false.
 bool numbers_equal(double one, double other);
+// A #case of a #switch: the same, but for what is infinite or not a number, which no case holds for.
+bool number_is_case(double subject, double number);
+// The whole number that an index or a size of an array means, as measured: whatever is less than 1e-10 below one is that
+// one. Not a number, and what is out of range, stays so.
+static inline double number_index(double number)
+{
+    return floor(number + 1e-10);
+}
 // A #version said that the text knows 3.7.
 bool eval_knows_37(const Eval *ev);
 bool number_is_true(double number);
@@ -578,13 +591,9 @@ void macro_leave(Eval *ev);
 // The macro that a CALL node means.
 bool macro_find(Eval *ev, const AstNode *call, Macro **macro) RT_MUST_CHECK;
 // The value of a call. `whole`: any right-hand side will do; else an expression.
-bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value) RT_MUST_CHECK;
+bool macro_value(Eval *ev, const AstNode *call, bool whole, Value *value) RT_MUST_CHECK;
 // The value that a directive in the place of an expression gives.
 bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MUST_CHECK;
-// The same walks, with what is found handed to `take` in the place of being worked out.
-typedef bool (*MacroItemFn)(void *client, const AstNode *item);
-bool macro_expand(Eval *ev, const AstNode *call, const AstNode *parent, MacroItemFn take, void *client) RT_MUST_CHECK;
-bool inline_expand(Eval *ev, const AstNode *node, MacroItemFn take, void *client) RT_MUST_CHECK;
 
 // ---- splices: text that is read again with its directives resolved (splice.c)
 
@@ -614,6 +623,10 @@ void splice_stream_close(SpliceStream *stream);
 bool paste_is_needed(const Eval *ev, const AstNode *node);
 // The value of an expression that is read again, with the text of its macros in it.
 bool paste_value(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// Whether directives or macro calls stand in a function; then its value is made of its text, read again with them
+// resolved.
+bool paste_is_needed_in_function(const Eval *ev, const AstNode *function);
+bool paste_function(Eval *ev, const AstNode *function, Value *value) RT_MUST_CHECK;
 // The same for the arguments of a call: a CALL node in the parse arena, or NULL after a fault.
 const AstNode *paste_arguments(Eval *ev, const AstNode *call) RT_MUST_CHECK;
 

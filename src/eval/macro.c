@@ -89,8 +89,18 @@ static Macro *copy_macro(Eval *ev, const AstNode *node)
     return macro;
 }
 
+// In a text that says it is of before 3.1 there are none.
+static bool knows_macros(Eval *ev, Span span)
+{
+    return ev->version >= 3.1 || numbers_equal(ev->version, 3.1) ||
+           eval_fault(ev, DIAG_E0212, span, "macros need `#version 3.1` or later, and it is %g here", ev->version);
+}
+
 void macro_define(Eval *ev, const AstNode *node, const GrammarText *text)
 {
+    if (!knows_macros(ev, node->span)) {
+        return;
+    }
     const Value *known = scope_find(ev, node->symbol);
     bool is_same = known != NULL && known->kind == VALUE_MACRO && known->macro->span.begin == node->span.begin;
     // A definition in a loop is kept once. One without a name has had its message.
@@ -295,7 +305,7 @@ static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
 
 bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame)
 {
-    if (!eval_step(ev, call->span)) {
+    if (!knows_macros(ev, call->span) || !eval_step(ev, call->span)) {
         return false;
     }
     if ((call->flags & (AST_PASTES | AST_KNOWN)) == AST_PASTES && paste_is_needed(ev, call)) {
@@ -334,32 +344,6 @@ void macro_leave(Eval *ev)
 
 // ---- the value of a call
 
-static unsigned precedence(const AstNode *node)
-{
-    static const uint8_t precedences[AST_OP_COUNT] = {
-#define AST_OP(op, spelling, precedence) [AST_OP_##op] = precedence,
-#include "ast/ast_ops.def"
-#undef AST_OP
-    };
-    // A sign in front of a product may as well stand in front of its first factor.
-    return node->op == AST_OP_NEG || node->op == AST_OP_PLUS ? precedences[AST_OP_MUL] : precedences[node->op];
-}
-
-// A macro stands for its text: in `M()*2` a body `5+1` would mean 5+1*2. True when text and value agree, rounding
-// aside: a*(b*c) is taken for (a*b)*c, or no recursive product could be written.
-static bool holds_together(const AstNode *body, const AstNode *parent, const AstNode *call)
-{
-    if (parent == NULL || body->kind != AST_BINARY || (body->flags & AST_IN_PARENTHESES)) {
-        return true;
-    }
-    if (parent->kind == AST_MEMBER) {
-        return false;
-    }
-    bool is_right = parent->kind == AST_BINARY && parent->b == call;
-    bool is_inverse = parent->op == AST_OP_SUB || parent->op == AST_OP_DIV;
-    return is_right && is_inverse ? precedence(body) > precedence(parent) : precedence(body) >= precedence(parent);
-}
-
 // True when more text of the macro follows, if only an #end.
 static bool is_followed(const Cursor *cursor)
 {
@@ -385,22 +369,6 @@ static bool fault_no_value(Eval *ev, const Wanted *wanted)
     return !ev->stop && eval_fault(ev, DIAG_E0213, wanted->span, "%s%s%s gives no value here",
                                    wanted->name != NULL ? "the macro `" : "the directive",
                                    wanted->name != NULL ? wanted->name : "", wanted->name != NULL ? "`" : "");
-}
-
-static bool fault_regrouped(Eval *ev, const AstNode *item, const Wanted *wanted)
-{
-    char text[48] = "";
-    size_t length = (size_t)(item->span.end - item->span.begin);
-    bool is_short = length < sizeof text && source_read_span(ev->options.diags->sources, item->span, text);
-    bool is_kept = is_short ? eval_report(ev, DIAG_E0217, wanted->span,
-                                          "macro `%s` expands to `%s`, which would regroup here", wanted->name, text)
-                            : eval_report(ev, DIAG_E0217, wanted->span,
-                                          "macro `%s` expands to an expression with `%s`, which would regroup here",
-                                          wanted->name, ast_op_spelling((AstOp)item->op));
-    if (is_kept) {
-        diag_note(ev->options.diags, item->span, "add parentheses");
-    }
-    return false;
 }
 
 static bool fault_followed(Eval *ev, const Wanted *wanted)
@@ -467,10 +435,13 @@ static bool finish(Cursor *cursor)
     return rest == NULL || eval_fault(cursor->ev, DIAG_E0213, rest->span, "the value has ended before this");
 }
 
-// What is to be done with the first item of a body.
-typedef bool (*TakeFn)(Cursor *cursor, const Wanted *wanted, void *client);
+static bool take_value(Cursor *cursor, const Wanted *wanted, bool whole, Value *value)
+{
+    bool fine = whole ? take_whole(cursor, wanted, value) : take_expression(cursor, wanted, value);
+    return fine && keep(cursor->ev, value, wanted->span) && finish(cursor);
+}
 
-static bool walk_macro(Eval *ev, const AstNode *call, const AstNode *parent, TakeFn take, void *client)
+static bool call_for_value(Eval *ev, const AstNode *call, bool whole, Value *value)
 {
     Macro *macro;
     DiagFrame frame;
@@ -486,13 +457,7 @@ static bool walk_macro(Eval *ev, const AstNode *call, const AstNode *parent, Tak
             !cursor_push_text(&cursor, cursor.frame, macro->text, NULL, true)) {
             ev->faulty = true;
         }
-        const AstNode *item = cursor_peek(&cursor);
-        if (item != NULL && !holds_together(item, parent, call)) {
-            fine = fault_regrouped(ev, item, &wanted);
-        } else {
-            fine = take(&cursor, &wanted, client);
-        }
-        fine = fine && finish(&cursor);
+        fine = take_value(&cursor, &wanted, whole, value);
         cursor_close(&cursor);
         macro_leave(ev);
     }
@@ -500,66 +465,20 @@ static bool walk_macro(Eval *ev, const AstNode *call, const AstNode *parent, Tak
     return fine && !ev->stop;
 }
 
-static bool walk_inline(Eval *ev, const AstNode *node, TakeFn take, void *client)
+bool macro_value(Eval *ev, const AstNode *call, bool whole, Value *value)
+{
+    return call_is_value(ev, call) ? call_value(ev, call, value) : call_for_value(ev, call, whole, value);
+}
+
+bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value)
 {
     Cursor cursor;
     Wanted wanted = {node->span, NULL};
     unsigned initialiser = ev->initialiser;
     ev->initialiser = 0;
     cursor_open(&cursor, ev, node->a, node->span);
-    bool fine = take(&cursor, &wanted, client) && finish(&cursor);
+    bool fine = take_value(&cursor, &wanted, whole, value);
     cursor_close(&cursor);
     ev->initialiser = initialiser;
     return fine && !ev->stop;
-}
-
-typedef struct ValueTaker {
-    Value *value;
-    bool whole;
-} ValueTaker;
-
-static bool take_value(Cursor *cursor, const Wanted *wanted, void *client)
-{
-    const ValueTaker *taker = client;
-    bool fine = taker->whole ? take_whole(cursor, wanted, taker->value) : take_expression(cursor, wanted, taker->value);
-    return fine && keep(cursor->ev, taker->value, wanted->span);
-}
-
-bool macro_value(Eval *ev, const AstNode *call, const AstNode *parent, bool whole, Value *value)
-{
-    if (call_is_value(ev, call)) {
-        return call_value(ev, call, value);
-    }
-    return walk_macro(ev, call, parent, take_value, &(ValueTaker){value, whole});
-}
-
-bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value)
-{
-    return walk_inline(ev, node, take_value, &(ValueTaker){value, whole});
-}
-
-typedef struct ItemTaker {
-    MacroItemFn take;
-    void *client;
-} ItemTaker;
-
-static bool take_item(Cursor *cursor, const Wanted *wanted, void *client)
-{
-    const ItemTaker *taker = client;
-    const AstNode *item = cursor_peek(cursor);
-    if (item == NULL) {
-        return fault_no_value(cursor->ev, wanted);
-    }
-    cursor_skip(cursor);
-    return taker->take(taker->client, item);
-}
-
-bool macro_expand(Eval *ev, const AstNode *call, const AstNode *parent, MacroItemFn take, void *client)
-{
-    return walk_macro(ev, call, parent, take_item, &(ItemTaker){take, client});
-}
-
-bool inline_expand(Eval *ev, const AstNode *node, MacroItemFn take, void *client)
-{
-    return walk_inline(ev, node, take_item, &(ItemTaker){take, client});
 }

@@ -9,17 +9,23 @@
 
 #include "eval/internal.h"
 
-// Measured: numbers that differ by 1e-10 are equal, and 1e-10 itself is false. Absolute, whatever the size.
+// Measured: numbers that differ by 1e-10 are equal, and 1e-10 itself is false. Absolute, whatever the size. What is not
+// a number is equal to any, and false.
 static const double comparison_tolerance = 1e-10;
 
 bool numbers_equal(double one, double other)
 {
-    return one == other || fabs(one - other) <= comparison_tolerance;
+    return one == other || !(fabs(one - other) > comparison_tolerance);
+}
+
+bool number_is_case(double subject, double number)
+{
+    return fabs(subject - number) <= comparison_tolerance;
 }
 
 bool number_is_true(double number)
 {
-    return !(fabs(number) <= comparison_tolerance);
+    return fabs(number) > comparison_tolerance;
 }
 
 void number_fault(Eval *ev, double number, Span span)

@@ -42,6 +42,30 @@ bool paste_is_needed(const Eval *ev, const AstNode *node)
     return false;
 }
 
+// Items of a block are walked with their directives, wherever it stands.
+static bool has_directive(const Eval *ev, const AstNode *node)
+{
+    bool has_parts = node->kind != AST_NUMBER && !(node->flags & AST_KNOWN) && node->kind != AST_BLOCK;
+    if (node->kind == AST_CALL && node->b == NULL) {
+        const Value *found = scope_find(ev, node->symbol);
+        if (found != NULL && found->kind == VALUE_MACRO) {
+            return true;
+        }
+    }
+    for (const AstNode *part = has_parts ? node->a : NULL; part != NULL; part = part->next) {
+        if (has_directive(ev, part)) {
+            return true;
+        }
+    }
+    return node->kind == AST_INLINE || (has_parts && node->b != NULL && has_directive(ev, node->b)) ||
+           (has_parts && node->c != NULL && has_directive(ev, node->c));
+}
+
+bool paste_is_needed_in_function(const Eval *ev, const AstNode *function)
+{
+    return function->b != NULL && has_directive(ev, function->b);
+}
+
 // ---- texts, kept in order of their place
 
 static size_t place_of(const Eval *ev, Span span)
@@ -148,4 +172,30 @@ const AstNode *paste_arguments(Eval *ev, const AstNode *call)
     splice_fini(&splice);
     ev->faulty = ev->faulty || pasted == NULL;
     return pasted;
+}
+
+bool paste_function(Eval *ev, const AstNode *function, Value *value)
+{
+    Splice splice;
+    const GrammarText *text = text_of(ev, function->span);
+    if (text == NULL) {
+        return false;
+    }
+    ArenaMark mark = arena_mark(&ev->parse);
+    splice_init(&splice, ev);
+    GrammarStream *stream = grammar_stream_open(&splice.context, text, false, false);
+    bool failed = stream == NULL;
+    const AstNode *read = stream != NULL ? grammar_stream_next(stream, &failed) : NULL;
+    bool fine = read != NULL && read->kind == AST_FUNCTION && function_create(ev, read, value);
+    const AstNode *rest = fine ? grammar_stream_next(stream, &failed) : NULL;
+    if (rest != NULL) {
+        fine = eval_fault(ev, DIAG_E0213, rest->span, "the function has ended before this");
+    }
+    ev->faulty = ev->faulty || failed;
+    if (stream != NULL) {
+        grammar_stream_close(stream);
+    }
+    splice_fini(&splice);
+    arena_rewind(&ev->parse, mark);
+    return fine && !failed && !ev->stop;
 }

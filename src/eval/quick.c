@@ -22,10 +22,12 @@ static const Value *element_of(Eval *ev, const AstNode *node, bool draws)
     const Value *base = node->a->kind == AST_NAME && !(node->a->flags & (AST_KNOWN | AST_PASTES)) ? scope_look(ev, node->a->symbol)
                                                                                   : NULL;
     if (base == NULL || base->kind != VALUE_ARRAY || base->array->dimension_count != 1 ||
-        !number_of(ev, node->b, draws, &index) || !(index > -1.0 && index < (double)base->array->count)) {
+        !number_of(ev, node->b, draws, &index)) {
         return NULL;
     }
-    return &base->array->elements[index > 0.0 ? (size_t)index : 0];
+    double whole = number_index(index);
+    bool is_inside = whole >= 0.0 && whole < (double)base->array->count;
+    return is_inside ? &base->array->elements[(size_t)whole] : NULL;
 }
 
 static const Value *value_of(Eval *ev, const AstNode *node, bool draws)

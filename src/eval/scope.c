@@ -188,16 +188,17 @@ bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span)
 
 bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span)
 {
+    const Binding *outer = scope_binding(ev, name);
+    if (outer != NULL && outer->variable->kind == VALUE_MACRO) { // #local hides none
+        return eval_fault(ev, DIAG_E0206, span, "`%s` is a macro and cannot become %s", eval_text(ev, name),
+                          value_describe(value));
+    }
     Binding *binding = find_or_make(ev, name, local, span);
     if (binding == NULL) {
         return false;
     }
     if (binding->variable->kind == VALUE_FILE) {
         return eval_fault(ev, DIAG_E0268, span, "`%s` is an open file and cannot become %s", eval_text(ev, name),
-                          value_describe(value));
-    }
-    if (binding->variable->kind == VALUE_MACRO) {
-        return eval_fault(ev, DIAG_E0206, span, "`%s` is a macro and cannot become %s", eval_text(ev, name),
                           value_describe(value));
     }
     if (!may_replace(ev, binding->variable, value, name, span)) {

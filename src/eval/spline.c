@@ -270,8 +270,20 @@ static unsigned find_interval(const Spline *spline, double t)
     return low;
 }
 
+// POV-Ray's cubic spline of two points: halfway between them, wherever it is asked for.
+static bool is_mean(const Spline *spline, SplineType type)
+{
+    return type == SPLINE_CUBIC && spline->count == 2;
+}
+
 void spline_at(const Spline *spline, SplineType type, double t, double v[5])
 {
+    if (is_mean(spline, type)) {
+        for (unsigned c = 0; c < 5; c++) {
+            v[c] = (spline->points[0].v[c] + spline->points[1].v[c]) / 2.0;
+        }
+        return;
+    }
     const Curve *curve = spline->count < curves[type].least ? &curves[SPLINE_LINEAR] : &curves[type];
     unsigned first = curve->shifts ? 0 : curve->before, last = spline->count - 1 - curve->after;
     const SplinePoint *points = spline->points;

@@ -168,7 +168,7 @@ bool builtin_chr(Eval *ev, const AstNode *node, Value *value)
         return eval_fault(ev, DIAG_E0304, node->a->span, "`chr` takes 0 to 255, not %g", code);
     }
     char byte = (char)(unsigned char)fmax(code, 0.0);
-    return give_string(ev, node, value, &byte, 1);
+    return give_string(ev, node, value, &byte, byte != 0); // a 0 ends a string
 }
 
 bool builtin_asc(Eval *ev, const AstNode *node, Value *value)

@@ -132,7 +132,6 @@ static bool store_array(Eval *ev, const ValueArray *array, Arena *arena, Span sp
             return false;
         }
     }
-    kept->example = array->example != NULL ? elements + (array->example - array->elements) : NULL;
     copy->array = kept;
     return true;
 }
