@@ -55,6 +55,15 @@ bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
     return true;
 }
 
+void grammar_end_in_comma(GrammarState *state, Span comma)
+{
+    if (state->kept != NULL) {
+        *state->kept = ast_flag_last(*state->kept, AST_BEFORE_COMMA);
+    } else {
+        grammar_fault(state, DIAG_E0259, comma, "no comma is expected here");
+    }
+}
+
 void grammar_begin(GrammarState *state, const GrammarContext *context)
 {
     *state = (GrammarState){

@@ -136,6 +136,8 @@ AstNode *grammar_stream_expression(GrammarStream *stream) RT_MUST_CHECK;
 AstNode *grammar_stream_arguments(GrammarStream *stream) RT_MUST_CHECK;
 // True when a directive stood right after the last item, and may have ended it.
 bool grammar_stream_is_cut(const GrammarStream *stream);
+// After the last item: a comma stood behind it.
+bool grammar_stream_ends_in_comma(const GrammarStream *stream);
 void grammar_stream_close(GrammarStream *stream);
 
 // Reads all of a source, or a span of one again, for a splice; NULL after a fault. The caller's to free.

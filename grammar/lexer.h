@@ -255,6 +255,7 @@ void grammar_describe_token(const GrammarState *state, const Token *token, TextB
 // Facade: hands a completed top-level item over; `has_lookahead`: a token after it was read. False when the parse is to
 // stop.
 bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead);
+void grammar_end_in_comma(GrammarState *state, Span comma); // of a text
 void grammar_begin(GrammarState *state, const GrammarContext *context);
 GrammarText *grammar_text_new(const Token *tokens, size_t count) RT_MUST_CHECK;
 

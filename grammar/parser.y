@@ -149,7 +149,7 @@ rest:
 
 text:
   top
-| top ','
+| top ','                           { grammar_end_in_comma(state, @2); }
 ;
 
 top:
@@ -209,7 +209,9 @@ layer:
 ;
 
 entry:
-  '[' entry_items comma ']'         { $$ = LIST(ENTRY, SYMBOL_NONE, @$, $entry_items); }
+  '[' entry_items ']'               { $$ = LIST(ENTRY, SYMBOL_NONE, @$, $entry_items); }
+| '[' entry_items ',' ']'
+    { $$ = LIST(ENTRY, SYMBOL_NONE, @$, ast_flag_last($entry_items, AST_BEFORE_COMMA)); }
 | '[' ']'                           { $$ = LIST(ENTRY, SYMBOL_NONE, @$, EMPTY); }
 ;
 
@@ -340,7 +342,7 @@ simple:
 | HASH_DEFAULT '{' block_body '}'   { $$ = LIST(DEFAULT, SYMBOL_NONE, @$, $block_body); }
 | HASH_VERSION sum                  %prec JUXTAPOSED
     { $$ = grammar_end_version(state, NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL)); }
-| HASH_VERSION sum ';'              { $$ = ast_flag(NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL), AST_ENDED); }
+| HASH_VERSION sum ';'              { $$ = NODE(VERSION, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); }
 ;
 
 include: HASH_INCLUDE sum           %prec JUXTAPOSED { $$ = NODE(INCLUDE, NONE, SYMBOL_NONE, @$, $sum, NULL, NULL); };

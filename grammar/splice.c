@@ -40,6 +40,7 @@ static AstNode *next_item(GrammarStream *stream, uint64_t past)
         }
         stream_read(stream, &token);
         if (token.kind == TOKEN_END_OF_FILE) {
+            stream->ends_in_comma = has_comma;
             if (stream->frames.count > 0 && !frame_has_text(&stream->frames.items[stream->frames.count - 1])) {
                 stream_fault_unclosed(stream, &stream->frames.items[stream->frames.count - 1].opened_by);
             }
@@ -107,6 +108,11 @@ AstNode *grammar_stream_arguments(GrammarStream *stream)
 bool grammar_stream_is_cut(const GrammarStream *stream)
 {
     return stream->is_cut;
+}
+
+bool grammar_stream_ends_in_comma(const GrammarStream *stream)
+{
+    return stream->ends_in_comma;
 }
 
 const Token *grammar_stream_silent(const GrammarStream *stream)

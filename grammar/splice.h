@@ -51,6 +51,7 @@ struct GrammarStream {
     bool failed;  // reading cannot go on
     bool is_refused; // at the place where the statement was torn: see grammar_stream_is_refused
     bool is_cut;  // a directive stood right after the last item
+    bool ends_in_comma;
     bool is_open; // an item or a directive is being read
     Span end;     // of the last token
     Token silent; // the name of a macro that gave nothing before the present token

@@ -180,6 +180,9 @@ static bool read_share(Block *block, const SchemaProperty *property, double *sha
     if (!read_number(block, property, &shares[0])) {
         return false;
     }
+    if (property->type == TYPE_SHARE_PAIR) {
+        cursor_take_comma(&block->cursor);
+    }
     bool has_second = property->type == TYPE_SHARE_PAIR && at_expression(block);
     if (property->type == TYPE_SHARE_PAIR && !has_second) {
         shares[1] = 0.0;
@@ -379,7 +382,8 @@ static bool read_argument(Block *block, const SchemaProperty *argument)
     if (argument->is_optional && block_is_misspelt(block, item)) {
         return true;
     }
-    if (block->arguments == 0 && (item->flags & AST_AFTER_COMMA) && !block->after_number) {
+    if (block->arguments == 0 && block->cursor.has_comma) {
+        block->cursor.has_comma = false;
         block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
     }
     if ((block->kind == KIND_PIGMENT || argument->is_anywhere) && !block_begins_like_colour(block, item)) {
@@ -408,6 +412,9 @@ static void read_arguments(Block *block)
         }
         if (block->arguments == before) {
             return; // left out, or missing
+        }
+        if (i + 1 < list->count) {
+            cursor_take_comma(&block->cursor);
         }
     }
 }
@@ -568,17 +575,22 @@ static void pass_colour(Block *block)
     }
 }
 
+// After a fault it may belong to what was not understood.
+static void check_comma(Block *block)
+{
+    if (!block->has_fault && !block->has_unsupported && !cursor_lacks_comma(&block->cursor, block_word(block))) {
+        block->has_fault = true;
+    }
+}
+
 static void read_properties(Block *block)
 {
     const AstNode *item;
     while ((item = cursor_peek(&block->cursor))) {
         const SchemaProperty *property = find_property(block, item);
         bool is_word = item->kind == AST_WORD || item->kind == AST_BLOCK;
-        bool is_first = block->after_number && block->items == 0;
-        unsigned commas = is_first || block->after_list ? AST_BEFORE_COMMA : AST_AFTER_COMMA | AST_BEFORE_COMMA;
-        block->after_list = false;
-        if (is_word && !block->has_fault && (item->flags & commas)) {
-            block_fault(block, DIAG_E0259, item->span, "no comma is expected here in %s", block_word(block));
+        if (is_word) {
+            check_comma(block);
         }
         const SchemaProperty *loose = property ? NULL : find_loose_argument(block, item);
         if (property) {
@@ -593,6 +605,7 @@ static void read_properties(Block *block)
             refuse_value(block, item);
         }
     }
+    check_comma(block);
 }
 
 bool block_read_items(Block *block, SchemaKind *is)

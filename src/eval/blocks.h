@@ -52,8 +52,6 @@ typedef struct Block {
     size_t arguments;  // that were given
     size_t items;      // properties so far
     bool has_name;     // it began with an identifier
-    bool after_list;   // a list of pigments, normals, textures or colours has been read: a comma may stand behind it
-    bool after_number; // it is an entry of a map: a comma may stand before its first item
     bool has_unsupported;
     bool has_fault;
 } Block;

@@ -75,6 +75,7 @@ bool camera_blur_action(Block *block, const SchemaProperty *property, const AstN
     if (!block_value(block, &values[0], item->span)) {
         return false;
     }
+    cursor_take_comma(&block->cursor);
     const AstNode *next = cursor_peek(&block->cursor);
     bool has_more = next && next->kind != AST_WORD && cursor_at_value(&block->cursor);
     return !has_more || block_value(block, &values[1], item->span);

@@ -155,7 +155,7 @@ static bool read_parts(Cursor *cursor, double v[COMPONENTS], Span *span)
     for (;;) {
         const AstNode *item = cursor_peek(cursor);
         unsigned component = component_of(word_of(item));
-        if (component == COMPONENTS) {
+        if (component == COMPONENTS || cursor->has_comma) {
             return true;
         }
         if (word_of(item) == W_alpha) {

@@ -26,6 +26,7 @@ CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, c
     frame->node = node;
     frame->kind = kind;
     frame->stream = NULL;
+    frame->ends_in_comma = false;
     cursor->frame = frame;
     return frame;
 }
@@ -152,11 +153,14 @@ static const AstNode *take_next(const Cursor *cursor)
 {
     CursorFrame *frame = cursor->frame;
     if (RT_UNLIKELY(frame->stream != NULL)) {
-        return splice_stream_next(frame->stream, cursor->top);
+        const AstNode *item = splice_stream_next(frame->stream, cursor->top);
+        frame->ends_in_comma = item == NULL && splice_stream_ends_in_comma(frame->stream);
+        return item;
     }
     const AstNode *item = frame->next;
     if (item != NULL) {
         frame->next = item->next;
+        frame->ends_in_comma = item->flags & AST_BEFORE_COMMA;
     }
     return item;
 }
@@ -207,12 +211,15 @@ static void check_pasted_sign(Cursor *cursor, const AstNode *item)
 const AstNode *cursor_advance(Cursor *cursor)
 {
     Eval *ev = cursor->ev;
+    cursor->has_comma = cursor->has_comma && cursor->frame == NULL;
     while (cursor->frame != NULL && !ev->stop) {
         const AstNode *item = take_next(cursor);
         if (item == NULL) {
+            cursor->has_comma = cursor->has_comma || cursor->frame->ends_in_comma;
             end_of_frame(cursor);
             continue;
         }
+        cursor->has_comma = cursor->has_comma || (item->flags & AST_AFTER_COMMA);
         bool is_plain = item->kind == AST_WORD || item->kind == AST_NUMBER || item->kind == AST_BLOCK;
         if (RT_LIKELY(is_plain && !cursor->at_call)) {
             cursor->after_value = item->kind == AST_NUMBER;
@@ -239,6 +246,29 @@ void cursor_skip(Cursor *cursor)
     cursor->item = NULL;
 }
 
+void cursor_take_comma(Cursor *cursor)
+{
+    (void)cursor_peek(cursor);
+    cursor->has_comma = false;
+}
+
+// The last character of the block, where something is missing or too much.
+static Span end_of_block(const Cursor *cursor)
+{
+    Span span = cursor->span;
+    return span.end > span.begin ? (Span){span.end - 1, span.end} : span;
+}
+
+bool cursor_lacks_comma(Cursor *cursor, const char *where)
+{
+    const AstNode *item = cursor_peek(cursor);
+    bool has_comma = cursor->has_comma && !cursor->ev->stop;
+    cursor->has_comma = false;
+    return !has_comma || eval_fault(cursor->ev, DIAG_E0259, item != NULL ? item->span : end_of_block(cursor),
+                                    item != NULL ? "no comma is expected here in %s"
+                                                 : "no comma is expected at the end of %s", where);
+}
+
 bool cursor_at_word(Cursor *cursor, Word word)
 {
     const AstNode *item = cursor_peek(cursor);
@@ -256,8 +286,7 @@ static bool take(Cursor *cursor, Value *value, Span *span)
 {
     const AstNode *item = cursor_peek(cursor);
     if (item == NULL) {
-        // Behind the last item, where it would stand.
-        *span = cursor->span.end > cursor->span.begin ? (Span){cursor->span.end - 1, cursor->span.end} : cursor->span;
+        *span = end_of_block(cursor);
         bool is_told = cursor->ev->stop || cursor->is_lossy || eval_follows_syntax(cursor->ev, cursor->span);
         return !is_told && eval_fault(cursor->ev, DIAG_E0213, *span, "a value is missing at the end");
     }

@@ -59,6 +59,11 @@ static void place(Eval *ev, const AstNode *item)
 
 void eval_item(Eval *ev, const AstNode *item)
 {
+    // What is no statement has a fault of its own.
+    bool is_statement = item->kind == AST_BLOCK || item->kind >= AST_DECLARE || item->kind == AST_CALL;
+    if (RT_UNLIKELY(item->flags & AST_AFTER_COMMA) && is_statement && !ev->lacks_brace) {
+        eval_fault(ev, DIAG_E0259, item->span, "no comma is expected between statements");
+    }
     if (item->kind == AST_BLOCK) {
         place(ev, item);
         return;
@@ -68,6 +73,8 @@ void eval_item(Eval *ev, const AstNode *item)
     cursor_open(&cursor, ev, item, item->span);
     cursor.top = true;
     while ((found = cursor_peek(&cursor)) != NULL) {
+        bool is_told = (item->flags & AST_AFTER_COMMA) || ev->lacks_brace || found->kind != AST_BLOCK;
+        ev->faulty = (!is_told && !cursor_lacks_comma(&cursor, "the scene")) || ev->faulty;
         place(ev, found);
         cursor_skip(&cursor);
         repeat_turns(&cursor);

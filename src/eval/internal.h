@@ -495,6 +495,7 @@ typedef struct Cursor {
     bool top;            // walks the top level: included text is handed on item by item, and not kept
     bool after_value;    // the last item was an expression
     bool at_call;        // since then the text of a macro began
+    bool has_comma;      // one stands before the item that is pending, or before the end
     bool included;       // text was included on the way, and stands in the parse arena since `mark`
     bool counted;        // in expression_depth
     bool is_lossy;       // a call was at fault: what is missing may have been its text
@@ -516,6 +517,10 @@ static inline const AstNode *cursor_peek(Cursor *cursor)
 // Consumes the item that cursor_peek returned.
 void cursor_skip(Cursor *cursor);
 
+// Peeks: a comma may stand here, or none may, which is a fault.
+void cursor_take_comma(Cursor *cursor);
+bool cursor_lacks_comma(Cursor *cursor, const char *where);
+
 bool cursor_at_word(Cursor *cursor, Word word);  // peeks
 bool cursor_at_value(Cursor *cursor);            // an expression or a colour word stands next
 // Consume and evaluate. `owner` is what the value belongs to, for "expected a number after `radius`".
@@ -536,6 +541,7 @@ struct CursorFrame {
     GrammarLoop loop;    // FRAME_FOR
     DiagFrame diag;      // FRAME_MACRO, FRAME_INCLUDE
     struct SpliceStream *stream; // items that are read in a splice, on demand; NULL: `next`
+    bool ends_in_comma;  // one stands after the item that was taken last
 };
 
 // NULL when out of memory, which stops the evaluation.
@@ -617,6 +623,7 @@ SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText 
                                  bool is_call) RT_MUST_CHECK;
 const AstNode *splice_stream_next(SpliceStream *stream, bool top) RT_MUST_CHECK;
 bool splice_stream_is_cut(const SpliceStream *stream);
+bool splice_stream_ends_in_comma(const SpliceStream *stream);
 void splice_stream_close(SpliceStream *stream);
 
 // True when a macro called in the expression may need its text to be pasted, not its value.

@@ -114,10 +114,13 @@ bool object_members(Block *block)
     bool is_member = true;
     const AstNode *item;
     while ((item = cursor_peek(&block->cursor))) {
+        bool has_comma = block->cursor.has_comma;
         bool is_read = read_member(block, &list, item, &is_member);
         if (!is_member) {
             break;
         }
+        block->cursor.has_comma = has_comma;
+        is_read = cursor_lacks_comma(&block->cursor, block_word(block)) && is_read;
         is_fine = is_read && is_fine;
         cursor_skip(&block->cursor);
     }

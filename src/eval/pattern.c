@@ -71,6 +71,11 @@ static bool read_colour(Block *block, Cursor *cursor, Rgbft *colour)
     return block_finite(block, sum - sum, span, "color_map");
 }
 
+static bool lacks_comma(Cursor *cursor)
+{
+    return cursor_lacks_comma(cursor, "the entry of a map");
+}
+
 // `[at colour]`, or in the old way `[from to colour colour]`.
 static bool read_colour_entry(Block *block, Cursor *cursor, EntryList *list, const AstNode *node)
 {
@@ -79,14 +84,15 @@ static bool read_colour_entry(Block *block, Cursor *cursor, EntryList *list, con
     if (!cursor_number(cursor, &entry.at, &span)) {
         return false;
     }
+    cursor_take_comma(cursor);
     const AstNode *item = cursor_peek(cursor);
     bool is_old = item && cursor_at_value(cursor) && !block_begins_like_colour(block, item);
-    if ((is_old && !cursor_number(cursor, &second.at, &span)) || !read_colour(block, cursor, &entry.colour) ||
+    if ((is_old && !(cursor_number(cursor, &second.at, &span) && lacks_comma(cursor))) || !read_colour(block, cursor, &entry.colour) ||
         !add_entry(block, list, &entry, node->span)) {
         return false;
     }
     return !is_old ||
-           (read_colour(block, cursor, &second.colour) && add_entry(block, list, &second, node->span));
+           (lacks_comma(cursor) && read_colour(block, cursor, &second.colour) && add_entry(block, list, &second, node->span));
 }
 
 // `[at <height, slope>]`
@@ -98,6 +104,7 @@ static bool read_slope_entry(Block *block, Cursor *cursor, EntryList *list, cons
     if (!cursor_number(cursor, &entry.at, &span)) {
         return false;
     }
+    cursor_take_comma(cursor);
     const AstNode *item = cursor_peek(cursor);
     if (!item || !cursor_at_value(cursor)) {
         return block_fault(block, DIAG_E0253, node->span, "an entry of a slope_map needs `<height, slope>`");
@@ -125,6 +132,8 @@ static bool read_values(Block *block, EntryList *list, const AstNode *node)
     const AstNode *rest = is_fine ? cursor_peek(&cursor) : NULL;
     if (rest) {
         is_fine = block_fault(block, DIAG_E0254, rest->span, "one value too many in the entry of a map");
+    } else if (is_fine && !lacks_comma(&cursor)) {
+        is_fine = false;
     }
     cursor_close(&cursor);
     return is_fine;
@@ -158,7 +167,7 @@ static bool read_weighed(Eval *ev, const AstNode *entry, SchemaKind kind, Arena 
         cursor_close(&block.cursor);
         return false;
     }
-    block.after_number = true;
+    cursor_take_comma(&block.cursor);
     return block_finite(&block, *at, span, schema_kind(kind)->word) && block_read_items(&block, &is);
 }
 
@@ -183,7 +192,7 @@ bool pattern_map_body(Block *block)
     bool is_fine = true;
     const AstNode *item;
     while ((item = cursor_peek(&block->cursor)) && item->kind == AST_ENTRY) {
-        is_fine = read_entry(block, &list, item) && is_fine;
+        is_fine = cursor_lacks_comma(&block->cursor, block_word(block)) && read_entry(block, &list, item) && is_fine;
         cursor_skip(&block->cursor);
     }
     if (is_fine && list.count == 0) {
@@ -249,19 +258,15 @@ static PatternType type_of(const char *word)
     return type;
 }
 
-// A comma stands before an item that would be the first of a list.
-static bool is_after_comma(const EntryList *list, const AstNode *item)
-{
-    return list->count == 0 && (item->flags & AST_AFTER_COMMA);
-}
-
 // Blocks of one kind, pigments in a pigment, that follow `checker` and the like.
 static bool read_blocks(Block *block, uint32_t wanted, EntryList *list)
 {
     SchemaKind kind = block->kind;
     const AstNode *item;
-    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && block_kind(block->ev, item) == kind &&
-           !is_after_comma(list, item)) {
+    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && block_kind(block->ev, item) == kind) {
+        if (!cursor_lacks_comma(&block->cursor, block_word(block))) {
+            return false;
+        }
         PatternEntry entry = {.at = (double)list->count};
         Blueprint record;
         SchemaKind is;
@@ -269,6 +274,7 @@ static bool read_blocks(Block *block, uint32_t wanted, EntryList *list)
         bool is_kept = block_read(block->ev, item, kind, block->arena, &record, &is) &&
                        has_pattern(block, kind, &record) && keep_entry(block, kind, &record, item->span, &entry);
         cursor_skip(&block->cursor);
+        cursor_take_comma(&block->cursor);
         if (!is_kept || !add_entry(block, list, &entry, item->span)) {
             return false;
         }
@@ -280,12 +286,15 @@ static bool read_blocks(Block *block, uint32_t wanted, EntryList *list)
 static bool read_colours(Block *block, uint32_t wanted, EntryList *list)
 {
     const AstNode *item;
-    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && cursor_at_value(&block->cursor) &&
-           !is_after_comma(list, item)) {
+    while (list->count < wanted && (item = cursor_peek(&block->cursor)) && cursor_at_value(&block->cursor)) {
+        if (!cursor_lacks_comma(&block->cursor, block_word(block))) {
+            return false;
+        }
         PatternEntry entry = {.at = (double)list->count};
         if (!read_colour(block, &block->cursor, &entry.colour) || !add_entry(block, list, &entry, item->span)) {
             return false;
         }
+        cursor_take_comma(&block->cursor);
     }
     return true;
 }
@@ -338,7 +347,6 @@ static bool read_block_entries(Block *block, PatternType type, Span span)
     if (has_colours && !read_colours(block, wanted, &list)) {
         return false;
     }
-    block->after_list = list.count > 0;
     if (block->kind == KIND_NORMAL && list.count == 0) {
         return true; // an amount follows
     }
@@ -377,6 +385,9 @@ static bool read_amount(Block *block)
 {
     static const SchemaProperty amount = {"normal", TYPE_NUMBER, ACTION_NONE, .at = offsetof(NormalBlueprint, amount)};
     const AstNode *item = cursor_peek(&block->cursor);
+    if (block->kind == KIND_NORMAL) {
+        cursor_take_comma(&block->cursor);
+    }
     const PatternPart *part = &block->record->patterned;
     bool has_normals = part->map && pattern_info((PatternType)part->pattern.type)->blocks;
     if (block->kind != KIND_NORMAL || has_normals || !item || item->kind == AST_WORD ||

@@ -297,6 +297,11 @@ bool splice_stream_is_cut(const SpliceStream *stream)
     return grammar_stream_is_cut(stream->stream);
 }
 
+bool splice_stream_ends_in_comma(const SpliceStream *stream)
+{
+    return grammar_stream_ends_in_comma(stream->stream);
+}
+
 void splice_stream_close(SpliceStream *stream)
 {
     grammar_stream_close(stream->stream);

@@ -334,11 +334,12 @@ bool eval_default(Eval *ev, const AstNode *directive)
     }
     cursor_open(&cursor, ev, directive->a, directive->span);
     while ((item = cursor_peek(&cursor))) {
-        is_fine = read_default(ev, item, texture) && is_fine;
+        is_fine = cursor_lacks_comma(&cursor, "`#default`") && read_default(ev, item, texture) && is_fine;
         do {
             cursor_skip(&cursor); // what is not understood, with all that belongs to it
         } while (!is_fine && (item = cursor_peek(&cursor)) && item->kind != AST_BLOCK);
     }
+    is_fine = cursor_lacks_comma(&cursor, "`#default`") && is_fine;
     cursor_close(&cursor);
     ev->objects->defaults = texture;
     return is_fine;

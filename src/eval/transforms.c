@@ -87,6 +87,9 @@ static bool read_matrix_numbers(Block *block, const AstNode *vector, Transform *
             !block_finite(block, *numbers, component->span, "matrix")) {
             return false;
         }
+        if (component->flags & AST_BEFORE_COMMA) {
+            return block_fault(block, DIAG_E0259, component->span, "no comma may follow the last number of `matrix`");
+        }
         numbers++;
     }
     return true;
