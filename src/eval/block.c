@@ -521,6 +521,10 @@ static bool may_stand_here(Block *block, const SchemaProperty *property, const A
         return block_fault(block, DIAG_E0255, item->span, "`%s` cannot follow an identifier in %s: only transforms can",
                            property->word, block_word(block));
     }
+    bool is_patterned = block->kind == KIND_TEXTURE || block->kind == KIND_PIGMENT || block->kind == KIND_NORMAL;
+    if (is_patterned && !pattern_allows(block, property, item)) {
+        return false;
+    }
     if (item->kind == AST_BLOCK && !takes_braces(property)) {
         return block_fault(block, DIAG_E0257, item->span, "`%s` takes no braces", property->word);
     }

@@ -52,6 +52,7 @@ typedef struct Block {
     size_t arguments;  // that were given
     size_t items;      // properties so far
     bool has_name;     // it began with an identifier
+    bool is_plain, is_patterned; // a texture that begins with a part or a transform, or with a word of a pattern
     bool has_unsupported;
     bool has_fault;
 } Block;
@@ -138,6 +139,8 @@ bool pattern_solid_action(Block *block, const SchemaProperty *property, const As
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// Reports a word that has no meaning beside the pattern that there is, or beside none.
+bool pattern_allows(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool pattern_map_body(Block *block) RT_MUST_CHECK;
 // What lies along a pattern of which nothing is said.
 const PatternMap *pattern_default_map(PatternType type);

@@ -205,6 +205,67 @@ bool pattern_map_body(Block *block)
 }
 
 // A texture that begins with an identifier takes no other pattern.
+// The pattern that alone knows a word.
+static PatternType owner_of(Symbol word)
+{
+    switch ((Word)word) {
+    case W_form:
+    case W_metric:
+    case W_offset:
+    case W_solid: return PATTERN_CRACKLE;
+    case W_agate_turb: return PATTERN_AGATE;
+    case W_mortar:
+    case W_brick_size: return PATTERN_BRICK;
+    default: return PATTERN_NONE;
+    }
+}
+
+static bool is_of_pattern(const SchemaProperty *property)
+{
+    switch (property->action) {
+    case ACTION_PATTERN:
+    case ACTION_PATTERN_SOLID:
+    case ACTION_WAVE:
+    case ACTION_MAP: return true;
+    default:
+        return property->action == ACTION_NONE && property->at >= offsetof(PatternPart, pattern) &&
+               property->at < offsetof(PatternPart, pattern) + sizeof(Pattern);
+    }
+}
+
+// A texture is a pigment, bumps and a finish, or textures by a pattern, as it begins.
+static bool fits_texture(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    bool is_word = is_of_pattern(property);
+    bool is_part = property->action == ACTION_PIGMENT || property->action == ACTION_NORMAL ||
+                   property->action == ACTION_FINISH;
+    bool has_pattern = block->has_name && block->record->patterned.pattern.type != PATTERN_NONE;
+    block->is_plain = block->is_plain || block->has_name ||
+                      (!block->is_patterned && (is_part || schema_is_transform(property)));
+    block->is_patterned = block->is_patterned || (is_word && !block->is_plain);
+    if (is_part && (block->is_patterned || has_pattern)) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand in a texture that begins with a pattern",
+                           property->word);
+    }
+    bool has_message = property->action == ACTION_PATTERN || property->action == ACTION_MAP; // of its own
+    return !is_word || !block->is_plain || has_message ||
+           block_fault(block, DIAG_E0256, item->span, "`%s` can stand only in a texture that begins with a pattern",
+                       property->word);
+}
+
+bool pattern_allows(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    if (block->has_unsupported) {
+        return true;
+    }
+    PatternType type = (PatternType)block->record->patterned.pattern.type, owner = owner_of(item->symbol);
+    if (owner != PATTERN_NONE && owner != type && is_of_pattern(property)) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` can stand only beside `%s`", property->word,
+                           pattern_info(owner)->word);
+    }
+    return block->kind != KIND_TEXTURE || fits_texture(block, property, item);
+}
+
 static bool may_have_pattern(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     return block->kind != KIND_TEXTURE || !block->has_name ||
@@ -221,6 +282,11 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     bool has_values = kind == KIND_SLOPE_MAP || kind == KIND_COLOUR_MAP;
     if (!may_have_pattern(block, property, item)) {
         return false;
+    }
+    bool is_plain = block->kind == KIND_TEXTURE ||
+                    (block->kind == KIND_PIGMENT && (block->arguments > 0 || block->has_name));
+    if (type == PATTERN_NONE && is_plain && !block->has_unsupported) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` needs a pattern before it", property->word);
     }
     if (pattern_info(type)->blocks || type == PATTERN_QUILTED || (type == PATTERN_AVERAGE && has_values)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
