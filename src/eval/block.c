@@ -73,17 +73,10 @@ bool block_is_name(const AstNode *item)
     return item->kind == AST_NAME || item->kind == AST_INDEX;
 }
 
-// The last character of the block, where something is missing.
-static Span block_end(const Block *block)
-{
-    Span span = block->node->span;
-    return span.end > span.begin ? (Span){span.end - 1, span.end} : span;
-}
-
 static Span block_here(Block *block)
 {
     const AstNode *item = cursor_peek(&block->cursor);
-    return item ? item->span : block_end(block);
+    return item ? item->span : cursor_end(&block->cursor);
 }
 
 void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
@@ -350,24 +343,6 @@ static void read_name(Block *block)
         cursor_skip(&block->cursor);
         take_name(block, &value, item);
     }
-}
-
-bool block_begins_like_colour(Block *block, const AstNode *item)
-{
-    while (item->kind == AST_BINARY) {
-        item = item->a;
-    }
-    if (item->kind == AST_WORD) {
-        return true;
-    }
-    Value value;
-    if (!block_is_name(item)) {
-        return false;
-    }
-    block->ev->at_colour = true;
-    bool is_like = !eval_expression(block->ev, item, &value) || value.kind == VALUE_COLOUR;
-    block->ev->at_colour = false;
-    return is_like;
 }
 
 static bool read_argument(Block *block, const SchemaProperty *argument)

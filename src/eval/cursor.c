@@ -252,8 +252,7 @@ void cursor_take_comma(Cursor *cursor)
     cursor->has_comma = false;
 }
 
-// The last character of the block, where something is missing or too much.
-static Span end_of_block(const Cursor *cursor)
+Span cursor_end(const Cursor *cursor)
 {
     Span span = cursor->span;
     return span.end > span.begin ? (Span){span.end - 1, span.end} : span;
@@ -264,7 +263,7 @@ bool cursor_lacks_comma(Cursor *cursor, const char *where)
     const AstNode *item = cursor_peek(cursor);
     bool has_comma = cursor->has_comma && !cursor->ev->stop;
     cursor->has_comma = false;
-    return !has_comma || eval_fault(cursor->ev, DIAG_E0259, item != NULL ? item->span : end_of_block(cursor),
+    return !has_comma || eval_fault(cursor->ev, DIAG_E0259, item != NULL ? item->span : cursor_end(cursor),
                                     item != NULL ? "no comma is expected here in %s"
                                                  : "no comma is expected at the end of %s", where);
 }
@@ -286,7 +285,7 @@ static bool take(Cursor *cursor, Value *value, Span *span)
 {
     const AstNode *item = cursor_peek(cursor);
     if (item == NULL) {
-        *span = end_of_block(cursor);
+        *span = cursor_end(cursor);
         bool is_told = cursor->ev->stop || cursor->is_lossy || eval_follows_syntax(cursor->ev, cursor->span);
         return !is_told && eval_fault(cursor->ev, DIAG_E0213, *span, "a value is missing at the end");
     }

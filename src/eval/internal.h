@@ -517,6 +517,9 @@ static inline const AstNode *cursor_peek(Cursor *cursor)
 // Consumes the item that cursor_peek returned.
 void cursor_skip(Cursor *cursor);
 
+// The last character of the block, where something is missing or too much.
+Span cursor_end(const Cursor *cursor);
+
 // Peeks: a comma may stand here, or none may, which is a fault.
 void cursor_take_comma(Cursor *cursor);
 bool cursor_lacks_comma(Cursor *cursor, const char *where);

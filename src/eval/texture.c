@@ -344,3 +344,21 @@ bool eval_default(Eval *ev, const AstNode *directive)
     ev->objects->defaults = texture;
     return is_fine;
 }
+
+bool block_begins_like_colour(Block *block, const AstNode *item)
+{
+    while (item->kind == AST_BINARY) {
+        item = item->a;
+    }
+    if (item->kind == AST_WORD) {
+        return true;
+    }
+    Value value;
+    if (!block_is_name(item)) {
+        return false;
+    }
+    block->ev->at_colour = true;
+    bool is_like = !eval_expression(block->ev, item, &value) || value.kind == VALUE_COLOUR;
+    block->ev->at_colour = false;
+    return is_like;
+}
