@@ -87,11 +87,11 @@ static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 %token HASH_FOPEN "#fopen" HASH_FCLOSE "#fclose" HASH_READ "#read" HASH_WRITE "#write"
 
 %type <node> item block layer entry array function directive simple declare assignment conditional message file case
-%type <node> last_case parameter
+%type <node> otherwise parameter
 %type <node> value initialiser unreadable
 %type <node> full logic relation sum indexed inline include target subject condition
 %type <list> items entry_items body block_body components arguments operands colour colour_open layers sizes rows
-%type <list> parameters names bounds written cases branches else_part function_body
+%type <list> parameters names bounds written cases else_part function_body
 %type <symbol> word block_word mode member reserved
 
 %printer { fprintf(yyo, "symbol %u", (unsigned)$$); } <symbol>
@@ -412,15 +412,11 @@ else_part:
     { $$ = ONE(LISTS(IF, NONE, SYMBOL_NONE, @$, ONE($condition), $body, $rest)); }
 ;
 
+// An #else may stand between cases, but not before them.
 cases:
-  branches                          { $$ = $branches; }
-| branches last_case                { $$ = ast_append($branches, $last_case); }
-| last_case                         { $$ = ONE($last_case); }
-;
-
-branches:
   case                              { $$ = ONE($case); }
-| branches case                     { $$ = ast_append($1, $case); }
+| cases case                        { $$ = ast_append($1, $case); }
+| cases otherwise                   { $$ = ast_append($1, $otherwise); }
 ;
 
 case:
@@ -430,7 +426,7 @@ case:
 | HASH_RANGE error RESYNC body      { $$ = LISTS(CASE, NONE, SYMBOL_NONE, @$, EMPTY, $body, EMPTY); yyerrok; }
 ;
 
-last_case: HASH_ELSE body           { $$ = LIST(ELSE, SYMBOL_NONE, @$, $body); };
+otherwise: HASH_ELSE body           { $$ = LIST(ELSE, SYMBOL_NONE, @$, $body); };
 
 bounds:
   sum[from] comma sum[to]           %prec JUXTAPOSED { $$ = ast_append(ONE($from), $to); }

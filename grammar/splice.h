@@ -37,8 +37,8 @@ typedef struct Frame {
     GrammarLoop loop;
     double subject; // of a #switch
     bool is_found;  // its case
-    bool has_cases; // at least one, or an #else
-    bool is_last;   // its #else, or that of an #if, was begun: no other branch may follow
+    bool has_cases; // at least one
+    bool is_last;   // the #else of an #if: no other branch may follow
 } Frame;
 
 struct GrammarStream {

@@ -102,13 +102,12 @@ static void next_case(GrammarStream *stream, size_t place, Token at)
 {
     while (!stream->failed) {
         Frame *frame = &stream->frames.items[place];
-        if (frame->is_last || at.kind == TOKEN_HASH_ELSEIF) {
+        if (at.kind == TOKEN_HASH_ELSEIF || (at.kind == TOKEN_HASH_ELSE && !frame->has_cases)) {
             stream_fault_stray(stream, &at);
             return;
         }
         bool was_found = frame->is_found;
         frame->has_cases = true;
-        frame->is_last = at.kind == TOKEN_HASH_ELSE;
         bool holds = at.kind == TOKEN_HASH_ELSE || case_holds(stream, &at, frame->subject);
         frame = &stream->frames.items[place];
         if (stream->failed || was_found || holds) {
