@@ -12,19 +12,29 @@
 #include "grammar/lexer.h"
 #include "grammar/parser.h"
 
+static bool holds_word(const AstNode *items);
+
 // Whether a branch or a turn of a loop gives the word of a block, whose braces must stand after the #end.
 static bool gives_word(const AstNode *item)
 {
-    const AstNode *lists[] = {item->kind == AST_RANGE || item->kind == AST_FOR ? NULL : item->b, item->c,
-                              item->kind == AST_ELSE ? item->a : NULL};
-    bool holds_items = item->kind == AST_IF || item->kind == AST_IFDEF || item->kind == AST_SWITCH ||
-                       item->kind == AST_CASE || item->kind == AST_RANGE || item->kind == AST_ELSE ||
-                       item->kind == AST_WHILE || item->kind == AST_FOR;
-    for (unsigned i = 0; i < RT_COUNT_OF(lists) && holds_items; i++) {
-        for (const AstNode *each = lists[i]; each != NULL; each = each->next) {
-            if (each->kind == AST_WORD || gives_word(each)) {
-                return true;
-            }
+    switch ((AstKind)item->kind) {
+    case AST_IF:
+    case AST_IFDEF:
+    case AST_SWITCH:
+    case AST_WHILE:
+    case AST_CASE: return holds_word(item->b) || holds_word(item->c);
+    case AST_RANGE:
+    case AST_FOR: return holds_word(item->c);
+    case AST_ELSE: return holds_word(item->a);
+    default: return false;
+    }
+}
+
+static bool holds_word(const AstNode *items)
+{
+    for (; items != NULL; items = items->next) {
+        if (items->kind == AST_WORD || gives_word(items)) {
+            return true;
         }
     }
     return false;
