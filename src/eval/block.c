@@ -275,14 +275,8 @@ static void take_name(Block *block, const Value *value, const AstNode *item)
     } else if (!name_fits(block, value)) {
         block_fault(block, DIAG_E0258, item->span, "`%s` cannot begin with %s", block_word(block),
                     value_describe(value));
-    } else if (value->block == KIND_PIGMENT && block->kind == KIND_TEXTURE) {
-        block->record->texture.pigment = *(const PigmentBlueprint *)value->record;
-    } else if (value->block == KIND_NORMAL && block->kind == KIND_TEXTURE) {
-        block->record->texture.normal = *(const NormalBlueprint *)value->record;
-    } else if (value->block == KIND_FINISH && block->kind == KIND_TEXTURE) {
-        const FinishBlueprint *finish = value->record;
-        block->record->texture.finish = finish->finish;
-        block->record->texture.ior = finish->ior;
+    } else if (block->kind == KIND_TEXTURE && value->block != KIND_TEXTURE) {
+        texture_take_part(&block->record->texture, (SchemaKind)value->block, value->record);
     } else {
         block->is = (SchemaKind)value->block;
         memcpy(block->record, value->record, schema_kind(block->is)->size);
@@ -530,30 +524,6 @@ static const SchemaProperty *find_loose_argument(Block *block, const AstNode *it
     return is_loose && !block_is_misspelt(block, item) && block_begins_like_colour(block, item) ? list->items : NULL;
 }
 
-// A colour directly in a shape is for pictures of the lowest quality, and says nothing here, as in POV-Ray.
-static bool is_idle_colour(Block *block, const AstNode *item)
-{
-    bool takes_pigment = block->ev->objects->properties[block->kind][W_pigment] != 0;
-    const AstNode *name = block_leading_name(block, item);
-    if (block_is_name(name) && !(name->kind == AST_NAME && is_declared(block->ev, name))) {
-        return false;
-    }
-    return takes_pigment && schema_kind(block->kind)->is_object && !block->has_fault &&
-           cursor_at_value(&block->cursor) && !block_is_misspelt(block, item) && block_begins_like_colour(block, item);
-}
-
-static void pass_colour(Block *block)
-{
-    Rgbft colour;
-    Span span;
-    if (!cursor_colour(&block->cursor, &colour, &span)) {
-        block->has_fault = true;
-        skip_values(block);
-    } else if (eval_report(block->ev, DIAG_W0405, span, "a colour directly in %s is not used", block_word(block))) {
-        diag_suggest(block->ev->options.diags, "a colour belongs in `pigment { }`");
-    }
-}
-
 // After a fault it may belong to what was not understood.
 static void check_comma(Block *block)
 {
@@ -576,8 +546,10 @@ static void read_properties(Block *block)
             read_property(block, property, item);
         } else if (loose) {
             block->has_fault = !block_value(block, loose, item->span) || block->has_fault;
-        } else if (!property && is_idle_colour(block, item)) {
-            pass_colour(block);
+        } else if (!property && block_is_idle_colour(block, item)) {
+            if (!block_pass_colour(block)) {
+                skip_values(block);
+            }
         } else if (is_word) {
             refuse_word(block, item);
         } else {

@@ -103,6 +103,9 @@ const AstNode *block_leading_name(const Block *block, const AstNode *item);
 bool block_is_misspelt_object(const Eval *ev, const AstNode *item);
 // Reports a word that is no property of the block, with the nearest that is.
 void block_unknown_property(Block *block, const AstNode *item);
+// A colour that stands directly in a shape, and passing over it; false: a fault was reported.
+bool block_is_idle_colour(Block *block, const AstNode *item) RT_MUST_CHECK;
+bool block_pass_colour(Block *block) RT_MUST_CHECK;
 void block_refuse_colour(Block *block, const AstNode *item);
 bool block_is_capital(const Block *block, const AstNode *name); // no property begins so
 bool block_is_lacking(const Block *block, Symbol symbol); // POV-Ray has the word here, and rtlang in other blocks only
@@ -246,6 +249,8 @@ bool clips_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 // shape.c
 bool plane_close(Block *block) RT_MUST_CHECK;
 bool cylinder_close(Block *block) RT_MUST_CHECK;
+// A pigment, normal or finish in the place of the texture's own.
+void texture_take_part(TextureBlueprint *texture, SchemaKind kind, const void *part);
 bool disc_close(Block *block) RT_MUST_CHECK;
 bool cone_close(Block *block) RT_MUST_CHECK;
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;

@@ -158,6 +158,51 @@ void block_refuse_colour(Block *block, const AstNode *item)
     }
 }
 
+bool block_begins_like_colour(Block *block, const AstNode *item)
+{
+    while (item->kind == AST_BINARY) {
+        item = item->a;
+    }
+    if (item->kind == AST_WORD) {
+        return true;
+    }
+    Value value;
+    if (!block_is_name(item)) {
+        return false;
+    }
+    block->ev->at_colour = true;
+    bool is_like = !eval_expression(block->ev, item, &value) || value.kind == VALUE_COLOUR;
+    block->ev->at_colour = false;
+    return is_like;
+}
+
+// A colour directly in a shape is for pictures of the lowest quality, and says nothing here, as in POV-Ray.
+bool block_is_idle_colour(Block *block, const AstNode *item)
+{
+    bool takes_pigment = block->ev->objects->properties[block->kind][W_pigment] != 0;
+    const AstNode *name = block_leading_name(block, item);
+    bool is_declared = name->flags & AST_KNOWN ? name->known != NULL : scope_find(block->ev, name->symbol) != NULL;
+    if (block_is_name(name) && !(name->kind == AST_NAME && is_declared)) {
+        return false;
+    }
+    return takes_pigment && schema_kind(block->kind)->is_object && !block->has_fault &&
+           cursor_at_value(&block->cursor) && !block_is_misspelt(block, item) && block_begins_like_colour(block, item);
+}
+
+bool block_pass_colour(Block *block)
+{
+    Rgbft colour;
+    Span span;
+    if (!cursor_colour(&block->cursor, &colour, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    if (eval_report(block->ev, DIAG_W0405, span, "a colour directly in %s is not used", block_word(block))) {
+        diag_suggest(block->ev->options.diags, "a colour belongs in `pigment { }`");
+    }
+    return true;
+}
+
 bool block_is_capital(const Block *block, const AstNode *name)
 {
     char first = *eval_text(block->ev, name->symbol);

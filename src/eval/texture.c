@@ -311,6 +311,19 @@ bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value)
     return true;
 }
 
+void texture_take_part(TextureBlueprint *texture, SchemaKind kind, const void *part)
+{
+    const FinishBlueprint *finish = part;
+    switch (kind) {
+    case KIND_PIGMENT: texture->pigment = *(const PigmentBlueprint *)part; break;
+    case KIND_NORMAL: texture->normal = *(const NormalBlueprint *)part; break;
+    default:
+        texture->finish = finish->finish;
+        texture->ior = finish->ior;
+        break;
+    }
+}
+
 static bool read_default(Eval *ev, const AstNode *item, TextureBlueprint *texture)
 {
     switch (block_kind(ev, item)) {
@@ -343,22 +356,4 @@ bool eval_default(Eval *ev, const AstNode *directive)
     cursor_close(&cursor);
     ev->objects->defaults = texture;
     return is_fine;
-}
-
-bool block_begins_like_colour(Block *block, const AstNode *item)
-{
-    while (item->kind == AST_BINARY) {
-        item = item->a;
-    }
-    if (item->kind == AST_WORD) {
-        return true;
-    }
-    Value value;
-    if (!block_is_name(item)) {
-        return false;
-    }
-    block->ev->at_colour = true;
-    bool is_like = !eval_expression(block->ev, item, &value) || value.kind == VALUE_COLOUR;
-    block->ev->at_colour = false;
-    return is_like;
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Rays and points at random objects: what `trace` and `inside` say, by rtlang and by POV-Ray.
 
-Objects are groups in groups, moved, turned inside out and clipped at random, always the same ones. Five decimals of each
-point and normal must be equal. Prints TAP; skips where there is no POV-Ray. SPDX-License-Identifier: MIT
+Objects are groups in groups, moved, turned inside out and clipped at random, always the same ones. Five decimals of
+each point and normal must be equal. Prints TAP; skips where there is no POV-Ray. SPDX-License-Identifier: MIT
 """
 import os
 import random
