@@ -64,6 +64,7 @@ unit_programs = \
   tests/unit/test_ball_view \
   tests/unit/test_tiles \
   tests/sampling/test_sampling \
+  tests/sampling/test_small \
   tests/sampling/test_forward
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
 
@@ -156,6 +157,8 @@ tests_unit_test_tiles_SOURCES = %D%/unit/test_tiles.c $(trace_headers)
 tests_unit_test_tiles_LDADD = librender.la $(UNIT_TRACE)
 tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
 tests_sampling_test_sampling_LDADD = libapi.la
+tests_sampling_test_small_SOURCES = %D%/sampling/test_small.c %D%/sampling/scenes.h $(unit_headers)
+tests_sampling_test_small_LDADD = libapi.la
 tests_sampling_test_forward_SOURCES = %D%/sampling/test_forward.c %D%/sampling/scenes.h
 tests_sampling_test_forward_LDADD = libapi.la
 tests_lang_run_lang_SOURCES = %D%/lang/run_lang.c
@@ -340,6 +343,8 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 # Error against samples, with all seeds and scenes, and photons.
 .PHONY: check-sampling
 check-long: check-sampling
-check-sampling: tests/sampling/test_sampling$(EXEEXT) tests/sampling/test_forward$(EXEEXT)
+check-sampling: tests/sampling/test_sampling$(EXEEXT) tests/sampling/test_small$(EXEEXT) \
+		tests/sampling/test_forward$(EXEEXT)
 	tests/sampling/test_sampling$(EXEEXT) long
+	tests/sampling/test_small$(EXEEXT) long
 	tests/sampling/test_forward$(EXEEXT) long

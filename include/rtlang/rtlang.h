@@ -244,6 +244,14 @@ typedef struct rt_error {
     double bias_by_level;   /* of it: by max_trace_level */
     rt_end end;
     double seconds_left;    /* while rendering: predicted, or negative */
+    /* Shapes, and highlights, of no more than a few pixels that can be seen and that no sample met, and their area in
+     * pixels. What they would bring is in rmse and its interval. */
+    double unmet_shapes, unmet_shape_area, unmet_highlights, unmet_highlight_area;
+    int unmet_are_about; /* there are about so many: not all were looked at */
+    /* A detail of any other kind that may have been missed: how much of a pixel it is at the most, with 95 % confidence,
+     * and the rmse that it would bring were it as far from what is around it as the picture's values are from each
+     * other. */
+    double missed_area, missed_error;
 } rt_error;
 RT_API void rt_get_error(const rt_session *session, rt_error *error);
 /* What became of the photons of a forward run: emitted, that met a surface, and how often one counted on the film. */

@@ -24,7 +24,14 @@ void rt_get_error(const rt_session *session, rt_error *error)
                         .bias = known->bias,
                         .bias_by_level = known->bias_by_level,
                         .end = ends[known->end],
-                        .seconds_left = session->seconds_left};
+                        .seconds_left = session->seconds_left,
+                        .unmet_shapes = known->unmet[SMALL_SHAPE].count,
+                        .unmet_shape_area = known->unmet[SMALL_SHAPE].area,
+                        .unmet_highlights = known->unmet[SMALL_HIGHLIGHT].count,
+                        .unmet_highlight_area = known->unmet[SMALL_HIGHLIGHT].area,
+                        .unmet_are_about = !known->unmet_is_all,
+                        .missed_area = known->missed_area,
+                        .missed_error = known->missed_error};
 }
 
 void rt_get_photons(const rt_session *session, rt_photons *photons)
@@ -131,6 +138,12 @@ static void note_error(SessionNotes *notes, const SamplingError *error)
     note(notes, "rtlang:rmse", "%.6g", error->rmse);
     note(notes, "rtlang:rmse-low", "%.6g", error->low);
     note(notes, "rtlang:rmse-high", "%.6g", error->high);
+    static const char *const names[SMALL_KINDS] = {"rtlang:unmet-shapes", "rtlang:unmet-highlights"};
+    for (int i = 0; i < SMALL_KINDS; i++) {
+        if (error->unmet[i].count > 0.0) {
+            note(notes, names[i], "%.0f, %.2g pixels", error->unmet[i].count, error->unmet[i].area);
+        }
+    }
     if (error->bias > 0.0) {
         note(notes, "rtlang:bias", "%.6g", error->bias);
     }

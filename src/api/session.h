@@ -73,7 +73,7 @@ struct rt_session {
 double session_clock(void);
 
 // What a picture's file says of how it was made: nothing, but of sampled pictures.
-enum { NOTES_MAX = 12, NOTE_TEXT = 48 };
+enum { NOTES_MAX = 13, NOTE_TEXT = 48 };
 typedef struct SessionNotes {
     ImageNote items[NOTES_MAX];
     char texts[NOTES_MAX][NOTE_TEXT];

@@ -257,6 +257,32 @@ static void print_summary(const rt_session *session, const char *output)
             s.write_seconds, warnings);
 }
 
+// "3 shapes of 0.02 pixels in all"; nothing for none. Returns how many.
+static double put_unmet(char text[64], const char *word, double count, double area, bool is_about)
+{
+    char size[16];
+    snprintf(size, sizeof size, "%.2g", area);
+    text[0] = 0;
+    if (count > 0.0) {
+        snprintf(text, 64, "%s%.0f %s%s of %s pixel%s%s", is_about ? "about " : "", count, word, count == 1.0 ? "" : "s",
+                 size, strcmp(size, "1") == 0 ? "" : "s", count == 1.0 ? "" : " in all");
+    }
+    return count;
+}
+
+// What no sample met, as the end of a line.
+static void print_unmet(const rt_error *error)
+{
+    char shapes[64], highlights[64];
+    double count = put_unmet(shapes, "shape", error->unmet_shapes, error->unmet_shape_area, error->unmet_are_about) +
+                   put_unmet(highlights, "highlight", error->unmet_highlights, error->unmet_highlight_area,
+                             error->unmet_are_about);
+    if (count > 0.0) {
+        fprintf(stderr, "; %s%s%s %s met by no sample", shapes, *shapes && *highlights ? " and " : "", highlights,
+                count == 1.0 ? "was" : "were");
+    }
+}
+
 // The error of a sampled picture, and why there is no less.
 static void print_error(const rt_session *session, const Options *options)
 {
@@ -268,16 +294,23 @@ static void print_error(const rt_session *session, const Options *options)
     if (!error.known) {
         return;
     }
-    fprintf(stderr, "error: rmse %.3g, with 95 %% confidence %.3g to %.3g, at %.17g %s a pixel%s%s\n", error.rmse,
+    fprintf(stderr, "error: rmse %.3g, with 95 %% confidence %.3g to %.3g, at %.17g %s a pixel%s%s", error.rmse,
             error.low, error.high, error.samples, options->method != RT_METHOD_BACKWARD ? "photons" : "samples",
             options->sampling.target_error > 0.0 && error.end != RT_END_TARGET ? "; the target is not reached" : "",
             ends[error.end]);
+    print_unmet(&error);
+    fputc('\n', stderr);
     if (options->method != RT_METHOD_BACKWARD) {
         rt_photons photons;
         rt_get_photons(session, &photons);
         fprintf(stderr, "photons: %llu, of which %llu met a surface; %llu arrivals on the film, one for %.3g photons\n",
                 (unsigned long long)photons.emitted, (unsigned long long)photons.met,
                 (unsigned long long)photons.arrived, (double)photons.emitted / (double)photons.arrived);
+    }
+    // Told where it alone could be more than all of the error that is known.
+    if (error.missed_error > error.high) {
+        fprintf(stderr, "missed: a detail of up to %.2g pixel%s may be in no sample, and would add up to %.2g\n",
+                error.missed_area, error.missed_area == 1.0 ? "" : "s", error.missed_error);
     }
     if (error.bias > 0.0) {
         fprintf(stderr, "bias: rays cut by %s would add about %.2g in the mean%s\n", bias_cause(&error), error.bias,

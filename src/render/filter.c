@@ -16,7 +16,7 @@ const char *filter_name(FilterKind kind)
     return kind < FILTER_COUNT ? names[kind] : NULL;
 }
 
-static double filter_radius(FilterKind kind)
+double filter_radius(FilterKind kind)
 {
     static const double radii[] = {
         [FILTER_BOX] = 0.5, [FILTER_TENT] = 1.0, [FILTER_GAUSSIAN] = 1.5, [FILTER_MITCHELL] = 2.0};

@@ -39,6 +39,9 @@ typedef struct FilterSample {
 
 FilterSample filter_sample(const Filter *filter, SamplePoint at);
 
+// How far it reaches along one axis, in pixels.
+double filter_radius(FilterKind kind);
+
 // The filter itself along one axis, not scaled.
 double filter_value(FilterKind kind, double x);
 

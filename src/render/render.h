@@ -107,6 +107,12 @@ typedef struct AntialiasOptions {
 // Why a sampled run ended.
 typedef enum SamplingEnd { SAMPLING_DONE, SAMPLING_TARGET, SAMPLING_TIME, SAMPLING_INTERRUPTED } SamplingEnd;
 
+// Of what is no more than a few pixels wide and can be seen, what no sample of any pixel met.
+enum { SMALL_SHAPE, SMALL_HIGHLIGHT, SMALL_KINDS };
+typedef struct UnmetShapes {
+    double count, area; // the second in pixels
+} UnmetShapes;
+
 // The error of a picture: what sampling leaves, not what its model or its arithmetic do.
 typedef struct SamplingError {
     bool is_known;
@@ -114,6 +120,11 @@ typedef struct SamplingError {
     double samples;         // a pixel, in the mean
     double slope;           // of the logarithm of rmse in that of samples, as it is taken to go on; < 0
     double pixel_scale;     // of render_pixel_error, so that its mean square is that of rmse
+    UnmetShapes unmet[SMALL_KINDS]; // what they would bring is in the error
+    bool unmet_is_all;      // they were counted; else there are about so many
+    // A detail of whatever kind that samples may have missed in a pixel: its area in pixels at the most, with 95 %, and the
+    // rmse that it would bring, were it the picture's whole range from what is around it.
+    double missed_area, missed_error;
     double bias;            // what rays that were not followed would add at the least; more samples do not help
     double bias_by_level;   // of it: beyond max_trace_level; the rest is below adc_bailout
     SamplingEnd end;

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "render/tiles.h"
@@ -37,7 +38,8 @@ typedef struct Sampling {
     Estimate estimate;
     Choice choice;
     Audit audit;
-    bool is_audit;         // what is traced are replicas
+    Looks looks;
+    enum { TRACES_ROUND, TRACES_REPLICAS, TRACES_LOOKS } traces; // what a tile's work is
     RenderStatistics audited; // their rays: no part of what the picture's own say
     double audit_scale;    // the upper end of an audit's interval, over what the rounds say of the error
     Predictor *predictor;  // NULL: nobody asks
@@ -96,8 +98,10 @@ static void forward_progress(void *client, double done)
 static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
     Sampling *s = client;
-    if (s->is_audit) {
+    if (s->traces == TRACES_REPLICAS) {
         round_trace_replicas(&s->round, &s->audit, tile, scratch, counted);
+    } else if (s->traces == TRACES_LOOKS) {
+        look_trace(&s->round, &s->looks, tile, scratch, counted);
     } else if (s->round.is_corners) {
         round_trace_corners(&s->round, tile, scratch, counted);
     } else {
@@ -154,22 +158,54 @@ static bool run_round(Sampling *s)
     return is_whole;
 }
 
-// Judges the picture by replicas of some pixels; false when it was cancelled.
-static bool run_audit(Sampling *s)
+// Traces what changes no pixel; false when it was cancelled.
+static bool trace_beside(Sampling *s, int traces)
 {
-    // Sets that are no sequences are two independent halves, which need no audit.
-    bool is_wanted = s->error->is_known && sampler_is_sequence(s->wanted->sampler);
-    if (!is_wanted || audit_draw(&s->audit, &s->estimate, &s->round) == 0) {
+    TileWork work = {s, s->prepared, s->film->width, s->film->height, trace_tile, NULL};
+    s->traces = traces;
+    bool is_whole = tiles_run(&work, s->options, &s->audited) == RENDER_OK;
+    s->traces = TRACES_ROUND;
+    return is_whole;
+}
+
+// Looks at small shapes that no sample has met; false when it was cancelled.
+static bool run_looks(Sampling *s)
+{
+    s->looks.count = 0;
+    s->looks.square = s->looks.variance = 0.0;
+    s->looks.sees_all = true;
+    memset(s->looks.unmet, 0, sizeof s->looks.unmet);
+    if (!s->round.small || look_draw(&s->looks, &s->round, (double)s->estimate.samples) == 0) {
         return true;
     }
-    TileWork work = {s, s->prepared, s->film->width, s->film->height, trace_tile, NULL};
-    s->is_audit = true;
-    bool is_whole = tiles_run(&work, s->options, &s->audited) == RENDER_OK;
-    s->is_audit = false;
+    bool is_whole = trace_beside(s, TRACES_LOOKS);
     if (is_whole) {
-        audit_judge(&s->audit, &s->estimate, s->error);
+        look_judge(&s->looks, &s->round);
     }
     return is_whole;
+}
+
+// Judges the picture by replicas of some pixels, and by what small shapes would bring that no sample has met; false when
+// it was cancelled.
+static bool run_audit(Sampling *s)
+{
+    if (!s->error->is_known) {
+        return true;
+    }
+    if (!run_looks(s)) {
+        return false;
+    }
+    // Sets that are no sequences are two independent halves, which need no audit.
+    if (sampler_is_sequence(s->wanted->sampler) && audit_draw(&s->audit, &s->estimate, &s->round) > 0) {
+        if (!trace_beside(s, TRACES_REPLICAS)) {
+            return false;
+        }
+        audit_judge(&s->audit, &s->estimate, s->error);
+    }
+    if (s->round.small) {
+        look_tell(&s->looks, pixel_count(s), s->error);
+    }
+    return true;
 }
 
 // What is left of a goal: samples of the whole run, and seconds.
@@ -296,7 +332,7 @@ static bool run_pilot(Sampling *s)
     estimate_now(&s->estimate, s->film, round, s->error);
     find_bias(s);
     atomic_store(&s->prepared->abandon->keeps, true);
-    return true;
+    return run_looks(s);
 }
 
 static void run_adaptive(Sampling *s)
@@ -307,7 +343,7 @@ static void run_adaptive(Sampling *s)
     for (bool is_first = true;; is_first = false) {
         choice_make(&s->choice, &s->estimate, &s->round);
         if (is_first && s->predictor && s->corners) {
-            predictor_see_starts(s->predictor, &s->choice, s->film);
+            predictor_see_starts(s->predictor, &s->choice, &s->round);
         }
         s->round.least_bucket = s->choice.least_bucket;
         s->round_samples = s->choice.spent;
@@ -346,6 +382,7 @@ static void sampling_free(Sampling *s)
         free(s->choice.memory);
         free(s->corners);
         predictor_free(s->predictor);
+        small_free(s->round.small);
         free(s);
     }
 }
@@ -377,6 +414,49 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     return s;
 }
 
+typedef struct Range {
+    float low[3], high[3];
+    uint32_t samples; // the fewest of a pixel
+} Range;
+
+static void range_add(Range *range, const Film *film, Tile part)
+{
+    for (int y = part.top; y < part.bottom; y++) {
+        for (int x = part.left; x < part.right; x++) {
+            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
+            const float *value = &film->rgb[3 * pixel];
+            uint32_t count = film->records[pixel].count;
+            range->samples = count < range->samples ? count : range->samples;
+            for (int c = 0; c < 3; c++) {
+                range->low[c] = value[c] < range->low[c] ? value[c] : range->low[c];
+                range->high[c] = value[c] > range->high[c] ? value[c] : range->high[c];
+            }
+        }
+    }
+}
+
+// N samples miss what takes 3 / N of a pixel in no more than 5 % of cases: (1 - 3 / N)^N < exp(-3).
+static void find_missed(Sampling *s)
+{
+    const Film *film = s->film;
+    Range range = {{HUGE_VALF, HUGE_VALF, HUGE_VALF}, {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}, UINT32_MAX};
+    for (int top = 0, bottom; top < film->height; top = bottom) {
+        bottom = round_block_end(top, film->top, film->height);
+        for (int left = 0, right; left < film->width; left = right) {
+            right = round_block_end(left, film->left, film->width);
+            if (round_judges(&s->round, left, top)) {
+                range_add(&range, film, (Tile){left, top, right, bottom});
+            }
+        }
+    }
+    double contrast = 0.0;
+    for (int c = 0; c < 3; c++) {
+        contrast = fmax(contrast, (double)(range.high[c] - range.low[c]));
+    }
+    s->error->missed_area = fmin(3.0 / range.samples, 1.0);
+    s->error->missed_error = s->error->missed_area * contrast / sqrt(pixel_count(s));
+}
+
 RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options, Film *film,
                           RenderStatistics *statistics, SamplingError *error)
 {
@@ -384,7 +464,12 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     size_t pixels = (size_t)film->width * (size_t)film->height;
     uint32_t alike = wanted->is_adaptive ? ALIKE_SAMPLES : (uint32_t)wanted->samples;
     Sampling *s = sampling_new(wanted, options->progress != NULL, film);
-    if (!s) {
+    bool has_memory = s != NULL;
+    if (has_memory && !wanted->has_no_estimate) {
+        s->round.small = small_new(prepared, film, wanted->filter, &has_memory);
+    }
+    if (!has_memory) {
+        sampling_free(s);
         return RENDER_NO_MEMORY;
     }
     s->prepared = prepared;
@@ -405,10 +490,17 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     if (s->corners && !run_pilot(s)) {
         error->end = SAMPLING_INTERRUPTED;
     } else if ((s->corners || run_alike(s, alike)) && wanted->is_adaptive) {
-        run_adaptive(s);
+        if (s->corners || run_looks(s)) {
+            run_adaptive(s);
+        } else {
+            error->end = SAMPLING_INTERRUPTED;
+        }
     }
     if (error->end != SAMPLING_INTERRUPTED && error->end != SAMPLING_TARGET && !wanted->has_no_estimate) {
-        run_audit(s);
+        if (run_audit(s) && s->looks.count > 0) {
+            look_show(s->round.small, film, error);
+        }
+        find_missed(s);
     }
     statistics_add(statistics, &s->audited);
     bool is_whole = error->end != SAMPLING_INTERRUPTED;

@@ -11,6 +11,7 @@
 #include "render/prepared.h"
 #include "render/render.h"
 #include "render/sampler_many.h"
+#include "render/sampling_small.h"
 #include "render/sobol.h"
 #include "render/tiles.h"
 
@@ -28,6 +29,7 @@ typedef struct Round {
     uint16_t least_bucket;   // of those that take part
     uint32_t count;          // how many samples they shall have; 0: twice as many as they have
     float *corners;          // of the picture's pixels, rows of width + 1 colours; NULL: not kept any more
+    Small *small;            // NULL: there are no small shapes, or nobody asks for the error
     bool has_corners;        // a pixel with one sample has the mean of its corners: what goes on from there starts anew
     bool draws_more;         // than the place in the pixel: for area lights or a lens
     bool is_corners;         // these rays
@@ -156,6 +158,7 @@ typedef struct Audit {
     AuditPick picks[AUDIT_MOST];
     int count;
     double size;         // the sum of all pixels' shares
+    double whole;        // all of the mean square, over that of the pixels that are drawn from
     double own_variance; // of the picture's mean square error about its expectation, relative
 } Audit;
 
@@ -168,6 +171,41 @@ void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *er
 // sampling_round.c: traces the replicas of a tile's pixels, which changes no pixel.
 void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
                           RenderStatistics *counted);
+
+// ---- sampling_look.c: what small shapes would bring that no sample has met
+
+enum { LOOK_MOST = 1024 };
+
+// A pixel that holds such shapes. May be drawn more than once.
+typedef struct LookPick {
+    size_t pixel;
+    double weight; // the inverse of the pixel's share of the draw
+    Rgb sums[2];   // how far the shapes' light is from the pixel's, times their shares, by the first and the second rays
+} LookPick;
+
+typedef struct Looks {
+    LookPick picks[LOOK_MOST];
+    int count;
+    uint32_t pass;
+    bool sees_all;           // each pixel with such shapes is among them
+    double square, variance; // the sum of the squares of what pixels are off by for such shapes; of that
+    UnmetShapes unmet[SMALL_KINDS];
+} Looks;
+
+// Draws pixels; returns how many, 0 when samples have met all small shapes. `samples`: taken so far.
+int look_draw(Looks *looks, const Round *round, double samples);
+
+// Looks at the shapes of a tile's pixels, which changes no pixel.
+void look_trace(const Round *round, Looks *looks, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
+
+// When all tiles are done.
+void look_judge(Looks *looks, const Round *round);
+
+// Adds what they say to the error of all else, of so many pixels.
+void look_tell(const Looks *looks, double pixels, SamplingError *error);
+
+// When a run ends: the same for each pixel's own error.
+void look_show(const Small *small, Film *film, const SamplingError *error);
 
 // ---- sampling_near.c: means over a pixel and its neighbours
 
@@ -190,9 +228,10 @@ void near_take(Near *near, int y);
 // ---- sampling_pilot.c: what one ray a pixel is worth
 
 // Makes pixels from their corners, and sorts them by how much these differ from what those around let expect.
-// Of each square of pixels one is chosen by chance: those have buckets from PILOT_PROBE on, the others below.
-enum { PILOT_PROBE = 0x8000 };
-// Returns the number of those.
+// Of each square of pixels one is chosen by chance: those have buckets from PILOT_PROBE on, the others below. So have
+// those that hold small shapes, with PILOT_SMALL; they tell nothing of others.
+enum { PILOT_PROBE = 0x8000, PILOT_SMALL = 0x4000 };
+// Returns the number of those from PILOT_PROBE on.
 uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory);
 
 // When the chosen ones have started: what they differ from their corners by is taken for what those of their sort are
@@ -238,7 +277,7 @@ void predictor_free(Predictor *predictor);
 void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t pixels);
 
 // When the first round after that is chosen: what pixels become that start.
-void predictor_see_starts(Predictor *predictor, const Choice *choice, const Film *film);
+void predictor_see_starts(Predictor *predictor, const Choice *choice, const Round *round);
 
 typedef struct Forecast {
     double samples;      // of the whole run; 0: it cannot be told

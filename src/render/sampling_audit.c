@@ -29,8 +29,45 @@ typedef struct Draw {
     double floor;                // added to each share
     double step, reached, next;  // between picks, of the cumulated shares; these; where the next pick is
     double blocks, sum, squares; // judged blocks, and what they are taken to be off by
+    double own_squares;          // of pixels whose own error is taken to be that of a replica
+    double pixels;               // that are drawn from
+    double by_halves, left_out;  // what halves say of the pixels that are drawn from, and of others
     int most;
 } Draw;
+
+// What a pixel is taken to be off by, squared: as its halves say, or what small shapes that are in it bring to so few
+// samples.
+static double pixel_square(const Draw *draw, size_t pixel)
+{
+    const PixelRecord *record = &draw->round->film->records[pixel];
+    double by_halves = (double)record->outer * draw->gain[estimate_level(record->count)];
+    return small_has(draw->round->small, pixel)
+               ? fmax(by_halves, small_variance(draw->round->small, pixel, record->count))
+               : by_halves;
+}
+
+// Where a pixel holds small shapes that it has not met, what these bring is known better by looks at them. Of all else
+// that is in it its halves tell as they do of other pixels.
+static void total_block(Draw *draw, Tile block)
+{
+    const Film *film = draw->round->film;
+    for (int y = block.top; y < block.bottom; y++) {
+        for (int x = block.left; x < block.right; x++) {
+            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
+            const PixelRecord *record = &film->records[pixel];
+            double by_halves = (double)record->outer * draw->gain[estimate_level(record->count)];
+            if (small_open(draw->round->small, pixel) > 0) {
+                draw->left_out += by_halves;
+                continue;
+            }
+            double square = pixel_square(draw, pixel);
+            draw->pixels++;
+            draw->by_halves += by_halves;
+            draw->sum += square;
+            draw->own_squares += small_has(draw->round->small, pixel) ? 0.0 : square * square;
+        }
+    }
+}
 
 static void draw_block(Draw *draw, Tile block)
 {
@@ -40,8 +77,10 @@ static void draw_block(Draw *draw, Tile block)
     for (int y = block.top; y < block.bottom; y++) {
         for (int x = block.left; x < block.right; x++) {
             size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            const PixelRecord *record = &film->records[pixel];
-            double own = record->outer * draw->gain[estimate_level(record->count)], share = own + draw->floor;
+            if (small_open(draw->round->small, pixel) > 0) {
+                continue;
+            }
+            double own = pixel_square(draw, pixel), share = own + draw->floor;
             sum += own;
             draw->reached += share;
             for (uint32_t replica = 1; draw->next < draw->reached && audit->count < draw->most; replica++) {
@@ -56,7 +95,7 @@ static void draw_block(Draw *draw, Tile block)
     draw->squares += sum * sum;
 }
 
-static void draw_blocks(Draw *draw)
+static void each_block(Draw *draw, void (*block)(Draw *draw, Tile block))
 {
     const Film *film = draw->round->film;
     for (int top = 0, bottom; top < film->height; top = bottom) {
@@ -64,7 +103,7 @@ static void draw_blocks(Draw *draw)
         for (int left = 0, right; left < film->width; left = right) {
             right = round_block_end(left, film->left, film->width);
             if (round_judges(draw->round, left, top)) {
-                draw_block(draw, (Tile){left, top, right, bottom});
+                block(draw, (Tile){left, top, right, bottom});
             }
         }
     }
@@ -83,24 +122,31 @@ static double blocks_variance(const Draw *draw)
 
 int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
 {
-    Draw draw = {.audit = audit, .round = round};
-    double sum = 0.0, squares = 0.0, picks = estimate->judged / AUDIT_PIXELS;
+    Draw draw = {.audit = audit, .round = round, .pixels = estimate->judged};
+    double picks = estimate->judged / AUDIT_PIXELS;
     for (int level = 0; level < LEVELS; level++) {
         const LevelSums *sums = &estimate->levels[level];
         double gain = draw.gain[level] = 1.0 / (estimate->ratio[level] - 1.0);
-        sum += gain * sums->outer_now;
-        squares += gain * gain * sums->outer_squares;
+        draw.sum += gain * sums->outer_now;
+        draw.own_squares += gain * gain * sums->outer_squares;
     }
+    if (round->small) {
+        draw.pixels = draw.sum = draw.own_squares = 0.0;
+        each_block(&draw, total_block);
+    }
+    double sum = draw.sum, squares = draw.own_squares;
     audit->count = 0;
+    audit->whole = draw.by_halves > 0.0 ? 1.0 + draw.left_out / draw.by_halves : 1.0;
     if (!(sum > 0.0)) {
         return 0;
     }
     draw.most = picks < AUDIT_LEAST ? AUDIT_LEAST : picks > AUDIT_MOST ? AUDIT_MOST : (int)picks;
-    draw.floor = MEAN_PART * sum / estimate->judged;
+    draw.floor = MEAN_PART * sum / draw.pixels;
     audit->size = (1.0 + MEAN_PART) * sum;
+    draw.sum = 0.0;
     draw.step = audit->size / draw.most;
     draw.next = draw.step * sample_unit(sampler_pixel_seed(~round->sampling->seed, AUDIT_MOST, (uint32_t)draw.most));
-    draw_blocks(&draw);
+    each_block(&draw, draw_block);
     // Squares of normal errors have a variance of two thirds of their own mean square.
     audit->own_variance = 2.0 / 3.0 * squares / (sum * sum) + blocks_variance(&draw);
     return audit->count;
@@ -123,8 +169,8 @@ void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *er
     double spread = (squares / count - mean * mean) / (count - 1.0) / (mean * mean);
     // The error of this picture varies about its expectation, and judged blocks about all, too.
     double factor = exp(normal * 0.5 * sqrt(spread + audit->own_variance));
-    double rmse = sqrt(mean * audit->size / estimate->judged);
-    error->pixel_scale = rmse / error->rmse;
+    double rmse = sqrt(mean * audit->whole * audit->size / estimate->judged);
+    error->pixel_scale = error->rmse > 0.0 ? rmse / error->rmse : 1.0;
     error->rmse = rmse;
     error->low = error->rmse / factor;
     error->high = error->rmse * factor;

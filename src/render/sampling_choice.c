@@ -79,9 +79,17 @@ static void sorts_init(Constants *constants, const Film *film)
     }
 }
 
-static double constant_of(const Constants *constants, const PixelRecord *record)
+// What a pixel's halves' halves would differ by, were its small shapes all that is in it.
+static double inner_of_small(const Small *small, size_t pixel, double count)
 {
-    double own = record->inner * constants->to_constant[estimate_level(record->count)];
+    return small ? small_variance(small, pixel, 0.25 * count) - small_variance(small, pixel, 0.5 * count) : 0.0;
+}
+
+static double constant_of(const Constants *constants, const Round *round, size_t pixel)
+{
+    const PixelRecord *record = &round->film->records[pixel];
+    double seen = (double)record->inner, known = inner_of_small(round->small, pixel, record->count);
+    double own = (seen > known ? seen : known) * constants->to_constant[estimate_level(record->count)];
     if (record->count == 1) {
         return own;
     }
@@ -108,7 +116,7 @@ static void choose_row(Choice *choice, const Constants *constants, const Round *
         size_t pixel = begin + (size_t)x;
         const PixelRecord *record = &round->film->records[pixel];
         int level = estimate_level(record->count);
-        double count = record->count, own = constant_of(constants, record);
+        double count = record->count, own = constant_of(constants, round, pixel);
         double constant = (NEIGHBOURS_COUNT * near[x] + count * own) / (NEIGHBOURS_COUNT + count);
         constant = constant > constants->floor ? constant : constants->floor;
         bool is_full = record->count > UINT32_MAX / 4;
@@ -142,9 +150,9 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
     }
     Near near = near_begin(choice->memory, film->width, film->height);
     for (int y = 0; y <= film->height; y++) {
-        const PixelRecord *record = &film->records[(size_t)y * (size_t)film->width];
+        size_t begin = (size_t)y * (size_t)film->width;
         for (int x = 0; y < film->height && x < film->width; x++) {
-            near.values[x] = constant_of(&constants, &record[x]);
+            near.values[x] = constant_of(&constants, round, begin + (size_t)x);
         }
         near_give(&near, y);
         if (y > 0) {

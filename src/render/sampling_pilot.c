@@ -106,6 +106,20 @@ static uint32_t probes_choose(const Film *film, uint64_t seed, uint16_t *buckets
     return count;
 }
 
+// Pixels that hold small shapes are not left to their corners. Marks them, and counts those that were not chosen yet.
+static uint32_t small_choose(const Round *round, uint16_t *buckets)
+{
+    size_t pixels = (size_t)round->film->width * (size_t)round->film->height;
+    uint32_t count = 0;
+    for (size_t i = 0; round->small && i < pixels; i++) {
+        if (small_has(round->small, i)) {
+            count += !(buckets[i] & PILOT_PROBE);
+            buckets[i] |= PILOT_PROBE | PILOT_SMALL;
+        }
+    }
+    return count;
+}
+
 uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory)
 {
     const double of_near = 1.0 / 64.0;
@@ -129,7 +143,7 @@ uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory)
             }
         }
     }
-    return probes_choose(film, round->sampling->seed, buckets);
+    return probes_choose(film, round->sampling->seed, buckets) + small_choose(round, buckets);
 }
 
 // What the probes of a sort were off by: the square of the distance of what the corners gave from the mean of the
@@ -150,7 +164,7 @@ static void sorts_gather(const Film *film, const uint16_t *buckets, Sort sorts[P
     const double own = 1.0 / 7.0; // of `outer`: RATIO_MOST less one
     size_t pixels = (size_t)film->width * (size_t)film->height;
     for (size_t i = 0; i < pixels; i++) {
-        if (buckets[i] & PILOT_PROBE) {
+        if ((buckets[i] & PILOT_PROBE) && !(buckets[i] & PILOT_SMALL)) {
             const PixelRecord *record = &film->records[i];
             double off = record->fresh - own * record->outer;
             sort_add(&sorts[buckets[i] & ~PILOT_PROBE], &(Sort){1.0, off, off * off});

@@ -55,7 +55,7 @@ void predictor_free(Predictor *predictor)
 void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t pixels)
 {
     for (size_t i = 0; i < pixels; i++) {
-        predictor->sorts[i] = (uint8_t)(buckets[i] & ~PILOT_PROBE);
+        predictor->sorts[i] = (uint8_t)(buckets[i] & ~(PILOT_PROBE | PILOT_SMALL));
     }
 }
 
@@ -63,8 +63,9 @@ typedef struct SortMean {
     double count, bucket, off; // sums
 } SortMean;
 
-void predictor_see_starts(Predictor *predictor, const Choice *choice, const Film *film)
+void predictor_see_starts(Predictor *predictor, const Choice *choice, const Round *round)
 {
+    const Film *film = round->film;
     SortMean sorts[PILOT_SORTS] = {{0.0, 0.0, 0.0}};
     size_t pixels = (size_t)film->width * (size_t)film->height;
     double weight = 0.0;
@@ -82,7 +83,7 @@ void predictor_see_starts(Predictor *predictor, const Choice *choice, const Film
     for (size_t i = 0; i < pixels; i++) {
         const PixelRecord *record = &film->records[i];
         const SortMean *sort = &sorts[predictor->sorts[i]];
-        if (record->count > 1 && sort->count > 0.0) {
+        if (record->count > 1 && sort->count > 0.0 && !small_has(round->small, i)) { // one that was chosen by chance
             int shift = choice->of_pixel[i] - (int)lround(sort->bucket / sort->count) + SHIFT_MOST;
             shift = shift < 0 ? 0 : shift > 2 * SHIFT_MOST ? 2 * SHIFT_MOST : shift;
             predictor->start_count[shift] += sort->off / sort->count;

@@ -32,6 +32,7 @@ typedef struct Batch {
     int run_count;
     bool draws;   // whether anything but the place in the pixel is drawn from the streams
     bool is_box;  // all weights are 1
+    bool meets;   // samples count for small shapes
     RenderScratch *scratch;
 } Batch;
 
@@ -51,6 +52,7 @@ static void batch_init(Batch *batch, const Round *round, RenderScratch *scratch)
     batch->scratch = scratch;
     batch->count = batch->run_count = 0;
     batch->is_box = round->filter.kind == FILTER_BOX;
+    batch->meets = false;
     batch->places.lens = has_lens ? batch->lens : NULL;
     batch->draws = has_lens || (p->kernel->features & RENDER_LIGHTS);
 }
@@ -102,6 +104,19 @@ static void batch_place(const Round *round, Batch *batch)
     }
 }
 
+// Tells small shapes which of them are met.
+static void batch_meet(const Round *round, const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        size_t pixel = (size_t)batch->y[i] * (size_t)round->film->width + (size_t)batch->x[i];
+        Ray ray;
+        if (small_open(round->small, pixel) > 0 &&
+            camera_place_ray(&round->prepared->camera, &batch->places, i, &ray)) {
+            small_meet(round->small, pixel, ray);
+        }
+    }
+}
+
 static void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
 {
     if (batch->count == 0) {
@@ -114,6 +129,9 @@ static void batch_flush(const Round *round, Batch *batch, RenderStatistics *coun
         if (batch->places.lens) {
             batch->lens[i] = batch->lens[batch->count - 1];
         }
+    }
+    if (batch->meets) {
+        batch_meet(round, batch);
     }
     uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
     batch_trace(round, batch, wanted, counted);
@@ -367,6 +385,7 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
     Shares shares = {0};
     Batch batch;
     batch_init(&batch, round, scratch);
+    batch.meets = round->small != NULL;
     // Blocks of pixels, so that rays of one call stay near each other.
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
@@ -384,17 +403,24 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
     }
 }
 
-// Of a pixel that has samples, half the square of how far its replica is from it: its variance. Of one that is made of
-// corners, the product of how far two replicas are, which leaves out their own errors.
+// Whether a pixel is as far off as another set of samples would be. One that is made of corners is not, nor one of which
+// it is known that it has met all small shapes that are in it, since another set may not have.
+static bool is_like_replica(const Round *round, size_t pixel)
+{
+    return round->film->records[pixel].count > 1 && !small_has(round->small, pixel);
+}
+
+// Of a pixel that is like its replica, half the square of how far that is from it: its variance. Of others the product
+// of how far two replicas are, which leaves out their own errors.
 static double replica_square(const Round *round, const AuditPick *pick, const SampleSums sets[2])
 {
     const float *value = &round->film->rgb[3 * pick->pixel];
     uint32_t count = round->film->records[pick->pixel].count;
     Rgb place, own = rgb(value[0], value[1], value[2]), apart[2];
-    bool is_single = count > 1;
+    bool is_single = is_like_replica(round, pick->pixel);
     for (int i = 0; i < 2; i++) {
         Rgb sum = rgb_add(sets[i].sum[0], sets[i].sum[1]);
-        Rgb mean = rgb_scale(1.0 / (is_single ? (double)count : (double)AUDIT_SAMPLES), sum);
+        Rgb mean = rgb_scale(1.0 / (count > 1 ? (double)count : (double)AUDIT_SAMPLES), sum);
         apart[i] = rgb_add_scaled(mean, -1.0, own);
     }
     const Rgb *slope = slope_at(round, value, &place);
@@ -421,7 +447,7 @@ void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScr
         }
         uint32_t had = film->records[pick->pixel].count;
         sets[count][0] = sets[count][1] = (SampleSums){.squares = rgb_grey(0.0)};
-        for (uint32_t i = 0; i < (had > 1 ? 1u : 2u); i++) {
+        for (uint32_t i = 0; i < (is_like_replica(round, pick->pixel) ? 1u : 2u); i++) {
             ChosenPixel chosen = {.x = x, .y = y, .index = pick->pixel, .count = had > 1 ? had : AUDIT_SAMPLES,
                                   .replica = 2 * pick->replica + i};
             pixel_add(round, &batch, &chosen, &sets[count][i], counted);

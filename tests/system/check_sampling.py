@@ -203,6 +203,30 @@ def test_goals():
            (notes("limited.png"), notes("again.png")))
 
 
+def test_unmet():
+    """What no sample met is counted, and named by one exact line; what may have been missed besides by another."""
+    look = "camera { location 0 direction z right x*4/3 up y } light_source { <0,0,-9> rgb 0.001 } background { rgb 0.1 }\n"
+    ball = "sphere { <%g,0.25,5>, 0.002 pigment { rgb 1 } finish { ambient 20 } }\n"
+    area = math.pi * (0.002 / 5 * 48) ** 2 * 1.004  # the ball lies aside by 0.1 of the distance: a little wider
+    for count, words in ((1, "1 shape of 0.0012 pixels was"), (3, "3 shapes of 0.0035 pixels in all were")):
+        _, said = rtlang(HEAD + look + "".join(ball % (0.5 + 0.3 * i) for i in range(count)), "--samples=4")
+        found = ERROR.search(said)
+        tap.equal(found and found[6], f"; {words} met by no sample", f"{count} unmet: the line says it")
+        kept = notes("out.png").get("rtlang:unmet-shapes")
+        tap.equal(kept, f"{count}, {area * count:.2g} pixels", "and the file")
+        off = area * 19.9 * math.sqrt(count / (64 * 48))
+        tap.ok(found and float(found[2]) < off < float(found[3]) and float(found[1]) < 1.1 * off,
+               "the interval holds what it would bring", f"{off} {said}")
+    shiny = "sphere { <0,0,5>, 2 pigment { rgb 0 } finish { ambient 0 phong 9 phong_size 1e8 } }\n"
+    _, said = rtlang(HEAD + look.replace("rgb 0.001", "rgb 50").replace("<0,0,-9>", "<-3,5,-6>") + shiny, "--samples=4")
+    tap.ok(re.search(r"; 1 highlight of \S+ pixels was met by no sample$", said, re.M), "a highlight likewise", said)
+    _, said = rtlang(HEAD + look + "plane { z, 9 pigment { gradient x } finish { ambient 1 } }", "--adaptive", "--samples=64")
+    found = ERROR.search(said)
+    missed = re.search(r"^missed: a detail of up to (\S+) pixels? may be in no sample, and would add up to (\S+)$", said, re.M)
+    tap.ok(found and missed and float(missed[2]) > float(found[3]), "a detail may be in no sample", said)
+    tap.ok("missed:" not in rtlang(BALLS, "--samples=16")[1], "which is not said where it would be less than the error")
+
+
 def test_interrupt():
     write("scene.scn", SOFT)
     # One ray for each pixel is quick, all of them would take hours.
@@ -335,7 +359,7 @@ def test_refusals():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for test in (test_error_told, test_some_pixels, test_channel, test_precisions, test_goals, test_interrupt, test_restart, test_plateau, test_crop, test_lens, test_forward, test_refusals):
+        for test in (test_error_told, test_some_pixels, test_channel, test_precisions, test_goals, test_unmet, test_interrupt, test_restart, test_plateau, test_crop, test_lens, test_forward, test_refusals):
             test()
         os.chdir("/")
     tap.done()

@@ -1,0 +1,345 @@
+// What small shapes would bring to the picture that no sample of a pixel has met.
+//
+// A pixel is drawn, in proportion to what such shapes may be to it, and two rays are aimed at random places of each of
+// them. With a the shape's share of the pixel, L its light and v the pixel's value, which holds nothing of it, the pixel
+// is off by the sum of a (L - v): known, and not by chance any more. Two rays, independent of each other, give the square
+// of it without a bias. What hides a shape, or looks like it, is in L. docs/sampling.md, "What no sample met".
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <string.h>
+
+#include "render/alpha.h"
+#include "render/camera.h"
+#include "render/linear.h"
+#include "render/sampling.h"
+#include "render/scratch.h"
+#include "scene/opaque.h"
+
+// A pick for so many samples, within limits, so that its rays are few beside those of the picture.
+enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96 };
+
+// What the squares of areas are known to.
+static const double AREA_ERROR = 0.03;
+
+// So that looks draw other numbers than samples and corners.
+static const uint32_t LOOK_SEED = UINT32_C(0x7f4a7c15);
+
+static inline bool bit_is_set(const uint64_t *set, uint32_t place)
+{
+    return set[place / 64] >> (place % 64) & 1;
+}
+
+static uint32_t place_of(const Small *small, const SmallEntry *entry)
+{
+    return small_place(small, entry->shape);
+}
+
+// Which shapes have been met, in whatever pixel.
+static void find_met(Small *small)
+{
+    size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        uint32_t begin = small->first[pixel], open = small->open[pixel];
+        for (uint32_t i = begin; i < small->first[pixel + 1]; i++) {
+            uint32_t place = place_of(small, &small->entries[i]);
+            uint64_t bit = UINT64_C(1) << (place % 64);
+            small->met[place / 64] |= i - begin < open ? 0 : bit;
+        }
+    }
+}
+
+// What a pixel is taken to be off by for shapes that none of its samples met.
+static double open_error(const Small *small, size_t pixel)
+{
+    const SmallEntry *entries = &small->entries[small->first[pixel]];
+    double sum = 0.0;
+    for (int i = 0; i < small->open[pixel]; i++) {
+        double contrast = entries[i].contrast >= 0.0f ? (double)entries[i].contrast : small->contrast;
+        sum += (double)entries[i].share * sqrt(contrast);
+    }
+    return sum;
+}
+
+int look_draw(Looks *looks, const Round *round, double samples)
+{
+    Small *small = round->small;
+    size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
+    double count = 0.0, sum = 0.0, reached = 0.0, most = fmin(fmax(samples / LOOK_SAMPLES, LOOK_LEAST), LOOK_MOST);
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        double error = small->open[pixel] > 0 ? open_error(small, pixel) : 0.0;
+        count += small->open[pixel] > 0;
+        sum += error * error;
+    }
+    looks->count = 0;
+    looks->pass++;
+    looks->sees_all = 2.0 * count <= floor(most);
+    find_met(small);
+    double even = sum > 0.0 ? 0.5 / count : 1.0 / count, step = 1.0 / floor(most);
+    double next = step * sample_unit(sampler_pixel_seed(~round->sampling->seed, LOOK_SEED, looks->pass));
+    for (size_t pixel = 0; count > 0.0 && pixel < pixels; pixel++) {
+        if (small->open[pixel] > 0) {
+            double error = open_error(small, pixel), share = even + (sum > 0.0 ? 0.5 * error * error / sum : 0.0);
+            reached += share;
+            for (; next < reached && looks->count < LOOK_MOST; next += step) {
+                looks->picks[looks->count++] = (LookPick){.pixel = pixel, .weight = 1.0 / share};
+            }
+        }
+    }
+    return looks->count;
+}
+
+// ---- rays
+
+// Pairs of rays to the same shape, side by side.
+typedef struct LookBatch {
+    KernelPlaces places;
+    Vec3 lens[KERNEL_RAYS];
+    SampleStream streams[KERNEL_RAYS];
+    Rgb light[KERNEL_RAYS];
+    double clear[KERNEL_RAYS], weights[KERNEL_RAYS];
+    LookPick *picks[KERNEL_RAYS];
+    SmallEntry *entries[KERNEL_RAYS];
+    int count;
+    bool draws;
+    RenderScratch *scratch;
+} LookBatch;
+
+static double next_number(uint32_t *seed)
+{
+    *seed = sample_hash_add(*seed, LOOK_SEED);
+    return sample_unit(*seed);
+}
+
+// A ray to a place of the shape, drawn evenly from the ellipse around it.
+static void batch_aim(LookBatch *batch, const Small *small, const Footprint *at, size_t pixel, uint32_t seed)
+{
+    const double turn = 6.283185307179586;
+    const Film *film = small->film;
+    const PreparedCamera *camera = &small->prepared->camera;
+    int i = batch->count;
+    SamplePoint lens = {next_number(&seed), next_number(&seed)};
+    double radius = sqrt(next_number(&seed)), angle = turn * next_number(&seed);
+    double a = radius * cos(angle), b = radius * sin(angle), slant = at->xy / sqrt(at->xx);
+    double x = at->x + sqrt(at->xx) * a, y = at->y + slant * a + sqrt(fmax(at->yy - slant * slant, 0.0)) * b;
+    if (batch->places.lens) {
+        batch->lens[i] = camera_lens_point(camera, lens);
+        Vec3 aside = vec3_sub(batch->lens[i], camera->location);
+        double along[2];
+        for (int k = 0; k < 2; k++) {
+            Vec3 axis = k == 0 ? camera->lens_right : camera->lens_up;
+            along[k] = vec3_dot(aside, axis) / vec3_length_squared(axis);
+        }
+        x += along[0] * at->lens[0][0] + along[1] * at->lens[1][0];
+        y += along[0] * at->lens[0][1] + along[1] * at->lens[1][1];
+    }
+    batch->places.u[i] = film_u(film, 0, x);
+    batch->places.v[i] = film_v(film, 0, y);
+    Ray ray;
+    (void)camera_place_ray(camera, &batch->places, i, &ray);
+    bool is_crossed = small_is_crossed(small, at->extent.shape, ray);
+    int column = (int)(pixel % (size_t)film->width), row = (int)(pixel / (size_t)film->width);
+    batch->weights[i] = is_crossed ? at->area * small->norm * small_weight(small, x - column, y - row) : 0.0;
+    batch->streams[i] = (SampleStream){.kind = SAMPLER_RANDOM, .seed = seed, .count = 1, .pair = 2};
+    batch->count++;
+}
+
+// Whether the ray shows the shape; it may, where what is before it lets light through.
+static bool is_shown(const Small *small, const SmallEntry *entry, Ray ray)
+{
+    const Prepared *p = small->prepared;
+    MaterialIndex before;
+    ExtentSight sight = small_sight(small, entry->shape, ray, &before);
+    return sight == EXTENT_SEEN || (sight == EXTENT_BEHIND && !scene_material_is_opaque(p->scene, before));
+}
+
+// What the pair of rays from `i` on says of their shape.
+static void pair_judge(const Round *round, const LookBatch *batch, int i)
+{
+    Small *small = round->small;
+    LookPick *pick = batch->picks[i];
+    SmallEntry *entry = batch->entries[i];
+    const float *value = &small->film->rgb[3 * pick->pixel];
+    Rgb own = rgb(value[0], value[1], value[2]), apart[2], slope = rgb_grey(1.0);
+    bool is_linear = !linear_is_needed(&small->prepared->scene->settings), has_one = false;
+    slope = is_linear ? slope : linear_slope(&small->prepared->scene->settings, value);
+    for (int k = 0; k < 2; k++) {
+        apart[k] = rgb_mul(slope, rgb_add_scaled(batch->light[i + k], -1.0, own));
+        pick->sums[k] = rgb_add_scaled(pick->sums[k], batch->weights[i + k], apart[k]);
+        if (batch->weights[i + k] != 0.0) {
+            Ray ray;
+            has_one = true;
+            (void)camera_place_ray(&small->prepared->camera, &batch->places, i + k, &ray);
+            uint32_t place = place_of(small, entry);
+            if (is_shown(small, entry, ray)) {
+                __atomic_fetch_or(&small->seen[place / 64], UINT64_C(1) << (place % 64), __ATOMIC_RELAXED);
+            }
+        }
+    }
+    Rgb square = rgb_mul(apart[0], apart[1]);
+    float contrast = (float)fmax((square.red + square.green + square.blue) / 3.0, 0.0);
+    if (has_one) {
+        entry->contrast = entry->contrast >= 0.0f ? 0.5f * (entry->contrast + contrast) : contrast;
+    }
+}
+
+static void batch_flush(const Round *round, LookBatch *batch, RenderStatistics *counted)
+{
+    if (batch->count == 0) {
+        return;
+    }
+    for (int i = batch->count; i < KERNEL_RAYS; i++) {
+        batch->places.u[i] = batch->places.u[batch->count - 1];
+        batch->places.v[i] = batch->places.v[batch->count - 1];
+        if (batch->places.lens) {
+            batch->lens[i] = batch->lens[batch->count - 1];
+        }
+    }
+    uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
+    alpha_trace(round->prepared, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light,
+                batch->clear, batch->scratch, counted);
+    for (int i = 0; i < batch->count; i += 2) {
+        pair_judge(round, batch, i);
+    }
+    batch->count = 0;
+}
+
+static void pick_add(const Round *round, LookBatch *batch, LookPick *pick, uint32_t seed, RenderStatistics *counted)
+{
+    Small *small = round->small;
+    for (int j = 0; j < small->open[pick->pixel]; j++) {
+        SmallEntry *entry = &small->entries[small->first[pick->pixel] + (uint32_t)j];
+        Footprint at = small_footprint(small, entry->shape);
+        uint32_t own = sample_hash_add(seed, (uint32_t)j);
+        for (uint32_t k = 0; k < 2; k++) {
+            batch->picks[batch->count] = pick;
+            batch->entries[batch->count] = entry;
+            batch_aim(batch, small, &at, pick->pixel, sample_hash_add(own, k));
+        }
+        if (batch->count == KERNEL_RAYS) {
+            batch_flush(round, batch, counted);
+        }
+    }
+}
+
+void look_trace(const Round *round, Looks *looks, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
+{
+    const Prepared *p = round->prepared;
+    const Film *film = round->film;
+    LookBatch batch = {.scratch = scratch};
+    batch.places.lens = p->camera.lens_radius > 0.0 ? batch.lens : NULL;
+    batch.draws = batch.places.lens || (p->kernel->features & RENDER_LIGHTS);
+    for (int i = 0; i < looks->count; i++) {
+        LookPick *pick = &looks->picks[i];
+        int x = (int)(pick->pixel % (size_t)film->width), y = (int)(pick->pixel / (size_t)film->width);
+        if (x >= tile.left && x < tile.right && y >= tile.top && y < tile.bottom) {
+            uint32_t seed = sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x),
+                                               (uint32_t)(film->top + y));
+            seed = sample_hash_add(sample_hash_add(seed, looks->pass), (uint32_t)i);
+            pick_add(round, &batch, pick, seed, counted);
+        }
+    }
+    batch_flush(round, &batch, counted);
+}
+
+// ---- what they say
+
+static inline bool is_spot(const SmallEntry *entry)
+{
+    return shape_kind(entry->shape) == SMALL_IS_SPOT;
+}
+
+// Of the area that was looked at, by kind, how much was shown.
+static void shown_parts(const Looks *looks, const Small *small, double part[SMALL_KINDS])
+{
+    double shown[SMALL_KINDS] = {0.0}, all[SMALL_KINDS] = {0.0};
+    for (int i = 0; i < looks->count; i++) {
+        const LookPick *pick = &looks->picks[i];
+        for (int j = 0; j < small->open[pick->pixel]; j++) {
+            const SmallEntry *entry = &small->entries[small->first[pick->pixel] + (uint32_t)j];
+            double weighted = pick->weight * (double)entry->share;
+            all[is_spot(entry)] += weighted;
+            shown[is_spot(entry)] += bit_is_set(small->seen, place_of(small, entry)) ? weighted : 0.0;
+        }
+    }
+    for (int kind = 0; kind < SMALL_KINDS; kind++) {
+        part[kind] = looks->sees_all ? 1.0 : all[kind] > 0.0 ? shown[kind] / all[kind] : 0.0;
+    }
+}
+
+// What no sample met and a look showed. Where not all were looked at, as much of the others as of those.
+static void count_unmet(Looks *looks, Small *small)
+{
+    size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
+    double part[SMALL_KINDS];
+    shown_parts(looks, small, part);
+    for (int kind = 0; kind < SMALL_KINDS; kind++) {
+        looks->unmet[kind] = (UnmetShapes){0.0, 0.0};
+    }
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        for (uint32_t i = small->first[pixel]; i < small->first[pixel] + small->open[pixel]; i++) {
+            uint32_t place = place_of(small, &small->entries[i]);
+            UnmetShapes *unmet = &looks->unmet[is_spot(&small->entries[i])];
+            if (bit_is_set(small->met, place) || (looks->sees_all && !bit_is_set(small->seen, place))) {
+                continue;
+            }
+            unmet->count += bit_is_set(small->counted, place) ? 0.0 : 1.0;
+            unmet->area += (double)small->entries[i].share;
+            small->counted[place / 64] |= UINT64_C(1) << (place % 64);
+        }
+    }
+    memset(small->counted, 0, small->words * sizeof *small->counted);
+    for (int kind = 0; kind < SMALL_KINDS; kind++) {
+        looks->unmet[kind].count = round(part[kind] * looks->unmet[kind].count);
+        looks->unmet[kind].area *= part[kind];
+    }
+}
+
+void look_judge(Looks *looks, const Round *round)
+{
+    double sum = 0.0, squares = 0.0, count = looks->count;
+    for (int i = 0; i < looks->count; i++) {
+        const LookPick *pick = &looks->picks[i];
+        Rgb product = rgb_mul(pick->sums[0], pick->sums[1]);
+        double term = pick->weight * (product.red + product.green + product.blue) / 3.0;
+        sum += term;
+        squares += term * term;
+    }
+    double mean = sum / count;
+    looks->square = fmax(mean, 0.0);
+    looks->variance = fmax(squares / count - mean * mean, 0.0) / (count - 1.0);
+    small_set_law(round->small);
+    count_unmet(looks, round->small);
+}
+
+// sqrt(a + b) and the ends of its interval, of two independent parts. An interval of 95 % is taken to be that of a
+// logarithm; 2.4 as in sampling_audit.c.
+void look_tell(const Looks *looks, double pixels, SamplingError *error)
+{
+    const double normal = 2.4;
+    double own = error->rmse * error->rmse, more = looks->square / pixels, all = own + more;
+    double spread = error->rmse > 0.0 ? 2.0 * own * log(error->high / error->rmse) : 0.0;
+    double by_looks = hypot(normal * sqrt(looks->variance), AREA_ERROR * looks->square) / pixels;
+    for (int kind = 0; kind < SMALL_KINDS; kind++) {
+        error->unmet[kind] = looks->unmet[kind];
+    }
+    error->unmet_is_all = looks->sees_all;
+    if (all > 0.0) {
+        double factor = exp(0.5 * hypot(spread, by_looks) / all);
+        error->rmse = sqrt(all);
+        error->low = error->rmse / factor;
+        error->high = error->rmse * factor;
+    }
+}
+
+void look_show(const Small *small, Film *film, const SamplingError *error)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    double scale = (exp2(-2.0 * error->slope) - 1.0) / (error->pixel_scale * error->pixel_scale);
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        if (small->open[pixel] > 0) {
+            double own = open_error(small, pixel);
+            film->records[pixel].outer += (float)(scale * own * own);
+        }
+    }
+}

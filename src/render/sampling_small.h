@@ -1,0 +1,109 @@
+// Shapes of no more than a few pixels: which pixels they are in, and which of them the samples have met there.
+//
+// A pixel's corners, and few samples, may all pass by a thing that lies within it. Where that is a shape with a known
+// extent its place in the picture is known before a ray is traced, so such pixels are sampled and judged by what they
+// hold, not only by what was seen. Private to src/render; docs/sampling.md, "What no sample met".
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SAMPLING_SMALL_H
+#define RENDER_SAMPLING_SMALL_H
+
+#include <math.h>
+
+#include "render/prepared.h"
+#include "render/render.h"
+#include "trace/extent.h"
+
+// A small shape in a pixel.
+typedef struct SmallEntry {
+    ShapeId shape;
+    float share;    // how much of the pixel it is, were nothing before it
+    float contrast; // the mean square of its light less the pixel's; < 0: not known
+} SmallEntry;
+
+// How many of a pixel's are followed: the largest. More lie behind each other.
+enum { SMALL_MOST = 16 };
+
+// A narrow highlight: an ellipse on its shape, sampling_spot.c.
+typedef struct SmallSpot {
+    ShapeId owner;
+    Vec3 centre, axes[2];
+} SmallSpot;
+
+// Of the ShapeId of a spot, which is its number.
+#define SMALL_IS_SPOT ((ShapeKind)3)
+
+typedef struct Small {
+    const Prepared *prepared;
+    const Film *film;
+    FilterKind filter;
+    SmallSpot *spots;
+    uint32_t spot_count;
+    uint32_t *first; // of each pixel's entries; one more for the end
+    SmallEntry *entries;
+    uint8_t *open;   // so many of a pixel's entries, its first ones, were met by none of its samples
+    float (*law)[2]; // of each pixel, see small_variance
+    // A bit for each place of an extent, and for each spot after these: met by a sample; shown by a look; for counting.
+    uint64_t *met, *seen, *counted;
+    size_t words;    // of each set
+    double contrast; // of an entry of which it is not known
+    double norm;     // one over the square of the filter's integral
+} Small;
+
+// What small shapes are in a film. NULL when there are none; sets *has_memory to false when out of memory. Nothing is
+// known of wide cameras.
+Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, bool *has_memory);
+void small_free(Small *small);
+
+static inline bool small_has(const Small *small, size_t pixel)
+{
+    return small && small->first[pixel + 1] > small->first[pixel];
+}
+
+static inline int small_open(const Small *small, size_t pixel)
+{
+    return small ? small->open[pixel] : 0;
+}
+
+// A sample of the pixel is traced along the ray. By one thread at a time for each pixel.
+void small_meet(Small *small, size_t pixel, Ray ray);
+
+// When contrasts have become known: what small_variance says.
+void small_set_law(Small *small);
+
+// The variance of the mean of so many samples that a pixel's small shapes bring: c² a (1 - a) / n as long as samples
+// come one by one, and that of an edge from where each may be expected to be met.
+static inline double small_variance(const Small *small, size_t pixel, double count)
+{
+    double few = (double)small->law[pixel][0] / count, many = (double)small->law[pixel][1] / (count * sqrt(count));
+    return few < many ? few : many;
+}
+
+// Where a shape lies in the picture: an ellipse around x, y, in pixels of the film, whose points are
+// x + xx^(1/2) cos t, ...: the image of the unit disc under a root of its matrix.
+typedef struct Footprint {
+    Extent extent;
+    double x, y;          // 0, 0 is the middle of the first pixel
+    double xx, xy, yy;    // the matrix of the shape itself,
+    double wide_xx, wide_xy, wide_yy; // and that of all that it may reach through a lens
+    double area;          // of the first, in pixels
+    double lens[2][2];    // by how much the two axes of a lens move it
+} Footprint;
+
+// As extent_is_crossed, extent_sight and extent_place, of an entry's shape, which may be a spot.
+bool small_is_crossed(const Small *small, ShapeId shape, Ray ray);
+ExtentSight small_sight(const Small *small, ShapeId shape, Ray ray, MaterialIndex *before);
+uint32_t small_place(const Small *small, ShapeId shape);
+
+// sampling_spot.c: lists the highlights that is_narrow; `is_candidate` says of a sphere whether one that falls off when
+// the mirrored way is so `turned` may be. False when out of memory.
+bool spots_find(Small *small, bool (*is_candidate)(const void *view, const Extent *extent, double turned),
+                bool (*is_narrow)(const void *view, const SmallSpot *spot), const void *view);
+
+// The footprint of an entry's shape.
+Footprint small_footprint(const Small *small, ShapeId shape);
+
+// The share of the pixel's light that a point beside its middle has, for each pixel of area.
+double small_weight(const Small *small, double x, double y);
+
+#endif

@@ -1,0 +1,141 @@
+// How far single shapes reach, whether a line crosses one, and which shape a camera ray meets first.
+//
+// Serves those who look at shapes from outside (render/sampling_small.c). Knows nothing of pixels.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/extent.h"
+
+#include <math.h>
+
+#include "trace/query.h"
+
+uint32_t extent_count(const Geometry *g)
+{
+    return g->spheres.block_count * SPHERE_BLOCK + g->shapes.solid_count;
+}
+
+// The axes of an ellipsoid around a solid's fixed shape, about *middle, in its own space: the least one there is, but for
+// the cone, which counts as a cylinder. A flat one has two.
+static void fixed_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    const double root2 = 0x1.6a09e667f3bcdp+0, root3 = 0x1.bb67ae8584caap+0;
+    *middle = vec3(0.0, 0.0, 0.0);
+    axes[0] = vec3(1.0, 0.0, 0.0);
+    axes[1] = vec3(0.0, 1.0, 0.0);
+    axes[2] = vec3(0.0, 0.0, solid->kind == PART_BALL ? 1.0 : 0.0);
+    if (solid->kind == PART_BOX) {
+        Vec3 half = vec3_scale(0.5 * root3, vec3_sub(solid->data[1], solid->data[0]));
+        *middle = vec3_scale(0.5, vec3_add(solid->data[0], solid->data[1]));
+        axes[0].x = half.x;
+        axes[1].y = half.y;
+        axes[2].z = half.z;
+    } else if (solid->kind == PART_CONE) {
+        *middle = vec3(0.0, 0.0, 0.5);
+        axes[0].x = axes[1].y = root3 / root2;
+        axes[2].z = 0.5 * root3;
+    } else if (solid->kind >= PART_TRIANGLE) { // J. Steiner's ellipse
+        *middle = vec3(1.0 / 3.0, 1.0 / 3.0, 0.0);
+        axes[0] = vec3(-1.0 / 3.0, 2.0 / 3.0, 0.0);
+        axes[1] = vec3(-1.0 / root3, 0.0, 0.0);
+    }
+}
+
+static bool solid_extent_of(const Solid *solid, Extent *extent)
+{
+    Vec3 axes[3], middle;
+    if (solid->kind == PART_PLANE || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
+        (solid->hidden & HIDDEN_CAMERA)) {
+        return false;
+    }
+    fixed_axes(solid, axes, &middle);
+    extent->centre = vec3_add(solid->centre, linear_direction(&solid->to_world, middle));
+    for (int i = 0; i < 3; i++) {
+        extent->axes[i] = linear_direction(&solid->to_world, axes[i]);
+    }
+    return true;
+}
+
+bool extent_get(const Geometry *g, uint32_t i, Extent *extent)
+{
+    uint32_t slots = g->spheres.block_count * SPHERE_BLOCK;
+    if (i >= slots) {
+        extent->is_ball = false;
+        extent->shape = shape_id(SHAPE_PART, (i - slots) << PART_SIDE_BITS);
+        extent->material = g->shapes.solids[i - slots].material;
+        return solid_extent_of(&g->shapes.solids[i - slots], extent);
+    }
+    Ball ball = sphere_table_ball(&g->spheres, i);
+    double radius = sqrt(ball.radius_squared);
+    *extent = (Extent){.shape = shape_id(SHAPE_SPHERE, i),
+                       .is_ball = true,
+                       .material = g->spheres.info[i].material,
+                       .centre = ball.centre,
+                       .axes = {vec3(radius, 0.0, 0.0), vec3(0.0, radius, 0.0), vec3(0.0, 0.0, radius)}};
+    return radius >= 0.0; // not NaN, of an empty slot
+}
+
+uint32_t extent_place(const Geometry *g, ShapeId shape)
+{
+    bool is_part = shape_kind(shape) == SHAPE_PART;
+    return is_part ? g->spheres.block_count * SPHERE_BLOCK + part_index(shape) : shape_index(shape);
+}
+
+void extent_of(const Geometry *g, ShapeId shape, Extent *extent)
+{
+    (void)extent_get(g, extent_place(g, shape), extent);
+}
+
+bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
+{
+    if (shape_kind(shape) == SHAPE_SPHERE) {
+        Ball ball = sphere_table_ball(&g->spheres, shape_index(shape));
+        Vec3 offset = vec3_sub(ball.centre, ray.origin);
+        return vec3_length_squared(vec3_cross(offset, ray.direction)) <= ball.radius_squared &&
+               vec3_dot(offset, ray.direction) > 0.0;
+    }
+    const Solid *solid = &g->shapes.solids[part_index(shape)];
+    Ray object = solid_ray(solid, &ray);
+    Chord chord;
+    double t;
+    return solid_is_flat(solid) ? solid_flat_root(solid, &object, &t) && t > 0.0
+                                : solid_chord(solid, &object, SIDE_NONE, &chord) && chord.leave > 0.0;
+}
+
+bool extent_plane(const Geometry *g, uint32_t number, ShapeId *shape, Vec3 *point, Vec3 *normal,
+                  MaterialIndex *material)
+{
+    if (number >= g->plane_count) {
+        return false;
+    }
+    const PlaneEntry *plane = &g->planes[number];
+    *shape = shape_id(SHAPE_PLANE, number);
+    *normal = plane->shape.normal;
+    *point = vec3_scale(plane->shape.distance, plane->shape.normal);
+    *material = plane->info.material;
+    return true;
+}
+
+bool extent_is_dark(const Geometry *g, ShapeId shape, const Vec3 *normal, Ray ray, double distance)
+{
+    RayStart start = {shape, normal && vec3_dot(*normal, ray.direction) < 0.0, HIDDEN_SHADOW};
+    return geometry_occluded(g, TRACE_ALL_FEATURES, ray, start, distance);
+}
+
+static bool is_same(ShapeId a, ShapeId b)
+{
+    return shape_kind(a) == shape_kind(b) &&
+           (shape_kind(a) == SHAPE_PART ? part_index(a) == part_index(b) : a == b);
+}
+
+ExtentSight extent_sight(const Geometry *g, ShapeId shape, Ray ray, MaterialIndex *before)
+{
+    Hit hit;
+    if (!geometry_closest(g, TRACE_ALL_FEATURES, ray, RAY_START_CAMERA, (double)INFINITY, &hit)) {
+        return EXTENT_MISSED;
+    }
+    if (is_same(hit.shape, shape)) {
+        return EXTENT_SEEN;
+    }
+    *before = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit).material;
+    return EXTENT_BEHIND;
+}

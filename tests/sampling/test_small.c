@@ -1,0 +1,263 @@
+// What is smaller than a pixel: the error told holds it, whether samples have met it or not, and runs to a goal look for
+// it. With `long` as argument: with many seeds. The places of single balls are integrated here, by their own geometry.
+//
+// SPDX-License-Identifier: MIT
+#include "sampling/scenes.h"
+#include "unit/random.h"
+#include "unit/tap.h"
+
+enum { WIDTH = 48, HEIGHT = 36, SPARK_WIDTH = 24, SPARK_HEIGHT = 18 };
+
+static bool is_long;
+static Random drawn_by;
+
+static double unit(void)
+{
+    return random_below(&drawn_by, 1u << 30) * 0x1p-30;
+}
+
+static bool holds(const Picture *picture, const Picture *reference)
+{
+    double error = picture_rmse(picture, reference);
+    return error >= picture->error.low && error <= picture->error.high;
+}
+
+// ---- 600 balls
+
+static void test_dust(void)
+{
+    static const double samples[] = {4.0, 16.0, 64.0, 256.0};
+    rt_sampling halton = {.sampler = "halton", .samples = is_long ? 16384 : 2048, .seed = 987654321, .no_estimate = 1};
+    Picture *reference = picture_make(&scene_dust, WIDTH, HEIGHT, &halton, 2);
+    int seeds = is_long ? 100 : 20, met = 0;
+    for (int i = 0; i < (is_long ? 4 : 2); i++) {
+        for (int is_adaptive = 0; is_adaptive < 2; is_adaptive++) {
+            int held = 0;
+            for (int seed = 0; seed < seeds; seed++) {
+                rt_sampling sampling = {
+                    .samples = samples[i], .adaptive = is_adaptive, .seed = random_below(&drawn_by, 1u << 30)};
+                Picture *picture = picture_make(&scene_dust, WIDTH, HEIGHT, &sampling, 2);
+                held += holds(picture, reference);
+                picture_free(picture);
+            }
+            tap_ok(held >= (is_long ? 0.90 : 0.85) * seeds,
+                   "600 balls, %.0f samples%s: the interval holds the error in %d of %d runs", samples[i],
+                   is_adaptive ? ", adaptive" : "", held, seeds);
+        }
+    }
+    for (int seed = 0; seed < 20; seed++) {
+        rt_sampling sampling = {.target_error = 0.005, .seed = random_below(&drawn_by, 1u << 30)};
+        Picture *picture = picture_make(&scene_dust, WIDTH, HEIGHT, &sampling, 2);
+        met += picture_rmse(picture, reference) <= 0.005;
+        picture_free(picture);
+    }
+    tap_ok(met >= 19, "600 balls: a target of 0.005 is met in %d of 20 runs", met);
+    picture_free(reference);
+}
+
+// ---- one bright ball
+
+typedef struct Spark {
+    double x, y, z, radius;
+} Spark;
+
+// Whether the ball is seen from the origin along x, y, 1.
+static bool spark_is_met(const Spark *spark, double x, double y)
+{
+    double cx = spark->y - spark->z * y, cy = spark->z * x - spark->x, cz = spark->x * y - spark->y * x;
+    return cx * cx + cy * cy + cz * cz <= spark->radius * spark->radius * (x * x + y * y + 1.0);
+}
+
+// The share of a pixel that the ball is, by points of a fine grid around it.
+static double spark_share(const Spark *spark, int column, int row)
+{
+    enum { FINE = 500 };
+    int count = 0;
+    double reach = 1.3 * spark->radius / spark->z, middle_x = spark->x / spark->z, middle_y = spark->y / spark->z;
+    for (int i = 0; i < FINE * FINE; i++) {
+        double x = middle_x + reach * (2.0 * (i % FINE + 0.5) / FINE - 1.0);
+        double y = middle_y + reach * (2.0 * (i / FINE + 0.5) / FINE - 1.0);
+        double at_x = (x * 3.0 / 4.0 + 0.5) * SPARK_WIDTH - column, at_y = (0.5 - y) * SPARK_HEIGHT - row;
+        count += at_x >= 0.0 && at_x < 1.0 && at_y >= 0.0 && at_y < 1.0 && spark_is_met(spark, x, y);
+    }
+    return 4.0 * reach * reach / (FINE * FINE) * count * (3.0 / 4.0 * SPARK_WIDTH) * SPARK_HEIGHT;
+}
+
+static const char spark_scene[] =
+    SCENE_HEAD "camera { location 0 direction z right x*4/3 up y } background { rgb 0.1 }\n"
+               "light_source { <0,0,-9> rgb 0.001 } sphere { <%.17g,%.17g,%.17g>, %.17g pigment { rgb 1 }\n"
+               "finish { ambient %g diffuse 0 } }\n%s";
+
+// A ball of 0.003 to 0.1 pixels, somewhere.
+static Spark spark_draw(void)
+{
+    double area = 0.003 * pow(30.0, unit()), z = 3.0 + 5.0 * unit();
+    return (Spark){.x = z * (unit() - 0.5),
+                   .y = 0.8 * z * (unit() - 0.5),
+                   .z = z,
+                   .radius = z / SPARK_HEIGHT * sqrt(area / 3.14159265358979)};
+}
+
+typedef struct SparkCount {
+    int runs, held, told, known; // of those: it is said whether the ball was met; as it was, with its area
+} SparkCount;
+
+static void spark_run(const Spark *spark, double samples, bool is_adaptive, SparkCount *count)
+{
+    char text[1024];
+    double bright = 21.0, area = 0.0;
+    snprintf(text, sizeof text, spark_scene, spark->x, spark->y, spark->z, spark->radius, bright, "");
+    SamplingScene scene = {"spark", text};
+    rt_sampling sampling = {.samples = samples, .adaptive = is_adaptive, .seed = random_below(&drawn_by, 1u << 30)};
+    Picture *picture = picture_make(&scene, SPARK_WIDTH, SPARK_HEIGHT, &sampling, 1);
+    Picture reference = {.width = SPARK_WIDTH, .height = SPARK_HEIGHT, .rgb = malloc(SPARK_WIDTH * SPARK_HEIGHT * 12)};
+    bool is_met = false;
+    int column = (int)floor((spark->x / spark->z * 3.0 / 4.0 + 0.5) * SPARK_WIDTH);
+    int row = (int)floor((0.5 - spark->y / spark->z) * SPARK_HEIGHT);
+    for (int i = 0; i < SPARK_WIDTH * SPARK_HEIGHT; i++) {
+        int x = i % SPARK_WIDTH, y = i / SPARK_WIDTH;
+        double share = abs(x - column) <= 1 && abs(y - row) <= 1 ? spark_share(spark, x, y) : 0.0;
+        area += share;
+        for (int c = 0; c < 3; c++) {
+            reference.rgb[3 * i + c] = (float)(0.1 + share * (bright - 0.1));
+            is_met = is_met || picture->rgb[3 * i + c] > 0.1001f;
+        }
+    }
+    count->runs++;
+    count->held += holds(picture, &reference);
+    count->told += picture->error.unmet_shapes == (is_met ? 0.0 : 1.0);
+    count->known += is_met || fabs(picture->error.unmet_shape_area - area) < 0.02 * area;
+    free(reference.rgb);
+    picture_free(picture);
+}
+
+static void test_spark(void)
+{
+    int seeds = is_long ? 200 : 20;
+    for (int is_adaptive = 0; is_adaptive < 2; is_adaptive++) {
+        for (double samples = 4.0; samples <= 16.0; samples *= 4.0) {
+            SparkCount count = {0, 0, 0, 0};
+            for (int i = 0; i < seeds; i++) {
+                Spark spark = spark_draw();
+                spark_run(&spark, samples, is_adaptive, &count);
+            }
+            tap_ok(count.held >= (is_long ? 0.90 : 0.85) * seeds,
+                   "one bright ball, %.0f samples%s: the interval holds the error in %d of %d runs", samples,
+                   is_adaptive ? ", adaptive" : "", count.held, seeds);
+            tap_ok(count.told == seeds && count.known == seeds,
+                   "and it is told whether a sample has met it in %d, with its area in %d of them", count.told, count.known);
+        }
+    }
+    // Behind something opaque it is not to be seen; behind glass it is.
+    static const char *const before[] = {"", "sphere { <0.2,0.1,2>, 0.3 pigment { rgb 0.5 } }",
+                                         "sphere { <0.2,0.1,2>, 0.3 pigment { rgbt <0.5,0.5,0.5,0.5> } }"};
+    for (int i = 0; i < 3; i++) {
+        char text[1024];
+        Spark spark = {0.5, 0.25, 5.0, 0.0004};
+        snprintf(text, sizeof text, spark_scene, spark.x, spark.y, spark.z, spark.radius, 21.0, before[i]);
+        SamplingScene scene = {"hidden spark", text};
+        rt_sampling sampling = {.samples = 4.0};
+        Picture *picture = picture_make(&scene, SPARK_WIDTH, SPARK_HEIGHT, &sampling, 1);
+        tap_ok(picture->error.unmet_shapes == (i == 1 ? 0.0 : 1.0), "%s: %.0f shapes that could be seen were not met",
+               i == 0 ? "a ball before nothing" : i == 1 ? "behind an opaque ball" : "behind a clear ball",
+               picture->error.unmet_shapes);
+        picture_free(picture);
+    }
+}
+
+// ---- other shapes, and highlights
+
+static const SamplingScene scene_crumbs = {
+    "crumbs", SCENE_HEAD SCENE_CAMERA SCENE_SUN "#declare S = seed(33);\n"
+    "#macro P() <rand(S)*8-4, rand(S)*6-3, rand(S)*4-2> #end #macro C() pigment { rgb <rand(S),rand(S),rand(S)> }\n"
+    "finish { ambient 0.5 diffuse 0.7 } #end\n"
+    "#for (I, 1, 100) box { -0.03, 0.03 rotate <rand(S)*90,rand(S)*90,0> translate P() C() }\n"
+    "sphere { 0, 0.03 scale <0.4,1.5,1> translate P() C() } triangle { <-0.05,0,0>, <0.05,0,0>, <0,0.07,0> translate P() C() }\n"
+    "cone { 0, 0.05, <0,0.1,0>, 0.02 translate P() C() } disc { 0, <1,1,-2>, 0.05, 0.02 translate P() C() } #end\n"};
+
+static const SamplingScene scene_glint = {
+    "glint", SCENE_HEAD SCENE_CAMERA
+    "light_source { <-8,12,-10> rgb 200 } background { rgb 0.2 } sphere { 0, 2 pigment { rgb 0.001 }\n"
+    "finish { ambient 0.1 phong 1 phong_size 5000 diffuse 0.001 } }\n"};
+
+static const SamplingScene scene_floor_glint = {
+    "glint of a floor", SCENE_HEAD SCENE_CAMERA
+    "light_source { <-2,5,3> rgb 200 } background { rgb 0.2 } plane { y, -1 pigment { checker rgb 0.001 rgb 0.002 }\n"
+    "finish { ambient 0.1 specular 1 roughness 2e-5 diffuse 0.001 } }\n"};
+
+static const SamplingScene scene_blurred_dust = {
+    "dust before a lens", SCENE_HEAD
+    "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 aperture 0.1 blur_samples 50\n"
+    "focal_point <0,0,0> } " SCENE_SUN "#declare S = seed(5);\n"
+    "#for (I, 1, 150) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*10-5>, 0.005+0.03*rand(S)\n"
+    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 2 } } #end\n"};
+
+static const SamplingScene scene_flat_dust = {
+    "orthographic dust", SCENE_HEAD
+    "camera { orthographic location <1,3,-9> look_at 0 right 8*x up 6*y } " SCENE_SUN "#declare S = seed(6);\n"
+    "#for (I, 1, 150) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*10-5>, 0.005+0.03*rand(S)\n"
+    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 2 } } #end\n"};
+
+static void test_others(void)
+{
+    static const SamplingScene *const scenes[] = {&scene_crumbs, &scene_glint, &scene_floor_glint, &scene_blurred_dust,
+                                                  &scene_flat_dust};
+    static const rt_sampling runs[] = {{.samples = 4},
+                                       {.samples = 16, .adaptive = 1},
+                                       {.samples = 16, .adaptive = 1, .filter = "gaussian"}};
+    int seeds = is_long ? 100 : 8;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        int held = 0, all = 0;
+        for (size_t j = 0; j < sizeof runs / sizeof runs[0]; j++) {
+            rt_sampling halton = {
+                .sampler = "halton", .samples = is_long ? 65536 : 2048, .seed = 9, .filter = runs[j].filter, .no_estimate = 1};
+            Picture *reference = picture_make(scenes[i], WIDTH, HEIGHT, &halton, 2);
+            int own = 0;
+            for (int seed = 0; seed < seeds; seed++) {
+                rt_sampling sampling = runs[j];
+                sampling.seed = random_below(&drawn_by, 1u << 30);
+                Picture *picture = picture_make(scenes[i], WIDTH, HEIGHT, &sampling, 2);
+                own += holds(picture, reference);
+                all++;
+                picture_free(picture);
+            }
+            printf("# %s, run %zu: the interval holds the error in %d of %d\n", scenes[i]->name, j + 1, own, seeds);
+            held += own;
+            picture_free(reference);
+        }
+        tap_ok(held >= (is_long ? 0.90 : 0.80) * all, "%s: the interval holds the error in %d of %d runs", scenes[i]->name, held, all);
+    }
+}
+
+// Figures do not depend on who has met what first.
+static void test_same(void)
+{
+    static const SamplingScene *const scenes[] = {&scene_dust, &scene_glint, &scene_blurred_dust};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        for (int is_adaptive = 0; is_adaptive < 2; is_adaptive++) {
+            rt_sampling sampling = {.samples = 5, .adaptive = is_adaptive, .seed = 3};
+            Picture *one = picture_make(scenes[i], 130, 70, &sampling, 1);
+            Picture *other = picture_make(scenes[i], 130, 70, &sampling, 5);
+            const rt_error *a = &one->error, *b = &other->error;
+            tap_ok(memcmp(one->rgb, other->rgb, 130 * 70 * 3 * sizeof(float)) == 0 && a->rmse == b->rmse &&
+                       a->low == b->low && a->high == b->high && a->unmet_shapes == b->unmet_shapes &&
+                       a->unmet_shape_area == b->unmet_shape_area && a->unmet_highlights == b->unmet_highlights &&
+                       a->missed_error == b->missed_error,
+                   "%s%s: the same picture and figures with 1 and 5 threads, %.0f shapes and %.0f highlights unmet",
+                   scenes[i]->name, is_adaptive ? ", adaptive" : "", a->unmet_shapes, a->unmet_highlights);
+            picture_free(one);
+            picture_free(other);
+        }
+    }
+}
+
+int main(int argc, char **argv)
+{
+    drawn_by = (Random){random_seed(NULL)};
+    is_long = argc > 1 && strcmp(argv[1], "long") == 0;
+    test_same();
+    test_spark();
+    test_dust();
+    test_others();
+    return tap_done();
+}
