@@ -152,6 +152,8 @@ typedef struct AuditPick {
     uint32_t replica; // from 1, of several of one pixel
     double weight;    // the inverse of the pixel's share of the draw
     double square;    // what the replica says that the pixel is off by, squared; may be below 0 by chance
+    bool is_pair;     // it is the product of how far two replicas are from the pixel:
+    Rgb apart[2];     // these
 } AuditPick;
 
 typedef struct Audit {
@@ -164,6 +166,13 @@ typedef struct Audit {
 
 // Draws pixels from what is known of all; returns how many, 0 when no pixel is taken to be off by anything.
 int audit_draw(Audit *audit, const Estimate *estimate, const Round *round);
+
+// The interval of 95 % of the root of a mean square that is known to so much of itself, as a standard deviation: a factor,
+// since errors are never below 0; of more than the whole, the upper end grows as the root does.
+void error_set_interval(SamplingError *error, double relative);
+
+// That of an error which has an interval.
+double error_relative(const SamplingError *error);
 
 // When round_trace_replicas has put in the squares: sets the error and its interval.
 void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *error);

@@ -152,26 +152,71 @@ int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
     return audit->count;
 }
 
+// Of pairs that the same pixel has got, from picks[begin] on, all products of two replicas: many more than their own. The
+// mean of these, and its variance; sets *end to the first pick of another pixel.
+static double pooled_square(const Audit *audit, int begin, int *end, double *variance)
+{
+    const AuditPick *first = &audit->picks[begin];
+    Rgb sum = rgb_grey(0.0), squares = rgb_grey(0.0);
+    double count = 0.0;
+    int i = begin;
+    for (; i < audit->count && audit->picks[i].pixel == first->pixel; i++) {
+        for (int k = 0; k < 2; k++) {
+            Rgb apart = audit->picks[i].apart[k];
+            sum = rgb_add(sum, apart);
+            squares = rgb_add(squares, rgb_mul(apart, apart));
+            count++;
+        }
+    }
+    *end = i;
+    Rgb products = rgb_add_scaled(rgb_mul(sum, sum), -1.0, squares);
+    double square = (products.red + products.green + products.blue) / (3.0 * count * (count - 1.0));
+    // That of the mean of the replicas, whose square is the pooled one and this.
+    double own = fmax((squares.red + squares.green + squares.blue) / (3.0 * count) - square, 0.0) / count;
+    *variance = 4.0 * fmax(square, 0.0) * own + 2.0 * own * own;
+    return square;
+}
+
+// 95 % of a normal distribution is within 1.96; terms have longer tails, and so few tell less of their own spread.
+static const double NORMAL = 2.4;
+
+void error_set_interval(SamplingError *error, double relative)
+{
+    double most = relative > 1.0 ? exp(0.5 * NORMAL) * sqrt(relative) : exp(0.5 * NORMAL * relative);
+    error->low = error->rmse * exp(-0.5 * NORMAL * relative);
+    error->high = error->rmse * most;
+}
+
+double error_relative(const SamplingError *error)
+{
+    double factor = error->rmse > 0.0 ? error->high / error->rmse : 1.0, one = exp(0.5 * NORMAL);
+    return factor > one ? factor * factor / (one * one) : log(factor) / (0.5 * NORMAL);
+}
+
 void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *error)
 {
-    // 95 % of a normal distribution is within 1.96; terms have longer tails, and so few tell less of their own spread.
-    const double normal = 2.4;
-    double sum = 0.0, squares = 0.0, count = audit->count;
-    for (int i = 0; i < audit->count; i++) {
-        double term = audit->picks[i].square * audit->picks[i].weight;
-        sum += term;
-        squares += term * term;
+    double sum = 0.0, squares = 0.0, within = 0.0, count = audit->count;
+    for (int i = 0, end; i < audit->count; i = end) {
+        const AuditPick *first = &audit->picks[i];
+        double variance = 0.0, term = first->square;
+        end = i + 1;
+        if (first->is_pair) {
+            term = pooled_square(audit, i, &end, &variance);
+        }
+        double times = end - i;
+        term *= first->weight;
+        sum += times * term;
+        squares += times * term * term;
+        within += times * times * first->weight * first->weight * variance;
     }
     double mean = sum / count;
     if (!(mean > 0.0)) {
         return;
     }
-    double spread = (squares / count - mean * mean) / (count - 1.0) / (mean * mean);
-    // The error of this picture varies about its expectation, and judged blocks about all, too.
-    double factor = exp(normal * 0.5 * sqrt(spread + audit->own_variance));
+    double spread = ((squares / count - mean * mean) / (count - 1.0) + within / (count * count)) / (mean * mean);
     double rmse = sqrt(mean * audit->whole * audit->size / estimate->judged);
     error->pixel_scale = error->rmse > 0.0 ? rmse / error->rmse : 1.0;
     error->rmse = rmse;
-    error->low = error->rmse / factor;
-    error->high = error->rmse * factor;
+    // The error of this picture varies about its expectation, and judged blocks about all, too.
+    error_set_interval(error, sqrt(fmax(spread, 0.0) + audit->own_variance));
 }

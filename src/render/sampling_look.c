@@ -20,7 +20,7 @@
 enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96 };
 
 // What the squares of areas are known to.
-static const double AREA_ERROR = 0.03;
+static const double AREA_ERROR = 0.0125;
 
 // So that looks draw other numbers than samples and corners.
 static const uint32_t LOOK_SEED = UINT32_C(0x7f4a7c15);
@@ -312,23 +312,19 @@ void look_judge(Looks *looks, const Round *round)
     count_unmet(looks, round->small);
 }
 
-// sqrt(a + b) and the ends of its interval, of two independent parts. An interval of 95 % is taken to be that of a
-// logarithm; 2.4 as in sampling_audit.c.
+// sqrt(a + b) and the ends of its interval, of two independent parts.
 void look_tell(const Looks *looks, double pixels, SamplingError *error)
 {
-    const double normal = 2.4;
     double own = error->rmse * error->rmse, more = looks->square / pixels, all = own + more;
-    double spread = error->rmse > 0.0 ? 2.0 * own * log(error->high / error->rmse) : 0.0;
-    double by_looks = hypot(normal * sqrt(looks->variance), AREA_ERROR * looks->square) / pixels;
+    double by_own = own * error_relative(error);
+    double by_looks = hypot(sqrt(looks->variance), AREA_ERROR * looks->square) / pixels;
     for (int kind = 0; kind < SMALL_KINDS; kind++) {
         error->unmet[kind] = looks->unmet[kind];
     }
     error->unmet_is_all = looks->sees_all;
     if (all > 0.0) {
-        double factor = exp(0.5 * hypot(spread, by_looks) / all);
         error->rmse = sqrt(all);
-        error->low = error->rmse / factor;
-        error->high = error->rmse * factor;
+        error_set_interval(error, hypot(by_own, by_looks) / all);
     }
 }
 

@@ -412,7 +412,7 @@ static bool is_like_replica(const Round *round, size_t pixel)
 
 // Of a pixel that is like its replica, half the square of how far that is from it: its variance. Of others the product
 // of how far two replicas are, which leaves out their own errors.
-static double replica_square(const Round *round, const AuditPick *pick, const SampleSums sets[2])
+static void replica_judge(const Round *round, AuditPick *pick, const SampleSums sets[2])
 {
     const float *value = &round->film->rgb[3 * pick->pixel];
     uint32_t count = round->film->records[pick->pixel].count;
@@ -426,7 +426,11 @@ static double replica_square(const Round *round, const AuditPick *pick, const Sa
     const Rgb *slope = slope_at(round, value, &place);
     Rgb product = rgb_mul(apart[0], apart[is_single ? 0 : 1]);
     product = slope ? rgb_mul(product, rgb_mul(*slope, *slope)) : product;
-    return (is_single ? 0.5 : 1.0) / 3.0 * (product.red + product.green + product.blue);
+    pick->square = (is_single ? 0.5 : 1.0) / 3.0 * (product.red + product.green + product.blue);
+    pick->is_pair = !is_single;
+    for (int i = 0; i < 2; i++) {
+        pick->apart[i] = slope ? rgb_mul(apart[i], *slope) : apart[i];
+    }
 }
 
 // The replicas go through batches together.
@@ -457,7 +461,7 @@ void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScr
     batch_flush(round, &batch, counted);
     for (int i = 0; i < count; i++) {
         AuditPick *pick = &audit->picks[order[i]];
-        pick->square = replica_square(round, pick, sets[i]);
+        replica_judge(round, pick, sets[i]);
     }
 }
 

@@ -182,8 +182,8 @@ static const SamplingScene scene_glint = {
 
 static const SamplingScene scene_floor_glint = {
     "glint of a floor", SCENE_HEAD SCENE_CAMERA
-    "light_source { <-2,5,3> rgb 200 } background { rgb 0.2 } plane { y, -1 pigment { checker rgb 0.001 rgb 0.002 }\n"
-    "finish { ambient 0.1 specular 1 roughness 2e-5 diffuse 0.001 } }\n"};
+    "light_source { <-2,5,9> rgb 200 } background { rgb 0.2 } plane { y, -1 pigment { checker rgb 0.001 rgb 0.002 }\n"
+    "finish { ambient 0.1 specular 1 roughness 5e-6 diffuse 0.001 } }\n"};
 
 static const SamplingScene scene_blurred_dust = {
     "dust before a lens", SCENE_HEAD
