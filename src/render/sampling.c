@@ -419,9 +419,9 @@ typedef struct Range {
     uint32_t samples; // the fewest of a pixel
 } Range;
 
-static void range_add(Range *range, const Film *film, Tile part)
+static void range_add(Range *range, const Film *film, Tile part, int step)
 {
-    for (int y = part.top; y < part.bottom; y++) {
+    for (int y = part.top; y < part.bottom; y += step) {
         for (int x = part.left; x < part.right; x++) {
             size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
             const float *value = &film->rgb[3 * pixel];
@@ -445,7 +445,8 @@ static void find_missed(Sampling *s)
         for (int left = 0, right; left < film->width; left = right) {
             right = round_block_end(left, film->left, film->width);
             if (round_judges(&s->round, left, top)) {
-                range_add(&range, film, (Tile){left, top, right, bottom});
+                // Where some pixels stand for all, one row of a block does for it.
+                range_add(&range, film, (Tile){left, top, right, bottom}, s->round.judges_some ? JUDGED_BLOCK : 1);
             }
         }
     }

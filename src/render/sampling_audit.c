@@ -37,7 +37,7 @@ typedef struct Draw {
 
 // What a pixel is taken to be off by, squared: as its halves say, or what small shapes that are in it bring to so few
 // samples.
-static double pixel_square(const Draw *draw, size_t pixel)
+static inline double pixel_square(const Draw *draw, size_t pixel)
 {
     const PixelRecord *record = &draw->round->film->records[pixel];
     double by_halves = (double)record->outer * draw->gain[estimate_level(record->count)];
@@ -72,24 +72,27 @@ static void total_block(Draw *draw, Tile block)
 static void draw_block(Draw *draw, Tile block)
 {
     const Film *film = draw->round->film;
+    const Small *small = draw->round->small;
     Audit *audit = draw->audit;
-    double sum = 0.0;
+    const double floor = draw->floor;
+    double sum = 0.0, reached = draw->reached;
     for (int y = block.top; y < block.bottom; y++) {
         for (int x = block.left; x < block.right; x++) {
             size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            if (small_open(draw->round->small, pixel) > 0) {
+            if (small_open(small, pixel) > 0) {
                 continue;
             }
-            double own = pixel_square(draw, pixel), share = own + draw->floor;
+            double own = pixel_square(draw, pixel), share = own + floor;
             sum += own;
-            draw->reached += share;
-            for (uint32_t replica = 1; draw->next < draw->reached && audit->count < draw->most; replica++) {
+            reached += share;
+            for (uint32_t replica = 1; draw->next < reached && audit->count < draw->most; replica++) {
                 audit->picks[audit->count++] =
                     (AuditPick){.pixel = pixel, .replica = replica, .weight = 1.0 / share};
                 draw->next += draw->step;
             }
         }
     }
+    draw->reached = reached;
     draw->blocks++;
     draw->sum += sum;
     draw->squares += sum * sum;

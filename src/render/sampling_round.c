@@ -188,7 +188,9 @@ static uint32_t pixel_seed(const Round *round, int x, int y)
     return sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y));
 }
 
-static void pixel_add(const Round *round, Batch *batch, const ChosenPixel *pixel, SampleSums *parts, RenderStatistics *counted)
+// Inline: as a call it costs 1.4 % of a run of 4 samples.
+RT_ALWAYS_INLINE void pixel_add(const Round *round, Batch *batch, const ChosenPixel *pixel, SampleSums *parts,
+                                RenderStatistics *counted)
 {
     bool is_new = pixel->starts || pixel->replica > 0;
     uint32_t before = is_new ? 0 : round->film->records[pixel->index].count, count = pixel->count;

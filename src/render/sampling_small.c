@@ -24,6 +24,7 @@ enum { STRIPS = 8, FILL_ROOT = 4, FILTER_SUM = 512 };
 typedef struct View {
     const Small *small;
     Vec3 across, down, ahead; // what goes from a point, seen from the camera, to multiples of right, -up and direction
+    double least_slope;       // no length makes less of the picture's width, at depth 1
 } View;
 
 // False where the camera's vectors span nothing.
@@ -35,7 +36,10 @@ static bool view_init(View *view, const Small *small)
     Vec3 of_ahead = vec3_cross(camera->right, down);
     double size = vec3_dot(camera->right, of_right);
     *view = (View){small, vec3_scale(1.0 / size, of_right), vec3_scale(1.0 / size, of_down),
-                   vec3_scale(1.0 / size, of_ahead)};
+                   vec3_scale(1.0 / size, of_ahead), 0.0};
+    view->least_slope = camera->type == CAMERA_ORTHOGRAPHIC
+                            ? vec3_length(view->across)
+                            : vec3_length(vec3_cross(view->across, view->ahead)) / vec3_length(view->ahead);
     return camera->type <= CAMERA_ORTHOGRAPHIC && vec3_is_finite(view->across) && vec3_is_finite(view->down) &&
            vec3_is_finite(view->ahead);
 }
@@ -80,8 +84,10 @@ static bool footprint_make(const View *view, Footprint *at)
     bool is_flat = camera->type == CAMERA_ORTHOGRAPHIC;
     Vec3 offset = vec3_sub(at->extent.centre, camera->location);
     double ahead = vec3_dot(view->ahead, offset), depth = is_flat ? 1.0 : ahead;
-    if (!(ahead > 0.0)) {
-        return false;
+    double size = shape_kind(at->extent.shape) == SMALL_IS_SPOT ? SPOT_WIDTH : SMALL_WIDTH, most = 0.5 * size * depth;
+    bool is_sphere = at->extent.is_ball && shape_kind(at->extent.shape) == SHAPE_SPHERE;
+    if (!(ahead > 0.0) || (is_sphere && at->extent.axes[0].x * view->least_slope * film->whole_width > most)) {
+        return false; // that most are not small costs little
     }
     double u = vec3_dot(view->across, offset) / depth, v = vec3_dot(view->down, offset) / depth;
     Vec3 to_x = is_flat ? view->across : vec3_add_scaled(view->across, -u, view->ahead);
@@ -103,7 +109,7 @@ static bool footprint_make(const View *view, Footprint *at)
     if (camera->lens_radius > 0.0) {
         footprint_widen(view, depth, at);
     }
-    double size = shape_kind(at->extent.shape) == SMALL_IS_SPOT ? SPOT_WIDTH : SMALL_WIDTH, most = 0.25 * size * size;
+    most = 0.25 * size * size;
     at->area = ellipse_area(at->xx, at->xy, at->yy);
     return at->wide_xx <= most && at->wide_yy <= most && at->area > 0.0;
 }
@@ -273,6 +279,7 @@ static bool lists_begin(Small *small)
 {
     size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
     small->words = (extent_count(small->prepared->geometry) + (size_t)small->spot_count + 63) / 64;
+    small->norm = filter_norm(small->filter);
     small->first = calloc(pixels + 1, sizeof *small->first);
     small->open = calloc(pixels, sizeof *small->open);
     small->law = calloc(pixels, sizeof *small->law);
@@ -344,7 +351,6 @@ Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, 
     small->prepared = prepared;
     small->film = film;
     small->filter = filter;
-    small->norm = filter_norm(filter);
     bool is_known = view_init(&view, small) && (uint64_t)film->width * (uint64_t)film->height < UINT32_MAX / SMALL_MOST;
     *has_memory = !is_known ||
                   (spots_find(small, spot_is_candidate, spot_is_narrow, &view) && lists_pass(&view, small));

@@ -188,6 +188,13 @@ bool spots_find(Small *small, bool (*is_candidate)(const void *view, const Exten
 {
     const Prepared *p = small->prepared;
     Shiny shiny;
+    bool any_shines = false;
+    for (size_t i = 0; i < p->finish_count; i++) {
+        any_shines = any_shines || p->finishes[i].shines;
+    }
+    if (!any_shines) {
+        return true;
+    }
     for (uint32_t i = 0, count = extent_count(p->geometry); i < count; i++) {
         Extent extent;
         if (!extent_get(p->geometry, i, &extent) || !extent.is_ball ||

@@ -210,7 +210,7 @@ static void test_others(void)
         int held = 0, all = 0;
         for (size_t j = 0; j < sizeof runs / sizeof runs[0]; j++) {
             rt_sampling halton = {
-                .sampler = "halton", .samples = is_long ? 65536 : 2048, .seed = 9, .filter = runs[j].filter, .no_estimate = 1};
+                .sampler = "halton", .samples = is_long ? 16384 : 2048, .seed = 9, .filter = runs[j].filter, .no_estimate = 1};
             Picture *reference = picture_make(scenes[i], WIDTH, HEIGHT, &halton, 2);
             int own = 0;
             for (int seed = 0; seed < seeds; seed++) {
