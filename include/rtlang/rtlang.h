@@ -248,8 +248,8 @@ typedef struct rt_error {
      * pixels. What they would bring is in rmse and its interval. */
     double unmet_shapes, unmet_shape_area, unmet_highlights, unmet_highlight_area;
     int unmet_are_about; /* there are about so many: not all were looked at */
-    /* A detail of any other kind that may have been missed: how much of a pixel it is at the most, with 95 % confidence,
-     * and the rmse that it would bring were it as far from what is around it as the picture's values are from each
+    /* A detail of any other kind that may have been missed: how much of a pixel it is at the most, with 95 %
+     * confidence, and the rmse that it would bring were it as far from what is around it as the picture's values are from each
      * other. */
     double missed_area, missed_error;
 } rt_error;

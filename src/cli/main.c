@@ -264,8 +264,8 @@ static double put_unmet(char text[64], const char *word, double count, double ar
     snprintf(size, sizeof size, "%.2g", area);
     text[0] = 0;
     if (count > 0.0) {
-        snprintf(text, 64, "%s%.0f %s%s of %s pixel%s%s", is_about ? "about " : "", count, word, count == 1.0 ? "" : "s",
-                 size, strcmp(size, "1") == 0 ? "" : "s", count == 1.0 ? "" : " in all");
+        snprintf(text, 64, "%s%.0f %s%s of %s pixel%s%s", is_about ? "about " : "", count, word,
+                 count == 1.0 ? "" : "s", size, strcmp(size, "1") == 0 ? "" : "s", count == 1.0 ? "" : " in all");
     }
     return count;
 }

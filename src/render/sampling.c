@@ -185,8 +185,8 @@ static bool run_looks(Sampling *s)
     return is_whole;
 }
 
-// Judges the picture by replicas of some pixels, and by what small shapes would bring that no sample has met; false when
-// it was cancelled.
+// Judges the picture by replicas of some pixels, and by what small shapes would bring that no sample has met; false
+// when it was cancelled.
 static bool run_audit(Sampling *s)
 {
     if (!s->error->is_known) {

@@ -167,8 +167,8 @@ typedef struct Audit {
 // Draws pixels from what is known of all; returns how many, 0 when no pixel is taken to be off by anything.
 int audit_draw(Audit *audit, const Estimate *estimate, const Round *round);
 
-// The interval of 95 % of the root of a mean square that is known to so much of itself, as a standard deviation: a factor,
-// since errors are never below 0; of more than the whole, the upper end grows as the root does.
+// The interval of 95 % of the root of a mean square that is known to so much of itself, as a standard deviation: a
+// factor, since errors are never below 0; of more than the whole, the upper end grows as the root does.
 void error_set_interval(SamplingError *error, double relative);
 
 // That of an error which has an interval.
@@ -189,7 +189,7 @@ enum { LOOK_MOST = 1024 };
 typedef struct LookPick {
     size_t pixel;
     double weight; // the inverse of the pixel's share of the draw
-    Rgb sums[2];   // how far the shapes' light is from the pixel's, times their shares, by the first and the second rays
+    Rgb sums[2];   // how far the shapes' light is from the pixel's, times their shares: by first rays, and by second
 } LookPick;
 
 typedef struct Looks {

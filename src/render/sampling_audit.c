@@ -155,8 +155,8 @@ int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
     return audit->count;
 }
 
-// Of pairs that the same pixel has got, from picks[begin] on, all products of two replicas: many more than their own. The
-// mean of these, and its variance; sets *end to the first pick of another pixel.
+// Of pairs that the same pixel has got, from picks[begin] on, all products of two replicas: many more than their own.
+// The mean of these, and its variance; sets *end to the first pick of another pixel.
 static double pooled_square(const Audit *audit, int begin, int *end, double *variance)
 {
     const AuditPick *first = &audit->picks[begin];

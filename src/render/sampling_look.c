@@ -1,9 +1,10 @@
 // What small shapes would bring to the picture that no sample of a pixel has met.
 //
 // A pixel is drawn, in proportion to what such shapes may be to it, and two rays are aimed at random places of each of
-// them. With a the shape's share of the pixel, L its light and v the pixel's value, which holds nothing of it, the pixel
-// is off by the sum of a (L - v): known, and not by chance any more. Two rays, independent of each other, give the square
-// of it without a bias. What hides a shape, or looks like it, is in L. docs/sampling.md, "What no sample met".
+// them. With a the shape's share of the pixel, L its light and v the pixel's value, which holds nothing of it, the
+// pixel is off by the sum of a (L - v): known, and not by chance any more. Two rays, independent of each other, give
+// the square of it without a bias. What hides a shape, or looks like it, is in L. docs/sampling.md, "What no sample
+// met".
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -233,8 +234,8 @@ void look_trace(const Round *round, Looks *looks, Tile tile, RenderScratch *scra
         LookPick *pick = &looks->picks[i];
         int x = (int)(pick->pixel % (size_t)film->width), y = (int)(pick->pixel / (size_t)film->width);
         if (x >= tile.left && x < tile.right && y >= tile.top && y < tile.bottom) {
-            uint32_t seed = sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x),
-                                               (uint32_t)(film->top + y));
+            uint32_t seed =
+                sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y));
             seed = sample_hash_add(sample_hash_add(seed, looks->pass), (uint32_t)i);
             pick_add(round, &batch, pick, seed, counted);
         }

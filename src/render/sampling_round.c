@@ -405,8 +405,8 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
     }
 }
 
-// Whether a pixel is as far off as another set of samples would be. One that is made of corners is not, nor one of which
-// it is known that it has met all small shapes that are in it, since another set may not have.
+// Whether a pixel is as far off as another set of samples would be. One that is made of corners is not, nor one of
+// which it is known that it has met all small shapes that are in it, since another set may not have.
 static bool is_like_replica(const Round *round, size_t pixel)
 {
     return round->film->records[pixel].count > 1 && !small_has(round->small, pixel);

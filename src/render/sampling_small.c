@@ -1,7 +1,7 @@
 // Where shapes of few pixels lie in the picture: see sampling_small.h.
 //
-// Over so few pixels a camera's map is as good as affine, so a shape's ellipsoid becomes an ellipse by the map's slope at
-// its middle. Shapes are looked at twice: to count those of each pixel, and to list them.
+// Over so few pixels a camera's map is as good as affine, so a shape's ellipsoid becomes an ellipse by the map's slope
+// at its middle. Shapes are looked at twice: to count those of each pixel, and to list them.
 //
 // SPDX-License-Identifier: MIT
 #include "render/sampling_small.h"
@@ -118,7 +118,8 @@ static void small_extent(const Small *small, ShapeId shape, Extent *extent)
 {
     if (shape_kind(shape) == SMALL_IS_SPOT) {
         const SmallSpot *spot = &small->spots[shape_index(shape)];
-        *extent = (Extent){.shape = shape, .is_ball = true, .centre = spot->centre, .axes = {spot->axes[0], spot->axes[1]}};
+        *extent =
+            (Extent){.shape = shape, .is_ball = true, .centre = spot->centre, .axes = {spot->axes[0], spot->axes[1]}};
     } else {
         extent_of(small->prepared->geometry, shape, extent);
     }
@@ -141,13 +142,15 @@ bool small_is_crossed(const Small *small, ShapeId shape, Ray ray)
 ExtentSight small_sight(const Small *small, ShapeId shape, Ray ray, MaterialIndex *before)
 {
     bool is_spot = shape_kind(shape) == SMALL_IS_SPOT;
-    return extent_sight(small->prepared->geometry, is_spot ? small->spots[shape_index(shape)].owner : shape, ray, before);
+    return extent_sight(small->prepared->geometry, is_spot ? small->spots[shape_index(shape)].owner : shape, ray,
+                        before);
 }
 
 uint32_t small_place(const Small *small, ShapeId shape)
 {
     const Geometry *geometry = small->prepared->geometry;
-    return shape_kind(shape) == SMALL_IS_SPOT ? extent_count(geometry) + shape_index(shape) : extent_place(geometry, shape);
+    return shape_kind(shape) == SMALL_IS_SPOT ? extent_count(geometry) + shape_index(shape)
+                                              : extent_place(geometry, shape);
 }
 
 Footprint small_footprint(const Small *small, ShapeId shape)
@@ -183,8 +186,8 @@ static double fill_of(const View *view, const Footprint *at)
     return (crossed + 0.5) / (FILL_ROOT * FILL_ROOT + 0.5);
 }
 
-// The share of a pixel that the ellipse has: its chords along rows, between the pixel's sides, as the filter weights them.
-// Rows lie at even steps of the angle along the ellipse, so that a whole one is right.
+// The share of a pixel that the ellipse has: its chords along rows, between the pixel's sides, as the filter weights
+// them. Rows lie at even steps of the angle along the ellipse, so that a whole one is right.
 static double share_of(const View *view, const Footprint *at, int x, int y)
 {
     double radius = filter_radius(view->small->filter), half = sqrt(at->wide_yy), sum = 0.0;
@@ -193,10 +196,12 @@ static double share_of(const View *view, const Footprint *at, int x, int y)
     if (!(bottom > top)) {
         return 0.0;
     }
-    double first = asin(fmax((top - at->y) / half, -1.0)), step = (asin(fmin((bottom - at->y) / half, 1.0)) - first) / STRIPS;
+    double first = asin(fmax((top - at->y) / half, -1.0)),
+           step = (asin(fmin((bottom - at->y) / half, 1.0)) - first) / STRIPS;
     for (int i = 0; i < STRIPS; i++) {
         double angle = first + (i + 0.5) * step, down = half * sin(angle), cosine = cos(angle);
-        double row = at->y + down, middle = at->x + slope * down, chord = across * cosine, height = half * cosine * step;
+        double row = at->y + down, middle = at->x + slope * down, chord = across * cosine,
+               height = half * cosine * step;
         double left = fmax(x - radius, middle - chord), right = fmin(x + radius, middle + chord);
         if (right > left) {
             sum += height * (right - left) * small_weight(view->small, 0.5 * (left + right) - x, row - y);
@@ -268,7 +273,8 @@ static bool spot_is_candidate(const void *client, const Extent *extent, double t
 
 static bool spot_is_narrow(const void *client, const SmallSpot *spot)
 {
-    Footprint at = {.extent = {.shape = shape_id(SMALL_IS_SPOT, 0), .centre = spot->centre,
+    Footprint at = {.extent = {.shape = shape_id(SMALL_IS_SPOT, 0),
+                               .centre = spot->centre,
                                .axes = {spot->axes[0], spot->axes[1]}}};
     return footprint_make(client, &at);
 }
@@ -352,8 +358,8 @@ Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, 
     small->film = film;
     small->filter = filter;
     bool is_known = view_init(&view, small) && (uint64_t)film->width * (uint64_t)film->height < UINT32_MAX / SMALL_MOST;
-    *has_memory = !is_known ||
-                  (spots_find(small, spot_is_candidate, spot_is_narrow, &view) && lists_pass(&view, small));
+    *has_memory =
+        !is_known || (spots_find(small, spot_is_candidate, spot_is_narrow, &view) && lists_pass(&view, small));
     if (*has_memory && small->first) {
         *has_memory = lists_open(small) && lists_pass(&view, small);
         if (*has_memory && small->first[(size_t)film->width * (size_t)film->height] > 0) {

@@ -2,8 +2,8 @@
 //
 // A highlight is brightest where the normal halves the angle between the ways to the eye and to the light: on a sphere
 // that place is found by bisection (Alhazen's problem), on a plane by the eye's mirror image. Over a length s on the
-// surface the mirrored way turns from that to the light by s (2 / R + (1 / E + 1 / L) cos i), with R the radius, E and L
-// the distances of eye and light and i the angle of incidence, and across that by s (2 / R cos i + 1 / E + 1 / L); a
+// surface the mirrored way turns from that to the light by s (2 / R + (1 / E + 1 / L) cos i), with R the radius, E and
+// L the distances of eye and light and i the angle of incidence, and across that by s (2 / R cos i + 1 / E + 1 / L); a
 // highlight falls as cos^p of it, by e^-4 at sqrt(8 / p). Spots are listed and looked at as small shapes are. docs/
 // sampling.md, "What no sample met".
 //
@@ -74,8 +74,8 @@ static bool ball_normal(const Ends *ends, const Shiny *shiny, Vec3 *normal)
         double unused, middle = 0.5 * (low + high);
         *normal = vec3_add_scaled(vec3_scale(cos(middle * angle), to_eye), sin(middle * angle) / sine, across);
         Vec3 point = vec3_add_scaled(shiny->centre, shiny->radius, *normal);
-        bool is_before = vec3_dot(way_to_light(ends, point, &unused), *normal) <
-                         vec3_dot(way_to_eye(ends, point, &unused), *normal);
+        bool is_before =
+            vec3_dot(way_to_light(ends, point, &unused), *normal) < vec3_dot(way_to_eye(ends, point, &unused), *normal);
         low = is_before ? middle : low;
         high = is_before ? high : middle;
     }
@@ -127,9 +127,9 @@ static bool spot_make(const Ends *ends, const Shiny *shiny, Vec3 point, Vec3 nor
     double cosine = vec3_dot(to_eye, normal), near = 1.0 / eye + 1.0 / light;
     Vec3 along = vec3_add_scaled(to_eye, -cosine, normal);
     double length = vec3_length(along);
-    along = length > 0x1p-20 ? vec3_scale(1.0 / length, along)
-                             : vec3_normalize(vec3_cross(normal, fabs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0)
-                                                                                       : vec3(0.0, 1.0, 0.0)));
+    along = length > 0x1p-20
+                ? vec3_scale(1.0 / length, along)
+                : vec3_normalize(vec3_cross(normal, fabs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     double in_plane = turned / (2.0 / shiny->radius + near * cosine);
     double aside = turned / (2.0 * cosine / shiny->radius + near);
     spot->owner = shiny->shape;

@@ -14,8 +14,8 @@ uint32_t extent_count(const Geometry *g)
     return g->spheres.block_count * SPHERE_BLOCK + g->shapes.solid_count;
 }
 
-// The axes of an ellipsoid around a solid's fixed shape, about *middle, in its own space: the least one there is, but for
-// the cone, which counts as a cylinder. A flat one has two.
+// The axes of an ellipsoid around a solid's fixed shape, about *middle, in its own space: the least one there is, but
+// for the cone, which counts as a cylinder. A flat one has two.
 static void fixed_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
 {
     const double root2 = 0x1.6a09e667f3bcdp+0, root3 = 0x1.bb67ae8584caap+0;
@@ -123,8 +123,7 @@ bool extent_is_dark(const Geometry *g, ShapeId shape, const Vec3 *normal, Ray ra
 
 static bool is_same(ShapeId a, ShapeId b)
 {
-    return shape_kind(a) == shape_kind(b) &&
-           (shape_kind(a) == SHAPE_PART ? part_index(a) == part_index(b) : a == b);
+    return shape_kind(a) == shape_kind(b) && (shape_kind(a) == SHAPE_PART ? part_index(a) == part_index(b) : a == b);
 }
 
 ExtentSight extent_sight(const Geometry *g, ShapeId shape, Ray ray, MaterialIndex *before)

@@ -1,5 +1,6 @@
-// What is smaller than a pixel: the error told holds it, whether samples have met it or not, and runs to a goal look for
-// it. With `long` as argument: with many seeds. The places of single balls are integrated here, by their own geometry.
+// What is smaller than a pixel: the error told holds it, whether samples have met it or not, and runs to a goal look
+// for it. With `long` as argument: with many seeds. The places of single balls are integrated here, by their own
+// geometry.
 //
 // SPDX-License-Identifier: MIT
 #include "sampling/scenes.h"
@@ -145,7 +146,8 @@ static void test_spark(void)
                    "one bright ball, %.0f samples%s: the interval holds the error in %d of %d runs", samples,
                    is_adaptive ? ", adaptive" : "", count.held, seeds);
             tap_ok(count.told == seeds && count.known == seeds,
-                   "and it is told whether a sample has met it in %d, with its area in %d of them", count.told, count.known);
+                   "and it is told whether a sample has met it in %d, with its area in %d of them", count.told,
+                   count.known);
         }
     }
     // Behind something opaque it is not to be seen; behind glass it is.
@@ -172,7 +174,8 @@ static const SamplingScene scene_crumbs = {
     "#macro P() <rand(S)*8-4, rand(S)*6-3, rand(S)*4-2> #end #macro C() pigment { rgb <rand(S),rand(S),rand(S)> }\n"
     "finish { ambient 0.5 diffuse 0.7 } #end\n"
     "#for (I, 1, 100) box { -0.03, 0.03 rotate <rand(S)*90,rand(S)*90,0> translate P() C() }\n"
-    "sphere { 0, 0.03 scale <0.4,1.5,1> translate P() C() } triangle { <-0.05,0,0>, <0.05,0,0>, <0,0.07,0> translate P() C() }\n"
+    "sphere { 0, 0.03 scale <0.4,1.5,1> translate P() C() }\n"
+    "triangle { <-0.05,0,0>, <0.05,0,0>, <0,0.07,0> translate P() C() }\n"
     "cone { 0, 0.05, <0,0.1,0>, 0.02 translate P() C() } disc { 0, <1,1,-2>, 0.05, 0.02 translate P() C() } #end\n"};
 
 static const SamplingScene scene_glint = {
@@ -209,8 +212,11 @@ static void test_others(void)
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         int held = 0, all = 0;
         for (size_t j = 0; j < sizeof runs / sizeof runs[0]; j++) {
-            rt_sampling halton = {
-                .sampler = "halton", .samples = is_long ? 16384 : 2048, .seed = 9, .filter = runs[j].filter, .no_estimate = 1};
+            rt_sampling halton = {.sampler = "halton",
+                                  .samples = is_long ? 16384 : 2048,
+                                  .seed = 9,
+                                  .filter = runs[j].filter,
+                                  .no_estimate = 1};
             Picture *reference = picture_make(scenes[i], WIDTH, HEIGHT, &halton, 2);
             int own = 0;
             for (int seed = 0; seed < seeds; seed++) {
@@ -225,7 +231,8 @@ static void test_others(void)
             held += own;
             picture_free(reference);
         }
-        tap_ok(held >= (is_long ? 0.90 : 0.80) * all, "%s: the interval holds the error in %d of %d runs", scenes[i]->name, held, all);
+        tap_ok(held >= (is_long ? 0.90 : 0.80) * all, "%s: the interval holds the error in %d of %d runs",
+               scenes[i]->name, held, all);
     }
 }
 
