@@ -210,7 +210,7 @@ void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *er
         term *= first->weight;
         sum += times * term;
         squares += times * term * term;
-        within += times * times * first->weight * first->weight * variance;
+        within += times * (times - 1.0) * first->weight * first->weight * variance; // beyond what scatters by picks
     }
     double mean = sum / count;
     if (!(mean > 0.0)) {

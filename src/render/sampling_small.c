@@ -346,6 +346,14 @@ void small_free(Small *small)
     }
 }
 
+uint64_t small_bytes(int width, int height, uint64_t shapes)
+{
+    enum { PIXELS_EACH = 8 }; // of a small shape, more than most have
+    uint64_t pixels = (uint64_t)width * (uint64_t)height, most = shapes * PIXELS_EACH;
+    uint64_t pixel = sizeof(uint32_t) + sizeof(uint8_t) + 2 * sizeof(float);
+    return pixels * pixel + (most < pixels * SMALL_MOST ? most : pixels * SMALL_MOST) * sizeof(SmallEntry);
+}
+
 Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, bool *has_memory)
 {
     View view;
