@@ -45,6 +45,7 @@ unit_programs = \
   tests/unit/test_stack \
   tests/unit/test_study \
   tests/unit/test_trace_pixel \
+  tests/unit/test_trace_parts \
   tests/unit/test_trace_shapes \
   tests/unit/test_scene \
   tests/unit/test_schema \
@@ -93,6 +94,8 @@ tests/unit/test_trace_certified.$(OBJEXT): src/study/optional.h
 trace_headers = %D%/unit/trace_scenes.h $(unit_headers)
 tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c $(trace_headers)
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
+tests_unit_test_trace_parts_SOURCES = %D%/unit/test_trace_parts.c $(trace_headers)
+tests_unit_test_trace_parts_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_shapes_SOURCES = %D%/unit/test_trace_shapes.c $(trace_headers)
 tests_unit_test_trace_shapes_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)

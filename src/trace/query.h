@@ -150,10 +150,8 @@ RT_ALWAYS_INLINE void query_planes_offer(const Geometry *g, unsigned features, c
     }
 }
 
-// Brings the nearest of the spheres, which has an order if it is one, up to date with all other shapes; of a beam that
-// the ray is in, or NULL.
-RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const ShapeBeam *beam,
-                                           const SphereRay *ray, RayStart start, double t_max, uint32_t order, Hit *hit)
+// Brings the nearest of the spheres, which has an order if it is one, up to date with all other shapes.
+RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features, const SphereRay *ray, RayStart start, double t_max, uint32_t order, Hit *hit)
 {
     if (!(features & (TRACE_PLANES | TRACE_PARTS))) {
         return;
@@ -165,8 +163,7 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
             query_planes_offer(g, features, ray, start, start_error, t_max, &first);
         }
         if (features & TRACE_PARTS) {
-            g->kernels->shapes_closest(&g->shapes, beam, &(Ray){ray->origin, ray->direction}, start, start_error,
-                                       &first);
+            g->kernels->shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, &first);
         }
         if (RT_LIKELY(!first.is_torn)) {
             break;
@@ -188,7 +185,7 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
     if (features & TRACE_ANY_SPHERES) {
         query_spheres_closest(g, features, &sphere_ray, start, &nearest);
     }
-    query_others_closest(g, features, NULL, &sphere_ray, start, t_max, nearest.order, &nearest.hit);
+    query_others_closest(g, features, &sphere_ray, start, t_max, nearest.order, &nearest.hit);
     *hit = nearest.hit;
     return nearest.hit.shape != SHAPE_NONE;
 }
@@ -199,26 +196,60 @@ RT_ALWAYS_INLINE bool query_has_one_plane(const Geometry *g, unsigned features)
     return !(features & TRACE_PARTS) && (features & TRACE_PLANES) && g->plane_count == 1;
 }
 
-// Brings the hit of a tile's ray up to date with all shapes but spheres; of parts those of the beam, or, for NULL, all.
-RT_ALWAYS_INLINE void query_tile_ray_others(const Geometry *g, unsigned features, const ShapeBeam *beam,
-                                            const SphereTile *tile, unsigned i, TileHits *hits)
+// Brings the hit of a tile's ray up to date with all shapes but spheres.
+RT_ALWAYS_INLINE void query_tile_ray_others(const Geometry *g, unsigned features, const SphereTile *tile, unsigned i,
+                                            TileHits *hits)
 {
     bool is_met = hits->met >> i & 1;
     uint32_t order = is_met ? g->spheres.info[shape_index(hits->shape[i])].order : 0;
     Hit hit = {hits->t[i], hits->shape[i], hits->inside >> i & 1};
     SphereRay ray = sphere_tile_ray(tile, i);
-    query_others_closest(g, features, beam, &ray, RAY_START_CAMERA, (double)INFINITY, order, &hit);
+    query_others_closest(g, features, &ray, RAY_START_CAMERA, (double)INFINITY, order, &hit);
     tile_hit_set(hits, i, &hit);
 }
 
-// Brings the hits of a tile up to date with parts, and planes if there are any. Not inline: a beam is large.
+// The first of the spheres and planes that a tile's ray meets.
+RT_ALWAYS_INLINE void query_tile_ray_planes(const Geometry *g, const SphereTile *tile, unsigned i, TileForemost *all)
+{
+    TileHits *hits = all->hits;
+    Hit hit = {hits->t[i], hits->shape[i], hits->inside >> i & 1};
+    SphereRay ray = sphere_tile_ray(tile, i);
+    Foremost first = foremost_start(&hit, all->order[i], (double)INFINITY);
+    query_planes_offer(g, TRACE_ALL_FEATURES, &ray, RAY_START_CAMERA, 0.0, (double)INFINITY, &first);
+    all->torn |= (uint64_t)first.is_torn << i;
+    all->from[i] = first.from;
+    all->limit[i] = first.limit;
+    all->beaten[i] = first.beaten;
+    all->order[i] = first.order;
+    tile_hit_set(hits, i, &first.hit);
+}
+
+// Brings the hits of a tile up to date with parts, and planes if there are any. Not inline, for its size.
 static __attribute__((noinline, unused)) void query_tile_parts(const Geometry *g, const SphereTile *tile,
                                                                TileHits *hits)
 {
-    ShapeBeam beam; // not cleared
-    bool has_beam = g->kernels->shapes_gather(&g->shapes, tile, &beam);
+    TileForemost first; // not cleared as a whole
+    TileHits known = *hits;
+    first.hits = hits;
+    first.torn = 0;
     for (unsigned i = 0; i < TILE_RAYS; i++) {
-        query_tile_ray_others(g, TRACE_ALL_FEATURES, has_beam ? &beam : NULL, tile, i, hits);
+        first.from[i] = first.limit[i] = hits->t[i];
+        first.beaten[i] = (double)INFINITY;
+        first.order[i] = 0;
+    }
+    for (uint64_t met = hits->met; met; met &= met - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(met);
+        first.order[i] = g->spheres.info[shape_index(hits->shape[i])].order;
+    }
+    for (unsigned i = 0; g->plane_count > 0 && i < TILE_RAYS; i++) {
+        query_tile_ray_planes(g, tile, i, &first);
+    }
+    g->kernels->shapes_closest_tile(&g->shapes, tile, &first);
+    for (uint64_t torn = first.torn; RT_UNLIKELY(torn); torn &= torn - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(torn);
+        Hit hit = {known.t[i], known.shape[i], known.inside >> i & 1};
+        tile_hit_set(hits, i, &hit);
+        query_tile_ray_others(g, TRACE_ALL_FEATURES, tile, i, hits);
     }
 }
 
@@ -234,7 +265,7 @@ RT_ALWAYS_INLINE void query_tile_others(const Geometry *g, unsigned features, co
         open = g->kernels->plane_closest(&g->planes[0].shape, shape_id(SHAPE_PLANE, 0), tile, hits);
     }
     for (; open; open &= open - 1) {
-        query_tile_ray_others(g, features, NULL, tile, (unsigned)__builtin_ctzll(open), hits);
+        query_tile_ray_others(g, features, tile, (unsigned)__builtin_ctzll(open), hits);
     }
 }
 
@@ -318,9 +349,9 @@ RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features
     return false;
 }
 
-// True when anything is met at 0 < t < t_max; `asks_spheres` when that may be a sphere.
-RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool asks_spheres, Ray ray, RayStart start,
-                                     double t_max)
+// True when anything is met at 0 < t < t_max; `asks_spheres` and `asks_parts` when that may be one.
+RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool asks_spheres, bool asks_parts, Ray ray,
+                                     RayStart start, double t_max)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
     if (!sphere_ray_is_usable(&sphere_ray)) {
@@ -333,13 +364,14 @@ RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool 
     if ((features & TRACE_ANY_SPHERES) && asks_spheres && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
         return true;
     }
-    return (features & TRACE_PARTS) && g->kernels->shapes_occluded(&g->shapes, &ray, start, start_error, t_max);
+    return (features & TRACE_PARTS) && asks_parts &&
+           g->kernels->shapes_occluded(&g->shapes, &ray, start, start_error, t_max);
 }
 
 // True when anything is met at 0 < t < t_max.
 RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max)
 {
-    return query_occluded(g, features, true, ray, start, t_max);
+    return query_occluded(g, features, true, true, ray, start, t_max);
 }
 
 // Of surfaces that a plane is before, those whose way does not end on it.
@@ -368,6 +400,32 @@ RT_ALWAYS_INLINE uint64_t query_not_on_parts(const TileSurfaces *from, uint64_t 
     return others;
 }
 
+// The surfaces, of those asked for, that spheres or parts are known to be before. Spheres of those that are `left`, and
+// parts of `left_parts`, are to be asked one by one. Not inline: rare, and large.
+static __attribute__((noinline, unused)) uint64_t query_parts_occluded(const Geometry *g, const TileSurfaces *from,
+                                                                       const SurfaceRays *rays, uint64_t asked,
+                                                                       uint64_t *left, uint64_t *left_parts)
+{
+    uint64_t occluded = 0;
+    double start_error[TILE_RAYS];
+    *left = 0;
+    if (g->spheres.count > 0) {
+        // A part may equal a sphere, which is passed over then: ray by ray.
+        uint64_t grouped = query_not_on_parts(from, asked);
+        occluded = g->kernels->occluded_surfaces(&g->spheres, from, rays, grouped, left);
+        *left |= asked & ~grouped;
+    }
+    for (uint64_t rest = asked & ~occluded; rest; rest &= rest - 1) {
+        int i = __builtin_ctzll(rest);
+        Vec3 direction = lane_get(rays->towards, (unsigned)i);
+        SphereRay ray = sphere_ray_make(tile_surface_point(from, i), direction);
+        RayStart start = {from->shape[i], false, HIDDEN_SHADOW};
+        start_error[i] = starts_on_part(start) ? -1.0 : query_start_error(g, TRACE_ALL_FEATURES, &ray, start);
+    }
+    uint64_t open = asked & ~occluded;
+    return occluded | g->kernels->shapes_occluded_surfaces(&g->shapes, from, rays, start_error, open, left_parts);
+}
+
 // The surfaces, of those asked for, that anything is before on their way to a point; `together` when that is the same
 // one. The same as geometry_occluded says of each.
 RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned features, const TileSurfaces *from,
@@ -380,21 +438,21 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
         occluded = query_plane_before_surfaces(&g->planes[0].shape, from, rays, occluded);
         left &= ~occluded;
     }
-    if (together && (!(features & TRACE_PARTS) || g->spheres.count > 0)) {
-        // A part may equal a sphere, which is passed over then: ray by ray.
-        uint64_t grouped = features & TRACE_PARTS ? query_not_on_parts(from, left) : left, rest = left & ~grouped;
-        occluded |= g->kernels->occluded_surfaces(&g->spheres, from, rays, grouped, &left);
-        left |= rest;
+    uint64_t left_parts = features & TRACE_PARTS ? asked : 0;
+    if (together && !(features & TRACE_PARTS)) {
+        occluded |= g->kernels->occluded_surfaces(&g->spheres, from, rays, left, &left);
+    } else if (together) {
+        occluded |= query_parts_occluded(g, from, rays, asked, &left, &left_parts);
     }
-    bool asks_others = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 1);
-    uint64_t open = asks_others ? asked & ~occluded : left;
-    for (; open; open &= open - 1) {
+    uint64_t left_planes = (features & TRACE_PLANES) && !has_one_plane && g->plane_count > 0 ? asked : 0;
+    for (uint64_t open = (left | left_parts | left_planes) & ~occluded; open; open &= open - 1) {
         int i = __builtin_ctzll(open);
         Vec3 direction = vec3(rays->towards[0][i], rays->towards[1][i], rays->towards[2][i]);
         Ray ray = {tile_surface_point(from, i), direction};
         RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), direction) < 0.0, HIDDEN_SHADOW};
-        bool asks_spheres = left >> i & 1;
-        occluded |= (uint64_t)query_occluded(g, features, asks_spheres, ray, start, rays->distance[i]) << i;
+        occluded |= (uint64_t)query_occluded(g, features, left >> i & 1, left_parts >> i & 1, ray, start,
+                                             rays->distance[i])
+                    << i;
     }
     return occluded;
 }
@@ -477,18 +535,62 @@ RT_ALWAYS_INLINE void query_surfaces_begin(TileSurfaces *surfaces, const TileHit
     }
 }
 
-// The material of surface i, which `is_done` but for that, or which a ray has met.
-RT_ALWAYS_INLINE MaterialIndex query_surface_end(const Geometry *g, unsigned features, bool is_done, Ray ray,
+// The material of surface i, which is `done` but for that, or which a ray has met.
+RT_ALWAYS_INLINE MaterialIndex query_surface_end(const Geometry *g, unsigned features, uint64_t done, Ray ray,
                                                  const TileHits *hits, TileSurfaces *surfaces, int i)
 {
-    if (RT_LIKELY(is_done)) {
-        return g->spheres.info[shape_index(surfaces->shape[i])].material;
+    ShapeId shape = surfaces->shape[i];
+    if (RT_LIKELY(done >> i & 1)) {
+        bool is_part = (features & TRACE_PARTS) && shape_kind(shape) == SHAPE_PART;
+        return is_part ? g->shapes.solids[part_index(shape)].material : g->spheres.info[shape_index(shape)].material;
     }
     unsigned from = surfaces->ray[i];
     Hit hit = {hits->t[from], hits->shape[from], hits->inside >> from & 1};
     Surface surface = geometry_surface(g, features, ray, hit);
     tile_surface_set(surfaces, i, surface.point, surface.normal);
     return surface.material;
+}
+
+// The rest of a tile's surfaces, and of those of other rays, of which the kernels have `done` some.
+RT_ALWAYS_INLINE void query_tile_surfaces_end(const Geometry *g, unsigned features, uint64_t done,
+                                              const SphereTile *tile, const TileHits *hits, TileSurfaces *surfaces,
+                                              MaterialIndex material[TILE_RAYS])
+{
+    for (int i = 0; i < surfaces->count; i++) {
+        Ray ray = {tile->origin, lane_get(tile->direction, surfaces->ray[i])};
+        material[i] = query_surface_end(g, features, done, ray, hits, surfaces, i);
+    }
+}
+
+RT_ALWAYS_INLINE void query_onward_surfaces_end(const Geometry *g, unsigned features, uint64_t done,
+                                                const OnwardRays *rays, const TileHits *hits, TileSurfaces *surfaces,
+                                                MaterialIndex material[TILE_RAYS])
+{
+    for (int i = 0; i < surfaces->count; i++) {
+        material[i] =
+            query_surface_end(g, features, done, onward_ray(rays, surfaces->ray[i]), hits, surfaces, i);
+    }
+}
+
+// The same with parts. Not inline, for the stack.
+static __attribute__((noinline, unused)) void query_tile_surfaces_parts(const Geometry *g, uint64_t done,
+                                                                        const SphereTile *tile, const TileHits *hits,
+                                                                        TileSurfaces *surfaces,
+                                                                        MaterialIndex material[TILE_RAYS])
+{
+    const double *const origin[3] = {&tile->origin.x, &tile->origin.y, &tile->origin.z};
+    done |= g->kernels->shapes_surfaces(&g->shapes, origin, 0, hits, ~done, surfaces);
+    query_tile_surfaces_end(g, TRACE_ALL_FEATURES, done, tile, hits, surfaces, material);
+}
+
+static __attribute__((noinline, unused)) void query_onward_surfaces_parts(const Geometry *g, uint64_t done,
+                                                                          const OnwardRays *rays, const TileHits *hits,
+                                                                          TileSurfaces *surfaces,
+                                                                          MaterialIndex material[TILE_RAYS])
+{
+    const double *const origin[3] = {rays->origin[0], rays->origin[1], rays->origin[2]};
+    done |= g->kernels->shapes_surfaces(&g->shapes, origin, 1, hits, ~done, surfaces);
+    query_onward_surfaces_end(g, TRACE_ALL_FEATURES, done, rays, hits, surfaces, material);
 }
 
 // The surfaces that a tile's rays of `wanted`, one at least, have met, and their materials.
@@ -498,9 +600,10 @@ RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned feature
 {
     query_surfaces_begin(surfaces, hits, wanted);
     uint64_t done = g->kernels->surfaces(&g->spheres, tile, hits, surfaces);
-    for (int i = 0; i < surfaces->count; i++) {
-        SphereRay ray = sphere_tile_ray(tile, surfaces->ray[i]);
-        material[i] = query_surface_end(g, features, done >> i & 1, (Ray){ray.origin, ray.direction}, hits, surfaces, i);
+    if (features & TRACE_PARTS) {
+        query_tile_surfaces_parts(g, done, tile, hits, surfaces, material);
+    } else {
+        query_tile_surfaces_end(g, features, done, tile, hits, surfaces, material);
     }
 }
 
@@ -511,9 +614,10 @@ RT_ALWAYS_INLINE void geometry_onward_surfaces(const Geometry *g, unsigned featu
 {
     query_surfaces_begin(surfaces, hits, hits->met);
     uint64_t done = g->kernels->surfaces_onward(&g->spheres, rays, hits, surfaces);
-    for (int i = 0; i < surfaces->count; i++) {
-        Ray ray = onward_ray(rays, surfaces->ray[i]);
-        material[i] = query_surface_end(g, features, done >> i & 1, ray, hits, surfaces, i);
+    if (features & TRACE_PARTS) {
+        query_onward_surfaces_parts(g, done, rays, hits, surfaces, material);
+    } else {
+        query_onward_surfaces_end(g, features, done, rays, hits, surfaces, material);
     }
 }
 

@@ -76,13 +76,6 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
 void shapes_fini(ShapeTable *table);
 size_t shapes_bytes(const ShapeTable *table);
 
-// Leaves of the tree that the rays of a tile may meet, in nodes of their own, near ones first.
-enum { SHAPE_BEAM_NODES = 32 };
-struct ShapeBeam {
-    uint32_t count, node_count;
-    BvhNode nodes[SHAPE_BEAM_NODES];
-};
-
 // Whether a ray starts on another surface that a solid's own may coincide with but for rounding: round ones with round
 // ones, others with others. Such a ray has passed what lies within rounding of its start.
 static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)

@@ -6,7 +6,6 @@
 #define TRACE_SHAPES_WALK_H
 
 #include "trace/bvh_walk.h"
-#include "trace/cone_test.h"
 #include "trace/shapes.h"
 
 // The ray's line in the coordinates of the tree, as the boxes of items want it.
@@ -136,6 +135,15 @@ static void settle_span(ShapeQuery *q, Foremost *first)
         first->limit = span.to;
         q->bounded = NULL;
     }
+}
+
+// Refines a rough root of a ball.
+static double ball_refine(const Solid *solid, const Ray *world, double t)
+{
+    const Ball unit = UNIT_BALL;
+    Ray object = solid_ray(solid, world);
+    SphereRay ray = sphere_ray_make(object.origin, object.direction);
+    return sphere_refine(&ray, &unit, t);
 }
 
 // A root of a ball, which it may be that the ray has passed: then the other root.
@@ -290,6 +298,19 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
     }
 }
 
+// Leaves of the tree that the rays of a tile may meet, in nodes of their own, near ones first.
+enum { SHAPE_BEAM_NODES = 32 };
+typedef struct ShapeBeam {
+    uint32_t count, node_count;
+    BvhNode nodes[SHAPE_BEAM_NODES];
+} ShapeBeam;
+
+static bool is_lone_ball(const ShapeTable *table, ShapeItem item)
+{
+    return item < table->solid_count && table->solids[item].kind == PART_BALL;
+}
+
+// All items, or, of those of the tree, only a beam's, if there is one.
 // A leaf is looked into up to the limit, where rounding cannot tell whether what it holds is the first.
 static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
 {
@@ -322,73 +343,6 @@ static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
     }
 }
 
-// ---- what the rays of a tile may meet
-
-static bool beam_add(ShapeBeam *beam, const BvhNode *from, unsigned child)
-{
-    unsigned at = beam->count % BVH_WIDTH;
-    if (at == 0) {
-        if (beam->node_count == SHAPE_BEAM_NODES) {
-            return false;
-        }
-        bvh_node_clear(&beam->nodes[beam->node_count++]);
-    }
-    BvhNode *node = &beam->nodes[beam->node_count - 1];
-    for (int axis = 0; axis < 3; axis++) {
-        node->box[axis][0][at] = from->box[axis][0][child];
-        node->box[axis][1][at] = from->box[axis][1][child];
-    }
-    node->child[at] = from->child[child];
-    node->present |= 1u << at;
-    beam->count++;
-    return true;
-}
-
-// The leaves of one walk, those of near nodes first.
-static bool beam_gather(ShapeBeam *beam, BvhWalk *walk)
-{
-    while (walk->waiting > 0) {
-        const BvhNode *node = &walk->nodes[(BvhChild)walk->stack[--walk->waiting]];
-        _Alignas(64) float enters[BVH_WIDTH];
-        if (walk->waiting > BVH_STACK - BVH_WIDTH) {
-            return false;
-        }
-        for (unsigned met = bvh_walk_boxes(walk, node, INFINITY, enters); met; met &= met - 1) {
-            unsigned i = (unsigned)__builtin_ctz(met);
-            if (!(node->child[i] & BVH_LEAF)) {
-                bvh_walk_push(walk, 0, bvh_walk_key(enters[i], node->child[i]));
-            } else if (!beam_add(beam, node, i)) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-static bool shapes_gather(const ShapeTable *table, const SphereTile *tile, ShapeBeam *beam)
-{
-    DirectionRange range;
-    beam->count = beam->node_count = 0;
-    if (table->tree.node_count <= 1) {
-        return false;
-    }
-    direction_range(tile->direction, TILE_RAYS, &range);
-    for (unsigned octant = 0; octant < OCTANTS && direction_range_is_narrow(&range); octant++) {
-        BvhWalk walk;
-        Vec3 least, greatest;
-        bool is_too_far;
-        if (!direction_octant(&range, octant, &least, &greatest)) {
-            continue;
-        }
-        if (bvh_walk_start_beam(&walk, &table->tree, tile->origin, 0.0, least, greatest, &is_too_far)
-                ? !beam_gather(beam, &walk)
-                : is_too_far) {
-            return false;
-        }
-    }
-    return direction_range_is_narrow(&range);
-}
-
 // ---- the whole
 
 static void query_start(ShapeQuery *q, const ShapeTable *table, const Ray *ray, RayStart start, double start_error,
@@ -405,12 +359,11 @@ static void query_start(ShapeQuery *q, const ShapeTable *table, const Ray *ray, 
     q->line.is_set = false;
 }
 
-static void shapes_closest(const ShapeTable *table, const ShapeBeam *beam, const Ray *ray, RayStart start,
-                           double start_error, Foremost *first)
+static void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, Foremost *first)
 {
     ShapeQuery q; // its line is not cleared
     query_start(&q, table, ray, start, start_error, false);
-    table_closest(&q, beam, first);
+    table_closest(&q, NULL, first);
 }
 
 static bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max)

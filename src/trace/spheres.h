@@ -77,6 +77,15 @@ typedef struct TileHits {
     uint64_t met, inside;             // a bit for each ray: it meets something; from the inside
 } TileHits;
 
+// Foremost of all rays of a tile, whose ways have no end.
+typedef struct TileForemost {
+    TileHits *hits;
+    uint64_t torn;
+    _Alignas(64) double from[TILE_RAYS];
+    double limit[TILE_RAYS], beaten[TILE_RAYS];
+    uint32_t order[TILE_RAYS]; // of shapes that are no parts
+} TileForemost;
+
 // The surfaces that some rays of a tile have met, one after the other.
 typedef struct TileSurfaces {
     int count;
@@ -125,7 +134,6 @@ typedef struct TileView {
 } TileView;
 
 typedef struct ShapeTable ShapeTable; // trace/shapes.h
-typedef struct ShapeBeam ShapeBeam;
 
 // Brings `nearest` up to date with all spheres, and settles it; tells whether one is met at 0 < t < t_max. Spheres equal
 // to that of the slot `start`, which may be SLOT_NONE, are passed over.
@@ -172,15 +180,22 @@ typedef struct SphereKernels {
     // Whether it is certain, before the rays are made, that none of them meets a sphere. Never where there is a tree.
     bool (*view_passes)(const SphereTable *table, const TileView *view, const double u[TILE_RAYS],
                         const double v[TILE_RAYS]);
-    // What the rays of a tile may meet of other shapes. False when that is too much, or they are too far apart, to gather
-    // it; `beam` means nothing then.
-    bool (*shapes_gather)(const ShapeTable *shapes, const SphereTile *tile, ShapeBeam *beam);
-    // Offers what the ray meets of all other shapes, those of a beam that the ray is in, or NULL. `start_error`: how far
-    // along the ray its start may be off the surface that it starts on; less than 0: not known, and that is a part.
-    void (*shapes_closest)(const ShapeTable *shapes, const ShapeBeam *beam, const Ray *ray, RayStart start,
-                           double start_error, Foremost *first);
+    // Offers what the ray meets of all other shapes. `start_error`: how far along the ray its start may be off the
+    // surface that it starts on; less than 0: not known, and that is a part.
+    void (*shapes_closest)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error,
+                           Foremost *first);
+    // The same for all rays of a tile, of the camera.
+    void (*shapes_closest_tile)(const ShapeTable *shapes, const SphereTile *tile, TileForemost *first);
     // True when any of them is met at 0 < t < t_max.
     bool (*shapes_occluded)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max);
+    // Of the surfaces `asked` for, those with any of them before the ray's end, as shapes_occluded would say of each.
+    // What does not pay, or cannot be done, for some together is `left`.
+    uint64_t (*shapes_occluded_surfaces)(const ShapeTable *shapes, const TileSurfaces *from, const SurfaceRays *rays,
+                                         const double start_error[TILE_RAYS], uint64_t asked, uint64_t *left);
+    // Fills in point and normal of the surfaces `asked` for that are balls, as shapes_surface has them, and returns
+    // those; `surfaces` of the spheres comes first. Rays are from one point, `apart` = 0, or each from its own, 1.
+    uint64_t (*shapes_surfaces)(const ShapeTable *shapes, const double *const origin[3], unsigned apart,
+                                const TileHits *hits, uint64_t asked, TileSurfaces *surfaces);
 } SphereKernels;
 
 // The kernels of an instruction set by name, or, for NULL, the best that this processor has. NULL when it has not.

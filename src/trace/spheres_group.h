@@ -85,10 +85,16 @@ RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const Ball *ball, un
     return met;
 }
 
-// The rays of the group that a block's spheres are in the way of, with those that are known to be `occluded`.
-static uint64_t group_block(const SphereTable *table, const RayGroup *group, const RayCone *cone, uint32_t block,
+// The rays of the group that what is in a leaf is in the way of, with those that are known to be `occluded`. `context`
+// is the caller's.
+typedef uint64_t GroupLeaf(const void *context, const RayGroup *group, const RayCone *cone, uint32_t leaf,
+                           uint64_t occluded);
+
+// Of a block's spheres; the context is their table.
+static uint64_t group_block(const void *context, const RayGroup *group, const RayCone *cone, uint32_t block,
                             uint64_t occluded)
 {
+    const SphereTable *table = context;
     unsigned touched = cone_spheres(cone, &table->blocks[block]);
     for (; touched; touched &= touched - 1) {
         Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + (unsigned)__builtin_ctz(touched));
@@ -104,28 +110,37 @@ static uint64_t group_block(const SphereTable *table, const RayGroup *group, con
     return occluded;
 }
 
-// What one walk meets, of directions in an octant, before `blocks` are used up; false when they are.
-static bool group_walk(const SphereTable *table, const RayGroup *group, const RayCone *cone, BvhWalk *walk,
-                       unsigned *blocks, uint64_t *occluded)
+// A tree and what its leaves are.
+typedef struct GroupTree {
+    const Bvh *bvh;
+    const char *fetched; // as BvhWalk's leaves
+    GroupLeaf *leaf;
+    const void *context;
+    unsigned leaves; // for each ray, before they are traced one by one
+} GroupTree;
+
+// What one walk meets, of directions in an octant, before `leaves` are used up; false when they are.
+RT_ALWAYS_INLINE bool group_walk(const GroupTree *tree, const RayGroup *group, const RayCone *cone, BvhWalk *walk,
+                                 unsigned *leaves, uint64_t *occluded)
 {
     BvhChild leaf;
-    walk->leaves = (const char *)table->blocks;
+    walk->leaves = tree->fetched;
     float limit = bvh_walk_limit(walk, group->farthest);
     while (~*occluded && bvh_walk_next(walk, limit, &leaf)) {
-        if ((*blocks)-- == 0) {
+        if ((*leaves)-- == 0) {
             return false;
         }
-        *occluded = group_block(table, group, cone, leaf & ~BVH_LEAF, *occluded);
+        *occluded = tree->leaf(tree->context, group, cone, leaf & ~BVH_LEAF, *occluded);
     }
     return true;
 }
 
-// The spheres of the tree: a walk for each octant in which the rays start, as seen from their end. False when the group
+// What is in the tree: a walk for each octant in which the rays start, as seen from their end. False when the group
 // cannot walk it, or had better not.
-static bool group_tree(const SphereTable *table, const RayGroup *group, const RayCone *cone, uint64_t *occluded)
+RT_ALWAYS_INLINE bool group_tree(const GroupTree *tree, const RayGroup *group, const RayCone *cone, uint64_t *occluded)
 {
     DirectionRange range;
-    unsigned blocks = GROUP_BLOCKS * group->count;
+    unsigned leaves = tree->leaves * group->count;
     direction_range(group->seen, group->whole, &range);
     for (unsigned octant = 0; octant < OCTANTS && ~*occluded; octant++) {
         BvhWalk walk;
@@ -134,18 +149,24 @@ static bool group_tree(const SphereTable *table, const RayGroup *group, const Ra
         if (!direction_octant(&range, octant, &least, &greatest)) {
             continue;
         }
-        if (!bvh_walk_start_beam(&walk, &table->bvh, group->end, group->aside, least, greatest, &is_too_far)) {
+        if (!bvh_walk_start_beam(&walk, tree->bvh, group->end, group->aside, least, greatest, &is_too_far)) {
             if (is_too_far) {
                 return false;
             }
-        } else if (!group_walk(table, group, cone, &walk, &blocks, occluded)) {
+        } else if (!group_walk(tree, group, cone, &walk, &leaves, occluded)) {
             return false;
         }
     }
     return true;
 }
 
-// Those of the group that something is before; false when they cannot be traced together.
+// The bits of no ray.
+static uint64_t group_none(const RayGroup *group)
+{
+    return ~(~UINT64_C(0) >> (TILE_RAYS - group->count));
+}
+
+// Those of the group that a sphere is before; false when they cannot be traced together.
 static bool group_occluded(const SphereTable *table, const RayGroup *group, uint64_t *occluded)
 {
     unsigned middle = group->count / 2, last = group->count - 1;
@@ -154,9 +175,10 @@ static bool group_occluded(const SphereTable *table, const RayGroup *group, uint
                                     group->seen[1][0] + group->seen[1][middle] + group->seen[1][last],
                                     group->seen[2][0] + group->seen[2][middle] + group->seen[2][last]));
     cone.spread = cone_spread(group->seen, 0, group->whole, cone.axis);
-    uint64_t none = ~(~UINT64_C(0) >> (TILE_RAYS - group->count));
+    uint64_t none = group_none(group);
+    const GroupTree tree = {&table->bvh, (const char *)table->blocks, group_block, table, GROUP_BLOCKS};
     *occluded = table->loose_count > 0 ? group_block(table, group, &cone, 0, none) : none;
-    if (table->bvh.nodes && ~*occluded && !group_tree(table, group, &cone, occluded)) {
+    if (table->bvh.nodes && ~*occluded && !group_tree(&tree, group, &cone, occluded)) {
         return false;
     }
     *occluded &= ~none;
@@ -192,14 +214,10 @@ static bool group_look(RayGroup *group)
 }
 
 // The rays of some surfaces, which share a shape; false when one of them is not usable.
-static bool group_gather(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays, uint64_t members,
-                         RayGroup *group)
+static bool group_gather(const TileSurfaces *from, const SurfaceRays *rays, uint64_t members, RayGroup *group)
 {
-    ShapeId shape = from->shape[__builtin_ctzll(members)];
     group->end = rays->end;
     group->aside = rays->aside;
-    group->start = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
-                                                     : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
     unsigned count = 0, last = 0;
     for (; members || count % DOUBLES != 0; members &= members - 1, count++) {
         last = members ? (unsigned)__builtin_ctzll(members) : last;
@@ -237,6 +255,16 @@ static uint64_t surfaces_inward(const TileSurfaces *from, const SurfaceRays *ray
     return inward;
 }
 
+// A bit of each ray of a group as that of its surface.
+static uint64_t group_spread(uint64_t bits, uint64_t members)
+{
+    uint64_t all = 0;
+    for (; members; members &= members - 1, bits >>= 1) {
+        all |= (bits & 1) << __builtin_ctzll(members);
+    }
+    return all;
+}
+
 static uint64_t surfaces_occluded(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays,
                                   uint64_t asked, uint64_t *left)
 {
@@ -246,14 +274,15 @@ static uint64_t surfaces_occluded(const SphereTable *table, const TileSurfaces *
     for (uint64_t rest = asked & ~*left; rest;) {
         uint64_t members = rest & surfaces_alike(from, from->shape[__builtin_ctzll(rest)]), occluded;
         rest &= ~members;
-        if (__builtin_popcountll(members) < GROUP_LEAST || !group_gather(table, from, rays, members, &group) ||
+        ShapeId shape = from->shape[__builtin_ctzll(members)];
+        group.start = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
+                                                        : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
+        if (__builtin_popcountll(members) < GROUP_LEAST || !group_gather(from, rays, members, &group) ||
             !group_occluded(table, &group, &occluded)) {
             *left |= members;
             continue;
         }
-        for (; members; members &= members - 1, occluded >>= 1) {
-            all |= (occluded & 1) << __builtin_ctzll(members);
-        }
+        all |= group_spread(occluded, members);
     }
     return all;
 }

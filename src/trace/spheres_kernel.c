@@ -7,6 +7,9 @@
 #include "base/isa.h"
 #include "trace/bvh_walk.h"
 #include "trace/plane_tile.h"
+#include "trace/shapes_group.h"
+#include "trace/shapes_surface.h"
+#include "trace/shapes_tile.h"
 #include "trace/shapes_walk.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
@@ -235,7 +238,9 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .plane_occluded = plane_occluded,
     .view_tile = view_tile,
     .view_passes = view_passes,
-    .shapes_gather = shapes_gather,
     .shapes_closest = shapes_closest,
+    .shapes_closest_tile = shapes_closest_tile,
     .shapes_occluded = shapes_occluded,
+    .shapes_occluded_surfaces = shapes_occluded_surfaces,
+    .shapes_surfaces = shapes_surfaces,
 };

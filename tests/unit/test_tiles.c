@@ -13,18 +13,6 @@
 
 // ---- geometry
 
-static void tile_of(Random *random, Vec3 eye, Vec3 towards, double step, SphereTile *tile)
-{
-    Vec3 across = random_perpendicular(random, towards), down = vec3_cross(towards, across);
-    tile->origin = eye;
-    for (int i = 0; i < TILE_RAYS; i++) {
-        Vec3 at = vec3_add_scaled(towards, step * (i % TILE_ROW - 3.5), across);
-        Vec3 direction = vec3_normalize(vec3_add_scaled(at, step * (i / TILE_ROW - 3.5), down));
-        SphereRay ray = sphere_ray_make(eye, direction);
-        sphere_tile_set(tile, (unsigned)i, &ray);
-    }
-}
-
 // Whether a surface is not what a single ray finds.
 static bool surface_differs(const Geometry *g, Ray ray, Hit hit, const TileSurfaces *surfaces,
                             const MaterialIndex *material, int i)

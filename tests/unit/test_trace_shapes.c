@@ -12,39 +12,6 @@
 static const PartKind solid_kinds[] = {PART_BALL, PART_BOX, PART_CONE};
 static const PartKind alone_kinds[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE};
 
-static Transform random_map(Random *random, double size)
-{
-    Vec3 powers = random_vec3(random, -2, 2), turn = random_vec3(random, 0, 360);
-    Vec3 stretch = vec3(exp(powers.x), exp(powers.y), exp(powers.z));
-    Transform map = transform_compose(transform_scale(vec3_scale(size, stretch)), transform_rotate(turn));
-    map = transform_compose(map, transform_scale(vec3(1.0, 1.0, exp(random_between(random, -1, 1)))));
-    return transform_compose(map, transform_translate(random_point(random, size)));
-}
-
-static Part random_part(Random *random, PartKind kind, double size)
-{
-    Part part = {.kind = kind, .node = NODE_NONE, .to_world = random_map(random, size)};
-    if (!transform_invert(&part.to_world, &part.to_object)) {
-        abort();
-    }
-    if (kind == PART_BOX) {
-        part.data[0] = vec3(-1.0, -1.0, -1.0);
-        part.data[1] = vec3(random_between(random, 0, 1), 1.0, 0.0);
-        part.data[1].z = random_between(random, -0.5, 1);
-    } else if (kind == PART_CONE || kind == PART_DISC) {
-        part.data[0].x = random_bits(random) % 3 == 0 ? 1.0 : random_between(random, 0, 0.9);
-        part.data[0].x = kind == PART_DISC ? 0.5 * part.data[0].x : part.data[0].x;
-    }
-    return part;
-}
-
-static void add_part(Scene *scene, const Part *part)
-{
-    if (!scene_add_part(scene, part)) {
-        abort();
-    }
-}
-
 // How far inside of its fixed shape a point of the scene is, in units of that shape; negative outside.
 static double depth(const Part *part, Vec3 point)
 {

@@ -52,6 +52,56 @@ __attribute__((unused)) static Vec3 random_point(Random *random, double size)
     return random_vec3(random, -size, size);
 }
 
+// ---- parts
+
+// A tile of rays about a direction, neighbours `step` apart.
+__attribute__((unused)) static void tile_of(Random *random, Vec3 eye, Vec3 towards, double step, SphereTile *tile)
+{
+    Vec3 across = random_perpendicular(random, towards), down = vec3_cross(towards, across);
+    tile->origin = eye;
+    for (int i = 0; i < TILE_RAYS; i++) {
+        Vec3 at = vec3_add_scaled(towards, step * (i % TILE_ROW - 3.5), across);
+        Vec3 direction = vec3_normalize(vec3_add_scaled(at, step * (i / TILE_ROW - 3.5), down));
+        SphereRay ray = sphere_ray_make(eye, direction);
+        sphere_tile_set(tile, (unsigned)i, &ray);
+    }
+}
+
+__attribute__((unused)) static Transform random_map(Random *random, double size)
+{
+    Vec3 powers = random_vec3(random, -2, 2), turn = random_vec3(random, 0, 360);
+    Vec3 stretch = vec3(exp(powers.x), exp(powers.y), exp(powers.z));
+    Transform map = transform_compose(transform_scale(vec3_scale(size, stretch)), transform_rotate(turn));
+    map = transform_compose(map, transform_scale(vec3(1.0, 1.0, exp(random_between(random, -1, 1)))));
+    return transform_compose(map, transform_translate(random_point(random, size)));
+}
+
+__attribute__((unused)) static Part random_part(Random *random, PartKind kind, double size)
+{
+    Part part = {.kind = kind, .node = NODE_NONE, .to_world = random_map(random, size)};
+    if (!transform_invert(&part.to_world, &part.to_object)) {
+        abort();
+    }
+    if (kind == PART_BOX) {
+        part.data[0] = vec3(-1.0, -1.0, -1.0);
+        part.data[1] = vec3(random_between(random, 0, 1), 1.0, 0.0);
+        part.data[1].z = random_between(random, -0.5, 1);
+    } else if (kind == PART_CONE || kind == PART_DISC) {
+        part.data[0].x = random_bits(random) % 3 == 0 ? 1.0 : random_between(random, 0, 0.9);
+        part.data[0].x = kind == PART_DISC ? 0.5 * part.data[0].x : part.data[0].x;
+    }
+    return part;
+}
+
+__attribute__((unused)) static void add_part(Scene *scene, const Part *part)
+{
+    if (!scene_add_part(scene, part)) {
+        abort();
+    }
+}
+
+// ---- families
+
 __attribute__((unused)) static void make_cloud(Scene *scene, Random *random, int count)
 {
     for (int i = 0; i < count; i++) {

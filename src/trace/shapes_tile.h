@@ -1,0 +1,345 @@
+// A tile of camera rays against parts that stand alone and composites: part of spheres_kernel.c.
+//
+// The tile walks the tree once, as a beam. A ball is first asked which rays may meet it: seen from their one origin it
+// is a cone, with a margin far above rounding, so that none is left out. Those are tested a vector at a time, and what
+// is not decided with a margin is decided ray by ray, so hits are those of single rays. All other shapes are gathered,
+// and walked by each ray.
+//
+// SPDX-License-Identifier: MIT
+#ifndef TRACE_SHAPES_TILE_H
+#define TRACE_SHAPES_TILE_H
+
+#include "trace/ball_lanes.h"
+#include "trace/cone_test.h"
+#include "trace/shapes_walk.h"
+
+enum { SOLID_NONE = UINT32_MAX };
+
+// A tile on its way.
+typedef struct ShapesTile {
+    const ShapeTable *table;
+    const SphereTile *tile;
+    TileForemost *first;
+    TileHits *hits;          // the same's
+    uint64_t bounded, rough; // the rays whose first hit is a ball's of whose span only a bound is known; whose root is rough
+    double far;              // of the rays' origin from 0
+    double limit;            // up to where something may yet be the first of some ray
+    _Alignas(64) double enter[TILE_RAYS]; // bounded_enter of a ShapeQuery
+    _Alignas(64) int64_t shape[TILE_RAYS]; // of the hits, as wide as their roots
+    ShapeBeam others; // what is no ball
+} ShapesTile;
+
+// A line with the direction d from the origin of a tile meets a ball only if d·Q d >= -margin, for the ball's quadric
+// as seen from there. With f the origin in the ball's space, M the map to that, c = |f|² - 1 and f, M d as they are
+// rounded, sphere_test misses where (f·M d)² - c |M d|² < -2 SPHERE_ROUNDING (|f|² + 1) |M d|². Taking M into Q and
+// adding up costs less than 64 u (|f|² + 1) |M|² |d|² more, |M|² being the sum of the squares of its entries.
+typedef struct BallView {
+    double xx, xy, xz, yy, yz, zz, margin;
+} BallView;
+
+static void ball_view(const Solid *ball, Vec3 f, BallView *view)
+{
+    const double(*m)[3] = ball->to_object.m;
+    Vec3 x = vec3(m[0][0], m[0][1], m[0][2]), y = vec3(m[1][0], m[1][1], m[1][2]), z = vec3(m[2][0], m[2][1], m[2][2]);
+    double f_squared = vec3_length_squared(f), c = f_squared - 1.0;
+    double fx = vec3_dot(f, x), fy = vec3_dot(f, y), fz = vec3_dot(f, z);
+    double size = vec3_length_squared(x) + vec3_length_squared(y) + vec3_length_squared(z);
+    *view = (BallView){
+        .xx = fx * fx - c * vec3_length_squared(x),
+        .xy = 2.0 * (fx * fy - c * vec3_dot(x, y)),
+        .xz = 2.0 * (fx * fz - c * vec3_dot(x, z)),
+        .yy = fy * fy - c * vec3_length_squared(y),
+        .yz = 2.0 * (fy * fz - c * vec3_dot(y, z)),
+        .zz = fz * fz - c * vec3_length_squared(z),
+        .margin = 0x1p-40 * (f_squared + 1.0) * size,
+    };
+}
+
+// The rays that may meet it, a bit for each.
+static uint64_t ball_view_rays(const BallView *view, const SphereTile *tile)
+{
+    uint64_t missed = 0;
+    if (!(view->margin > 0x1p-900 && view->margin < 0x1p900)) {
+        return ~missed; // something over- or underflowed
+    }
+    for (unsigned i = 0; i < TILE_RAYS; i += DOUBLES) {
+        Doubles x = doubles_load(&tile->direction[0][i]);
+        Doubles y = doubles_load(&tile->direction[1][i]);
+        Doubles z = doubles_load(&tile->direction[2][i]);
+        Doubles form = x * (view->xx * x + view->xy * y + view->xz * z) + y * (view->yy * y + view->yz * z) +
+                       view->zz * z * z;
+        missed |= (uint64_t)doubles_ge(doubles_splat(-view->margin), form) << i;
+    }
+    return ~missed;
+}
+
+static void lane_bits_set(uint64_t *all, unsigned at, unsigned bits, unsigned values)
+{
+    *all = (*all & ~((uint64_t)bits << at)) | (uint64_t)(bits & values) << at;
+}
+
+// A ray of the tile and the first that it has met, taken out of it and put back.
+static void tile_ray_take(ShapesTile *of, unsigned i, Ray *ray, ShapeQuery *q, Foremost *first)
+{
+    ShapeId met = (ShapeId)of->shape[i];
+    const TileForemost *all = of->first;
+    const Solid *part = met != SHAPE_NONE && shape_kind(met) == SHAPE_PART ? &of->table->solids[part_index(met)] : NULL;
+    *ray = (Ray){of->tile->origin, lane_get(of->tile->direction, i)};
+    query_start(q, of->table, ray, RAY_START_CAMERA, 0.0, false);
+    q->bounded = of->bounded >> i & 1 ? part : NULL;
+    q->bounded_enter = of->enter[i];
+    if (of->rough >> i & 1) {
+        of->hits->t[i] = ball_refine(part, ray, of->hits->t[i]);
+        lane_bits_set(&of->rough, i, 1, 0);
+    }
+    *first = (Foremost){.hit = {of->hits->t[i], met, of->hits->inside >> i & 1},
+                        .order = part ? part->order : all->order[i],
+                        .is_torn = all->torn >> i & 1,
+                        .from = all->from[i],
+                        .limit = all->limit[i],
+                        .beaten = all->beaten[i],
+                        .end = way_end((double)INFINITY)};
+}
+
+static void tile_ray_put(ShapesTile *of, unsigned i, const ShapeQuery *q, const Foremost *first)
+{
+    TileHits *hits = of->hits;
+    lane_bits_set(&of->bounded, i, 1, q->bounded != NULL);
+    lane_bits_set(&hits->met, i, 1, first->hit.shape != SHAPE_NONE);
+    lane_bits_set(&hits->inside, i, 1, first->hit.inside);
+    lane_bits_set(&of->first->torn, i, 1, first->is_torn);
+    hits->t[i] = first->hit.t;
+    of->shape[i] = first->hit.shape;
+    of->enter[i] = q->bounded ? q->bounded_enter : 0.0;
+    of->first->from[i] = first->from;
+    of->first->limit[i] = first->limit;
+    of->first->beaten[i] = first->beaten;
+}
+
+// Brings the hit of a ray up to date with a ball, in its box, or with all items but such balls.
+static void tile_ray(ShapesTile *of, unsigned i, uint32_t ball, const ItemBox *box, const ShapeBeam *beam)
+{
+    Ray ray;
+    ShapeQuery q;
+    Foremost first;
+    tile_ray_take(of, i, &ray, &q, &first);
+    if (ball != SOLID_NONE) {
+        q.box = box;
+        ball_closest(&q, ball, &first);
+    } else {
+        table_closest(&q, beam, &first);
+    }
+    tile_ray_put(of, i, &q, &first);
+}
+
+// A ball as seen from the tile's origin.
+typedef struct TileBall {
+    LaneBall ball;
+    const ItemBox *box;
+    Doubles f[3]; // the origin in its space
+} TileBall;
+
+// A vector of rays against a ball: what ball_closest does to each. What is nearest, or is not, with a margin is done at
+// once.
+static void tile_ball_lanes(ShapesTile *of, const TileBall *own, unsigned at, unsigned asked)
+{
+    const Solid *ball = own->ball.solid;
+    BallLanes lanes;
+    Doubles direction[3], d[3];
+    uint32_t index = (uint32_t)(ball - of->table->solids);
+    lanes_load(of->tile->direction, at, direction);
+    linears_direction(&own->ball.to_object, direction, d);
+    if (!ball_lanes_test(own->f, d, &own->ball.slack, asked, &lanes)) {
+        return;
+    }
+    TileForemost *all = of->first;
+    Doubles before = doubles_load(&of->hits->t[at]), from = doubles_load(&all->from[at]);
+    Doubles limit = doubles_load(&all->limit[at]), beaten = doubles_load(&all->beaten[at]);
+    unsigned other = lanes.possible & ~(lanes.certain & doubles_gt(lanes.root - lanes.bound, limit)), nearest = 0;
+    if (other & lanes.certain) {
+        Vec3 eye = of->tile->origin;
+        const Doubles origin[3] = {doubles_splat(eye.x), doubles_splat(eye.y), doubles_splat(eye.z)};
+        Doubles enter, to = lanes.root + lanes.bound, begin = lanes.root - lanes.bound;
+        nearest = other & lanes.certain & box_lanes_enter(&of->table->tree, own->box, origin, direction, &enter);
+        to = doubles_choose(to < enter, enter, to);
+        begin = doubles_choose(begin < enter, enter, begin);
+        nearest &= doubles_gt(from, to) & doubles_gt(beaten, to) & doubles_gt(limit, to);
+        doubles_store(&all->from[at], doubles_choose_bits(nearest, begin, from));
+        doubles_store(&all->limit[at], doubles_choose_bits(nearest, to, limit));
+        doubles_store(&of->enter[at], doubles_choose_bits(nearest, enter, doubles_load(&of->enter[at])));
+    }
+    if (nearest) {
+        DoublesMask *shape = (DoublesMask *)&of->shape[at];
+        doubles_store(&of->hits->t[at], doubles_choose_bits(nearest, lanes.root, before));
+        *shape = (DoublesMask)doubles_choose_bits(nearest, (Doubles)((DoublesMask){0} + part_shape(index, 0)),
+                                                  (Doubles)*shape);
+        lane_bits_set(&of->hits->met, at, nearest, ~0u);
+        lane_bits_set(&of->bounded, at, nearest, ~0u);
+        lane_bits_set(&of->rough, at, nearest, ~0u);
+        lane_bits_set(&all->torn, at, nearest, 0);
+        lane_bits_set(&of->hits->inside, at, nearest, ball->flips ? ~lanes.inside : lanes.inside);
+    }
+    for (other &= ~nearest; RT_UNLIKELY(other); other &= other - 1) {
+        tile_ray(of, at + (unsigned)__builtin_ctz(other), index, own->box, NULL);
+    }
+}
+
+static void tile_ball(ShapesTile *of, const Solid *ball, const ItemBox *box)
+{
+    BallView view;
+    if (ball->hidden & HIDDEN_CAMERA) {
+        return;
+    }
+    Vec3 f = linear_direction(&ball->to_object, vec3_sub(of->tile->origin, ball->centre));
+    ball_view(ball, f, &view);
+    uint64_t may = ball_view_rays(&view, of->tile);
+    if (!may) {
+        return;
+    }
+    TileBall own = {.box = box, .f = {doubles_splat(f.x), doubles_splat(f.y), doubles_splat(f.z)}};
+    lane_ball_set(&own.ball, ball, of->far);
+    for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
+        unsigned asked = may >> at & ((1u << DOUBLES) - 1);
+        if (asked) {
+            tile_ball_lanes(of, &own, at, asked);
+        }
+    }
+}
+
+// Up to where something may yet be the first of some ray.
+static double tile_limit(const TileForemost *first)
+{
+    Doubles last = doubles_load(first->limit);
+    for (unsigned i = DOUBLES; i < TILE_RAYS; i += DOUBLES) {
+        last = doubles_max(doubles_load(&first->limit[i]), last);
+    }
+    return doubles_greatest(last);
+}
+
+static bool beam_add(ShapeBeam *beam, const BvhNode *from, unsigned child)
+{
+    unsigned at = beam->count % BVH_WIDTH;
+    if (at == 0) {
+        if (beam->node_count == SHAPE_BEAM_NODES) {
+            return false;
+        }
+        bvh_node_clear(&beam->nodes[beam->node_count++]);
+    }
+    BvhNode *node = &beam->nodes[beam->node_count - 1];
+    for (int axis = 0; axis < 3; axis++) {
+        node->box[axis][0][at] = from->box[axis][0][child];
+        node->box[axis][1][at] = from->box[axis][1][child];
+    }
+    node->child[at] = from->child[child];
+    node->present |= 1u << at;
+    beam->count++;
+    return true;
+}
+
+// One walk, near things first: asks the balls, and gathers what else there is. False when that is too much.
+static bool tile_walk(ShapesTile *of, BvhWalk *walk)
+{
+    const ShapeItem *items = of->table->items + of->table->unbounded_count;
+    while (walk->waiting > 0) {
+        float limit = bvh_walk_limit(walk, of->limit);
+        uint64_t key = walk->stack[--walk->waiting];
+        BvhChild child = (BvhChild)key;
+        if (key > bvh_walk_key(limit, UINT32_MAX)) {
+            continue;
+        }
+        if (child & BVH_LEAF) {
+            uint32_t at = bvh_leaf_first(child);
+            tile_ball(of, &of->table->solids[items[at]], &of->table->boxes[at]);
+            of->limit = !~of->hits->met ? tile_limit(of->first) : of->limit;
+            continue;
+        }
+        const BvhNode *node = &walk->nodes[child];
+        _Alignas(64) float enters[BVH_WIDTH];
+        unsigned bottom = walk->waiting;
+        for (unsigned met = bvh_walk_boxes(walk, node, limit, enters); met; met &= met - 1) {
+            unsigned i = (unsigned)__builtin_ctz(met);
+            if (!(node->child[i] & BVH_LEAF) || is_lone_ball(of->table, items[bvh_leaf_first(node->child[i])])) {
+                bvh_walk_push(walk, bottom, bvh_walk_key(enters[i], node->child[i]));
+            } else if (!beam_add(&of->others, node, i)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// A walk for each octant into which there are rays. False when the tile cannot walk the tree, or had better not.
+static bool tile_tree(ShapesTile *of)
+{
+    DirectionRange range;
+    of->others.count = of->others.node_count = 0;
+    if (of->table->tree.node_count <= 1) {
+        return false;
+    }
+    direction_range(of->tile->direction, TILE_RAYS, &range);
+    for (unsigned octant = 0; octant < OCTANTS && direction_range_is_narrow(&range); octant++) {
+        BvhWalk walk;
+        Vec3 least, greatest;
+        bool is_too_far;
+        if (!direction_octant(&range, octant, &least, &greatest)) {
+            continue;
+        }
+        if (bvh_walk_start_beam(&walk, &of->table->tree, of->tile->origin, 0.0, least, greatest, &is_too_far)
+                ? !tile_walk(of, &walk)
+                : is_too_far) {
+            return false;
+        }
+    }
+    return direction_range_is_narrow(&range);
+}
+
+// Refines what is rough, a vector at a time.
+static void tile_settle(ShapesTile *of)
+{
+    const Solid *solids = of->table->solids;
+    Vec3 eye = of->tile->origin;
+    const Doubles origin[3] = {doubles_splat(eye.x), doubles_splat(eye.y), doubles_splat(eye.z)};
+    for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
+        unsigned rough = of->rough >> at & ((1u << DOUBLES) - 1);
+        if (!rough) {
+            continue;
+        }
+        Doubles direction[3], before = doubles_load(&of->hits->t[at]), root = before;
+        DoublesMask shape = *(const DoublesMask *)&of->shape[at], is_rough = doubles_bits_mask(rough);
+        shape = (is_rough & shape) | (~is_rough & shape[__builtin_ctz(rough)]);
+        lanes_load(of->tile->direction, at, direction);
+        unsigned certain = balls_refine(solids, parts_index(shape), origin, direction, &root);
+        doubles_store(&of->hits->t[at], doubles_choose(is_rough, root, before));
+        for (rough &= ~certain; RT_UNLIKELY(rough); rough &= rough - 1) {
+            unsigned i = (unsigned)__builtin_ctz(rough);
+            Ray ray = {eye, lane_get(of->tile->direction, at + i)};
+            of->hits->t[at + i] = ball_refine(&solids[part_index((ShapeId)of->shape[at + i])], &ray, before[i]);
+        }
+    }
+}
+
+static void shapes_closest_tile(const ShapeTable *table, const SphereTile *tile, TileForemost *first)
+{
+    ShapesTile of; // not cleared as a whole
+    of.table = table;
+    of.tile = tile;
+    of.first = first;
+    of.hits = first->hits;
+    of.bounded = of.rough = 0;
+    of.far = vec3_length(tile->origin);
+    of.limit = ~of.hits->met ? (double)INFINITY : tile_limit(first);
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        of.shape[i] = of.hits->shape[i];
+        of.enter[i] = 0.0;
+    }
+    bool is_walked = tile_tree(&of);
+    for (unsigned i = 0; i < TILE_RAYS && (!is_walked || table->unbounded_count + of.others.count > 0); i++) {
+        tile_ray(&of, i, SOLID_NONE, NULL, is_walked ? &of.others : NULL);
+    }
+    tile_settle(&of);
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        of.hits->shape[i] = (ShapeId)of.shape[i];
+    }
+}
+
+#endif

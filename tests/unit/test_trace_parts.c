@@ -1,0 +1,256 @@
+// Rays by the tile among stretched spheres and other parts: what they meet, the surfaces there and what is before a
+// light are those of single rays, bit for bit, with any instruction set.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <string.h>
+
+#include "unit/tap.h"
+#include "unit/trace_scenes.h"
+
+// What a scene is drawn from.
+typedef struct Family {
+    const char *name;
+    int balls, others, spheres, planes, composites;
+    double size, spread; // of a part; of where they are
+    bool is_tied;        // some are equal, or nearly, or lie in one another
+} Family;
+
+static const Family kinds[] = {
+    {"a few balls", 6, 0, 0, 0, 0, 1.0, 2.0, false},
+    {"balls", 400, 0, 0, 0, 0, 0.2, 3.0, false},
+    {"thin balls far away", 300, 0, 0, 0, 0, 2e-3, 0.5, false},
+    {"balls and a plane", 200, 0, 0, 1, 0, 0.2, 3.0, false},
+    {"balls and spheres", 150, 0, 150, 0, 0, 0.2, 3.0, false},
+    {"balls and other shapes", 150, 150, 0, 0, 20, 0.2, 3.0, false},
+    {"all kinds", 150, 80, 100, 2, 10, 0.2, 3.0, false},
+    {"balls in one another", 150, 0, 10, 0, 0, 0.3, 2.0, true},
+};
+
+static Part part_at(Random *random, PartKind kind, double size, Vec3 at)
+{
+    Part part = random_part(random, kind, size);
+    part.to_world = transform_compose(part.to_world, transform_translate(at));
+    if (!transform_invert(&part.to_world, &part.to_object)) {
+        abort();
+    }
+    return part;
+}
+
+// What a ball and a box have in common.
+static void add_composite(Scene *scene, Random *random, const Family *family)
+{
+    uint32_t root;
+    Vec3 at = random_point(random, family->spread);
+    Part ball = part_at(random, PART_BALL, family->size, at), box = part_at(random, PART_BOX, family->size, at);
+    if (!scene_begin_composite(scene, 0, 0) || !scene_add_node(scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
+        abort();
+    }
+    ball.node = box.node = root;
+    if (!scene_add_leaf(scene, &ball) || !scene_add_leaf(scene, &box)) {
+        abort();
+    }
+    scene_end_composite(scene);
+}
+
+// Another ball: anywhere, or, in a family of ties, where the last one is or next to that.
+static Part random_ball(Random *random, const Family *family, const Part *last)
+{
+    double size = family->size * exp(random_between(random, -1, 0.5));
+    Part part = part_at(random, PART_BALL, size, random_point(random, family->spread));
+    uint64_t bits = random_bits(random);
+    if (family->is_tied && last && bits % 2) {
+        double apart = bits >> 4 & 1 ? 0x1p-30 : 0x1p-52;
+        part.to_world = last->to_world;
+        for (int row = 0; bits % 4 == 1 && row < 3; row++) {
+            for (int column = 0; column < 3; column++) {
+                part.to_world.m[row][column] *= 1.0 + apart * (double)(bits >> 8 & 7);
+            }
+        }
+    }
+    part.hidden = bits >> 16 & 15 ? 0 : bits >> 20 & 7;
+    part.hidden = part.hidden == 7 ? 0 : part.hidden;
+    part.flags = bits >> 24 & 511 ? 0 : PART_INVERSE;
+    if (!transform_invert(&part.to_world, &part.to_object)) {
+        abort();
+    }
+    return part;
+}
+
+static void draw_scene(Random *random, const Family *family, Scene *scene)
+{
+    Part last;
+    scene_init(scene);
+    for (int i = 0; i < family->spheres; i++) {
+        add_sphere(scene, random_point(random, family->spread), family->size * exp(random_between(random, -1, 1)));
+    }
+    for (int i = 0; i < family->planes; i++) {
+        add_plane(scene, random_direction(random), random_between(random, -1, 1) * family->spread);
+    }
+    for (int i = 0; i < family->balls; i++) {
+        last = random_ball(random, family, i ? &last : NULL);
+        add_part(scene, &last);
+    }
+    for (int i = 0; i < family->others; i++) {
+        static const PartKind others[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE};
+        PartKind kind = others[random_bits(random) % 4];
+        Part part = part_at(random, kind, family->size, random_point(random, family->spread));
+        add_part(scene, &part);
+    }
+    for (int i = 0; i < family->composites; i++) {
+        add_composite(scene, random, family);
+    }
+}
+
+typedef struct Found {
+    int hits, surfaces, shadows; // that differ
+    int met, parts, dark, lit, together;
+} Found;
+
+static void hits_try(const Geometry *g, unsigned features, const SphereTile *tile, const TileHits *hits, Found *found)
+{
+    for (unsigned i = 0; i < TILE_RAYS; i++) {
+        SphereRay ray = sphere_tile_ray(tile, i);
+        Hit hit;
+        bool is_met = geometry_closest(g, features, (Ray){ray.origin, ray.direction}, RAY_START_CAMERA,
+                                       (double)INFINITY, &hit);
+        found->met += is_met;
+        found->parts += is_met && shape_kind(hit.shape) == SHAPE_PART;
+        found->hits += is_met != (hits->met >> i & 1) ||
+                       (is_met && (memcmp(&hit.t, &hits->t[i], sizeof hit.t) != 0 || hit.shape != hits->shape[i] ||
+                                   hit.inside != (hits->inside >> i & 1)));
+    }
+}
+
+static bool surface_differs(const Geometry *g, Ray ray, const TileHits *hits, const TileSurfaces *surfaces,
+                            const MaterialIndex *material, int i)
+{
+    unsigned from = surfaces->ray[i];
+    Surface surface =
+        geometry_surface(g, TRACE_ALL_FEATURES, ray, (Hit){hits->t[from], hits->shape[from], hits->inside >> from & 1});
+    Vec3 point = tile_surface_point(surfaces, i), outward = tile_surface_outward(surfaces, i);
+    return memcmp(&point, &surface.point, sizeof point) != 0 ||
+           memcmp(&outward, &surface.normal, sizeof outward) != 0 || surface.material != material[i] || surfaces->shape[i] != hits->shape[from];
+}
+
+// From surfaces to a light, or to places next to it.
+static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, double aside,
+                        uint64_t asked, Random *random, Found *found)
+{
+    SurfaceRays rays = {.end = light, .aside = aside};
+    asked &= ~UINT64_C(0) >> (TILE_RAYS - from->count);
+    for (int i = 0; i < from->count; i++) {
+        Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), random_direction(random));
+        Vec3 offset = vec3_sub(end, tile_surface_point(from, i));
+        rays.distance[i] = vec3_length(offset);
+        lane_set(rays.towards, (unsigned)i, vec3_scale(1.0 / rays.distance[i], offset));
+    }
+    uint64_t occluded = geometry_occluded_surfaces(g, features, from, &rays, true, asked), left;
+    double start_error[TILE_RAYS];
+    for (int i = 0; i < TILE_RAYS; i++) {
+        start_error[i] = -1.0;
+    }
+    uint64_t on_parts = asked & ~query_not_on_parts(from, asked);
+    g->kernels->shapes_occluded_surfaces(&g->shapes, from, &rays, start_error, on_parts, &left);
+    found->together += __builtin_popcountll(on_parts & ~left);
+    found->shadows += (occluded & ~asked) != 0;
+    for (; asked; asked &= asked - 1) {
+        int i = __builtin_ctzll(asked);
+        Ray ray = {tile_surface_point(from, i), lane_get(rays.towards, (unsigned)i)};
+        RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), ray.direction) < 0.0, HIDDEN_SHADOW};
+        bool is_dark = geometry_occluded(g, features, ray, start, rays.distance[i]);
+        found->shadows += is_dark != (occluded >> i & 1);
+        found->dark += is_dark;
+        found->lit += !is_dark;
+    }
+}
+
+// Surfaces of the tile's rays, and of others that go on from there.
+static void surfaces_try(const Geometry *g, unsigned features, const SphereTile *tile, const TileHits *hits,
+                         Random *random, TileSurfaces *surfaces, Found *found)
+{
+    MaterialIndex material[TILE_RAYS];
+    geometry_tile_surfaces(g, features, tile, hits, hits->met, surfaces, material);
+    OnwardRays onward = {.count = 0};
+    for (int i = 0; i < surfaces->count; i++) {
+        SphereRay own = sphere_tile_ray(tile, surfaces->ray[i]);
+        found->surfaces += surface_differs(g, (Ray){own.origin, own.direction}, hits, surfaces, material, i);
+        Vec3 direction = random_direction(random);
+        onward_ray_add(&onward, tile_surface_point(surfaces, i), direction, surfaces->shape[i],
+                       vec3_dot(tile_surface_outward(surfaces, i), direction) < 0.0);
+    }
+    TileHits beyond;
+    TileSurfaces there;
+    geometry_closest_onward(g, features, &onward, &beyond);
+    if (beyond.met) {
+        geometry_onward_surfaces(g, features, &onward, &beyond, &there, material);
+        for (int i = 0; i < there.count; i++) {
+            found->surfaces += surface_differs(g, onward_ray(&onward, there.ray[i]), &beyond, &there, material, i);
+        }
+    }
+}
+
+// A tile of rays towards a part's middle, or, all of them nearly one, along its edge.
+static void aim(Random *random, const Family *family, const Part *part, Vec3 eye, SphereTile *tile)
+{
+    const double *centre = part->to_world.m[3];
+    Vec3 towards = vec3_sub(vec3(centre[0], centre[1], centre[2]), eye);
+    double step = family->size / vec3_length(towards) * pow(10.0, random_between(random, -2, 0));
+    Vec3 f = transform_point(&part->to_object, eye);
+    double sine = 1.0 / vec3_length(f);
+    if (random_bits(random) % 3 == 0 && sine < 1.0) {
+        Vec3 inward = vec3_normalize(vec3_neg(f)), aside = random_perpendicular(random, inward);
+        Vec3 along = vec3_add_scaled(vec3_scale(sqrt(1.0 - sine * sine), inward), sine, aside);
+        towards = transform_direction(&part->to_world, along);
+        step = pow(10.0, random_between(random, -17, -6));
+    }
+    tile_of(random, eye, vec3_normalize(towards), step, tile);
+}
+
+static void test_family(uint64_t seed, const Family *family)
+{
+    Random random = {seed};
+    Found found = {0};
+    for (int turn = 0; turn < 120; turn++) {
+        Scene scene;
+        draw_scene(&random, family, &scene);
+        Geometry *g = prepare(&scene, 0);
+        const unsigned features = TRACE_ALL_FEATURES; // as the kernel of scenes with parts has it
+        SphereTile tile;
+        double away = family->spread * (turn % 3 ? 4.0 : turn % 2 ? 300.0 : 0.5);
+        Vec3 eye = vec3_scale(away, random_direction(&random));
+        aim(&random, family, &scene.parts.items[random_bits(&random) % scene.parts.count], eye, &tile);
+        Vec3 light = vec3_scale(family->spread * pow(10.0, random_between(&random, -1, 2)), random_direction(&random));
+        double aside = turn % 4 ? 0.0 : family->spread * pow(10.0, random_between(&random, -3, 0));
+        uint64_t same = random_bits(&random), asked = random_bits(&random) | random_bits(&random);
+        for (size_t isa = 0; geometry_isa(isa); isa++) {
+            TileHits hits;
+            TileSurfaces surfaces;
+            Random own = {same};
+            g->kernels = sphere_kernels_choose(geometry_isa(isa));
+            query_tile_closest(g, features, &tile, true, &hits);
+            hits_try(g, features, &tile, &hits, &found);
+            if (hits.met) {
+                surfaces_try(g, features, &tile, &hits, &own, &surfaces, &found);
+                shadows_try(g, features, &surfaces, light, aside, asked, &own, &found);
+            }
+        }
+        geometry_free(g);
+        scene_fini(&scene);
+    }
+    tap_ok(found.hits == 0 && found.parts > 1000,
+           "%s: a tile's hits are those of single rays (%d of %d not, %d on parts)", family->name, found.hits, found.met, found.parts);
+    tap_ok(found.surfaces == 0, "%s: surfaces too (%d not)", family->name, found.surfaces);
+    tap_ok(found.shadows == 0 && found.dark > 100 && found.lit > 100 && found.together > 300,
+           "%s: shadows too (%d of %d dark and %d lit differ; %d traced together)", family->name, found.shadows,
+           found.dark, found.lit, found.together);
+}
+
+int main(void)
+{
+    uint64_t seed = random_seed(NULL);
+    for (size_t i = 0; i < RT_COUNT_OF(kinds); i++) {
+        test_family(seed + i, &kinds[i]);
+    }
+    return tap_done();
+}
