@@ -8,6 +8,7 @@
 #include "math/transform.h"
 
 #include <float.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/attributes.h"
@@ -126,8 +127,15 @@ static int row_exponent(Vec3 row)
     return exponent;
 }
 
+// Multiplied with the power where that is a number, which rounds as ldexp does.
 static Vec3 vec3_ldexp(Vec3 a, int exponent)
 {
+    if (RT_LIKELY(exponent > -1000 && exponent < 1000)) {
+        uint64_t bits = (uint64_t)(exponent + 1023) << 52;
+        double power;
+        memcpy(&power, &bits, sizeof power);
+        return vec3_scale(power, a);
+    }
     return vec3(ldexp(a.x, exponent), ldexp(a.y, exponent), ldexp(a.z, exponent));
 }
 
@@ -159,9 +167,11 @@ bool transform_invert(const Transform *transform, Transform *inverse)
     }
     Transform result;
     for (int i = 0; i < 3; i++) {
-        result.m[0][i] = ldexp(columns[i].x / determinant, -exponents[i]);
-        result.m[1][i] = ldexp(columns[i].y / determinant, -exponents[i]);
-        result.m[2][i] = ldexp(columns[i].z / determinant, -exponents[i]);
+        Vec3 column = vec3(columns[i].x / determinant, columns[i].y / determinant, columns[i].z / determinant);
+        column = vec3_ldexp(column, -exponents[i]);
+        result.m[0][i] = column.x;
+        result.m[1][i] = column.y;
+        result.m[2][i] = column.z;
         result.m[3][i] = 0.0;
     }
     Vec3 origin = vec3_neg(transform_direction(&result, transform_row(transform, 3)));

@@ -82,6 +82,19 @@ double part_support(const Part *part, Vec3 direction)
     return fixed_support(part, object.direction) + object.offset;
 }
 
+void part_span(const Part *part, Vec3 direction, double *low, double *high)
+{
+    if (part->kind != PART_BALL) {
+        *low = -part_support(part, vec3_neg(direction));
+        *high = part_support(part, direction);
+        return;
+    }
+    ObjectDirection object = object_direction(part, direction);
+    double half = fixed_support(part, object.direction);
+    *low = object.offset - half;
+    *high = object.offset + half;
+}
+
 double part_reach(const Part *part, Vec3 direction)
 {
     double sum = 0.0;

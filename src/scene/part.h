@@ -20,6 +20,9 @@ bool part_map_is_round(const double (*rows)[3]);
 // The greatest p·direction over the part's points, inverse or not; INFINITY for a plane, save against its own normal.
 double part_support(const Part *part, Vec3 direction);
 
+// Between what the part's p·direction lies: -part_support of the opposite direction, and part_support, bit for bit.
+void part_span(const Part *part, Vec3 direction, double *low, double *high);
+
 // The sum of the magnitudes of all terms of part_support, which bounds its rounding error; see docs/numerics.md.
 double part_reach(const Part *part, Vec3 direction);
 

@@ -50,8 +50,15 @@ typedef struct Assembly {
     uint32_t order;
 } Assembly;
 
-// What stands for itself: a solid, or an assembly when the number is not below solid_count.
+// What stands for itself: a solid, or an assembly when the number is not below solid_count; of a ball with a bit that
+// tells it, so that nobody need look at it.
 typedef uint32_t ShapeItem;
+#define ITEM_BALL 0x80000000u
+
+static inline uint32_t item_index(ShapeItem item)
+{
+    return item & ~ITEM_BALL;
+}
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.
 typedef struct ItemBox {
@@ -60,12 +67,14 @@ typedef struct ItemBox {
 
 struct ShapeTable {
     Solid *solids;
+    Pages solid_pages; // which they are in; owned
     uint32_t solid_count;
     TreeNode *nodes;
     Assembly *assemblies;
     uint32_t node_count, assembly_count;
     ShapeItem *items; // unbounded ones first, then those of the tree in its order
     ItemBox *boxes;   // of those of the tree, in its order
+    Pages item_pages, box_pages;
     uint32_t unbounded_count, bounded_count;
     Bvh tree; // of the bounded ones; its leaves are runs of their items
 };

@@ -117,8 +117,8 @@ static uint64_t group_item(const void *context, const RayGroup *group, const Ray
     ShapeItem item = table->items[table->unbounded_count + at];
     uint64_t may = ~occluded;
     (void)cone;
-    if (is_lone_ball(table, item)) {
-        occluded = group_ball(from, group, &table->solids[item], &table->boxes[at], occluded, &may);
+    if (item & ITEM_BALL) {
+        occluded = group_ball(from, group, &table->solids[item_index(item)], &table->boxes[at], occluded, &may);
     }
     for (; may; may &= may - 1) {
         unsigned i = (unsigned)__builtin_ctzll(may);

@@ -57,8 +57,9 @@ static Bounds part_bounds(const Part *part, int exponent)
     for (int axis = 0; axis < 3; axis++) {
         Vec3 n = vec3(axis == 0, axis == 1, axis == 2);
         double error = 12.0 * (DBL_EPSILON / 2) * part_reach(part, n);
-        high[axis] = times_power(part_support(part, n) + error, -exponent, down);
-        low[axis] = times_power(-part_support(part, vec3_neg(n)) - error, -exponent, down);
+        part_span(part, n, &low[axis], &high[axis]);
+        high[axis] = times_power(high[axis] + error, -exponent, down);
+        low[axis] = times_power(low[axis] - error, -exponent, down);
     }
     return (Bounds){vec3(low[0], low[1], low[2]), vec3(high[0], high[1], high[2])};
 }
@@ -121,9 +122,17 @@ static void nodes_init(ShapeTable *table, const Scene *scene)
 // ---- the tree
 
 typedef struct Work {
-    Bounds *solids, *nodes, *in_tree;
+    Bounds *solids, *nodes; // the roots' boxes are those of their assemblies
     ShapeItem *bounded;
+    Pages solid_pages, bounded_pages, ref_pages;
 } Work;
+
+static const Bounds *item_bounds(const ShapeTable *table, const Work *work, ShapeItem item)
+{
+    uint32_t index = item_index(item);
+    return index < table->solid_count ? &work->solids[index]
+                                      : &work->nodes[table->assemblies[index - table->solid_count].first_node];
+}
 
 static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds *bounds)
 {
@@ -131,28 +140,29 @@ static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds
         return; // nothing is left of what is cut with one another
     }
     if (bounds_are_finite(*bounds)) {
-        work->in_tree[table->bounded_count] = *bounds;
         work->bounded[table->bounded_count++] = item;
     } else {
         table->items[table->unbounded_count++] = item;
     }
 }
 
-static bool tree_init(ShapeTable *table, const Work *work, int threads)
+static bool tree_init(ShapeTable *table, Work *work, int threads)
 {
     Bounds all = BOUNDS_NONE;
-    BvhRef *refs = malloc(table->bounded_count * sizeof *refs);
-    table->boxes = malloc(table->bounded_count * sizeof *table->boxes);
-    if (!refs || !table->boxes) {
-        free(refs);
+    if (!pages_take(&work->ref_pages, table->bounded_count * sizeof(BvhRef)) ||
+        !pages_take(&table->box_pages, table->bounded_count * sizeof *table->boxes)) {
         return false;
     }
+    BvhRef *refs = work->ref_pages.memory;
+    table->boxes = table->box_pages.memory;
     for (uint32_t i = 0; i < table->bounded_count; i++) {
-        all = bounds_join(all, work->in_tree[i]);
+        const Bounds *own = item_bounds(table, work, work->bounded[i]);
+        all = (Bounds){vec3_least(all.low, own->low), vec3_greatest(all.high, own->high)};
     }
     bvh_place(&table->tree, all.low, all.high);
     for (uint32_t i = 0; i < table->bounded_count; i++) {
-        refs[i] = bvh_ref(&table->tree, work->in_tree[i].low, work->in_tree[i].high, i);
+        const Bounds *own = item_bounds(table, work, work->bounded[i]);
+        refs[i] = bvh_ref(&table->tree, own->low, own->high, i);
     }
     bool done = bvh_build(&table->tree, refs, table->bounded_count, BVH_LEAF_ONE, threads);
     for (uint32_t i = 0; done && i < table->bounded_count; i++) {
@@ -160,7 +170,6 @@ static bool tree_init(ShapeTable *table, const Work *work, int threads)
         memcpy(table->boxes[i].low, refs[i].low, sizeof table->boxes[i].low);
         memcpy(table->boxes[i].high, refs[i].high, sizeof table->boxes[i].high);
     }
-    free(refs);
     return done;
 }
 
@@ -168,16 +177,39 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
 {
     for (uint32_t i = 0; i < table->solid_count; i++) {
         if (table->solids[i].node == NODE_NONE) {
-            add_item(table, work, i, &work->solids[i]);
+            add_item(table, work, i | (table->solids[i].kind == PART_BALL ? ITEM_BALL : 0), &work->solids[i]);
         }
     }
     for (uint32_t i = 0; i < table->assembly_count; i++) {
-        Bounds bounds = assembly_measure(table, &table->assemblies[i], work->solids, work->nodes);
-        if (table->assemblies[i].solid_count > 0) {
-            add_item(table, work, table->solid_count + i, &bounds);
+        const Assembly *assembly = &table->assemblies[i];
+        Bounds *root = &work->nodes[assembly->first_node];
+        *root = assembly_measure(table, assembly, work->solids, work->nodes);
+        if (assembly->solid_count > 0) {
+            add_item(table, work, table->solid_count + i, root);
         }
     }
     return table->bounded_count == 0 || tree_init(table, work, threads);
+}
+
+// What the table and the work on it need; what was taken is given back in any case.
+static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
+{
+    size_t most = scene->parts.count + scene->composites.count;
+    work->nodes = malloc((scene->nodes.count + 1) * sizeof *work->nodes);
+    table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
+    table->assemblies = malloc((scene->composites.count + 1) * sizeof *table->assemblies);
+    if (!work->nodes || !table->nodes || !table->assemblies ||
+        !pages_take(&work->solid_pages, scene->parts.count * sizeof *work->solids) ||
+        !pages_take(&work->bounded_pages, most * sizeof *work->bounded) ||
+        !pages_take(&table->solid_pages, scene->parts.count * sizeof *table->solids) ||
+        !pages_take(&table->item_pages, most * sizeof *table->items)) {
+        return false;
+    }
+    work->solids = work->solid_pages.memory;
+    work->bounded = work->bounded_pages.memory;
+    table->solids = table->solid_pages.memory;
+    table->items = table->item_pages.memory;
+    return true;
 }
 
 bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int threads)
@@ -190,19 +222,8 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
     if (table->solid_count == 0) {
         return true;
     }
-    size_t most = scene->parts.count + scene->composites.count;
-    Work work = {
-        .solids = malloc(scene->parts.count * sizeof *work.solids),
-        .nodes = malloc((scene->nodes.count + 1) * sizeof *work.nodes),
-        .in_tree = malloc(most * sizeof *work.in_tree),
-        .bounded = malloc(most * sizeof *work.bounded),
-    };
-    table->solids = malloc(scene->parts.count * sizeof *table->solids);
-    table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
-    table->assemblies = malloc((scene->composites.count + 1) * sizeof *table->assemblies);
-    table->items = malloc(most * sizeof *table->items);
-    bool done = work.solids && work.nodes && work.in_tree && work.bounded && table->solids && table->nodes &&
-                table->assemblies && table->items;
+    Work work = {0};
+    bool done = storage_take(table, scene, &work);
     if (done) {
         for (uint32_t i = 0; i < table->solid_count; i++) {
             table->solids[i] = solid_of(&scene->parts.items[i], exponent);
@@ -214,20 +235,20 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
         }
         done = items_init(table, &work, threads);
     }
-    free(work.solids);
     free(work.nodes);
-    free(work.in_tree);
-    free(work.bounded);
+    pages_give(&work.solid_pages);
+    pages_give(&work.bounded_pages);
+    pages_give(&work.ref_pages);
     return done;
 }
 
 void shapes_fini(ShapeTable *table)
 {
-    free(table->solids);
     free(table->nodes);
     free(table->assemblies);
-    free(table->items);
-    free(table->boxes);
+    pages_give(&table->solid_pages);
+    pages_give(&table->item_pages);
+    pages_give(&table->box_pages);
     bvh_fini(&table->tree);
     *table = (ShapeTable){0};
 }

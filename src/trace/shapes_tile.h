@@ -236,6 +236,17 @@ static bool beam_add(ShapeBeam *beam, const BvhNode *from, unsigned child)
     return true;
 }
 
+// Fetches a ball, which has to wait, into the cache.
+RT_ALWAYS_INLINE void tile_expect(const ShapesTile *of, bool is_ball, ShapeItem item)
+{
+    const char *from = (const char *)&of->table->solids[item_index(item)];
+    if (is_ball) {
+        __builtin_prefetch(from);
+        __builtin_prefetch(from + 64);
+        __builtin_prefetch(from + offsetof(Solid, to_world) - 1);
+    }
+}
+
 // One walk, near things first: asks the balls, and gathers what else there is. False when that is too much.
 static bool tile_walk(ShapesTile *of, BvhWalk *walk)
 {
@@ -249,7 +260,7 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
         }
         if (child & BVH_LEAF) {
             uint32_t at = bvh_leaf_first(child);
-            tile_ball(of, &of->table->solids[items[at]], &of->table->boxes[at]);
+            tile_ball(of, &of->table->solids[item_index(items[at])], &of->table->boxes[at]);
             of->limit = !~of->hits->met ? tile_limit(of->first) : of->limit;
             continue;
         }
@@ -258,7 +269,10 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
         unsigned bottom = walk->waiting;
         for (unsigned met = bvh_walk_boxes(walk, node, limit, enters); met; met &= met - 1) {
             unsigned i = (unsigned)__builtin_ctz(met);
-            if (!(node->child[i] & BVH_LEAF) || is_lone_ball(of->table, items[bvh_leaf_first(node->child[i])])) {
+            bool is_leaf = node->child[i] & BVH_LEAF;
+            ShapeItem item = is_leaf ? items[bvh_leaf_first(node->child[i])] : 0;
+            if (!is_leaf || (item & ITEM_BALL)) {
+                tile_expect(of, is_leaf, item);
                 bvh_walk_push(walk, bottom, bvh_walk_key(enters[i], node->child[i]));
             } else if (!beam_add(&of->others, node, i)) {
                 return false;

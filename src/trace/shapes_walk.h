@@ -288,13 +288,14 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
 {
     const ShapeTable *table = q->table;
+    uint32_t index = item_index(item);
     double enter;
-    if (item < table->solid_count) {
-        solid_closest(q, item, first);
+    if (index < table->solid_count) {
+        solid_closest(q, index, first);
     } else if (item_enters(q, &enter) && enter <= first->limit) {
         settle_span(q, first);
-        assembly_closest(table, &table->assemblies[item - table->solid_count], q->ray, q->start, start_error(q), enter,
-                         first);
+        assembly_closest(table, &table->assemblies[index - table->solid_count], q->ray, q->start, start_error(q),
+                         enter, first);
     }
 }
 
@@ -304,11 +305,6 @@ typedef struct ShapeBeam {
     uint32_t count, node_count;
     BvhNode nodes[SHAPE_BEAM_NODES];
 } ShapeBeam;
-
-static bool is_lone_ball(const ShapeTable *table, ShapeItem item)
-{
-    return item < table->solid_count && table->solids[item].kind == PART_BALL;
-}
 
 // All items, or, of those of the tree, only a beam's, if there is one.
 // A leaf is looked into up to the limit, where rounding cannot tell whether what it holds is the first.

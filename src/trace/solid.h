@@ -26,7 +26,7 @@ typedef struct Solid {
     uint32_t order, body;
     Vec3 centre;
     double extent;         // solid_extent
-    Linear to_world, to_object;
+    Linear to_object, to_world; // what tests need stands before what surfaces need
     Vec3 data[3];
 } Solid;
 
