@@ -2,11 +2,12 @@
 """The certified sphere test costs at most 1.6 times the instructions of the textbook's in the same loop, one by one and in
 vectors, and takes the way of double-word arithmetic in no ordinary scene; a scene without sky and fog runs nothing of either;
 the kernel that is chosen for a scene executes what one does that was compiled with nothing but what the scene has; the error of a sampled picture costs at most 2 or 2.5 % of the sampling; and spheres that a loop reads or works out cost a share of
-what they cost the usual way. Counted by callgrind, so that no clock decides.
+what they cost the usual way; stretched spheres cost at most twice what plain ones do. Counted by callgrind, so that no clock decides.
 SPDX-License-Identifier: MIT
 """
 import glob
 import os
+import random
 import re
 import shutil
 import subprocess
@@ -65,6 +66,14 @@ REPEATED = {
 }
 REPEATED_COUNTS = 500, 1500
 LITERAL_COUNTS = 4000, 12000 # more than the scanner's buffer holds
+
+
+# As many spheres, one of them stretched -> the most that a scene of such costs of one of others, in tracing and in all.
+STRETCHED_BAR = 2.0
+STRETCHED_SIZE = ("-W160", "-H120")
+STRETCHED_COUNT = 2000
+STRETCHED = "scale <1,2,1>"
+UNSTRETCHED = {"plain spheres": "", "spheres that are scaled": "scale 0.9"}
 
 
 def file_instructions(scene, function, folder, *options):
@@ -184,6 +193,28 @@ def judge_repeated(tap, folder):
         tap.ok(quick <= bar * usual, f"a sphere of {name} costs {quick:.0f} instructions, {quick / usual:.2f} of the usual way's, at most {bar}")
 
 
+def spheres_text(scale):
+    """A cloud of spheres before a light."""
+    draw = random.Random(1)
+    places = (",".join(f"{draw.uniform(-5, 5):.4f}" for _ in range(3)) for _ in range(STRETCHED_COUNT))
+    return ("camera { location <0, 0, -14> look_at 0 } light_source { <20, 30, -20> rgb 1 } "
+            "#default { pigment { rgb <0.8, 0.5, 0.3> } }\n" +
+            "".join(f"sphere {{ 0, 0.16 {scale} translate <{at}> }}\n" for at in places))
+
+
+def judge_stretched(tap, folder):
+    """Two lines for each of UNSTRETCHED: instructions of tracing, and of the whole program."""
+    for function, what in {"render_film": "tracing", "main": "all"}.items():
+        stretched = scene_instructions(spheres_text(STRETCHED), function, folder, *STRETCHED_SIZE)
+        for name, scale in UNSTRETCHED.items():
+            other = scene_instructions(spheres_text(scale), function, folder, *STRETCHED_SIZE)
+            if not stretched or not other:
+                tap.skip(f"stretched spheres, {what}", "callgrind does not run rtlang")
+                continue
+            ratio = stretched / other
+            tap.ok(ratio <= STRETCHED_BAR, f"stretched spheres take {ratio:.2f} times the instructions of {name}, {what}")
+
+
 def main():
     tap = Tap()
     if not VALGRIND:
@@ -200,6 +231,7 @@ def main():
             judge_absent(tap, folder)
         judge_estimate(tap, folder)
         judge_repeated(tap, folder)
+        judge_stretched(tap, folder)
     return tap.done()
 
 
