@@ -11,6 +11,10 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # the folder is distributed as it is
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pictures  # noqa: E402
+import survey_times  # noqa: E402
+
 SURVEY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "survey.py")
 SCENES = {
     "accepted.pov": '#version 3.7; global_settings { assumed_gamma 1 }\n#include "part.inc"\n',
@@ -32,6 +36,18 @@ def write_scenes(folder):
         with (gzip.open if name.endswith(".gz") else open)(os.path.join(folder, name), "wt") as file:
             file.write(text)
     return [os.path.join(folder, name) for name, *_ in EXPECTED]
+
+
+def check_times(tell, folder):
+    """Of a scene that both draw, and of one that the first program never ends within its second."""
+    done = subprocess.run([sys.executable, SURVEY, "--times", "--size", "32x24", "--turns", "2", os.path.join(folder, "accepted.pov")],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120, check=False, text=True)
+    tell("1 scenes timed, 0 of them not finished by both" in done.stdout and " of 1 slower than POV-Ray; geometric mean " in done.stdout,
+         "the times of one scene are compared")
+    tell(survey_times.seconds_of([sys.executable, "-c", "while True: pass"], folder, 1) is None, "a run is stopped at its limit")
+    tell(survey_times.seconds_of(["false"], folder, 1) is None, "a run that fails has no time")
+    tell(survey_times.ratio({"rtlang": [3.0, 1.0], "povray": [2.0, 4.0]}) == 0.5, "the least seconds count")
+    tell(survey_times.ratio({"rtlang": [3.0], "povray": [None]}) is None, "what one program does not finish has no ratio")
 
 
 def main():
@@ -60,6 +76,8 @@ def main():
                 print(f"# {got}")
         tell(found["plan"] == PLAN, f"the plan is {found['plan']}")
         tell("3 scenes: 2 refused, 1 accepted" in done.stdout, "the totals are printed")
+        if pictures.povray():
+            check_times(tell, folder)
     print(f"1..{number}")
     return 1 if failed else 0
 

@@ -3,7 +3,8 @@
 
 Each scene is read by `rtlang --check` in a copy of its folder, with POV-Ray's include files. Printed are a line a
 scene, the blockers by how many scenes they are the first or any of, and a plan: what to add next to unlock most scenes.
-With --render what is accepted is rendered by both programs (rtcheck) and the differences are summed up.
+With --render what is accepted is rendered by both programs (rtcheck) and the differences are summed up; with --times it
+is drawn by both in turns, one scene at a time, and their processor seconds are compared.
 Exit status: 0, or 77 when the scenes are not installed. SPDX-License-Identifier: MIT
 """
 import argparse
@@ -24,6 +25,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
 import documents  # noqa: E402
 import pictures  # noqa: E402
+import survey_times  # noqa: E402
 
 EXAMPLES = "/usr/share/doc/povray/examples"  # of Debian's package povray-examples
 SKIPPED = 77
@@ -77,6 +79,12 @@ CHANCE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\bjitter\b|\b(?:apert
 ELSEWHERE = 24  # how often POV-Ray draws a scene that differs all but the same, to tell where it does not agree with itself
 
 
+def size(text):
+    """(width, height) of a text like 640x480."""
+    width, height = map(int, text.split("x"))
+    return width, height
+
+
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("scenes", nargs="*", help="scene files, instead of all of the package")
@@ -85,6 +93,9 @@ def arguments():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scenes at a time (default: all processors)")
     parser.add_argument("--timeout", type=float, default=30.0, help="seconds a scene and program may take (default 30)")
     parser.add_argument("--render", action="store_true", help="render what is accepted with both programs and compare")
+    parser.add_argument("--times", action="store_true", help="compare the processor seconds of both for what is accepted")
+    parser.add_argument("--size", type=size, default=(640, 480), metavar="WxH", help="of --times (default 640x480)")
+    parser.add_argument("--turns", type=int, default=3, metavar="N", help="of --times (default 3)")
     return parser.parse_args()
 
 
@@ -303,6 +314,9 @@ def survey(options, paths, copies):
         if options.render:
             accepted = [record for record in records if record["outcome"] == "accepted"]
             list(pool.map(lambda record: render(record, options, folders), accepted))
+    if options.times:
+        for record in (each for each in records if each["outcome"] == "accepted"):
+            record["times"] = survey_times.measure(record["path"], options.size, options.turns, options.timeout, folders)
     return records
 
 
@@ -321,6 +335,8 @@ def main():
     print_tables(records)
     if options.render:
         print_pictures(records)
+    if options.times:
+        survey_times.print_times(records)
     if options.docs:
         write_table(records, options.docs)
     if options.json:
