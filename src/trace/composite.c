@@ -11,12 +11,14 @@
 #include <string.h>
 
 typedef struct Crossing {
-    double t, error;
+    double t;
+    double error;     // how far t may be off by rounding; before has_error how long the chord is
     uint32_t solid; // within the assembly
     uint8_t side;
     bool leaves;    // the solid's own inside, not minding PART_INVERSE
     bool is_flat;   // changes nothing
     bool is_hidden; // found before the crossings of its group
+    bool has_error; // worked out when it is asked for first: most crossings are never come to
 } Crossing;
 
 // An assembly while a ray passes through it.
@@ -26,11 +28,13 @@ typedef struct Passage {
     const Ray *ray;
     double start_error;    // how far along the ray its start may be off its surface
     double enter;          // where the ray comes to the assembly's box
-    double nearest_share;  // no crossing is nearer than this share of its t
+    double nearest_share;  // no crossing that is left is nearer than this share of its t; 0: not known
     uint32_t *inside;      // for each node
     bool *is_inside;       // for each solid, PART_INVERSE minded
     Crossing *crossings;   // a heap by t, then by number
     uint32_t count;
+    bool is_over;          // nothing more of it can be seen
+    double decided_from, decided_until; // where the ray is inside of all that decide, as far as it is known
 } Passage;
 
 static const Solid *passage_solid(const Passage *p, uint32_t index)
@@ -100,11 +104,20 @@ static uint32_t heap_pop(Passage *p)
 
 // ---- what crosses the ray
 
-static void passage_add(Passage *p, uint32_t index, double t, double error, uint8_t side, bool leaves, bool is_flat)
+static double crossing_error(const Passage *p, Crossing *c)
 {
-    double share = t / (t + error);
-    p->nearest_share = share < p->nearest_share ? share : p->nearest_share;
-    p->crossings[p->count++] = (Crossing){t, error, index, side, leaves, is_flat, false};
+    if (!c->has_error) {
+        const Solid *solid = passage_solid(p, c->solid);
+        Ray object = solid_ray(solid, p->ray);
+        c->error = solid_end_error(solid, p->ray, &object, c->t, c->side, c->error);
+        c->has_error = true;
+    }
+    return c->error;
+}
+
+static void passage_add(Passage *p, uint32_t index, double t, double length, uint8_t side, bool leaves, bool is_flat)
+{
+    p->crossings[p->count++] = (Crossing){t, length, index, side, leaves, is_flat, false, false};
 }
 
 static void passage_flat(Passage *p, uint32_t index, RayStart start)
@@ -113,17 +126,34 @@ static void passage_flat(Passage *p, uint32_t index, RayStart start)
     Ray object = solid_ray(solid, p->ray);
     double t;
     bool is_start = starts_on_part(start) && solid_equal(solid, &p->table->solids[part_index(start.shape)]);
-    if (is_start || !solid_flat_root(solid, &object, &t)) {
+    if (is_start || !solid_flat_root(solid, &object, &t) || !(t > 0.0)) {
         return;
     }
-    double error = solid_crossing_error(solid, p->ray, &object, t, 0);
-    if (t > (starts_beside(p->table, start, solid) ? error + p->start_error : 0.0)) {
-        passage_add(p, index, t, error, 0, false, true);
+    if (!starts_beside(p->table, start, solid) ||
+        t > solid_crossing_error(solid, p->ray, &object, t, 0) + p->start_error) {
+        passage_add(p, index, t, (double)INFINITY, 0, false, true);
     }
 }
 
-// Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later. A ray that starts
-// on a surface has passed what lies within rounding of its start.
+// The ray is inside of a solid that decides from `enter` to `leave` and nowhere else. Where one of them is left before
+// another is come to, no surface shows: at each crossing one of the two is outside, before it and after it.
+static void passage_decide(Passage *p, double enter, double leave)
+{
+    p->decided_from = enter > p->decided_from ? enter : p->decided_from;
+    p->decided_until = leave < p->decided_until ? leave : p->decided_until;
+    p->is_over = p->is_over || p->decided_until < p->decided_from;
+}
+
+// Whether a ray that starts on a surface has passed an end of a chord, since that lies within rounding of its start.
+static bool passage_is_past(const Passage *p, const Solid *solid, const Ray *object, const Chord *chord, bool leaves,
+                            bool is_beside)
+{
+    double t = leaves ? chord->leave : chord->enter;
+    return !(t > 0.0) ||
+           (is_beside && !(t > solid_chord_error(solid, p->ray, object, chord, leaves) + p->start_error));
+}
+
+// Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
 static void passage_solid_begin(Passage *p, uint32_t index, RayStart start, bool is_own)
 {
     const Solid *solid = passage_solid(p, index);
@@ -132,21 +162,23 @@ static void passage_solid_begin(Passage *p, uint32_t index, RayStart start, bool
     bool inward = start.inward != solid->flips;
     Chord chord;
     Ray object = solid_ray(solid, p->ray);
-    if ((is_start && !inward) || !solid_chord(solid, &object, is_start ? part_side(start.shape) : SIDE_NONE, &chord)) {
+    if ((is_start && !inward) || !solid_chord(solid, &object, is_start ? part_side(start.shape) : SIDE_NONE, &chord) ||
+        passage_is_past(p, solid, &object, &chord, true, is_beside)) {
+        p->is_over = p->is_over || solid->decides;
         return;
     }
-    double leave_error = solid_chord_error(solid, p->ray, &object, &chord, true);
-    if (!(chord.leave > (is_beside ? leave_error + p->start_error : 0.0))) {
-        return;
+    bool is_inside = is_start || passage_is_past(p, solid, &object, &chord, false, is_beside);
+    if (solid->decides) {
+        passage_decide(p, is_inside ? 0.0 : chord.enter, chord.leave);
     }
-    double enter_error = solid_chord_error(solid, p->ray, &object, &chord, false);
-    if (is_start || !(chord.enter > (is_beside ? enter_error + p->start_error : 0.0))) {
+    double length = chord.leave - chord.enter;
+    if (is_inside) {
         passage_toggle(p, index);
     } else {
-        passage_add(p, index, chord.enter, enter_error, chord.enter_side, false, false);
+        passage_add(p, index, chord.enter, length, chord.enter_side, false, false);
     }
     if (chord.leave < (double)INFINITY) {
-        passage_add(p, index, chord.leave, leave_error, chord.leave_side, true, false);
+        passage_add(p, index, chord.leave, length, chord.leave_side, true, false);
     }
 }
 
@@ -192,22 +224,65 @@ static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Foremost *fi
         c->is_hidden = !crossing_has_surface(p, c) || !crossing_shows(p, c, false);
     }
     for (uint32_t i = begin; i < end; i++) {
-        if (!p->crossings[i].is_flat) {
-            passage_toggle(p, p->crossings[i].solid);
+        const Crossing *c = &p->crossings[i];
+        if (!c->is_flat) {
+            passage_toggle(p, c->solid);
+            p->is_over = p->is_over || (c->leaves && passage_solid(p, c->solid)->decides);
         }
     }
-    const Crossing *seen = NULL;
+    Crossing *seen = NULL;
     for (uint32_t i = begin; i < end; i++) {
-        const Crossing *c = &p->crossings[i];
+        Crossing *c = &p->crossings[i];
         if (!c->is_hidden && crossing_shows(p, c, true) && (!seen || c->solid < seen->solid)) {
             seen = c;
         }
     }
     if (seen) {
         solid_offer(p->table, p->assembly->first_solid + seen->solid, p->ray, seen->t,
-                    crossing_span(seen->t, seen->error, p->enter), seen->side, seen->leaves, first);
+                    crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     }
     return seen;
+}
+
+// Puts all leaves into their states, and the crossings into order.
+static void passage_begin(Passage *p, RayStart start)
+{
+    const Assembly *assembly = p->assembly;
+    bool is_own =
+        starts_on_part(start) && part_index(start.shape) - assembly->first_solid < assembly->solid_count;
+    for (uint32_t i = 0; i < assembly->node_count; i++) {
+        p->inside[i] = p->table->nodes[assembly->first_node + i].idle_inside;
+    }
+    for (uint32_t i = 0; i < assembly->solid_count; i++) {
+        p->is_inside[i] = passage_solid(p, i)->flags & PART_INVERSE;
+    }
+    for (uint32_t i = 0; i < assembly->solid_count && !p->is_over; i++) {
+        if (solid_is_flat(passage_solid(p, i))) {
+            passage_flat(p, i, start);
+        } else {
+            passage_solid_begin(p, i, start, is_own);
+        }
+    }
+    for (uint32_t i = p->is_over ? 0 : p->count / 2; i-- > 0;) {
+        heap_sift(p, i);
+    }
+}
+
+// Whether no crossing that is left may lie at the limit or before it. Those before it are asked about errors by nobody.
+static bool passage_is_beyond(Passage *p, double limit)
+{
+    if (!(p->crossings[0].t > limit)) {
+        return false;
+    }
+    if (p->nearest_share == 0.0) {
+        p->nearest_share = 1.0;
+        for (uint32_t i = 0; i < p->count; i++) {
+            Crossing *c = &p->crossings[i];
+            double share = c->t / (c->t + crossing_error(p, c));
+            p->nearest_share = share < p->nearest_share ? share : p->nearest_share;
+        }
+    }
+    return p->crossings[0].t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
 }
 
 void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
@@ -219,31 +294,14 @@ void assembly_closest(const ShapeTable *table, const Assembly *assembly, const R
     uint32_t inside[assembly->node_count];
     bool is_inside[assembly->solid_count];
     Crossing crossings[2 * (size_t)assembly->solid_count];
-    Passage p = {table, assembly, ray, start_error, enter, 1.0, inside, is_inside, crossings, 0};
-    bool is_own =
-        starts_on_part(start) && part_index(start.shape) - assembly->first_solid < assembly->solid_count;
-    for (uint32_t i = 0; i < assembly->node_count; i++) {
-        inside[i] = table->nodes[assembly->first_node + i].idle_inside;
-    }
-    for (uint32_t i = 0; i < assembly->solid_count; i++) {
-        is_inside[i] = passage_solid(&p, i)->flags & PART_INVERSE;
-    }
-    for (uint32_t i = 0; i < assembly->solid_count; i++) {
-        if (solid_is_flat(passage_solid(&p, i))) {
-            passage_flat(&p, i, start);
-        } else {
-            passage_solid_begin(&p, i, start, is_own);
-        }
-    }
-    for (uint32_t i = p.count / 2; i-- > 0;) {
-        heap_sift(&p, i);
-    }
-    // Rounding makes t times the share greater by 3 u.
-    while (p.count > 0 && !(p.crossings[0].t * p.nearest_share * (1.0 - 8.0 * 0x1p-53) > first->limit)) {
+    Passage p = {table, assembly, ray,       start_error, enter, 0.0,
+                 inside, is_inside, crossings, 0,           false, 0.0, (double)INFINITY};
+    passage_begin(&p, start);
+    while (!p.is_over && p.count > 0 && !passage_is_beyond(&p, first->limit)) {
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
-        double until = crossings[begin].t + crossings[begin].error;
-        while (p.count > 0 && crossings[0].t - crossings[0].error <= until) {
+        double until = crossings[begin].t + crossing_error(&p, &crossings[begin]);
+        while (p.count > 0 && crossings[0].t - crossing_error(&p, &crossings[0]) <= until) {
             begin = heap_pop(&p);
         }
         if (passage_cross(&p, begin, end, first)) {

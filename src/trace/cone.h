@@ -92,6 +92,16 @@ RT_ALWAYS_INLINE Vec3 cone_normal(double ratio, Vec3 point, uint8_t side)
     return radius > 0.0 ? vec3(point.x / radius, point.y / radius, 1.0 - ratio) : vec3(0.0, 0.0, 1.0);
 }
 
+// A vector along that, of any length, for what does not want it to the last bit: no root where it can be done without.
+RT_ALWAYS_INLINE Vec3 cone_gradient(double ratio, Vec3 point, uint8_t side)
+{
+    if (side != CONE_ROUND || (point.x == 0.0 && point.y == 0.0)) {
+        return vec3(0.0, 0.0, 1.0);
+    }
+    double rise = ratio == 1.0 ? 0.0 : (1.0 - ratio) * sqrt(point.x * point.x + point.y * point.y);
+    return vec3(point.x, point.y, rise);
+}
+
 // A point near the side, put onto it.
 RT_ALWAYS_INLINE Vec3 cone_point(double ratio, Vec3 point, uint8_t side)
 {

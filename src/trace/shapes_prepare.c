@@ -43,7 +43,7 @@ static Solid solid_of(const Part *part, int exponent)
             solid.to_object.m[row][column] = times_power(part->to_object.m[row][column], exponent, up);
         }
     }
-    solid.extent = solid_extent(&solid);
+    solid_measure(&solid);
     return solid;
 }
 
@@ -103,8 +103,12 @@ static void assembly_init(ShapeTable *table, const Composite *composite, uint32_
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
         solid->composite = index;
+        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
-            solid->flips = solid->flips != table->nodes[at].is_inverse;
+            const TreeNode *node = &table->nodes[at];
+            solid->flips = solid->flips != node->is_inverse;
+            bool is_all = node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
+            solid->decides = solid->decides && is_all && !node->is_inverse;
         }
     }
 }

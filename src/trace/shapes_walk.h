@@ -236,6 +236,16 @@ static void ball_closest_inward(ShapeQuery *q, uint32_t index, Foremost *first)
     }
 }
 
+// Whether a root of the item that is asked, which is no farther than `to`, is met for certain before the way's end.
+static bool end_is_met(ShapeQuery *q, double to, const Foremost *first)
+{
+    double enter;
+    if (!(to < first->from && to < first->beaten && to < first->limit) || !item_enters(q, &enter)) {
+        return false;
+    }
+    return enter < first->from && enter < first->beaten && enter < first->limit;
+}
+
 static void chord_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
@@ -243,9 +253,17 @@ static void chord_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool
     if (!solid_chord(solid, object, is_start ? part_side(q->start.shape) : SIDE_NONE, &chord)) {
         return;
     }
+    double length = chord.leave - chord.enter; // no error is greater
+    if (chord.enter - 2.0 * length > first->limit) {
+        return;
+    }
     double passed = is_start ? -1.0 : passed_error(q, solid);
     bool is_open = solid->flags & PART_OPEN;
     if (!is_start && chord.enter > 0.0 && !(is_open && chord.enter_side != 0)) {
+        if (q->is_any && passed < 0.0 && end_is_met(q, chord.enter + 2.0 * length, first)) {
+            first->hit.shape = part_shape(index, chord.enter_side); // whatever its error is
+            return;
+        }
         double error = solid_chord_error(solid, q->ray, object, &chord, false);
         if (!is_passed(chord.enter, error, passed)) {
             root_offer(q, index, chord.enter, error, chord.enter_side, false, first);

@@ -116,7 +116,7 @@ static double fixed_size(const Solid *solid, int axis)
     return solid->kind == PART_BOX ? fmax(fabs(low[axis]), fabs(high[axis])) : 1.0;
 }
 
-double solid_extent(const Solid *solid)
+static double extent_of(const Solid *solid)
 {
     double product = 1.0, sum = 0.0;
     for (int row = 0; row < 3; row++) {
@@ -131,6 +131,22 @@ double solid_extent(const Solid *solid)
     return product * fabs(vec3_dot(x, vec3_cross(y, z))) * sum;
 }
 
+void solid_measure(Solid *solid)
+{
+    double *columns = &solid->columns.x;
+    for (int axis = 0; axis < 3; axis++) {
+        double square = 0.0;
+        solid->entries[axis] = 0;
+        for (int from = 0; from < 3; from++) {
+            double entry = solid->to_object.m[from][axis];
+            square += entry * entry;
+            solid->entries[axis] |= (uint8_t)((entry != 0.0) << from);
+        }
+        columns[axis] = sqrt(square);
+    }
+    solid->extent = extent_of(solid);
+}
+
 // |n|·R for a normal n of the solid's space, R being per coordinate of that space the sum of the magnitudes of all
 // terms that make the coordinate of p(t), and of those of its centre and its points, which are rounded, too. An entry
 // of the map's inverse that is 0, or alone in its column, has only its own rounding; others have that of the whole
@@ -140,19 +156,22 @@ static double normal_reach(const Solid *solid, Vec3 n, const Ray *ray, double t)
     Vec3 o = ray->origin, d = ray->direction, centre = solid->centre;
     const double terms[3] = {fabs(o.x) + fabs(centre.x) + fabs(t * d.x), fabs(o.y) + fabs(centre.y) + fabs(t * d.y),
                              fabs(o.z) + fabs(centre.z) + fabs(t * d.z)};
-    const double normal[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    const double normal[3] = {fabs(n.x), fabs(n.y), fabs(n.z)}, *columns = &solid->columns.x;
     double sum = 0.0;
     for (int axis = 0; axis < 3; axis++) {
-        double column = 0.0, reach = 0.0;
-        int entries = 0;
-        for (int from = 0; from < 3; from++) {
-            double entry = solid->to_object.m[from][axis];
-            column += entry * entry;
-            reach += entry != 0.0 ? terms[from] * terms[from] : 0.0;
-            entries += entry != 0.0;
+        unsigned entries = solid->entries[axis];
+        double reach;
+        if (normal[axis] == 0.0) {
+            continue;
         }
-        double length = entries > 1 ? solid->extent : 0.0;
-        sum += normal[axis] * (fixed_size(solid, axis) + sqrt(column) * (sqrt(reach) + length));
+        if ((entries & (entries - 1)) == 0) {
+            reach = terms[entries >> 1];
+        } else {
+            double square = (entries & 1 ? terms[0] * terms[0] : 0.0) + (entries & 2 ? terms[1] * terms[1] : 0.0) +
+                            (entries & 4 ? terms[2] * terms[2] : 0.0);
+            reach = sqrt(square) + solid->extent;
+        }
+        sum += normal[axis] * (fixed_size(solid, axis) + columns[axis] * reach);
     }
     return sum;
 }
@@ -163,7 +182,9 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
         PlaneShape plane = {solid->data[0], solid->data[1].x};
         return plane_crossing_error(&plane, *ray, t);
     }
-    Vec3 n = object_normal(solid, ray_at(*object, t), side);
+    Vec3 n = solid->kind == PART_BOX    ? box_normal(side)
+             : solid->kind == PART_CONE ? cone_gradient(solid->data[0].x, ray_at(*object, t), side)
+                                        : object_normal(solid, ray_at(*object, t), side);
     double reach = normal_reach(solid, n, ray, t);
     return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }
@@ -174,11 +195,17 @@ double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, do
     return fmin(solid_crossing_error(ball, ray, object, t, 0), chord);
 }
 
+double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double length)
+{
+    double error = isinf(t) ? 0.0 : solid_crossing_error(solid, ray, object, t, side);
+    return error < length ? error : length;
+}
+
 double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves)
 {
-    double t = leaves ? chord->leave : chord->enter;
-    uint8_t side = leaves ? chord->leave_side : chord->enter_side;
-    return isinf(t) ? 0.0 : fmin(solid_crossing_error(solid, ray, object, t, side), chord->leave - chord->enter);
+    double length = chord->leave - chord->enter;
+    return leaves ? solid_end_error(solid, ray, object, chord->leave, chord->leave_side, length)
+                  : solid_end_error(solid, ray, object, chord->enter, chord->enter_side, length);
 }
 
 void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal)

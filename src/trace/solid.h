@@ -19,13 +19,16 @@ typedef struct Solid {
     PartKind kind;
     uint8_t flags, hidden; // of the composite, if it is in one
     bool flips;            // the outside of what the part is in is this part's inside
+    bool decides;          // outside of it nothing is seen of the composite; it is convex, so a line is inside once
     uint32_t node;         // of the geometry; NODE_NONE alone
     uint32_t composite;    // NODE_NONE alone
     uint32_t twin;         // of a ball: the slot of a sphere that equals it, SLOT_NONE if there is none
     MaterialIndex material;
     uint32_t order, body;
     Vec3 centre;
-    double extent;         // solid_extent
+    double extent;         // solid_measure
+    Vec3 columns;          // lengths of the columns of to_object
+    uint8_t entries[3];    // of each column: a bit for each that is not 0
     Linear to_object, to_world; // what tests need stands before what surfaces need
     Vec3 data[3];
 } Solid;
@@ -51,9 +54,9 @@ bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord
 // Where the line meets a flat solid.
 bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
 
-// The sum of the lengths that the map gives to the fixed shape, more where it makes angles narrow: what its own
-// rounding, and its inverse's, are beside.
-double solid_extent(const Solid *solid);
+// What the bounds of rounding want of the map: its columns, and as `extent` the sum of the lengths that it gives to the
+// fixed shape, more where it makes angles narrow: what its own rounding, and its inverse's, are beside.
+void solid_measure(Solid *solid);
 
 // How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
 double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side);
@@ -64,6 +67,7 @@ double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, do
 // The same for an end of a chord. Where the ray grazes a round side the bound has no bounds, but a crossing is not off
 // by more than the chord is long. 0 for an end that is infinite.
 double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves);
+double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double length);
 
 // The point of a hit put back onto the side, and the solid's own outward unit normal there.
 void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal);
