@@ -139,20 +139,32 @@ typedef struct Cell {
     double weight[2];  // what they count, 3 t^2 - 2 t^3
 } Cell;
 
-// All coordinates are moved by `offset`, so that POV-Ray meets none below 0; its points lie at these places.
-static Cell cell_of(double x, double offset, unsigned period)
+// floor, without a call for numbers of ordinary size.
+static inline double floor_of(double x, long long *number)
 {
     static const double largest = 1e15; // beyond, a double has no fraction left to speak of
-    double moved = x + offset, whole = floor(moved), t = moved - whole;
-    long long number = (long long)fmax(fmin(whole, largest), -largest);
+    if (fabs(x) < largest) {
+        *number = (long long)x;
+        *number -= (double)*number > x;
+        return (double)*number;
+    }
+    *number = (long long)fmax(fmin(floor(x), largest), -largest);
+    return floor(x);
+}
+
+// All coordinates are moved by `offset`, so that POV-Ray meets none below 0; its points lie at these places.
+static inline Cell cell_of(double x, double offset, unsigned period)
+{
+    long long number;
+    double moved = x + offset, t = moved - floor_of(moved, &number);
     unsigned index = (unsigned)number & (period - 1);
     double weight = t * t * (3.0 - 2.0 * t);
     return (Cell){{index, (index + 1) & (period - 1)}, {t, t - 1.0}, {1.0 - weight, weight}};
 }
 
-static double cut(double x)
+static inline double cut(double x)
 {
-    return fmin(fmax(x, 0.0), 1.0);
+    return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
 }
 
 typedef struct Lattice {
@@ -166,7 +178,7 @@ static unsigned hash_of(const Noise *noise, unsigned x, unsigned y, unsigned z)
 }
 
 // The fraction is that of the coordinate itself; the offset only chooses the hash.
-static Cell hashed_cell(double x)
+static inline Cell hashed_cell(double x)
 {
     Cell cell = cell_of(x, 0.0, NOISE_CELLS);
     for (int i = 0; i < 2; i++) {
@@ -175,30 +187,42 @@ static Cell hashed_cell(double x)
     return cell;
 }
 
-static void find_lattice(const Noise *noise, Vec3 p, Lattice *at)
+static inline void find_lattice(const Noise *noise, Vec3 p, Lattice *at)
 {
     at->x = hashed_cell(p.x);
     at->y = hashed_cell(p.y);
     at->z = hashed_cell(p.z);
     for (int i = 0; i < 2; i++) {
+        unsigned of_x = noise->hash[at->x.index[i]];
         for (int j = 0; j < 2; j++) {
+            unsigned of_y = noise->hash[of_x ^ at->y.index[j]];
             for (int k = 0; k < 2; k++) {
-                at->hash[i][j][k] = hash_of(noise, at->x.index[i], at->y.index[j], at->z.index[k]) & 255;
+                at->hash[i][j][k] = noise->hash[of_y ^ at->z.index[k]] & 255;
             }
         }
     }
 }
 
-static double component(const Lattice *at, unsigned which)
+typedef double Two __attribute__((vector_size(16))); // of the two lattice points that differ in z
+
+static inline Two both(double a, double b)
 {
+    return (Two){a, b};
+}
+
+static inline double component(const Lattice *at, unsigned which)
+{
+    const Two way_z = both(at->z.way[0], at->z.way[1]), weight_z = both(at->z.weight[0], at->z.weight[1]);
     double sum = 0.0;
     for (int i = 0; i < 2; i++) {
         for (int j = 0; j < 2; j++) {
-            for (int k = 0; k < 2; k++) {
-                const double *row = &lattice[at->hash[i][j][k] + 4 * which];
-                sum += at->x.weight[i] * at->y.weight[j] * at->z.weight[k] *
-                       (0.5 * row[0] + row[1] * at->x.way[i] + row[2] * at->y.way[j] + row[3] * at->z.way[k]);
-            }
+            const double *a = &lattice[at->hash[i][j][0] + 4 * which], *b = &lattice[at->hash[i][j][1] + 4 * which];
+            double weight = at->x.weight[i] * at->y.weight[j];
+            Two value = both(0.5, 0.5) * both(a[0], b[0]) + both(a[1], b[1]) * both(at->x.way[i], at->x.way[i]) +
+                        both(a[2], b[2]) * both(at->y.way[j], at->y.way[j]) + both(a[3], b[3]) * way_z;
+            Two part = both(weight, weight) * weight_z * value;
+            sum += part[0];
+            sum += part[1];
         }
     }
     return sum;
