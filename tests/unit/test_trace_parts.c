@@ -82,10 +82,12 @@ static void draw_scene(Random *random, const Family *family, Scene *scene)
     Part last;
     scene_init(scene);
     for (int i = 0; i < family->spheres; i++) {
-        add_sphere(scene, random_point(random, family->spread), family->size * exp(random_between(random, -1, 1)));
+        Vec3 centre = random_point(random, family->spread);
+        add_sphere(scene, centre, family->size * exp(random_between(random, -1, 1)));
     }
     for (int i = 0; i < family->planes; i++) {
-        add_plane(scene, random_direction(random), random_between(random, -1, 1) * family->spread);
+        Vec3 normal = random_direction(random);
+        add_plane(scene, normal, random_between(random, -1, 1) * family->spread);
     }
     for (int i = 0; i < family->balls; i++) {
         last = random_ball(random, family, i ? &last : NULL);
@@ -140,7 +142,8 @@ static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces
     SurfaceRays rays = {.end = light, .aside = aside};
     asked &= ~UINT64_C(0) >> (TILE_RAYS - from->count);
     for (int i = 0; i < from->count; i++) {
-        Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), random_direction(random));
+        Vec3 way = random_direction(random);
+        Vec3 end = vec3_add_scaled(light, random_between(random, 0, aside), way);
         Vec3 offset = vec3_sub(end, tile_surface_point(from, i));
         rays.distance[i] = vec3_length(offset);
         lane_set(rays.towards, (unsigned)i, vec3_scale(1.0 / rays.distance[i], offset));
@@ -220,7 +223,8 @@ static void test_family(uint64_t seed, const Family *family)
         double away = family->spread * (turn % 3 ? 4.0 : turn % 2 ? 300.0 : 0.5);
         Vec3 eye = vec3_scale(away, random_direction(&random));
         aim(&random, family, &scene.parts.items[random_bits(&random) % scene.parts.count], eye, &tile);
-        Vec3 light = vec3_scale(family->spread * pow(10.0, random_between(&random, -1, 2)), random_direction(&random));
+        Vec3 way = random_direction(&random);
+        Vec3 light = vec3_scale(family->spread * pow(10.0, random_between(&random, -1, 2)), way);
         double aside = turn % 4 ? 0.0 : family->spread * pow(10.0, random_between(&random, -3, 0));
         uint64_t same = random_bits(&random), asked = random_bits(&random) | random_bits(&random);
         for (size_t isa = 0; geometry_isa(isa); isa++) {
