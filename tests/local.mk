@@ -65,6 +65,7 @@ unit_programs = \
   tests/unit/test_light_grid \
   tests/unit/test_ball_view \
   tests/unit/test_tiles \
+  tests/unit/test_race \
   tests/sampling/test_sampling \
   tests/sampling/test_small \
   tests/sampling/test_forward
@@ -161,6 +162,7 @@ tests_unit_test_render_sampler_SOURCES = %D%/unit/test_render_sampler.c
 tests_unit_test_render_sampler_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_tiles_SOURCES = %D%/unit/test_tiles.c $(trace_headers)
 tests_unit_test_tiles_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_race_SOURCES = %D%/unit/test_race.c src/check/race_ratio.c src/check/race_settings.c $(unit_headers)
 tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
 tests_sampling_test_sampling_LDADD = libapi.la
 tests_sampling_test_small_SOURCES = %D%/sampling/test_small.c %D%/sampling/scenes.h $(unit_headers)

@@ -441,6 +441,12 @@ static int scenes_study(const Check *check)
                               .folder = check->folder,
                               .repeats = 3,
                               .most_samples = options->most_samples,
+                              .reference_samples = options->reference,
+                              .race_width = options->race_width,
+                              .race_height = options->race_height,
+                              .budget = options->budget,
+                              .only_race = options->race,
+                              .shows_progress = isatty(STDERR_FILENO) != 0,
                               .interrupted = &interrupted};
     StudiesResult result = studies_run(options, &settings);
 

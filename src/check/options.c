@@ -171,6 +171,36 @@ static bool apply_most(Options *options, const char *argument)
     return parse_integer(argument, 64, 65536, &options->most_samples);
 }
 
+static bool apply_race(Options *options, const char *argument)
+{
+    (void)argument;
+    options->study = options->race = true;
+    return true;
+}
+
+static bool apply_reference(Options *options, const char *argument)
+{
+    return parse_integer(argument, 64, 1048576, &options->reference);
+}
+
+static bool apply_budget(Options *options, const char *argument)
+{
+    return parse_ratio(argument, &options->budget);
+}
+
+// 640x480
+static bool apply_size(Options *options, const char *argument)
+{
+    char *end;
+    long width = strtol(argument, &end, 10);
+
+    if (end == argument || *end != 'x' || width < 16 || width > 65535) {
+        return false;
+    }
+    options->race_width = (int)width;
+    return parse_integer(end + 1, 16, 65535, &options->race_height);
+}
+
 static const OptionRow rows[] = {
     {'W', "width", "PIXELS", apply_width, "a whole number from 1 to 65535", "width of the pictures (default 320)"},
     {'H', "height", "PIXELS", apply_height, "a whole number from 1 to 65535", "height of the pictures (default 240)"},
@@ -197,9 +227,16 @@ static const OptionRow rows[] = {
      "with --stability: other random cases (default 0)"},
     {0, "json", NULL, apply_json, "", "print one JSON object a scene; with --report also results.json"},
     {0, "study", NULL, apply_study, "",
-     "error against time instead: ladders of samples, and POV-Ray's own anti-aliasing"},
+     "error against time instead: ladders of samples, and the race against POV-Ray's anti-aliasing"},
+    {0, "race", NULL, apply_race, "", "of --study the race against POV-Ray alone"},
+    {0, "budget", "SECONDS", apply_budget, "a number or a quotient of two",
+     "with --study: what POV-Ray's runs of a race may take of the processor (default 60; 0: no limit)"},
+    {0, "size", "WxH", apply_size, "two whole numbers from 16 to 65535, as in 640x480",
+     "with --study: size of the race's pictures (default: POV-Ray's shortest run takes 0.5 s)"},
+    {0, "reference", "N", apply_reference, "a whole number from 64 to 1048576",
+     "with --study: samples a pixel of the reference (default 16 times --most, of a race 256)"},
     {0, "most", "N", apply_most, "a whole number from 64 to 65536",
-     "with --study: samples a pixel at the top of a ladder (default 256); the reference has 16 times as many"},
+     "with --study: samples a pixel at the top of a ladder (default 256, with --race 64)"},
     {0, "color", "WHEN", apply_color, "auto, always or never",
      "colour what is said on stderr: always, never, or auto (default): on a terminal, unless NO_COLOR is set"},
     {'V', "version", NULL, NULL, "", "print the version and stop"},
@@ -324,7 +361,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
                          .ties = 1e-4,
                          .povray = "povray",
                          .cases = 20000,
-                         .most_samples = 256};
+                         .budget = 60.0};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
     if (options->include_paths == NULL) {
         return complain(options, "out of memory", "");
@@ -337,6 +374,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
             return result;
         }
     }
+    options->most_samples = options->most_samples > 0 ? options->most_samples : options->race ? 64 : 256;
     options->scenes = argv + optind;
     options->scene_count = argc - optind;
     return options->scene_count > 0 || options->is_stability ? OPTIONS_GO : complain(options, "no scene given", "");

@@ -29,6 +29,10 @@ typedef struct Options {
     int cases, seed;   // is_stability: of each family; added to the seed
     bool json;
     int most_samples; // of a study
+    int reference; // samples of a study's references; 0: by most_samples
+    double budget; // of a race, seconds
+    int race_width, race_height; // 0: as large as it takes
+    bool race;  // the race alone
     bool study; // of error against time, instead of a comparison
     char **scenes;
     int scene_count;

@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -149,15 +150,24 @@ static int process_start(const PovrayJob *job, char **arguments, const char *fol
     return code;
 }
 
+static double seconds_of(struct timeval time)
+{
+    return (double)time.tv_sec + 1e-6 * (double)time.tv_usec;
+}
+
 // Waits for the end; 0, or the exit status, or 128 and the signal's number, or -1 when that cannot be known.
-static int process_wait(pid_t process)
+static int process_wait(pid_t process, double *seconds)
 {
     int status;
+    struct rusage usage;
 
-    while (waitpid(process, &status, 0) < 0) {
+    while (wait4(process, &status, 0, &usage) < 0) {
         if (errno != EINTR) {
             return -1;
         }
+    }
+    if (seconds != NULL) {
+        *seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     }
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
@@ -226,7 +236,7 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     if (arguments_make(&arguments, job) && folder != NULL) {
         for (int i = 0; i < START_TRIES; i++) {
             code = process_start(job, arguments.items, folder, &process);
-            status = code == 0 ? process_wait(process) : -1;
+            status = code == 0 ? process_wait(process, job->process_seconds) : -1;
             if (code != 0 || !has_not_begun(job, status)) {
                 break;
             }
@@ -248,7 +258,7 @@ PovrayCost povray_cost(const char *log)
 {
     FILE *file = fopen(log, "rb");
     char line[256];
-    PovrayCost cost = {0.0, 0.0};
+    PovrayCost cost = {0.0, 0.0, 0.0};
     bool is_trace = false;
 
     while (file != NULL && fgets(line, sizeof line, file) != NULL) {
@@ -258,7 +268,11 @@ PovrayCost povray_cost(const char *log)
         if (sscanf(line, "Pixels: %lf Samples: %lf", &pixels, &samples) == 2) {
             cost.rays = pixels + samples;
         }
-        is_trace = is_trace || strstr(line, "Trace Time:") != NULL;
+        if (strstr(line, "Trace Time:") != NULL) {
+            const char *wall = strchr(line, '(');
+            is_trace = true;
+            cost.wall = wall != NULL ? strtod(wall + 1, NULL) : 0.0;
+        }
         if (is_trace && with != NULL && strstr(line, "CPU-seconds") != NULL) {
             cost.seconds = strtod(with + 6, NULL);
             break;

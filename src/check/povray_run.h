@@ -19,6 +19,7 @@ typedef struct PovrayJob {
     const double *clock; // NULL: none is given
     int threads; // 0: as many as the machine has
     const char *const *switches; // more of them, ends with NULL; NULL: no anti-aliasing
+    double *process_seconds;     // of the processor, the whole process; NULL: not asked for
 } PovrayJob;
 
 // The absolute path of a program as a shell would find it, to be freed; NULL: there is none.
@@ -30,6 +31,7 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size);
 // What a run took, by its log; 0 where that does not tell.
 typedef struct PovrayCost {
     double seconds; // of the processor, tracing
+    double wall;    // by the clock, tracing
     double rays;    // from the camera
 } PovrayCost;
 

@@ -71,16 +71,26 @@ static bool files_add(Files *files, const Study *study)
         return true;
     }
     snprintf(name, sizeof name, "study-%d.svg", number);
-    FILE *plot = file_open(files, name);
-    if (plot == NULL) {
+    FILE *plot = study->has_methods ? file_open(files, name) : NULL;
+    snprintf(name, sizeof name, "race-%d.svg", number);
+    FILE *race = study->has_race ? file_open(files, name) : NULL;
+    if ((study->has_methods && plot == NULL) || (study->has_race && race == NULL)) {
+        stream_close(plot);
+        stream_close(race);
         return false;
     }
-    study_plot(study, plot, true);
+    if (plot != NULL) {
+        study_plot(study, plot, true);
+    }
+    if (race != NULL) {
+        race_plot(&study->race, race, true);
+    }
     study_print_csv(study, files->csv, number == 1);
     fputs(number == 1 ? "[" : ",\n", files->json);
     study_print_json(study, files->json);
     study_print_section(study, files->page, number);
-    return stream_close(plot);
+    bool fine = stream_close(plot);
+    return stream_close(race) && fine;
 }
 
 static void study_say(const Study *study, bool as_json)
@@ -93,7 +103,7 @@ static void study_say(const Study *study, bool as_json)
 StudiesResult studies_run(const Options *options, const StudySettings *settings)
 {
     Files files;
-    StudyTotal total = {0};
+    RaceTotal total = {0};
     StudiesResult result = STUDIES_FINE;
     Study *study = malloc(sizeof *study);
 
@@ -105,7 +115,9 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
     for (int i = 0; fine && i < options->scene_count && *settings->interrupted == 0; i++) {
         if (study_run(study, options->scenes[i], settings)) {
             study_say(study, options->json);
-            study_total_add(&total, study);
+            if (study->has_race) {
+                race_total_add(&total, &study->race);
+            }
             fine = files_add(&files, study);
         } else {
             say(options, "%s: %s", options->scenes[i], study->fault);

@@ -13,9 +13,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "check/race.h"
 #include "image/image.h"
 
-enum { STUDY_POINTS = 8, STUDY_METHODS = 20, STUDY_TEXT = 256 };
+enum { STUDY_POINTS = 32, STUDY_METHODS = 20, STUDY_TEXT = 256 };
 
 // One rung of a method's ladder. Errors are of values clamped to 0..1, in linear light.
 typedef struct StudyPoint {
@@ -33,7 +34,7 @@ typedef enum StudyKind {
     STUDY_SAMPLER,   // rtlang's kernels
     STUDY_REFERENCE, // its reference kernels, in one precision each
     STUDY_FORWARD,   // its forward tracer
-    STUDY_POVRAY,
+    STUDY_POVRAY,    // in plots of a race
 } StudyKind;
 
 typedef struct StudyMethod {
@@ -46,22 +47,15 @@ typedef struct StudyMethod {
     bool is_biased;             // more time did not help, well above the floor
 } StudyMethod;
 
-// A method's best against POV-Ray's.
-typedef struct StudyRatio {
-    const StudyPoint *povray;
-    const StudyMethod *povray_method;
-    double seconds;       // rtlang's time to the same error; NAN: not to be had
-    bool is_best;         // no other setting of POV-Ray is both faster and nearer
-    bool is_extrapolated; // rtlang's ladder does not reach that far
-    double rmse;          // rtlang's error in the same time
-} StudyRatio;
-
 typedef struct Study {
     const char *scene;
     int width, height;
     StudyMethod methods[STUDY_METHODS];
     int count;
-    int reference_samples;
+    double reference_samples; // as the run counted them
+    bool has_methods;         // with settings->only_race there is the race alone
+    bool has_race;
+    Race race;
     double floor;             // the reference's own error
     double model, arithmetic; // root mean squares, one ray a pixel: against POV-Ray, against quad; NAN: not known
     double depth_bias;        // what a greater max_trace_level changes in the reference; 0: nothing was cut
@@ -72,7 +66,7 @@ typedef struct Study {
     char fault[STUDY_TEXT];          // why there is no study
 } Study;
 
-typedef struct StudySettings {
+struct StudySettings {
     const char *povray; // NULL: without
     char *const *include_paths;
     int include_path_count;
@@ -80,27 +74,20 @@ typedef struct StudySettings {
     const double *clock;
     const char *folder; // for pictures and logs
     int repeats;        // runs with different seeds, of which means are taken
-    int most_samples;   // of a ladder, >= 64; the reference has 16 times as many, and photons grow along
+    int most_samples;   // of a ladder, >= 64; photons grow along
+    int reference_samples;       // 0: 16 times as many as a ladder has at its top, of a race 256
+    int race_width, race_height; // 0: as large as it takes
+    double budget;               // of POV-Ray's runs of a race, seconds of the processor; 0: no limit
+    bool only_race;              // without the ladders of all methods
+    bool shows_progress;
     const volatile sig_atomic_t *interrupted;
-} StudySettings;
+};
 
 // False when there is no study: `fault` says why.
 bool study_run(Study *study, const char *scene, const StudySettings *settings);
 
-// The ratios to each of POV-Ray's points; how many.
-int study_ratios(const Study *study, StudyRatio *ratios, int room);
-
-// The geometric mean of POV-Ray's time over rtlang's to equal error, over POV-Ray's best settings whose error rtlang's
-// ladder reaches; how many those are. NAN: none.
-double study_best_ratio(const StudyRatio *ratios, int count, int *best);
-
-// Over the scenes of a run, those that have a ratio.
-typedef struct StudyTotal {
-    int scenes;
-    double logarithms; // of their ratios, summed
-} StudyTotal;
-
-void study_total_add(StudyTotal *total, const Study *study);
+// One line on stderr that says how far a study has come; nothing where nobody looks.
+void study_progress(const StudySettings *settings, const char *scene, const char *what, int done, int all);
 
 // ---- study_metric.c
 

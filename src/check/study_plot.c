@@ -2,6 +2,7 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <stdlib.h>
 
 #include "check/study_print.h"
 
@@ -188,4 +189,62 @@ void study_plot(const Study *study, FILE *out, bool is_alone)
         print_method(out, study, &scale, i);
     }
     fputs("</svg>\n", out);
+}
+
+static StudyMethod *curve_add(Study *plot, const char *name, StudyKind kind)
+{
+    StudyMethod *method = &plot->methods[plot->count++];
+
+    *method = (StudyMethod){.kind = kind};
+    snprintf(method->name, sizeof method->name, "%s", name);
+    return method;
+}
+
+static void curve_put(StudyMethod *method, const RaceEntry *entry)
+{
+    if (method->count < STUDY_POINTS && entry->errors[RACE_BY_RTLANG] > 0.0) {
+        StudyPoint *point = &method->points[method->count++];
+        *point = (StudyPoint){.seconds = entry->seconds[RACE_CPU], .rmse = entry->errors[RACE_BY_RTLANG]};
+        snprintf(point->setting, sizeof point->setting, "%s", entry->setting);
+    }
+}
+
+static int by_seconds(const void *a, const void *b)
+{
+    double x = ((const StudyPoint *)a)->seconds, y = ((const StudyPoint *)b)->seconds;
+
+    return x < y ? -1 : x > y;
+}
+
+void race_plot(const Race *race, FILE *out, bool is_alone)
+{
+    static const char *const names[2][2] = {{"POV-Ray +AM1 -J", "POV-Ray +AM1 +J"},
+                                            {"POV-Ray +AM2 -J", "POV-Ray +AM2 +J"}};
+    Study *plot = calloc(1, sizeof *plot);
+
+    if (plot == NULL) {
+        return; // a plot less
+    }
+    plot->floor = race->floor;
+    for (int ladder = 0; ladder < 2; ladder++) {
+        StudyMethod *method = curve_add(plot, ladder == 0 ? "rtlang" : "rtlang adaptive", STUDY_SAMPLER);
+        for (int i = 0; i < race->rtlang_count; i++) {
+            if (race->rtlang[i].is_adaptive == (ladder == 1)) {
+                curve_put(method, &race->rtlang[i]);
+            }
+        }
+    }
+    for (int kind = 0; kind < 4; kind++) {
+        StudyMethod *method = curve_add(plot, names[kind / 2][kind % 2], STUDY_POVRAY);
+        for (int i = 0; i < race->povray_count; i++) {
+            const RaceEntry *entry = &race->povray[i];
+            bool is_kind = entry->method == kind / 2 + 1 && entry->has_jitter == (kind % 2 == 1);
+            if (is_kind && race_is_front(race, entry, RACE_CPU, RACE_BY_RTLANG)) {
+                curve_put(method, entry);
+            }
+        }
+        qsort(method->points, (size_t)method->count, sizeof *method->points, by_seconds);
+    }
+    study_plot(plot, out, is_alone);
+    free(plot);
 }

@@ -7,25 +7,21 @@
 
 #include "check/json.h"
 
-enum { RATIOS_MOST = STUDY_METHODS * STUDY_POINTS };
-
 static double efficiency(const StudyPoint *point)
 {
     return 1.0 / (point->rmse * point->rmse * point->seconds);
 }
 
-// Why a method stays where it is. POV-Ray's pictures stay at the model's error, too.
-static const char *bias_cause(const Study *study, const StudyMethod *method)
+// Why a method stays where it is.
+static const char *bias_cause(const StudyMethod *method)
 {
     static const char *const causes[] = {
         [STUDY_SAMPLER] = "light that few samples meet",
         [STUDY_REFERENCE] = "its arithmetic",
         [STUDY_FORWARD] = "light that does not come from light sources",
-        [STUDY_POVRAY] = "its threshold",
     };
-    bool is_model = method->kind == STUDY_POVRAY && study->model > 0.5 * method->points[method->count - 1].rmse;
 
-    return is_model ? "another model" : causes[method->kind];
+    return causes[method->kind];
 }
 
 // The sentences that tell of bias.
@@ -46,14 +42,14 @@ static void print_bias(const Study *study, FILE *out, const char *before, const 
         const StudyMethod *method = &study->methods[i];
         if (method->is_biased) {
             fprintf(out, "%s%s is biased: it stays at rmse %.3g, more time does not help; likely cause: %s%s\n", before,
-                    method->name, method->points[method->count - 1].rmse, bias_cause(study, method), after);
+                    method->name, method->points[method->count - 1].rmse, bias_cause(method), after);
         }
     }
 }
 
 static void print_kinds(const Study *study, FILE *out, const char *before, const char *after)
 {
-    fprintf(out, "%ssampling: the ladders below; floor %.3g, that of the reference of %d samples%s\n", before,
+    fprintf(out, "%ssampling: the ladders below; floor %.3g, that of the reference of %g samples%s\n", before,
             study->floor, study->reference_samples, after);
     if (isnan(study->arithmetic)) {
         fprintf(out, "%sarithmetic: not known: %s%s\n", before, study->arithmetic_why, after);
@@ -96,25 +92,8 @@ static void print_forward(const Study *study, FILE *out, const char *before, con
     }
 }
 
-static void print_best(const StudyRatio *ratios, int count, FILE *out, const char *before, const char *after)
+static void methods_print(const Study *study, FILE *out)
 {
-    int best;
-    double ratio = study_best_ratio(ratios, count, &best);
-
-    if (best > 0) {
-        fprintf(
-            out,
-            "%sto equal error POV-Ray takes %.1f times as long as rtlang, geometric mean over its %d best settings%s\n",
-            before, ratio, best, after);
-    }
-}
-
-void study_print_text(const Study *study, FILE *out)
-{
-    StudyRatio ratios[RATIOS_MOST];
-    int count = study_ratios(study, ratios, RATIOS_MOST);
-
-    fprintf(out, "%s, %d x %d\n", study->scene, study->width, study->height);
     print_kinds(study, out, "  ", "");
     print_bias(study, out, "  ", "");
     print_forward(study, out, "  ", "");
@@ -133,16 +112,20 @@ void study_print_text(const Study *study, FILE *out)
                     method->is_biased ? "; biased" : "");
         }
     }
-    for (int i = 0; i < count; i++) {
-        const StudyRatio *r = &ratios[i];
-        fprintf(out,
-                "equal error %.3g: %s %.3f s, rtlang %.4f s%s, ratio %.1f; equal time: rmse %.3g and %.3g, ratio "
-                "%.1f%s\n",
-                r->povray->rmse, r->povray->setting, r->povray->seconds, r->seconds,
-                r->is_extrapolated ? " (extrapolated)" : "", r->povray->seconds / r->seconds, r->povray->rmse, r->rmse,
-                r->povray->rmse / r->rmse, r->is_best ? "; one of POV-Ray's best" : "");
+}
+
+void study_print_text(const Study *study, FILE *out)
+{
+    fprintf(out, "%s", study->scene);
+    if (study->has_methods) {
+        fprintf(out, ", %d x %d\n", study->width, study->height);
+        methods_print(study, out);
+    } else {
+        fputc('\n', out);
     }
-    print_best(ratios, count, out, "", "");
+    if (study->has_race) {
+        race_print_text(&study->race, out);
+    }
 }
 
 void study_print_csv(const Study *study, FILE *out, bool with_heading)
@@ -194,12 +177,9 @@ static void json_point(FILE *out, const StudyPoint *p)
 
 void study_print_json(const Study *study, FILE *out)
 {
-    StudyRatio ratios[RATIOS_MOST];
-    int count = study_ratios(study, ratios, RATIOS_MOST);
-
     fputs("{\"scene\": ", out);
     json_text(out, study->scene);
-    fprintf(out, ", \"width\": %d, \"height\": %d, \"reference_samples\": %d", study->width, study->height,
+    fprintf(out, ", \"width\": %d, \"height\": %d, \"reference_samples\": %g", study->width, study->height,
             study->reference_samples);
     json_number(out, "floor", study->floor);
     json_number(out, "model", study->model);
@@ -224,21 +204,13 @@ void study_print_json(const Study *study, FILE *out)
         }
         fputs("]}", out);
     }
-    int best;
     fputs("]", out);
-    json_number(out, "best_ratio", study_best_ratio(ratios, count, &best));
-    fputs(", \"equal\": [", out);
-    for (int i = 0; i < count; i++) {
-        fprintf(out, "%s{\"setting\": ", i > 0 ? ", " : "");
-        json_text(out, ratios[i].povray->setting);
-        json_number(out, "rmse", ratios[i].povray->rmse);
-        json_number(out, "povray_seconds", ratios[i].povray->seconds);
-        json_number(out, "rtlang_seconds", ratios[i].seconds);
-        json_number(out, "rtlang_rmse_in_equal_time", ratios[i].rmse);
-        fprintf(out, ", \"best\": %s", ratios[i].is_best ? "true" : "false");
-        fprintf(out, ", \"extrapolated\": %s}", ratios[i].is_extrapolated ? "true" : "false");
+    if (study->has_race) {
+        json_number(out, "best_ratio", race_ratio(&study->race, RACE_CPU, RACE_BY_RTLANG).ratio);
+        fputs(", \"race\": ", out);
+        race_print_json(&study->race, out);
     }
-    fputs("]}", out);
+    fputc('}', out);
 }
 
 static void section_table(const Study *study, FILE *out)
@@ -269,36 +241,6 @@ static void section_table(const Study *study, FILE *out)
     fputs("</tbody></table>\n", out);
 }
 
-static void section_ratios(const Study *study, FILE *out)
-{
-    StudyRatio ratios[RATIOS_MOST];
-    int count = study_ratios(study, ratios, RATIOS_MOST);
-
-    if (count == 0) {
-        return;
-    }
-    fputs("<h3>Equal error and equal time</h3>\n<table class=\"sortable\"><thead><tr><th>POV-Ray</th><th>rmse</th>"
-          "<th>POV-Ray, s</th><th>rtlang to equal error, s</th><th>ratio of times</th><th>rtlang's rmse in equal "
-          "time</th><th>ratio of errors</th><th>best</th></tr></thead>"
-          "<tbody>\n",
-          out);
-    for (int i = 0; i < count; i++) {
-        const StudyRatio *r = &ratios[i];
-        fprintf(out,
-                "<tr><td>%s</td><td class=\"number\">%.4g</td><td class=\"number\">%.4g</td><td "
-                "class=\"number\">%.4g%s</td>"
-                "<td class=\"number\">%.1f</td><td class=\"number\">%.4g</td><td class=\"number\">%.1f</td>"
-                "<td>%s</td></tr>\n",
-                r->povray->setting, r->povray->rmse, r->povray->seconds, r->seconds, r->is_extrapolated ? " *" : "",
-                r->povray->seconds / r->seconds, r->rmse, r->povray->rmse / r->rmse, r->is_best ? "best" : "");
-    }
-    fputs(
-        "</tbody></table>\n<p>* beyond rtlang's ladder, on the line through its nearest points. Best: no other setting "
-        "of POV-Ray is both faster and nearer.</p>\n",
-        out);
-    print_best(ratios, count, out, "<p>", "</p>");
-}
-
 void study_print_section(const Study *study, ReportPage *page, int number)
 {
     char id[32], title[STUDY_TEXT];
@@ -306,36 +248,32 @@ void study_print_section(const Study *study, ReportPage *page, int number)
     snprintf(id, sizeof id, "study-%d", number);
     snprintf(title, sizeof title, "Error against time: %s", study->scene);
     FILE *out = report_page_section(page, id, title);
-    fputs("<ul>\n", out);
-    print_kinds(study, out, "<li>", "</li>");
-    print_bias(study, out, "<li><strong>", "</strong></li>");
-    print_forward(study, out, "<li>", "</li>");
-    fputs("</ul>\n", out);
-    study_plot(study, out, false);
-    section_table(study, out);
-    section_ratios(study, out);
-}
-
-static void print_total(const StudyTotal *total, FILE *out)
-{
-    fprintf(out, "over %d scenes POV-Ray takes %.1f times as long as rtlang to equal error, geometric mean",
-            total->scenes, exp(total->logarithms / total->scenes));
-}
-
-void study_print_total(const StudyTotal *total, FILE *out)
-{
-    if (total->scenes > 1) {
-        print_total(total, out);
-        fputc('\n', out);
+    if (study->has_methods) {
+        fputs("<ul>\n", out);
+        print_kinds(study, out, "<li>", "</li>");
+        print_bias(study, out, "<li><strong>", "</strong></li>");
+        print_forward(study, out, "<li>", "</li>");
+        fputs("</ul>\n", out);
+        study_plot(study, out, false);
+        section_table(study, out);
+    }
+    if (study->has_race) {
+        race_plot(&study->race, out, false);
+        race_print_html(&study->race, out);
     }
 }
 
-void study_print_total_section(const StudyTotal *total, ReportPage *page)
+void study_print_total(const RaceTotal *total, FILE *out)
 {
-    if (total->scenes > 1) {
-        FILE *out = report_page_section(page, "study-all", "Error against time: all scenes");
-        fputs("<p>", out);
-        print_total(total, out);
-        fputs("; each scene's own is that over its best settings of POV-Ray.</p>\n", out);
+    race_print_total(total, out, "", "");
+}
+
+void study_print_total_section(const RaceTotal *total, ReportPage *page)
+{
+    if (total->scenes[0] > 1) {
+        FILE *out = report_page_section(page, "study-all", "The race: all scenes");
+        fputs("<ul>\n", out);
+        race_print_total(total, out, "<li>", "</li>");
+        fputs("</ul>\n", out);
     }
 }

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include "check/race_print.h"
 #include "check/report_html.h"
 #include "check/study.h"
 
@@ -17,8 +18,11 @@ void study_print_json(const Study *study, FILE *out); // one object, no line end
 void study_print_section(const Study *study, ReportPage *page, int number);
 
 // The ratio over all scenes, where there are several: a line, and a section.
-void study_print_total(const StudyTotal *total, FILE *out);
-void study_print_total_section(const StudyTotal *total, ReportPage *page);
+void study_print_total(const RaceTotal *total, FILE *out);
+void study_print_total_section(const RaceTotal *total, ReportPage *page);
+
+// The plot of a race: rtlang's ladders, and POV-Ray's front of each method with and without jitter.
+void race_plot(const Race *race, FILE *out, bool is_alone);
 
 // Error against time, both in logarithms, with guides of slope -1/2 and -3/4 and the floor: an <svg> element. In a file
 // of its own it needs its own colours.

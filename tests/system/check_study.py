@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # rtcheck --study on small pictures: the methods, the three kinds of error, what is biased and why, the ratios, and that text,
-# CSV, JSON, the plot and the page say the same. Prints TAP. What needs POV-Ray is skipped without it.
+# CSV, JSON, the plot and the page say the same. A stand-in for POV-Ray writes down what it is asked for, so that a race that
+# leaves a setting out is found. Prints TAP. What needs POV-Ray is skipped without it.
 #
 # Wants RTLANG and RTCHECK, the programs.
 #
@@ -89,6 +90,7 @@ def test_methods():
                for point in points), "every run has its time and its errors", points)
     tap.ok(all(math.isclose(point["efficiency"], 1 / (point["rmse"] ** 2 * point["seconds"]), rel_tol=1e-6)
                for point in points), "efficiency is one over mean square and time")
+    tap.equal(found["reference_samples"], 16 * 64, "the reference has 16 times the samples of a ladder's top")
     tap.ok(0 < found["floor"] < 0.5 * min(point["rmse"] for point in methods["rtlang sobol"]["points"]),
            "the reference's own error is known and small", found["floor"])
     exact, single = found["arithmetic"], found["arithmetic_float"]
@@ -154,21 +156,110 @@ def test_bias():
            "and no other", printed[:500])
 
 
+# Draws with rtlang what it is asked for, notes its arguments, and says that a ray takes a microsecond. Depth R of +AM1 is R * R
+# rays a pixel, of +AM2 4 ^ (R - 1), which is the same picture at all thresholds where R is 1.
+STAND_IN = """#!%(python)s
+import os, subprocess, sys
+options = {}
+for word in sys.argv[1:]:
+    for name in ("+AM", "+A", "+R", "+W", "+H", "+WT", "+SR", "+ER", "+I", "+O"):
+        if word.startswith(name) and (name in ("+I", "+O") or word[len(name):].replace(".", "").isdigit()):
+            options[name] = word[len(name):].strip('"')
+jitter = "+J" in sys.argv
+with open(%(log)r, "a") as log:
+    log.write(" ".join(sys.argv[1:]) + chr(10))
+depth, width, height = int(options.get("+R", 1)), int(options["+W"]), int(options["+H"])
+rays = depth * depth if options.get("+AM") == "1" else 4 ** (depth - 1)
+unique = "" if options.get("+AM") == "2" and depth == 1 else options.get("+A", "")
+seed = 1 + int(float(unique or 9) * 1000) + (100000 if jitter else 0) + 7 * rays + 1000003 * int(options.get("+AM", 0))
+rays = min(rays, 300)
+subprocess.run([%(rtlang)r, "-t1", f"-W{width}", f"-H{height}", f"--samples={rays + 1}", f"--seed={seed}", "--sampler=random",
+                "--no-estimate", "--depth=16", "--file-gamma=1", "-o" + options["+O"], options["+I"]], check=True)
+seconds = 1e-6 * rays * width * height
+print(f"Pixels: {width * height} Samples: {(rays - 1) * width * height} Smpls/Pxl: {rays - 1}.00")
+print(f"  Trace Time:       0 hours  0 minutes  0 seconds ({1.5 * seconds:.3f} seconds)")
+print(f"              using 1 thread(s) with {seconds:.3f} CPU-seconds total")
+"""
+
+
+def race(*options):
+    """(what was found, the calls of the stand-in, what was said)."""
+    with open("stand-in", "w", encoding="ascii") as out:
+        out.write(STAND_IN % {"python": sys.executable, "rtlang": RTLANG, "log": os.path.abspath("calls")})
+    os.chmod("stand-in", 0o755)
+    open("calls", "w", encoding="ascii").close()
+    code, printed, said = study("--race", "--json", *options, scenes={"balls.scn": BALLS}, povray=os.path.abspath("stand-in"))
+    with open("calls", encoding="ascii") as calls:
+        asked = [line.split() for line in calls]
+    return (json.loads(printed)["race"] if code == 0 else {}), asked, said
+
+
+def test_race():
+    found, asked, said = race("--size=96x72", "--budget=0.5", "--reference=128")
+    if not tap.ok(found, "a race", said):
+        return
+    tried = {(word[:4], a, r, j) for call in asked for word in call if word.startswith("+AM")
+             for a in call if re.fullmatch(r"\+A[0-9.]+", a) for r in call if re.fullmatch(r"\+R\d", r) for j in call if j in ("+J", "-J")}
+    want = {(f"+AM{method}", f"+A{threshold}", f"+R{depth}", jitter) for method, most in ((1, 9), (2, 5)) for jitter in ("+J", "-J")
+            for threshold in ("0.3", "0.1", "0.03", "0.01", "0.003", "0.0") for depth in range(1, most + 1)}
+    tap.equal(sorted(tried ^ want), [], "POV-Ray is asked for each threshold, method, depth up to 100 rays a pixel, with jitter and without")
+    tap.equal(found["reference_samples"], 128, "the reference has the samples that were asked for")
+    tap.ok(any({"+SR28", "+ER45", "+AM2", "+A0.0", "+R4", "-J"} <= set(call) for call in asked) and
+           found["povray_reference"] == "+AM2 +A0.0 +R4 -J", "POV-Ray makes a reference of the middle rows", asked[-1])
+    same = {entry["setting"]: entry["same_as"] for entry in found["povray"] if entry["same_as"]}
+    tap.equal(same, {f"+AM2 +A{threshold} +R1 {jitter}": f"+AM2 +A0.3 +R1 {jitter}" for jitter in ("-J", "+J")
+                     for threshold in ("0.1", "0.03", "0.01", "0.003", "0.0")}, "a picture counts once")
+    run = [entry for entry in found["povray"] if entry["run"]]
+    tap.ok(run and all(math.isclose(entry["cpu"], 1e-6 * entry["rays"] * 96 * 72, abs_tol=2e-3) and
+                       math.isclose(entry["wall"], 1.5 * entry["cpu"], abs_tol=2e-3) for entry in run),
+           "times by the processor and by the clock are those of tracing", run[:2])
+    tap.ok(found["left_out"] == len([entry for entry in found["povray"] if not entry["run"] and not entry["same_as"] and
+                                     entry["small_rays"] is not None]) > 0, "what the budget leaves out is counted", found["left_out"])
+    names = [ratio["name"] for ratio in found["ratios"]]
+    tap.equal(names, ["cpu", "wall", "whole", "cpu_all", "wall_all", "cpu_by_povray", "cpu_by_other"], "the ratios that are said")
+    tap.ok(found["ratios"][0]["ratio"] == mean_by_hand(found), "the ratio is the mean over the front", found["ratios"][0])
+
+
+def mean_by_hand(found):
+    """The ratio by processor time, told anew from the runs."""
+    run = [entry for entry in found["povray"] if entry["run"] and entry["rmse"]]
+    front = [a for a in run if not any(b["cpu"] < a["cpu"] and b["rmse"] < a["rmse"] for b in run)]
+    logs = []
+    for entry in front:
+        times = [rung["cpu"] for rung in found["rtlang"] if rung["rmse"] and rung["rmse"] <= entry["rmse"]]
+        for kind in (True, False):
+            ladder = [rung for rung in found["rtlang"] if rung["setting"].startswith("--adaptive") == kind and rung["rmse"]]
+            for a, b in zip(ladder, ladder[1:]):
+                share = math.log(entry["rmse"] / a["rmse"]) / math.log(b["rmse"] / a["rmse"])
+                if 0 <= share <= 1:
+                    times.append(a["cpu"] * (b["cpu"] / a["cpu"]) ** share)
+        if times:
+            logs.append(math.log(entry["cpu"] / min(times)))
+    ratio = math.exp(sum(logs) / len(logs)) if logs else 0
+    return found["ratios"][0]["ratio"] if math.isclose(found["ratios"][0]["ratio"], ratio, rel_tol=1e-4) else ratio
+
+
+def test_race_size():
+    found, asked, said = race("--budget=0.01", "--reference=64")
+    least = found.get("width", 0) * found.get("height", 0)
+    tap.ok(found and found["shortest"] >= 0.5 and least <= 1.5e6, "the pictures are so large that the shortest run takes half a second",
+           (found.get("width"), found.get("height"), found.get("shortest"), said))
+    tap.ok(asked, "and POV-Ray was asked for them")
+
+
 def test_povray():
     if not POVRAY or not os.environ.get("CHECK_LONG"):
-        tap.skip("POV-Ray's ladders", "it takes minutes: make check-long" if POVRAY else "povray is not installed")
+        tap.skip("POV-Ray's race", "it takes minutes: make check-long" if POVRAY else "povray is not installed")
         return
-    code, printed, said = study("--json", scenes={"faint.scn": FAINT}, povray=POVRAY)
-    found = json.loads(printed) if code == 0 else {"methods": [], "equal": []}
-    theirs = {name: method for name, method in by_name(found).items() if name.startswith("POV-Ray")}
-    tap.ok(list(theirs) == [f"POV-Ray +AM{method} +A{threshold}" for method in (1, 2) for threshold in ("0.3", "0.03", "0.0")],
-           "POV-Ray's ladders", said)
-    tap.ok(all(theirs[name]["biased"] for name in ("POV-Ray +AM1 +A0.3", "POV-Ray +AM2 +A0.3")) and
-           not theirs["POV-Ray +AM1 +A0.0"]["biased"], "an adaptive threshold is biased, no threshold is not",
-           {name: method["biased"] for name, method in theirs.items()})
-    best = [row for row in found["equal"] if row["best"]]
-    tap.ok(found["model"] < 1e-4 and best and all(row["rtlang_seconds"] > 0 for row in best) and found["best_ratio"] > 0,
-           "the model's error, and times to equal error", found["equal"])
+    code, printed, said = study("--race", "--json", "--size=160x120", "--budget=20", scenes={"faint.scn": FAINT}, povray=POVRAY)
+    found = json.loads(printed)["race"] if code == 0 else {"povray": [], "ratios": [{"ratio": None}]}
+    tap.ok(code == 0 and found["references_apart"] < 0.01, "the references of both agree", said)
+    same = {entry["setting"] for entry in found["povray"] if entry["same_as"]}
+    tap.ok({f"+AM2 +A{threshold} +R1 -J" for threshold in ("0.1", "0.03", "0.01", "0.003", "0.0")} <= same,
+           "POV-Ray's squares of depth 1 are one setting", same)
+    rays = {entry["setting"]: entry["small_rays"] for entry in found["povray"]}
+    tap.ok(rays["+AM1 +A0.3 +R5 -J"] < 1.5 < 25 < rays["+AM1 +A0.0 +R5 -J"], "no threshold is a threshold of none", rays)
+    tap.ok(found["ratios"][0]["ratio"] and found["ratios"][0]["ratio"] > 0, "a ratio", found["ratios"])
 
 
 def test_faults():
@@ -181,7 +272,7 @@ def test_faults():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for test in (test_methods, test_forward, test_bias, test_povray, test_faults):
+        for test in (test_methods, test_forward, test_bias, test_race, test_race_size, test_povray, test_faults):
             test()
         os.chdir("/")
     tap.done()

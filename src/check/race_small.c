@@ -1,0 +1,123 @@
+// All settings of POV-Ray on small pictures. Its cost is counted in rays, so that several may run at a time: most of the
+// second that such a run takes POV-Ray waits.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "check/race.h"
+#include "check/study_render.h"
+
+enum { SMALL_SAMPLES = 256, AT_A_TIME = 12 };
+
+typedef struct Small {
+    Race *race;
+    StudySettings settings; // of the small picture
+    Image reference;
+    uint64_t hashes[RACE_SETTINGS]; // of pictures; 0: none
+    atomic_int next, done;
+    atomic_bool failed;
+} Small;
+
+// FNV-1a of the values.
+static uint64_t picture_hash(const Image *image)
+{
+    const unsigned char *bytes = (const unsigned char *)image->values;
+    size_t size = (size_t)image->width * (size_t)image->height * (size_t)image->channels * sizeof *image->values;
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+
+    for (size_t i = 0; i < size; i++) {
+        hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+    }
+    return hash;
+}
+
+static bool try_one(Small *small, int number)
+{
+    RaceEntry *entry = &small->race->povray[number];
+    RaceSwitches switches;
+    StudyMetric metric;
+    char name[32];
+
+    race_switches(entry, &switches);
+    snprintf(name, sizeof name, "small-%d", number);
+    PovrayRun run = {.name = name, .switches = switches.list, .threads = 1};
+    bool fine = povray_render(small->race->scene, &small->settings, &run) &&
+                study_compare(&run.image, &small->reference, &metric);
+    if (fine) {
+        entry->small_rays = run.cost.rays / ((double)small->settings.width * small->settings.height);
+        entry->small_error = metric.rmse;
+        small->hashes[number] = picture_hash(&run.image);
+    }
+    image_fini(&run.image);
+    return fine;
+}
+
+static void *try_ladders(void *client)
+{
+    Small *small = client;
+
+    for (int ladder; (ladder = atomic_fetch_add(&small->next, 1)) < RACE_LADDERS;) {
+        for (int depth = 0; depth < RACE_DEPTHS; depth++) {
+            int number = ladder * RACE_DEPTHS + depth;
+            if (*small->settings.interrupted != 0 || atomic_load(&small->failed)) {
+                return NULL;
+            }
+            if (!try_one(small, number)) {
+                atomic_store(&small->failed, true);
+                return NULL;
+            }
+            if (small->race->povray[number].small_rays > RACE_RAYS_MOST) {
+                break;
+            }
+        }
+        study_progress(&small->settings, small->race->scene, "small pictures", atomic_fetch_add(&small->done, 1) + 1,
+                       RACE_LADDERS);
+    }
+    return NULL;
+}
+
+// Of settings that make one picture the first is kept.
+static void find_same(Small *small)
+{
+    for (int i = 0; i < small->race->povray_count; i++) {
+        for (int j = 0; j < i && small->hashes[i] != 0 && small->race->povray[i].same_as < 0; j++) {
+            if (small->hashes[j] == small->hashes[i]) {
+                small->race->povray[i].same_as = j;
+                small->race->same++;
+            }
+        }
+    }
+}
+
+bool race_try_small(Race *race, const StudySettings *settings)
+{
+    Small small = {.race = race, .settings = *settings};
+    pthread_t threads[AT_A_TIME];
+    int started = 0;
+    rt_sampling sampling = {.sampler = "halton", .samples = SMALL_SAMPLES, .seed = 1};
+    RtlangRun reference = {.method = RT_METHOD_BACKWARD};
+
+    small.settings.width = race->small_width;
+    small.settings.height = race->small_height;
+    rtlang_render(race->scene, &small.settings, &sampling, RT_PRECISION_DOUBLE, 0, &reference);
+    if (reference.status != RT_OK) {
+        snprintf(race->fault, sizeof race->fault, "%s", reference.fault);
+        return false;
+    }
+    small.reference = reference.image;
+    while (started < AT_A_TIME - 1 && pthread_create(&threads[started], NULL, try_ladders, &small) == 0) {
+        started++;
+    }
+    try_ladders(&small);
+    for (int i = 0; i < started; i++) {
+        pthread_join(threads[i], NULL);
+    }
+    find_same(&small);
+    image_fini(&reference.image);
+    return !atomic_load(&small.failed) && *settings->interrupted == 0;
+}
