@@ -48,7 +48,8 @@ typedef struct Sampling {
     double start;          // by the clock
     double round_end;      // when the last one had been traced
     double sample_seconds; // of a sample, as the last round had it
-    double round_samples;  // of this round
+    double round_samples;  // of this round, or of a slice of it
+    double sliced_samples; // of the slices before
     double all_samples;    // of the run, as far as can be told; 0: not
     double round_pixels;   // that take part, if anybody asks
     double round_seconds;  // predicted of this round
@@ -88,7 +89,7 @@ static double pixel_count(const Sampling *s)
 static void forward_progress(void *client, double done)
 {
     const Sampling *s = client;
-    double now = (double)s->estimate.samples + done * s->round_samples;
+    double now = (double)s->estimate.samples + s->sliced_samples + done * s->round_samples;
     bool is_known = s->all_samples > 0.0, has_time = is_known && s->sample_seconds > 0.0;
     RenderProgress progress = {is_known ? fmin(now / s->all_samples, 1.0) : 0.0, s->error,
                                has_time ? s->later_seconds + (1.0 - done) * s->round_seconds : -1.0};
@@ -246,7 +247,7 @@ static bool is_on_target(Sampling *s)
     return s->error->high <= target;
 }
 
-// Whether one of the goals is reached, or a round more would miss one.
+// Whether one of the goals is reached.
 static bool is_enough(Sampling *s)
 {
     const SamplingOptions *wanted = s->wanted;
@@ -259,12 +260,101 @@ static bool is_enough(Sampling *s)
         error->end = SAMPLING_DONE;
         return true;
     }
-    double next_end = clock_seconds() - s->start + s->round_samples * s->sample_seconds;
-    if (wanted->time_limit > 0.0 && error->samples > 0.0 && next_end > wanted->time_limit) {
-        error->end = SAMPLING_TIME;
-        return true;
-    }
     return false;
+}
+
+// ---- the last round
+
+// Samples that are left of those that are wanted.
+static double samples_left(const Sampling *s)
+{
+    double all = floor(s->wanted->samples * pixel_count(s) + 0.5);
+    return s->wanted->samples > 0.0 ? all - (double)s->estimate.samples : HUGE_VAL;
+}
+
+// What the audit at the end of the run will take, when some pixels have been doubled.
+static double audit_seconds(Sampling *s)
+{
+    const double doubled = 1.25;
+    double samples = 0.0;
+    if (s->wanted->has_no_estimate || !s->error->is_known || !sampler_is_sequence(s->wanted->sampler)) {
+        return 0.0;
+    }
+    int count = audit_draw(&s->audit, &s->estimate, &s->round);
+    for (int i = 0; i < count; i++) {
+        uint32_t had = s->film->records[s->audit.picks[i].pixel].count;
+        samples += had > 1 ? doubled * had : 2.0 * AUDIT_SAMPLES;
+    }
+    return samples * s->sample_seconds;
+}
+
+// Seconds that rounds may still take; HUGE_VAL without a limit.
+static double seconds_left(Sampling *s)
+{
+    double limit = s->wanted->time_limit, gone = clock_seconds() - s->start;
+    if (!(limit > 0.0) || s->error->samples == 0.0) {
+        return HUGE_VAL;
+    }
+    // The audit is small: far from the end it decides nothing.
+    bool is_near = gone + s->round_samples * s->sample_seconds > 0.5 * limit;
+    return limit - gone - (is_near ? audit_seconds(s) : 0.0);
+}
+
+typedef enum Last {
+    LAST_NOT,  // there will be another round
+    LAST_DONE, // as many samples as are wanted
+    LAST_TIME,
+    LAST_INTERRUPTED,
+} Last;
+
+// A round that may be the last, slice by slice: the pixels that come first in it, until the samples or the time that are
+// left have been used. What slices there are changes nothing: the samples alone say which pixels have had theirs.
+static Last run_slices(Sampling *s, double samples, double until)
+{
+    const double part = 0.5, least = 0.004; // of the time that is left, to a slice; of the limit, not worth another
+    uint32_t end = CHOICE_END, least_key = (uint32_t)s->choice.least_bucket << CUT_BITS;
+    double limit = s->wanted->time_limit, had = 0.0, seconds = 0.0;
+    bool is_whole = true;
+    s->round.is_cut = true;
+    while (is_whole && had < samples && end > least_key) {
+        double left = until - clock_seconds(), want = samples - had, spent;
+        if (until < HUGE_VAL) {
+            want = fmin(want, fmax(left, 0.0) * (left > 5.0 * least * limit ? part : 1.0) / s->sample_seconds);
+        }
+        if (left < least * limit || want < 1.0) {
+            break;
+        }
+        s->round.end_key = end;
+        s->round.least_key = end = choice_cut(&s->choice, &s->round, end, want, &spent);
+        s->sliced_samples = had;
+        s->round_samples = spent;
+        is_whole = spent == 0.0 || trace_round(s);
+        seconds += spent * s->sample_seconds;
+        had += spent;
+    }
+    s->sliced_samples = 0.0;
+    s->round_samples = had;
+    s->round.end_key = CHOICE_END;
+    s->round.least_key = end;
+    if (had > 0.0) {
+        estimate_update(&s->estimate, s->film, &s->round, is_whole, s->error);
+        find_bias(s);
+        s->sample_seconds = seconds / had;
+    }
+    s->round.is_cut = false;
+    return !is_whole ? LAST_INTERRUPTED : had >= samples ? LAST_DONE : end > least_key ? LAST_TIME : LAST_NOT;
+}
+
+// The round that was chosen; in slices where it may be the last.
+static Last run_chosen(Sampling *s)
+{
+    double samples = samples_left(s), seconds = seconds_left(s);
+    if (s->round_samples <= samples && s->round_samples * s->sample_seconds <= seconds) {
+        return run_round(s) ? LAST_NOT : LAST_INTERRUPTED;
+    }
+    double all = fmin(samples, s->round_samples);
+    Last last = run_slices(s, all, clock_seconds() + seconds);
+    return last == LAST_DONE && all < samples ? LAST_NOT : last;
 }
 
 // All pixels alike, by doubling: a quarter of them, or FIRST_MOST where that is less, …, half of them, all: two steps
@@ -290,6 +380,10 @@ static bool run_alike(Sampling *s, uint32_t all)
         s->round_samples = (double)(next - count) * pixel_count(s);
         predict(s);
         if (count > 0 && is_enough(s)) {
+            return false;
+        }
+        if (count > 0 && s->round_samples * s->sample_seconds > seconds_left(s)) {
+            s->error->end = SAMPLING_TIME;
             return false;
         }
         if (!run_round(s)) {
@@ -351,8 +445,12 @@ static void run_adaptive(Sampling *s)
         if (is_enough(s)) {
             return;
         }
-        if (s->round_samples == 0.0 || !run_round(s)) {
-            s->error->end = s->round_samples == 0.0 ? SAMPLING_DONE : SAMPLING_INTERRUPTED;
+        Last last = s->round_samples > 0.0 ? run_chosen(s) : LAST_DONE;
+        if (last != LAST_NOT) {
+            static const SamplingEnd ends[] = {[LAST_DONE] = SAMPLING_DONE,
+                                               [LAST_TIME] = SAMPLING_TIME,
+                                               [LAST_INTERRUPTED] = SAMPLING_INTERRUPTED};
+            s->error->end = ends[last];
             return;
         }
         cost_add(&s->cost, s->round_samples, s->round_pixels, s->round_samples * s->sample_seconds);

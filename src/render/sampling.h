@@ -27,6 +27,8 @@ typedef struct Round {
     Filter filter;
     const uint16_t *buckets; // by priority, of each pixel; NULL: all pixels take part
     uint16_t least_bucket;   // of those that take part
+    bool is_cut;             // only pixels with keys from least_key up to end_key take part (round_key)
+    uint32_t least_key, end_key;
     uint32_t count;          // how many samples they shall have; 0: twice as many as they have
     float *corners;          // of the picture's pixels, rows of width + 1 colours; NULL: not kept any more
     Small *small;            // NULL: there are no small shapes, or nobody asks for the error
@@ -63,9 +65,24 @@ static inline bool round_starts(const Round *round, uint32_t count)
     return round->has_corners && count == 1 && round->count == 0;
 }
 
+// A round that is cut short goes by bucket and within a bucket by chance, in so many steps. The greatest keys are first.
+enum { CUT_BITS = 8, CUT_STEPS = 1 << CUT_BITS };
+static inline uint32_t round_key(const Round *round, size_t pixel)
+{
+    uint32_t chance = sample_hash_add((uint32_t)round->sampling->seed, (uint32_t)pixel) >> (32 - CUT_BITS);
+    return (uint32_t)round->buckets[pixel] << CUT_BITS | chance;
+}
+
 static inline bool round_has(const Round *round, size_t pixel)
 {
-    return !round->buckets || round->buckets[pixel] >= round->least_bucket;
+    if (!round->buckets) {
+        return true;
+    }
+    if (round->buckets[pixel] < round->least_bucket || !round->is_cut) {
+        return round->buckets[pixel] >= round->least_bucket;
+    }
+    uint32_t key = round_key(round, pixel);
+    return key >= round->least_key && key < round->end_key;
 }
 
 // The samples that a pixel gets in a round.
@@ -270,6 +287,12 @@ static inline double choice_cost(const Choice *choice, int bucket)
 {
     return choice->cost[bucket] + choice->corner_cost[bucket];
 }
+
+enum { CHOICE_END = BUCKETS << CUT_BITS }; // above all keys
+
+// Of the pixels of the chosen round with keys below `end`, which has those above behind it: takes keys from the greatest
+// down until they get `most` samples or just more. Returns the least one taken and puts their samples into *spent.
+uint32_t choice_cut(const Choice *choice, const Round *round, uint32_t end, double most, double *spent);
 
 // Sorts all pixels and chooses the next round's.
 void choice_make(Choice *choice, const Estimate *estimate, const Round *round);

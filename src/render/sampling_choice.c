@@ -168,3 +168,40 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
     choice->least_bucket = (uint16_t)least;
     choice->spent = spent;
 }
+
+// Adds the steps of a bucket that are below `end`, until there are enough samples; the least key taken.
+static uint32_t bucket_cut(const Choice *choice, const Round *round, uint32_t bucket, uint32_t end, double most,
+                           double *spent)
+{
+    size_t pixels = (size_t)round->film->width * (size_t)round->film->height;
+    double costs[CUT_STEPS] = {0.0};
+    for (size_t i = 0; i < pixels; i++) {
+        if (choice->of_pixel[i] == bucket) {
+            uint32_t count = round->film->records[i].count;
+            costs[round_key(round, i) % CUT_STEPS] += round_starts(round, count) ? START_SAMPLES : count;
+        }
+    }
+    uint32_t key = end;
+    while (key > bucket << CUT_BITS && *spent < most) {
+        *spent += costs[--key % CUT_STEPS];
+    }
+    return key;
+}
+
+uint32_t choice_cut(const Choice *choice, const Round *round, uint32_t end, double most, double *spent)
+{
+    uint32_t bucket = end >> CUT_BITS;
+    *spent = 0.0;
+    if (end % CUT_STEPS != 0) {
+        end = bucket_cut(choice, round, bucket, end, most, spent);
+    }
+    while (*spent < most && end % CUT_STEPS == 0 && bucket-- > choice->least_bucket) {
+        if (*spent + choice_cost(choice, (int)bucket) < most) {
+            *spent += choice_cost(choice, (int)bucket);
+            end = bucket << CUT_BITS;
+        } else {
+            end = bucket_cut(choice, round, bucket, end, most, spent);
+        }
+    }
+    return end;
+}

@@ -192,6 +192,9 @@ def test_goals():
     found = ERROR.search(said)
     tap.ok(status == 0 and found and float(found[4]) >= 32 and "; the target is not reached" in found[6],
            "or it is said that it is not", said)
+    for wanted in 3.7, 9.9, 20.0:
+        found = ERROR.search(rtlang(BALLS, "--adaptive", f"--samples={wanted}")[1])
+        tap.ok(found and wanted <= float(found[4]) <= 1.01 * wanted, f"{wanted} adaptive samples a pixel are what is taken", found and found[4])
     start = time.monotonic()
     status, said = rtlang(BALLS, "--time-limit=1", "--target-error=1e-9", output="limited.png")
     taken = time.monotonic() - start
