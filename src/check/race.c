@@ -15,8 +15,8 @@ enum {
     SIDE_LEAST = 64,
     SIDE_MOST = 8192,
     SIZE_TRIES = 6,
-    SMALL_WIDTH = 160,
-    SMALL_HEIGHT = 120,
+    FIRST_WIDTH = 320, // from which pictures grow
+    FIRST_HEIGHT = 240,
     PART_OF_ROWS = 4, // the middle quarter of the rows has POV-Ray's reference
 };
 
@@ -291,8 +291,8 @@ static bool size_find(Running *running, const RaceEntry *least, double *seconds_
     StudySettings *settings = &running->settings;
     bool is_fixed = settings->race_width > 0;
 
-    settings->width = is_fixed ? settings->race_width : 2 * SMALL_WIDTH;
-    settings->height = is_fixed ? settings->race_height : 2 * SMALL_HEIGHT;
+    settings->width = is_fixed ? settings->race_width : FIRST_WIDTH;
+    settings->height = is_fixed ? settings->race_height : FIRST_HEIGHT;
     for (int i = 0; i < SIZE_TRIES; i++) {
         PovrayRun run;
         if (!povray_once(running, least, 1, &run)) {
@@ -337,14 +337,7 @@ bool race_run(Race *race, const char *scene, const StudySettings *settings)
 {
     Running running = {.race = race, .settings = *settings};
 
-    *race = (Race){.scene = scene,
-                   .budget = settings->budget,
-                   .small_width = SMALL_WIDTH,
-                   .small_height = SMALL_HEIGHT};
-    if (settings->race_width > 0 && settings->race_width < SMALL_WIDTH) {
-        race->small_width = settings->race_width;
-        race->small_height = settings->race_height;
-    }
+    *race = (Race){.scene = scene, .budget = settings->budget};
     race_settings_list(race);
     for (int i = 0; i < race->povray_count; i++) {
         numbers_unset(&race->povray[i]);

@@ -12,7 +12,11 @@
 #include "check/race.h"
 #include "check/study_render.h"
 
-enum { SMALL_SAMPLES = 256, AT_A_TIME = 12 };
+enum { SMALL_SAMPLES = 256, AT_A_TIME = 4, SMALL_WIDTH = 160, SMALL_LEAST = 40 };
+
+// Seconds of the processor that the cheapest setting may take: all of them together take some thousand times as long.
+static const double CHEAPEST = 0.005;
+
 
 typedef struct Small {
     Race *race;
@@ -94,8 +98,33 @@ static void find_same(Small *small)
     }
 }
 
+// The size at which the cheapest setting is cheap enough, not above the race's where that is fixed.
+static bool small_size(Race *race, const StudySettings *settings)
+{
+    RaceSwitches switches;
+    int width = settings->race_width > 0 && settings->race_width < SMALL_WIDTH ? settings->race_width : SMALL_WIDTH;
+    StudySettings first = *settings;
+    const RaceEntry *cheapest = &race->povray[race->povray_count / 2]; // +AM2 +R1 -J
+
+    first.width = race->small_width = width;
+    first.height = race->small_height = 3 * width / 4;
+    race_switches(cheapest, &switches);
+    PovrayRun run = {.name = "first", .switches = switches.list, .threads = 1};
+    bool fine = povray_render(race->scene, &first, &run);
+    image_fini(&run.image);
+    if (fine && run.cost.seconds > CHEAPEST) {
+        width = (int)(width * sqrt(CHEAPEST / run.cost.seconds)) / 4 * 4;
+        race->small_width = width < SMALL_LEAST ? SMALL_LEAST : width;
+        race->small_height = 3 * race->small_width / 4;
+    }
+    return fine;
+}
+
 bool race_try_small(Race *race, const StudySettings *settings)
 {
+    if (!small_size(race, settings)) {
+        return false;
+    }
     Small small = {.race = race, .settings = *settings};
     pthread_t threads[AT_A_TIME];
     int started = 0;
