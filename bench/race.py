@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # The race to equal error over bench/race/*.scn as docs/sampling.md has it: runs rtcheck --race on each scene, and prints a table.
-# With arguments: options of rtcheck (--budget=30), then scenes, if not all.
+# With arguments: options of rtcheck (--budget=20), then scenes, if not all. With --update first the table goes into the
+# document.
 #
 # Wants RTCHECK, the program.
 #
@@ -18,16 +19,34 @@ HEADINGS = {"cpu": "processor", "wall": "clock", "whole": "whole run", "cpu_all"
             "wall_all": "clock, all threads", "cpu_by_povray": "by POV-Ray's reference", "cpu_by_other": "by the other's"}
 
 
+DOCUMENT = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "docs", "sampling.md")
+lines = []
+
+
+def say(*words):
+    lines.append(" ".join(words))
+    print(lines[-1], flush=True)
+
+
 def number(value):
     return "-" if value is None else f"{value:.1f}"
 
 
+def update():
+    with open(DOCUMENT, encoding="utf-8") as file:
+        before, rest = file.read().split("<!-- race -->\n", 1)
+    after = rest.split("<!-- /race -->", 1)[1]
+    with open(DOCUMENT, "w", encoding="utf-8") as file:
+        file.write(before + "<!-- race -->\n" + "\n".join(lines) + "\n<!-- /race -->" + after)
+
+
 def main():
-    options = [word for word in sys.argv[1:] if word.startswith("-")] or ["--budget=30"]
-    scenes = [word for word in sys.argv[1:] if not word.startswith("-")] or sorted(glob.glob(os.path.join(HERE, "*.scn")))
+    words = [word for word in sys.argv[1:] if word != "--update"]
+    options = [word for word in words if word.startswith("-")] or ["--budget=20"]
+    scenes = [word for word in words if not word.startswith("-")] or sorted(glob.glob(os.path.join(HERE, "*.scn")))
     found = {}
-    print("| scene | size |", " | ".join(HEADINGS.values()), "| least | settings: tried, run, front |")
-    print("|---" * (len(HEADINGS) + 4) + "|", flush=True)
+    say("| scene | size |", " | ".join(HEADINGS.values()), "| least | settings: tried, run, front |")
+    say("|---" * (len(HEADINGS) + 4) + "|")
     for scene in scenes:
         run = subprocess.run([RTCHECK, "--race", "--json", *options, scene], stdout=subprocess.PIPE, text=True, check=True)
         race = json.loads(run.stdout)["race"]
@@ -36,13 +55,15 @@ def main():
         tried = sum(entry["small_rays"] is not None for entry in race["povray"])
         ran = sum(entry["run"] for entry in race["povray"])
         front = sum(entry["front"] in ("both", "processor") for entry in race["povray"])
-        print(f"| {name} | {race['width']} x {race['height']} |", " | ".join(number(found[name][key]) for key in HEADINGS),
-              f"| {number(race['ratios'][0]['least'])} | {tried}, {ran}, {front} |", flush=True)
+        say(f"| {name} | {race['width']} x {race['height']} |", " | ".join(number(found[name][key]) for key in HEADINGS),
+            f"| {number(race['ratios'][0]['least'])} | {tried}, {ran}, {front} |")
     means = []
     for key in HEADINGS:
         known = [math.log(row[key]) for row in found.values() if row[key]]
         means.append(number(math.exp(sum(known) / len(known)) if known else None))
-    print("| geometric mean | |", " | ".join(means), "| | |")
+    say("| geometric mean | |", " | ".join(means), "| | |")
+    if "--update" in sys.argv:
+        update()
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@
 #include "check/race.h"
 #include "check/study_render.h"
 
-enum { SMALL_SAMPLES = 256, AT_A_TIME = 4, SMALL_WIDTH = 160, SMALL_LEAST = 40 };
+enum { SMALL_SAMPLES = 256, AT_A_TIME = 8, SMALL_WIDTH = 160, SMALL_LEAST = 40 };
 
 // Seconds of the processor that the cheapest setting may take: all of them together take some thousand times as long.
 static const double CHEAPEST = 0.005;
