@@ -15,10 +15,8 @@ import sys
 
 RTCHECK = os.path.abspath(os.environ.get("RTCHECK", "rtcheck"))
 HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "race")
-HEADINGS = {"cpu": "processor", "wall": "clock", "whole": "whole run", "cpu_all": "processor, all threads",
-            "wall_all": "clock, all threads", "cpu_by_povray": "by POV-Ray's reference", "cpu_by_other": "by the other's"}
-
-
+HEADINGS = {"cpu": "cpu", "wall": "wall", "whole": "whole", "cpu_all": "cpu, all", "wall_all": "wall, all",
+            "cpu_by_povray": "by POV-Ray", "cpu_by_other": "by the other"}
 DOCUMENT = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "docs", "sampling.md")
 lines = []
 
@@ -45,7 +43,7 @@ def main():
     options = [word for word in words if word.startswith("-")] or ["--budget=20"]
     scenes = [word for word in words if not word.startswith("-")] or sorted(glob.glob(os.path.join(HERE, "*.scn")))
     found = {}
-    say("| scene | size |", " | ".join(HEADINGS.values()), "| least | settings: tried, run, front |")
+    say("| scene | size |", " | ".join(HEADINGS.values()), "| least | tried, run, front |")
     say("|---" * (len(HEADINGS) + 4) + "|")
     for scene in scenes:
         run = subprocess.run([RTCHECK, "--race", "--json", *options, scene], stdout=subprocess.PIPE, text=True, check=True)
