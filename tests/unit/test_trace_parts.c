@@ -226,7 +226,8 @@ static void test_family(uint64_t seed, const Family *family)
         Vec3 way = random_direction(&random);
         Vec3 light = vec3_scale(family->spread * pow(10.0, random_between(&random, -1, 2)), way);
         double aside = turn % 4 ? 0.0 : family->spread * pow(10.0, random_between(&random, -3, 0));
-        uint64_t same = random_bits(&random), asked = random_bits(&random) | random_bits(&random);
+        uint64_t same = random_bits(&random), asked = random_bits(&random);
+        asked |= random_bits(&random);
         for (size_t isa = 0; geometry_isa(isa); isa++) {
             TileHits hits;
             TileSurfaces surfaces;
