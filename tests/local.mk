@@ -244,6 +244,7 @@ test_scripts = \
   %D%/povray/check_jitter.py \
   %D%/povray/check_area_lights.py \
   %D%/povray/check_pairs.py \
+  %D%/povray/check_scenes.py \
   %D%/povray/check_standard_names.py \
   %D%/povray/check_includes.py \
   %D%/povray/check_lang.py \
@@ -342,6 +343,7 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_aarch64.py
 	$(AM_TESTS_ENVIRONMENT) CHECK_LONG=1 $(PYTHON3) $(top_srcdir)/tests/system/check_disable_study.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_pairs.py 500 "$$(date +%s)"
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_scenes.py 5000
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_programs.py 2000 "$$(date +%s)"
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_include_names.py
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/system/check_literals.py 5000 "$$(date +%s)"

@@ -99,16 +99,16 @@ def run(program, arguments, folder=None):
         raise RunFailed(program, done.returncode, done.stdout.decode("utf-8", "replace"))
 
 
-def render_rtlang(scene, picture, folders, width=WIDTH, height=HEIGHT, more=()):
+def render_rtlang(scene, picture, folders, width=WIDTH, height=HEIGHT, more=(), folder=None):
     paths = [f"-I{folder}" for folder in folders]
     run("rtlang", [os.environ["RTLANG"], "-q", f"-W{width}", f"-H{height}", "--depth=16", "--file-gamma=1",
-                   "-o", picture, *more, *paths, scene])
+                   "-o", picture, *more, *paths, scene], folder)
 
 
-def render_povray(scene, picture, folders, width=WIDTH, height=HEIGHT):
+def render_povray(scene, picture, folders, width=WIDTH, height=HEIGHT, folder=None):
     paths = [f"+L{folder}" for folder in folders]
     run("povray", [povray(), f"+I{scene}", f"+O{picture}", f"+W{width}", f"+H{height}", "+FN16",
-                   "File_Gamma=1.0", "-A", "-D", "-P", "+Q9", *paths])
+                   "File_Gamma=1.0", "-A", "-D", "-P", "+Q9", *paths], folder)
 
 
 def compare(one, other):

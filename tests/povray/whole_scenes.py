@@ -1,0 +1,614 @@
+"""Whole scenes, written at random from POV-Ray's manual: every word in every order, in directives, macros and files.
+
+A scene is a tree of items; what a `Block` holds may be dropped, and a block may be replaced by what it holds, which is
+how a scene that fails is made small. Nothing here knows how rtlang reads. What docs/language.md lists as refused, or as
+drawn otherwise, is not written. SPDX-License-Identifier: MIT
+"""
+import random
+
+VERSIONS = ["3.7"] * 8 + ["", "", "3.6", "3.6", "3.5", "3.1", "3.1", "3.0", "3.62"]
+AXES = ["x", "y", "z", "-x", "-y", "-z"]
+WAVES = ["ramp_wave", "triangle_wave", "sine_wave", "scallop_wave", "cubic_wave", "poly_wave", "poly_wave 2"]
+PATTERNS = ["gradient x", "gradient -y", "gradient <1, 2, -1>", "onion", "radial", "leopard", "spherical", "boxed",
+            "planar", "cylindrical", "bozo", "spotted", "bumps", "granite", "agate", "marble", "wood", "wrinkles",
+            "dents", "ripples", "waves", "cells", "crackle", "spiral1 3", "mandel 9", "julia <0.353, 0.288>, 8"]
+FINISH = {"ambient": (0, 0.4), "diffuse": (0.3, 1), "phong": (0, 1), "phong_size": (3, 60), "specular": (0, 1),
+          "roughness": (0.02, 0.3), "brilliance": (0.5, 3), "metallic": (0, 1), "diffuse albedo": (0.3, 1)}
+
+
+class Block:
+    """`head`, then items that may be dropped, then `tail`. With a file's name in `file`, the text of that file."""
+
+    def __init__(self, head, items, tail="}", file=None):
+        self.head, self.items, self.tail, self.file = head, items, tail, file
+
+    def write(self, files, depth=0):
+        """The text; texts of included files go into `files`."""
+        if self.file:
+            files[self.file] = "".join(written(item, files, 0) for item in self.items)
+            return "    " * depth + self.head + "\n"
+        margin = "    " * depth
+        inner = depth + 1 if self.head else depth
+        text = "".join(written(item, files, inner) for item in self.items)
+        return f"{margin}{self.head}\n{text}{margin}{self.tail}\n" if self.head else text
+
+
+def written(item, files, depth):
+    return item.write(files, depth) if isinstance(item, Block) else "    " * depth + item + "\n"
+
+
+def text_of(scene):
+    """(text, {name: text of an included file})."""
+    files = {}
+    return scene.write(files), files
+
+
+class Writer:
+    """Writes one scene. `names` hold what is declared, by kind: (name, value where it is a number)."""
+
+    def __init__(self, seed, number):
+        self.dice = random.Random(f"{seed} {number}")
+        self.number_ = number
+        self.count = 0
+        self.names = {kind: [] for kind in ("number", "vector", "colour", "pigment", "normal", "finish", "texture",
+                                            "map", "transform", "object", "interior", "loop")}
+        self.has_fog = self.chance(0.2)
+        self.is_solid = False  # what is written lets no light through
+        self.before = []  # definitions that must stand before the statement that is being written
+        self.version = self.dice.choice(VERSIONS)
+        self.is_old = self.version not in ("", "3.7") and float(self.version) < 3.1
+
+    # ---- choices
+
+    def chance(self, share):
+        return self.dice.random() < share
+
+    def name(self, kind):
+        self.count += 1
+        return f"{kind}_{self.count}"
+
+    def one_of(self, *makers):
+        return self.dice.choice(makers)()
+
+    def shuffled(self, items):
+        items = list(items)
+        self.dice.shuffle(items)
+        return items
+
+    def some(self, most, least=0):
+        return range(self.dice.randint(least, most))
+
+    def known(self, kind):
+        """The name of something declared, or None."""
+        # Up to 3.1 POV-Ray makes `transmit` of the filters of what lies over something, of a name's own map, too.
+        if (self.is_solid or self.version in ("3.0", "3.1")) and kind in ("pigment", "texture", "map"):
+            return None
+        return self.dice.choice(self.names[kind])[0] if self.names[kind] and self.chance(0.4) else None
+
+    # ---- values
+
+    def literal(self, value):
+        """Never a round one unless it is whole, and hardly ever the same twice: where faces meet, rounding decides."""
+        if value == int(value):
+            return str(int(value))
+        text = f"{value:.5f}"
+        return text + "7" if text.endswith("00") else text
+
+    def number(self, low, high):
+        value = float(self.literal(self.dice.uniform(low, high)))
+        if self.chance(0.75):
+            return self.literal(value)
+        beside = self.dice.choice(self.names["number"] or [("0.25", 0.25)])
+        rest = round(value - beside[1], 6)
+        return self.one_of(
+            lambda: f"({beside[0]} {'-' if rest < 0 else '+'} {abs(rest)})",
+            lambda: f"({rest} + {beside[0]})",
+            lambda: f"({self.literal(value * 2)} / 2)",
+            lambda: f"max({self.literal(value)}, -100)",
+            lambda: f"(<7, {self.literal(value)}, 3>.y)",
+            lambda: f"(1 > 2 ? 9 : {self.literal(value)})",
+            lambda: f"({self.literal(value)} + 0.01 * {self.names['loop'][-1][0]})" if self.names["loop"] else
+            self.literal(value))
+
+    def vector(self, low, high):
+        a, b, c = (self.number(low, high) for _ in range(3))
+        return self.one_of(
+            lambda: f"<{a}, {b}, {c}>", lambda: f"<{a}, {b}, {c}>", lambda: f"<{a}, {b}, {c}>",
+            lambda: f"<{a}, {b} {self.dice.choice([',', ''])} {c}>" if not c.startswith("-") else f"<{a}, {b}, {c}>",
+            lambda: f"({a} * x + {b} * y + {c} * z)", lambda: f"(<{a}, {b}> + z * {c})",
+            lambda: f"vrotate(<{a}, {b}, {c}>, 0)")
+
+    def colour(self, clear=False, word=None):
+        """Written as a pigment may have it, with filter or transmit where `clear`."""
+        word = word or self.dice.choice(["", "", "color ", "colour "])
+        clear = clear and not self.is_solid
+        r, g, b = (self.number(0, 1) for _ in range(3))
+        f, t = (self.number(0, 0.5) for _ in range(2))
+        known = self.known("colour")
+        if known:
+            return word + known + self.dice.choice(
+                ["", "", f" * {self.number(0.3, 1)}"] + [f" filter {f}", f" transmit {t}"] * clear)
+        forms = [f"rgb <{r}, {g}, {b}>"] * 3 + [f"rgb {self.vector(0, 1)}", f"rgb {r}", f"rgb <{r}, {g}, {b}> * {g}"]
+        if clear:
+            forms += [f"rgbf <{r}, {g}, {b}, {f}>", f"rgbt <{r}, {g}, {b}, {t}>", f"rgbft <{r}, {g}, {b}, {f}, {t}>",
+                      f"rgb <{r}, {g}, {b}> filter {f}", f"rgb <{r}, {g}, {b}> transmit {t}"] * 2
+        if word:
+            forms += [f"red {r} green {g} blue {b}", f"blue {b} red {r}", f"<{r}, {g}, {b}>"]
+        return word + self.dice.choice(forms)
+
+    # ---- transforms
+
+    def transform(self, size=0.3, turn=180):
+        known = self.known("transform")
+        if known:
+            return f"transform {self.dice.choice([known, '{ ' + known + ' }'])}"
+        return self.one_of(
+            lambda: f"translate {self.vector(-size, size)}",
+            lambda: f"rotate {self.dice.choice(['x', 'y', 'z'])} * {self.number(-turn, turn)}",
+            lambda: f"rotate {self.vector(-turn, turn)}",
+            lambda: f"scale {self.number(0.7, 1.2)}", lambda: f"scale {self.vector(0.7, 1.2)}",
+            lambda: f"scale <-1, {self.number(0.8, 1.2)}, 1>",
+            lambda: f"matrix <1, {self.number(-0.2, 0.2)}, 0, 0, 1, {self.number(-0.2, 0.2)}, 0.1, 0, 1, 0, {size}, 0>",
+            lambda: Block("transform {", [self.transform(size, turn) for _ in self.some(2, 1)] +
+                          ["inverse"] * self.chance(0.3)))
+
+    def pattern_transform(self):
+        return self.one_of(lambda: f"scale {self.number(0.2, 2.5)}", lambda: self.transform(1),
+                           lambda: self.transform(1))
+
+    # ---- patterns and maps
+
+    def modifiers(self, shares):
+        """Words of a pattern, in any order, with transforms among them."""
+        words = {"frequency": lambda: f"frequency {self.number(0.5, 3)}",
+                 "phase": lambda: f"phase {self.number(-1, 1)}",
+                 "wave": lambda: self.dice.choice(WAVES),
+                 "turbulence": lambda: f"turbulence {self.one_of(lambda: self.number(0, 0.6), lambda: self.vector(0, 0.6))}",
+                 "octaves": lambda: f"octaves {self.dice.randint(2, 5)}",
+                 "omega": lambda: f"omega {self.number(0.3, 0.7)}",
+                 "lambda": lambda: f"lambda {self.number(1.5, 2.5)}"}
+        return [make() for word, make in words.items() if self.chance(shares)] + [self.pattern_transform()
+                                                                                  for _ in self.some(2)]
+
+    def positions(self):
+        """The values of a map's entries."""
+        count = self.dice.choice([1, 2, 2, 2, 3, 3, 4])
+        values = sorted(self.dice.uniform(0, 1) for _ in range(count))
+        if self.chance(0.6):
+            values[0], values[-1] = 0, 1 if count > 1 else 0
+        if count > 2 and self.chance(0.2):
+            values[1] = values[2]
+        return [self.literal(value) for value in values]
+
+    def color_map(self):
+        known = self.known("map")
+        if known:
+            return f"color_map {{ {known} }}"
+        entries = [f"[{at} {self.colour(True)}]" for at in self.positions()]
+        if self.chance(0.2):
+            entries = [f"[{low} {high} {self.colour(True)} {self.colour(True, 'color ')}]" for low, high in
+                       self.dice.choice([[("0", "0.4"), ("0.4", "1")], [("0.1", "0.3"), ("0.5", "0.9")], [("0", "1")]])]
+        return Block(self.dice.choice(["color_map {", "colour_map {"]), self.torn(entries, 0.1))
+
+    def list_of(self, make, count, is_whole=False):
+        """None, some or all of the parts of a list."""
+        parts = [make() for _ in range(self.dice.choice([count, count, count if is_whole else self.dice.randint(0,
+                                                                                                                count)]))]
+        return [part + "," * self.chance(0.5) if isinstance(part, str) and i + 1 < len(parts) else part
+                for i, part in enumerate(parts)]
+
+    def list_pattern(self, parts, is_whole=False):
+        """checker, hexagon or brick with a list that may lack something; what follows may be in any order."""
+        word, count = self.dice.choice([("checker", 2), ("checker", 2), ("hexagon", 3), ("brick", 2)])
+        found = self.list_of(parts, count, is_whole)
+        more = self.modifiers(0.1)
+        if word == "brick":
+            more += [text for text in (f"mortar {self.number(0.05, 0.2)}",
+                                       f"brick_size <{self.number(0.5, 1)}, 0.31, 0.5>")
+                     if self.chance(0.5)]
+        return [word] + found + self.shuffled(more)
+
+    def value_pattern(self, maps):
+        pattern = self.dice.choice(PATTERNS)
+        return [pattern] + self.shuffled(self.modifiers(0.15) + maps)
+
+    def entries(self, make):
+        """Entries `[value items]` of a map of blocks."""
+        return [Block(f"[{at}", make(), "]") for at in self.positions()]
+
+    # ---- pigments
+
+    def pigment_items(self, depth=0):
+        known = self.known("pigment")
+        begin = [known] if known else []
+        if known and self.chance(0.4):
+            return begin + [self.pattern_transform() for _ in self.some(2)]
+        choice = self.dice.random()
+        if known or choice < 0.3 or depth > 1:
+            if known:
+                return begin + self.shuffled([self.pattern_transform() for _ in self.some(2)])
+            return [self.colour(self.chance(0.4))] + [self.pattern_transform()] * self.chance(0.2)
+        if choice < 0.5:
+            return self.list_pattern(lambda: self.colour(True))
+        if choice < 0.6:
+            return self.list_pattern(lambda: Block("pigment {", self.pigment_items(depth + 1)))
+        if choice < 0.68:
+            return self.value_pattern([Block("pigment_map {", self.entries(lambda: self.pigment_items(depth + 1)))])
+        if choice < 0.72:
+            weighed = [Block(f"[{self.number(0.5, 2)}", self.pigment_items(depth + 1), "]") for _ in self.some(3, 1)]
+            return ["average"] + self.shuffled([Block("pigment_map {", weighed)] + self.modifiers(0))
+        return self.value_pattern([self.color_map()] * self.chance(0.85))
+
+    def pigment(self, depth=0):
+        return Block("pigment {", self.torn(self.pigment_items(depth)))
+
+    # ---- normals
+
+    def normal_items(self, depth=0):
+        known = self.known("normal")
+        if known:
+            return [known] + [self.pattern_transform() for _ in self.some(2)]
+        amount = self.dice.choice(["", " " + self.number(0.1, 0.7)])
+        choice = self.dice.random()
+        more = self.modifiers(0.1) + [f"bump_size {self.number(0.1, 0.7)}"] * self.chance(0.2) + \
+            [f"accuracy {self.number(0.01, 0.1)}"] * self.chance(0.1) + ["no_bump_scale"] * self.chance(0.1)
+        if choice < 0.2:
+            word = self.dice.choice(["quilted"] * (not self.names["texture"]) + ["bumps", "dents", "wrinkles",
+                                                                                 "ripples", "waves"])
+            # On whole numbers the last bits of a point tell to which cushion it belongs.
+            return [word + amount] + ["translate 0.123"] * (word == "quilted") + self.shuffled(more)
+        if choice < 0.35 and depth == 0:
+            return self.list_pattern(lambda: Block("normal {", self.normal_items(1)), True)
+        if choice < 0.45:
+            return [f"{self.dice.choice(['checker', 'hexagon', 'brick'])} {self.number(0.1, 0.7)}"] + self.shuffled(more)
+        if choice < 0.6 and depth == 0:
+            return self.value_pattern([Block("normal_map {", self.entries(lambda: self.normal_items(1)))])
+        slopes = Block("slope_map {",
+                       [f"[{at} <{self.number(0, 1)}, {self.number(-1, 1)}>]" for at in self.positions()])
+        pattern = self.dice.choice([pattern for pattern in PATTERNS
+                                    if "mandel" not in pattern and "julia" not in pattern])
+        amount = amount and ("," if pattern[-1] in ">xyz" else "") + amount
+        return [pattern + amount] + self.shuffled(more + [slopes] * self.chance(0.2))
+
+    def normal(self):
+        return Block("normal {", self.torn(self.normal_items()))
+
+    # ---- finishes and textures
+
+    def finish(self, mirrors=True):
+        words = [f"{word} {'+' * (word == 'metallic')}{self.number(*FINISH[word])}"
+                 for word in self.dice.sample(list(FINISH), self.dice.randint(0, 4))]
+        if mirrors and self.chance(0.2):
+            words.append(self.one_of(
+                lambda: f"reflection {self.number(0.1, 0.6)}", lambda: f"reflection {self.colour()}",
+                lambda: f"reflection {{ {self.number(0, 0.2)}, {self.number(0.4, 0.9)} falloff {self.number(0.5, 3)} }}"))
+        known = self.known("finish") if mirrors else None
+        return Block("finish {", ([known] if known else []) + self.torn(self.shuffled(words)))
+
+    def texture_parts(self, mirrors=True):
+        """pigment, normal and finish, each of them or not, with transforms anywhere."""
+        is_bumpy = self.chance(0.35)  # and no mirror then, in which a last bit becomes many
+        parts = [self.pigment()] * self.chance(0.9) + [self.normal()] * is_bumpy
+        parts += [self.finish(mirrors and not is_bumpy)] * self.chance(0.5)
+        parts += [self.pattern_transform() for _ in self.some(2)]
+        return self.shuffled(parts)
+
+    def texture_items(self, depth=0, mirrors=True):
+        known = self.known("texture")
+        if known and depth == 0:
+            return [known] + self.texture_parts(mirrors)[:self.dice.randint(0, 3)]
+        choice = self.dice.random()
+        plain = lambda: Block("texture {", self.texture_items(depth + 1, mirrors))
+        if choice < 0.12 and depth < 1:
+            return self.list_pattern(plain)
+        if choice < 0.25 and depth < 1:
+            return self.solid_of(lambda: self.value_pattern(
+                [Block("texture_map {", self.entries(lambda: self.texture_items(1, mirrors)))]))
+        return self.torn(self.texture_parts(mirrors))
+
+    def texture(self, mirrors=True):
+        return Block("texture {", self.texture_items(0, mirrors))
+
+    def layer(self):
+        """A texture that lets see what is below."""
+        clear = Block("color_map {",
+                      [f"[{at} rgbt <{self.number(0, 1)}, {self.number(0, 1)}, 0.3, {self.number(0.2, 1)}>]"
+                                      for at in self.positions()])
+        return Block("texture {", self.shuffled([Block("pigment {", self.value_pattern([clear]))] +
+                                                [self.pattern_transform() for _ in self.some(1)] +
+                                                [self.finish(False)] * self.chance(0.3)))
+
+    def surface(self, mirrors=True, below=False):
+        """What an object says of its surface, in order; no pattern of textures where others may be laid over it."""
+        choice = 1 if below else self.dice.random()
+        if choice < 0.35:
+            return [self.texture(mirrors)]
+        if choice < 0.5:
+            return [Block("texture {", self.texture_parts(False))] + [self.layer() for _ in self.some(2, 1)]
+        if choice < 0.6:
+            return [Block("material {", [self.texture(mirrors)] + [self.transform(1) for _ in self.some(1)])]
+        return self.texture_parts(mirrors)
+
+    # ---- directives around items
+
+    def torn(self, items, share=0.15):
+        """The items, perhaps with some of them in a directive, a macro or an included file, which changes nothing."""
+        if not items or not self.chance(share):
+            return items
+        low = self.dice.randrange(len(items))
+        high = self.dice.randint(low + 1, len(items))
+        return items[:low] + [self.wrapped(items[low:high])] + items[high:]
+
+    def wrapped(self, items):
+        forms = [lambda: Block("#if (1)", items, "#end"), lambda: Block("#if (0) #else", items, "#end"),
+                 lambda: Block(f"#ifndef ({self.name('No')})", items, "#end"),
+                 lambda: Block("#switch (2) #case (1) #break #range (1.5, 3)", items, "#break #end"),
+                 lambda: self.included(items)]
+        if self.version in ("", "3.7"):
+            forms.append(lambda: Block(f"#for ({self.name('Once')}, 1, 1)", items, "#end"))
+        if not self.is_old:
+            forms += [lambda: self.in_macro(items)] * 3
+        return self.one_of(*forms)
+
+    def included(self, items):
+        file = f"whole_{self.number_}_{self.name('part')}.inc"
+        return Block(f'#include "{file}"', items, file=file)
+
+    def in_macro(self, items):
+        macro = self.name("Macro")
+        self.before.append(Block(f"#macro {macro}()", items, "#end"))
+        return f"{macro}()"
+
+    # ---- shapes
+
+    def solid(self):
+        """The head of a shape that has an inside, about 1 in size."""
+        n, v = self.number, self.vector
+        whole = lambda: f"box {{ -0.97, <0.98, {self.dice.choice(['0.99', '0.5', '0.75'])}, 0.96>"
+        return self.one_of(
+            lambda: f"sphere {{ {v(-0.2, 0.2)}, {n(0.6, 1)}", lambda: "sphere { 0 0.97",
+            lambda: f"box {{ {v(-0.9, -0.5)}, {v(0.5, 0.9)}", lambda: f"box {{ {v(0.5, 0.9)} {v(-0.9, -0.5)}", whole,
+            lambda: f"cylinder {{ <{n(-0.2, 0.2)}, {n(-0.9, -0.5)}, 0>, <0, {n(0.5, 0.9)}, {n(-0.2, 0.2)}>, {n(0.4, 0.7)}",
+            lambda: f"cone {{ {n(-0.9, -0.6)} * y, {n(0.6, 0.9)}, {n(0.6, 0.9)} * y, {n(0, 0.4)}")
+
+    def sheet(self):
+        """The head of a shape that has none."""
+        n, v = self.number, self.vector
+        ends = "" if self.has_fog else " open"  # POV-Ray and the fog in what is open: docs/language.md
+        return self.one_of(
+            lambda: f"disc {{ {v(-0.2, 0.2)}, {v(0.2, 1)}, {n(0.7, 1)}",
+            lambda: f"disc {{ {v(-0.2, 0.2)}, {v(0.2, 1)}, {n(0.7, 1)}, {n(0.2, 0.5)}",
+            lambda: f"triangle {{ <{n(-1, -0.7)}, {n(-0.7, -0.5)}, 0>, <{n(0.7, 1)}, {n(-0.5, -0.2)}, 0.3>, <0, {n(0.7, 1)}, -0.2>",
+            lambda: f"cylinder {{ <{n(-0.9, -0.6)}, 0, 0>, <{n(0.6, 0.9)}, 0.1, 0>, {n(0.4, 0.7)}{ends}",
+            lambda: f"cone {{ {n(-0.9, -0.6)} * y, {n(0.6, 0.9)}, {n(0.6, 0.9)} * y, {n(0.2, 0.4)}{ends}")
+
+    def member(self, share):
+        """A solid of a group, with or without a surface of its own."""
+        items = self.solid_of(lambda: self.surface(False, True)) if self.chance(share) else []
+        return Block(self.solid(), self.shuffled_in([f"translate {self.vector(-0.5, 0.5)}"], items))
+
+    def shuffled_in(self, some, items):
+        """`items` in their order with `some` put somewhere among them."""
+        items = list(items)
+        for one in some:
+            items.insert(self.dice.randint(0, len(items)), one)
+        return items
+
+    def shape(self):
+        """(head, items that come first, tail, is simple, is flat)."""
+        choice = self.dice.random()
+        if choice < 0.45:
+            return self.solid(), [], "}", True, False
+        if choice < 0.55:
+            return self.sheet(), [], "}", False, True
+        if choice < 0.62:
+            return "object {", [Block(self.solid(), self.surface(below=True)
+                                      if self.chance(0.3) else [])], "}", False, False
+        if choice < 0.7 and self.names["object"]:
+            return self.dice.choice(self.names["object"])[0], [], "}", False, True
+        if choice < 0.8:
+            head = self.dice.choice(["union {", "union {", "#if (1) union { #else merge { #end", "merge {"])
+            return head, self.torn([self.member(0.4) for _ in self.some(3, 2)], 0.3), "}", False, False
+        if choice < 0.9:
+            other = Block(self.solid(), ["scale 0.7", f"translate {self.vector(0.2, 0.6)}"])
+            return "difference {", [self.member(0.3), other], "}", False, False
+        other = self.dice.choice([Block(f"plane {{ {self.vector(0.1, 1)}, {self.number(0.1, 0.3)}", []),
+                                  self.member(0.3)])
+        return "intersection {", self.shuffled([self.member(0.3), other]), "}", False, False
+
+    def interior(self):
+        items = [f"ior {self.number(1, 1.6)}"] * self.chance(0.8) + [f"caustics {self.number(0.1, 0.5)}"] * self.chance(0.2)
+        if self.chance(0.4):
+            items += [f"fade_distance {self.number(0.3, 2)}", f"fade_power {self.number(0.5, 3)}"]
+            items += [f"fade_color {self.colour()}"] * self.chance(0.3)
+        return Block("interior {", self.shuffled(items))
+
+    def object(self, place):
+        head, first, tail, is_simple, is_flat = self.shape()
+        # Along the seams and edges of glass rays meet two surfaces within POV-Ray's 1e-3.
+        items = self.surface() if is_simple else self.solid_of(self.surface)
+        if is_simple and self.chance(0.2):
+            items = self.shuffled_in([self.interior()], items)
+        items = self.shuffled_in([self.transform(0.2) for _ in self.some(2)], items)
+        early = []
+        if is_simple and self.chance(0.15) and not self.has_fog and not any(
+                isinstance(item, Block) and item.head.startswith("interior")
+                                                                            for item in items):  # which POV-Ray leaves out of what is clipped away
+            early = [Block("clipped_by {", [f"plane {{ {self.vector(0.1, 1)}, {self.number(0.1, 0.3)} }}"])]
+        flags = [word for word in ("no_shadow", "no_reflection", "hollow", "bounded_by { sphere { 0, 9 } }")
+                 if self.chance(0.05)]
+        if head.startswith("Object_"):
+            head, first = "object {", [head]
+        items = first + early + self.shuffled_in([f"translate <{place[0]}, {place[1]}, {place[2]}>"] + flags, items)
+        return Block(head, items if is_flat else self.torn(items[:len(first)], 0) + self.torn(items[len(first):]), tail)
+
+    # ---- the rest of a scene
+
+    def camera(self):
+        kind = self.dice.choice(["", "", "", "perspective", "orthographic", "fisheye", "ultra_wide_angle",
+                                 "panoramic"] +
+                                ["spherical"] * (self.version not in ("3.0", "3.1")))
+        far = {"panoramic": 3, "spherical": 5}.get(kind, 7)
+        away = [self.dice.uniform(-1, 1) for _ in range(3)]
+        size = max(sum(c * c for c in away) ** 0.5, 0.3)
+        place = [far * c / size + 0.0371 for c in away]
+        words = [f"location <{', '.join(self.literal(c) for c in place)}>"]
+        vector = lambda: self.dice.choice(AXES +
+                                          [f"<{self.number(-1, 1)}, {self.number(-1, 1)}, {self.number(0.2, 1)}>"])
+        vectors = {"direction": lambda: f"{self.number(0.7, 1.5)} * {vector()}", "up": vector,
+                   "right": lambda: self.dice.choice(["x * image_width / image_height", "-4/3 * x", vector(),
+                                                      "1.33 * x"])}
+        words += [f"{word} {make()}" for word, make in vectors.items() if self.chance(0.4)]
+        if self.chance(0.4):
+            words.append(f"sky {self.dice.choice([vector(), 'z', '-y'])}")
+        words.append(f"look_at {self.vector(-0.3, 0.3)}")
+        if self.chance(0.5):
+            wide = self.number(160, 350) if kind == "spherical" and self.chance(0.5) else self.number(45, 90)
+            words.append(f"angle {wide}" + f" {self.number(40, 90)}" * (kind == "spherical" and self.chance(0.5)))
+        moves = [f"translate {self.vector(-0.3, 0.3)}", f"rotate {self.vector(-20, 20)}",
+                 f"scale {self.number(0.9, 1.1)}",
+                 f"scale <1, {self.number(0.8, 1.2)}, 1>"]
+        words = self.torn(self.shuffled(words), 0.3) + [move for move in self.shuffled(moves) if self.chance(0.15)]
+        items = ([kind] if kind else []) + words
+        if self.chance(0.2):
+            camera = self.name("Camera")
+            return [Block(f"#declare {camera} = camera {{", items), Block("camera {", [camera] +
+                                                                          [move for move in moves if self.chance(0.1)])]
+        return [Block("camera {", items)]
+
+    def light(self):
+        place = f"<{self.number(3, 6) if self.chance(0.5) else self.number(-6, -3)}, {self.number(3, 7)}, {self.number(-7, -2)}>"
+        words = self.one_of(
+            list, list, lambda: ["shadowless"],
+            lambda: ["spotlight"] + self.shuffled([f"radius {self.number(10, 25)}", f"falloff {self.number(30, 45)}",
+                                                   f"tightness {self.number(0, 10)}",
+                                                   f"point_at {self.vector(-1, 1)}"]),
+            lambda: ["cylinder"] + self.shuffled([f"radius {self.number(1, 3)}", f"falloff {self.number(3, 5)}",
+                                                  "point_at 0"]),
+            lambda: ["parallel", f"point_at {self.vector(-1, 1)}"],
+            lambda: self.shuffled([f"fade_distance {self.number(3, 8)}", f"fade_power {self.number(1, 2)}"]))
+        moves = [f"rotate {self.vector(-30, 30)}", f"translate {self.vector(-0.5, 0.5)}"]
+        items = words[:1] + self.torn(words[1:], 0.1) + [move for move in moves if self.chance(0.15)]
+        return Block(f"light_source {{ {place}{self.dice.choice([',', ''])} {self.dice.choice(['color ', ''])}rgb {self.number(0.5, 1)}", items)
+
+    def sky(self):
+        colours = [f"[{at} {self.colour()}]" for at in self.positions()]
+        layers = [Block("pigment {", [self.dice.choice(["gradient x", "gradient y", "gradient <1, 1, 1>", "bozo",
+                                                        "onion", "checker"])] +
+                        self.shuffled([Block("color_map {", colours), f"scale {self.number(0.4, 2.1)}",
+                                       self.transform(1)]))]
+        if "checker" in layers[0].items:
+            layers[0].items = self.list_pattern(self.colour)
+        sphere = Block("sky_sphere {", layers)
+        if not self.has_fog:
+            return self.one_of(lambda: [Block("sky_sphere {", layers + [self.transform(1) for _ in self.some(1)])],
+                               lambda: [sphere], lambda: [f"background {{ {self.colour()} }}"])
+        return [sphere, Block("fog {", self.shuffled([
+                f"distance {self.number(10, 30)}", self.dice.choice(["", "color "]) + f"rgb {self.number(0, 1)}"]))]
+
+    def floor(self):
+        is_whole = self.chance(0.4)
+        at = f"-{self.literal(self.dice.uniform(2.6, 4))}"
+        head = self.dice.choice([f"plane {{ y, {at}", f"plane {{ <0, 1, 0>, {at}",
+                                 f"plane {{ {self.vector(-0.1, 0.1)} + y, {at}",
+                                 f"box {{ <-9, {at} - 1, -9>, <9, {at}, 9>", f"plane {{ -z, {at}",
+                                 f"plane {{ -x, {at}"])
+        if is_whole:
+            return self.whole_floor()
+        return Block(head, self.surface() + ["hollow"] * self.chance(0.3))
+
+    def whole_floor(self):
+        """Blocks on a floor in whole numbers, where other patterns jump as the last bits fall, but blocks end before."""
+        word, count = self.dice.choice([("checker", 2), ("brick", 2)])
+        blocks = Block("pigment {", [word] + self.list_of(lambda: self.colour(True), count) +
+                       ["brick_size <1, 1, 0.5> mortar 0.1"] * (word == "brick") + ["scale 0.5"] * self.chance(0.3))
+        down = self.dice.randint(2, 4)
+        return self.one_of(
+            lambda: Block(f"plane {{ y, -{down}", [blocks]),
+            lambda: Block("plane { y, 0", [blocks, f"translate -{down} * y"]),
+            lambda: Block(f"box {{ <-9, -{down} - 1, -9>, <9, -{down}, 9>", [blocks,
+                                                                             f"rotate {self.number(-180, 180)} * y"]),
+            lambda: Block(f"plane {{ z, {down}", [blocks, "rotate 90 * x"]),
+            lambda: Block("plane { y, 0", [f"rotate {self.number(-180, 180)} * y", f"translate -{down} * y", blocks]))
+
+    def declaration(self):
+        """Something with a name, of which the rest may be made."""
+        kind = self.dice.choice(["number", "vector", "colour", "pigment", "normal", "finish", "texture", "map",
+                                 "transform", "object"])
+        name = self.name(kind.capitalize())
+        make = {
+            "vector": lambda: f"#declare {name} = {self.vector(-1, 1)};",
+                "colour": lambda: f"#declare {name} = {self.colour_value()};",
+            "pigment": lambda: Block(f"#declare {name} = pigment {{", self.pigment_items()),
+            "normal": lambda: Block(f"#declare {name} = normal {{", self.normal_items()),
+            "finish": lambda: Block(f"#declare {name} = finish {{", self.finish().items),
+            "texture": lambda: Block(f"#declare {name} = texture {{", self.texture_parts()),
+            "map": lambda: Block(f"#declare {name} = color_map {{",
+                                 [f"[{at} {self.colour(True)}]" for at in self.positions()]),
+            "transform": lambda: Block(f"#declare {name} = transform {{", [self.transform(0.2) for _ in self.some(2,
+                                                                                                                  1)]),
+            "object": lambda: Block(f"#declare {name} = union {{", [self.member(0.6), self.member(0.3)] +
+                                    (self.surface(below=True) if self.chance(0.5) else [])),
+        }
+        if kind == "number":
+            value = float(self.literal(self.dice.uniform(0, 1)))
+            made, entry = f"#declare {name} = {self.literal(value)};", (name, value)
+        else:
+            made, entry = make[kind](), (name, None)
+        self.names[kind].append(entry)
+        return made
+
+    def colour_value(self):
+        """A colour on the right of `=`."""
+        return f"{self.dice.choice(['', 'color '])}rgb <{self.number(0, 1)}, {self.number(0, 1)}, {self.number(0, 1)}>"
+
+    def solid_of(self, make):
+        """What is made, without anything that lets light through."""
+        before, self.is_solid = self.is_solid, True
+        made = make()
+        self.is_solid = before
+        return made
+
+    def default(self):
+        """Nothing clear: of a clear surface in an opaque whole POV-Ray's shadows depend on what it drew before."""
+        return Block("#default {", [self.solid_of(lambda: self.one_of(
+            lambda: self.finish(False), self.pigment, lambda: Block("texture {", [
+                part for part in self.texture_parts(False) if not str(getattr(part, "head", "")).startswith("normal")]),
+            lambda: Block("normal {", [f"{self.dice.choice(PATTERNS[3:20])}, {self.number(0.1, 0.7)}"])))])
+
+    def settings(self):
+        words = ["assumed_gamma " + self.dice.choice(["1", "1.0", "2.2", "srgb"])] * self.chance(0.8
+                                                                                                 if self.version == "3.7" else 0.3)
+        words += [f"ambient_light {self.colour()}"] * self.chance(0.2) + [f"max_trace_level {self.dice.randint(3, 7)}"] * self.chance(0.3)
+        words += [f"noise_generator {self.dice.randint(1, 3)}"] * self.chance(0.1)
+        # POV-Ray follows a ray for each texture of a map and for each mirror of a layer, and gives up each by its own weight.
+        return [Block("global_settings {", self.shuffled(words + ["adc_bailout 0.00001"]))]
+
+    def scene(self):
+        begin = [f"#version {self.version};"] * bool(self.version) + self.settings()
+        statements = []
+
+        def add(*made):
+            statements.extend(self.before + list(made))
+            self.before = []
+
+        if self.chance(0.2):
+            add(self.default())
+        for _ in self.some(6):
+            add(self.declaration())
+        parts = [self.camera] + [lambda: [self.light()] for _ in self.some(3, 1)] + [self.sky] * self.chance(0.8)
+        parts += [lambda: [self.floor()]] * self.chance(0.8)
+        places = [(f"{x}13", f"{y}17", f"{z}11") for x in (-1.4, 1.4) for y in (-1.2, 1.2)
+                  for z in (-1.4, 1.4)]
+        parts += [lambda place=place: [self.object(place)] for place in self.dice.sample(places, self.dice.randint(2,
+                                                                                                                   4))]
+        parts += [lambda: [self.default()]] * self.chance(0.3) + [lambda: [self.declaration()]] * self.dice.randint(0,
+                                                                                                                    2)
+        for make in self.shuffled(parts):
+            made = make()
+            add(*(self.torn(made, 0.1)))
+        return Block("", begin + statements, "")
+
+
+def scene_of(seed, number):
+    return Writer(seed, number).scene()
