@@ -27,6 +27,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_MATERIAL] = material_action,      [ACTION_IMAGE_MAP] = image_map_action,
     [ACTION_IMAGE] = image_action,
     [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
+    [ACTION_LOOK_AT] = camera_look_at_action,
     [ACTION_BLUR_SAMPLES] = camera_blur_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
     [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
@@ -163,6 +164,15 @@ static bool at_expression(Block *block)
     return item && item->kind != AST_WORD && cursor_at_value(&block->cursor);
 }
 
+// Whether a number begins with a component of a vector, which POV-Ray does not look for where a number may be left out.
+static bool begins_with_vector(const AstNode *item)
+{
+    while ((item->kind == AST_BINARY || item->kind == AST_UNARY) && !(item->flags & AST_IN_PARENTHESES)) {
+        item = item->a;
+    }
+    return item->kind == AST_MEMBER && !(item->flags & AST_IN_PARENTHESES);
+}
+
 static bool needs_value(const SchemaProperty *property)
 {
     return property->type != TYPE_FLAG && property->type != TYPE_SWITCH && property->type != TYPE_OPTIONAL_NUMBER;
@@ -222,6 +232,11 @@ static bool read_typed(Block *block, const SchemaProperty *property, void *at)
         if (!at_expression(block)) {
             memcpy(at, &property->bare, sizeof property->bare);
             return true;
+        }
+        if (begins_with_vector(cursor_peek(&block->cursor))) {
+            return block_fault(block, DIAG_E0253, cursor_peek(&block->cursor)->span,
+                               "the number of `%s` may not begin with a vector; put it into parentheses",
+                               property->word);
         }
         return read_number(block, property, at);
     case TYPE_NUMBER: return read_number(block, property, at);

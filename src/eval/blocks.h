@@ -186,6 +186,8 @@ bool reflection_close(Block *block) RT_MUST_CHECK;
 // camera.c
 bool camera_angle_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool camera_blur_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool camera_look_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+void camera_transform(Block *block, const Transform *transform);
 bool camera_close(Block *block) RT_MUST_CHECK;
 bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span) RT_MUST_CHECK;
 

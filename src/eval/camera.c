@@ -1,7 +1,8 @@
 // Cameras: what stands in the braces becomes the four vectors of a Camera.
 //
 // POV-Ray collects everything first, whatever its order; at the closing brace the angle sets the length of the
-// direction, look_at turns the vectors, and the transforms come last. Measured on POV-Ray 3.7.
+// direction, look_at turns the vectors, and the transforms come last. Before `#version 3.5` each word takes effect where
+// it stands, on what has been said by then. Measured on POV-Ray 3.7.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -34,51 +35,20 @@ static bool read_vertical_angle(Block *block)
            block_value(block, &number, value->span);
 }
 
-bool camera_angle_action(Block *block, const SchemaProperty *property, const AstNode *item)
+// Whether each word takes effect where it stands.
+static bool is_in_order(const Block *block)
 {
-    static const SchemaProperty number = {"angle", TYPE_NUMBER, ACTION_NONE,
-                                          .at = offsetof(CameraBlueprint, angle_deg)};
-    CameraBlueprint *camera = &block->record->camera;
-    (void)property;
-    camera->has_angle = true;
-    const AstNode *value = cursor_peek(&block->cursor);
-    bool has_value = value && value->kind != AST_WORD && cursor_at_value(&block->cursor);
-    CameraType type = camera_type(camera);
-    if (!has_value && type == CAMERA_ORTHOGRAPHIC) {
-        camera->angle_deg = 0.0;
-        return true;
-    }
-    Span span = has_value ? value->span : item->span;
-    if (!block_value(block, &number, item->span)) {
-        return false;
-    }
-    bool is_flat = type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
-    if (camera->angle_deg < 0.0 || (is_flat && camera->angle_deg >= 180.0)) {
-        return block_fault(block, DIAG_E0341, span, "`angle` must be at least 0%s, not %g",
-                           is_flat ? " and less than 180" : "", camera->angle_deg);
-    }
-    return type != CAMERA_SPHERICAL || read_vertical_angle(block);
+    return block->ev->version < 3.5;
 }
 
-// One number is the most, two are the least and the most.
-bool camera_blur_action(Block *block, const SchemaProperty *property, const AstNode *item)
+// `direction` gets the length that makes the picture so wide. The wide cameras keep theirs.
+static void set_direction_by_angle(CameraBlueprint *camera)
 {
-    static const SchemaProperty values[] = {
-        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[0]),
-         .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
-        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[1]),
-         .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
-    };
-    CameraBlueprint *camera = &block->record->camera;
-    (void)property;
-    camera->blur_samples[1] = 0;
-    if (!block_value(block, &values[0], item->span)) {
-        return false;
+    if (camera->has_angle && camera->angle_deg != 0.0 && camera_type(camera) <= CAMERA_ORTHOGRAPHIC) {
+        double half_angle = camera->angle_deg * radians_per_degree / 2.0;
+        double length = 0.5 * vector_length(camera->right) / tan(half_angle);
+        camera->direction = vec3_scale(length, vector_unit(camera->direction));
     }
-    cursor_take_comma(&block->cursor);
-    const AstNode *next = cursor_peek(&block->cursor);
-    bool has_more = next && next->kind != AST_WORD && cursor_at_value(&block->cursor);
-    return !has_more || block_value(block, &values[1], item->span);
 }
 
 // Turns the camera so that look_at is in the middle; only lengths and handedness of the vectors are kept.
@@ -109,6 +79,82 @@ static bool turn_to_look_at(Block *block)
     return true;
 }
 
+bool camera_angle_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty number = {"angle", TYPE_NUMBER, ACTION_NONE,
+                                          .at = offsetof(CameraBlueprint, angle_deg)};
+    CameraBlueprint *camera = &block->record->camera;
+    (void)property;
+    camera->has_angle = true;
+    const AstNode *value = cursor_peek(&block->cursor);
+    bool has_value = value && value->kind != AST_WORD && cursor_at_value(&block->cursor);
+    CameraType type = camera_type(camera);
+    if (!has_value && type == CAMERA_ORTHOGRAPHIC) {
+        camera->angle_deg = 0.0;
+        return true;
+    }
+    Span span = has_value ? value->span : item->span;
+    if (!block_value(block, &number, item->span)) {
+        return false;
+    }
+    bool is_flat = type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
+    if (camera->angle_deg < 0.0 || (is_flat && camera->angle_deg >= 180.0)) {
+        return block_fault(block, DIAG_E0341, span, "`angle` must be at least 0%s, not %g",
+                           is_flat ? " and less than 180" : "", camera->angle_deg);
+    }
+    if (is_in_order(block)) {
+        set_direction_by_angle(camera);
+    }
+    return type != CAMERA_SPHERICAL || read_vertical_angle(block);
+}
+
+bool camera_look_at_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty point = {"look_at", TYPE_VECTOR, ACTION_NONE, .at = offsetof(CameraBlueprint, look_at),
+                                         .given = offsetof(CameraBlueprint, has_look_at)};
+    (void)property;
+    return block_value(block, &point, item->span) && (!is_in_order(block) || turn_to_look_at(block));
+}
+
+static void move(CameraBlueprint *camera, const Transform *transform)
+{
+    camera->location = transform_point(transform, camera->location);
+    camera->direction = transform_direction(transform, camera->direction);
+    camera->right = transform_direction(transform, camera->right);
+    camera->up = transform_direction(transform, camera->up);
+}
+
+void camera_transform(Block *block, const Transform *transform)
+{
+    CameraBlueprint *camera = &block->record->camera;
+    if (is_in_order(block)) {
+        move(camera, transform);
+    } else {
+        camera->transform = transform_compose(camera->transform, *transform);
+    }
+}
+
+// One number is the most, two are the least and the most.
+bool camera_blur_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty values[] = {
+        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[0]),
+         .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
+        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[1]),
+         .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
+    };
+    CameraBlueprint *camera = &block->record->camera;
+    (void)property;
+    camera->blur_samples[1] = 0;
+    if (!block_value(block, &values[0], item->span)) {
+        return false;
+    }
+    cursor_take_comma(&block->cursor);
+    const AstNode *next = cursor_peek(&block->cursor);
+    bool has_more = next && next->kind != AST_WORD && cursor_at_value(&block->cursor);
+    return !has_more || block_value(block, &values[1], item->span);
+}
+
 // The size of an orthographic picture is that of a perspective one at the distance of look_at, unless right or up say
 // it.
 static void set_orthographic_size(CameraBlueprint *camera, Vec3 location, double direction_length)
@@ -124,18 +170,15 @@ static void set_orthographic_size(CameraBlueprint *camera, Vec3 location, double
 static bool resolve(Block *block)
 {
     CameraBlueprint *camera = &block->record->camera;
-    CameraType type = camera_type(camera);
-    if (camera->has_angle && camera->angle_deg != 0.0 && type <= CAMERA_ORTHOGRAPHIC) {
-        double half_angle = camera->angle_deg * radians_per_degree / 2.0;
-        double length = 0.5 * vector_length(camera->right) / tan(half_angle);
-        camera->direction = vec3_scale(length, vector_unit(camera->direction));
-    }
-    double direction_length = vector_length(camera->direction);
-    if (camera->has_look_at && !turn_to_look_at(block)) {
-        return false;
-    }
-    if (type == CAMERA_ORTHOGRAPHIC) {
-        set_orthographic_size(camera, camera->location, direction_length);
+    if (!is_in_order(block)) {
+        set_direction_by_angle(camera);
+        double direction_length = vector_length(camera->direction);
+        if (camera->has_look_at && !turn_to_look_at(block)) {
+            return false;
+        }
+        if (camera_type(camera) == CAMERA_ORTHOGRAPHIC) {
+            set_orthographic_size(camera, camera->location, direction_length);
+        }
     }
     // Transforms do not change it. Measured, as is the distance of 1.
     camera->focal_distance =
@@ -160,13 +203,13 @@ static bool lens_fits(Block *block)
 bool camera_close(Block *block)
 {
     CameraBlueprint *camera = &block->record->camera;
+    if (camera->types[CAMERA_SPHERICAL] && is_in_order(block)) {
+        return block_fault(block, DIAG_E0341, block->node->span, "a `spherical` camera needs `#version 3.5` or later");
+    }
     if (!block->has_name && !(resolve(block) && lens_fits(block))) {
         return false;
     }
-    camera->location = transform_point(&camera->transform, camera->location);
-    camera->direction = transform_direction(&camera->transform, camera->direction);
-    camera->right = transform_direction(&camera->transform, camera->right);
-    camera->up = transform_direction(&camera->transform, camera->up);
+    move(camera, &camera->transform);
     camera->transform = transform_identity();
     return (vec3_is_finite(camera->location) && vec3_is_finite(camera->direction) && vec3_is_finite(camera->right) &&
             vec3_is_finite(camera->up)) ||

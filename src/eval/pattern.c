@@ -91,6 +91,12 @@ static bool read_colour_entry(Block *block, Cursor *cursor, EntryList *list, con
         !add_entry(block, list, &entry, node->span)) {
         return false;
     }
+    // POV-Ray reads the second colour only after this word.
+    if (is_old && !cursor_at_word(cursor, W_color) && !cursor_at_word(cursor, W_colour)) {
+        item = cursor_peek(cursor);
+        return block_fault(block, DIAG_E0253, item ? item->span : node->span,
+                           "the second colour of an entry begins with `color`");
+    }
     return !is_old ||
            (lacks_comma(cursor) && read_colour(block, cursor, &second.colour) && add_entry(block, list, &second, node->span));
 }
@@ -463,6 +469,28 @@ static bool read_amount(Block *block)
     return block_value(block, &amount, item->span);
 }
 
+// What a pattern's words are before they are said: bricks after bricks of #default or of a name stay as they are, the
+// others begin anew. Measured.
+static void begin_pattern(Pattern *pattern, PatternType type)
+{
+    if (type == PATTERN_BRICK && pattern->type != PATTERN_BRICK) {
+        pattern->vector = vec3(8.0, 3.0, 4.5);
+        pattern->mortar = 0.5;
+    }
+    if (type == PATTERN_QUILTED) {
+        pattern->vector = vec3(1.0, 1.0, 0.0);
+    }
+    if (type == PATTERN_CRACKLE) {
+        pattern->form = vec3(-1.0, 1.0, 0.0);
+        pattern->metric = 2.0;
+        pattern->offset = 0.0;
+        pattern->is_solid = 0;
+    }
+    if (type == PATTERN_AGATE) {
+        pattern->agate_turb = 1.0;
+    }
+}
+
 bool pattern_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     const SchemaProperty direction = {property->word, TYPE_VECTOR, ACTION_NONE,
@@ -484,17 +512,11 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     if (block->kind == KIND_NORMAL && info->blocks != 0) {
         block->record->patterned.map = NULL;
     }
+    begin_pattern(pattern, type);
     pattern->type = type;
     pattern->wave = info->wave != WAVE_RAMP ? info->wave : pattern->wave;
     if (info->blocks) {
         pattern->frequency = 0.0; // the numbers of blocks stay as they are
-    }
-    if (type == PATTERN_BRICK) {
-        pattern->vector = vec3(8.0, 3.0, 4.5);
-        pattern->mortar = 0.5;
-    }
-    if (type == PATTERN_QUILTED) {
-        pattern->vector = vec3(1.0, 1.0, 0.0);
     }
     if (info->has_direction && !block_value(block, &direction, item->span)) {
         return false;
@@ -510,15 +532,17 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
 
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    static const SchemaProperty exponent = {"poly_wave", TYPE_OPTIONAL_NUMBER, ACTION_NONE,
-                                            .at = offsetof(PatternPart, pattern.exponent), .bare = 1.0};
+    static const SchemaProperty exponent = {"poly_wave", TYPE_NUMBER, ACTION_NONE,
+                                            .at = offsetof(PatternPart, pattern.exponent)};
     Pattern *pattern = &block->record->patterned.pattern;
     WaveType wave = WAVE_RAMP;
     while (strcmp(pattern_wave_word(wave), property->word) != 0) {
         wave++;
     }
     pattern->wave = wave;
-    return wave != WAVE_POLY || block_value(block, &exponent, item->span);
+    const AstNode *next = cursor_peek(&block->cursor);
+    bool has_exponent = wave == WAVE_POLY && next && next->kind != AST_WORD && cursor_at_value(&block->cursor);
+    return !has_exponent || block_value(block, &exponent, item->span); // else that of #default or of a name stays
 }
 
 static bool average_has_weights(Block *block)

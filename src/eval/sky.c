@@ -17,7 +17,7 @@ bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNod
     SchemaKind is;
     SkySphereBlueprint *sky = &block->record->sky;
     (void)property;
-    block_defaults(block->ev, KIND_PIGMENT, &record);
+    record.pigment = *(const PigmentBlueprint *)schema_kind(KIND_PIGMENT)->defaults; // the sky knows no #default
     if (!block_read(block->ev, item, KIND_PIGMENT, block->arena, &record, &is)) {
         return false;
     }

@@ -45,6 +45,47 @@ static bool settle(Eval *ev, Arena *arena, TextureBlueprint *texture, Span span)
     return true;
 }
 
+static Rgbft without_filter(Rgbft colour)
+{
+    colour.transmit += colour.filter;
+    colour.filter = 0.0;
+    return colour;
+}
+
+static bool makes_filters_clear(const Eval *ev)
+{
+    return ev->version < 3.1 || numbers_equal(ev->version, 3.1);
+}
+
+// Up to version 3.1 the filters of what lies over something let light through unchanged: POV-Ray makes `transmit` of
+// them. Measured, also of maps.
+static bool take_filters(Eval *ev, Arena *arena, PigmentBlueprint *pigment, Span span)
+{
+    const PatternMap *map = pigment->part.map;
+    pigment->colour = without_filter(pigment->colour);
+    if (!map) {
+        return true;
+    }
+    PatternMap *changed = arena_copy(arena, map, sizeof *map);
+    PatternEntry *entries = changed ? arena_alloc_array(arena, map->count, sizeof *entries) : NULL;
+    bool is_fine = entries != NULL;
+    for (size_t i = 0; is_fine && i < map->count; i++) {
+        entries[i] = map->entries[i];
+        entries[i].colour = without_filter(entries[i].colour);
+        if (entries[i].pigment) {
+            PigmentBlueprint *inner = arena_copy(arena, entries[i].pigment, sizeof *inner);
+            is_fine = inner && take_filters(ev, arena, inner, span);
+            entries[i].pigment = inner;
+        }
+    }
+    if (!is_fine) {
+        return eval_no_memory(ev, span);
+    }
+    changed->entries = entries;
+    pigment->part.map = changed;
+    return true;
+}
+
 static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
 {
     Blueprint record;
@@ -159,6 +200,9 @@ static bool lay_over(Eval *ev, Arena *arena, TextureBlueprint *top, const Textur
         if (layer->part.pattern.type != PATTERN_NONE || below->part.pattern.type != PATTERN_NONE) {
             return eval_fault(ev, DIAG_E0290, span, "a pattern of textures can be no layer");
         }
+        if (makes_filters_clear(ev) && !take_filters(ev, arena, &layer->pigment, span)) {
+            return false;
+        }
         if (!layer->below) {
             layer->below = below;
             return true;
@@ -213,11 +257,14 @@ const TextureBlueprint **texture_place(Block *block)
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     Eval *ev = block->ev;
+    const TextureBlueprint **place = texture_place(block);
+    const TextureBlueprint *before = block->kind == KIND_TEXTURE ? &block->record->texture : *place;
+    if (before && before->part.pattern.type != PATTERN_NONE && property->action != ACTION_TEXTURE) {
+        return eval_fault(ev, DIAG_E0290, item->span, "a pattern of textures has no %s of its own", property->word);
+    }
     if (block->kind == KIND_TEXTURE) {
         return read_part(ev, property->action, item, block->arena, &block->record->texture);
     }
-    const TextureBlueprint **place = texture_place(block);
-    const TextureBlueprint *before = *place;
     TextureBlueprint *texture = arena_copy(block->arena, before ? before : ev->objects->defaults, sizeof *texture);
     if (!texture) {
         return eval_no_memory(ev, item->span);
@@ -354,6 +401,11 @@ bool eval_default(Eval *ev, const AstNode *directive)
     }
     is_fine = cursor_lacks_comma(&cursor, "`#default`") && is_fine;
     cursor_close(&cursor);
+    // What is made from it has its pigment and its bumps as they were moved, in the entries of maps, too.
+    is_fine = settle(ev, &ev->program, texture, directive->span) && is_fine;
+    if (is_fine && texture->part.pattern.type != PATTERN_NONE) {
+        return eval_fault(ev, DIAG_E0290, directive->span, "a pattern of textures can be no #default");
+    }
     ev->objects->defaults = texture;
     return is_fine;
 }

@@ -1,7 +1,7 @@
 // Transforms as properties: translate, rotate, scale, matrix and transform, applied in the order in which they stand.
 //
 // Each one is composed onto the transform at the start of the block's blueprint; a light is moved at once, because what
-// is said after a transform is not moved by it. Knows nothing of shapes.
+// is said after a transform is not moved by it, and so is a camera of old versions. Knows nothing of shapes.
 //
 // SPDX-License-Identifier: MIT
 #include <float.h>
@@ -36,6 +36,8 @@ bool block_transform(Block *block, const Transform *transform)
 {
     if (block->is == KIND_LIGHT_SOURCE) {
         light_transform(&block->record->light, transform);
+    } else if (block->is == KIND_CAMERA) {
+        camera_transform(block, transform);
     } else {
         block->record->transform = transform_compose(block->record->transform, *transform);
     }

@@ -62,11 +62,17 @@ static Vec3 waves(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     return waves_of(pattern, source, p, true);
 }
 
+// Below zero a whole number belongs to the cube below it. Measured.
+static double in_cube(double x)
+{
+    return x < 0.0 ? x + floor(-x) + 1.0 : x - floor(x);
+}
+
 // Away from the middle of each unit cube, by a cubic of the distance.
 static Vec3 quilted(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)source;
-    Vec3 offset = vec3(p.x - floor(p.x) - 0.5, p.y - floor(p.y) - 0.5, p.z - floor(p.z) - 0.5);
+    Vec3 offset = vec3(in_cube(p.x) - 0.5, in_cube(p.y) - 0.5, in_cube(p.z) - 0.5);
     double t = vec3_length(offset), rest = 1.0 - t;
     double height = t * (t * (t + 3.0 * rest * pattern->vector.y) + 3.0 * rest * rest * pattern->vector.x);
     return vec3_scale(2.0 / sqrt(3.0) * height, offset);

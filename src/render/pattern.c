@@ -71,14 +71,6 @@ static double cylindrical(const Pattern *pattern, const NoiseSource *source, Vec
     return fmax(1.0 - sqrt(p.x * p.x + p.z * p.z), 0.0);
 }
 
-// The arms begin at -y and turn towards +x.
-static double spiral1(const Pattern *pattern, const NoiseSource *source, Vec3 p)
-{
-    (void)source;
-    double turn = atan2(p.y, p.x) / (2.0 * pi) + 0.25;
-    return p.z + sqrt(p.x * p.x + p.y * p.y) + pattern->count * (turn < 0.0 ? turn + 1.0 : turn);
-}
-
 // The share of the steps z -> z^2 + c after which z is farther than 2 from 0, or 1.
 static double escape(double x, double y, double c_x, double c_y, int steps)
 {
@@ -189,7 +181,7 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_WAVES] = pattern_waves,
     [PATTERN_CELLS] = pattern_cells,
     [PATTERN_CRACKLE] = pattern_crackle,
-    [PATTERN_SPIRAL1] = spiral1,
+    [PATTERN_SPIRAL1] = pattern_spiral1,
     [PATTERN_MANDEL] = mandel,
     [PATTERN_JULIA] = julia,
 };
@@ -198,7 +190,7 @@ static double wave(const Pattern *pattern, double x)
 {
     switch ((WaveType)pattern->wave) {
     case WAVE_RAMP: return x;
-    case WAVE_TRIANGLE: return x < 0.5 ? 2.0 * x : 2.0 - 2.0 * x;
+    case WAVE_TRIANGLE: x = fmod(x, 1.0); return x < 0.5 ? 2.0 * x : 2.0 - 2.0 * x;
     case WAVE_SINE: return (1.0 + sin(2.0 * pi * x)) / 2.0;
     case WAVE_SCALLOP: return fabs(sin(pi * x));
     case WAVE_CUBIC: return x * x * (3.0 - 2.0 * x);

@@ -48,13 +48,27 @@ double pattern_agate(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     return pow(sine_wave(1.3 * pattern->agate_turb * sum + 1.1 * p.z), 0.77);
 }
 
-double pattern_marble(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+// What turbulence adds to the value of some patterns.
+static double turbulent_part(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     if (pattern->turbulence.x == 0.0) {
-        return p.x;
+        return 0.0;
     }
     Octaves octaves = octaves_of(pattern);
-    return p.x + pattern->turbulence.x * noise_sum(source->noise, pattern_generator(pattern, source), &octaves, p);
+    return pattern->turbulence.x * noise_sum(source->noise, pattern_generator(pattern, source), &octaves, p);
+}
+
+double pattern_marble(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    return p.x + turbulent_part(pattern, source, p);
+}
+
+// The arms begin at -y and turn towards +x. Turbulence has moved the point, and adds to the value there. Measured.
+double pattern_spiral1(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    double turn = atan2(p.y, p.x) / two_pi + 0.25;
+    double arms = pattern->count * (turn < 0.0 ? turn + 1.0 : turn);
+    return p.z + sqrt(p.x * p.x + p.y * p.y) + arms + turbulent_part(pattern, source, p);
 }
 
 double pattern_wood(const Pattern *pattern, const NoiseSource *source, Vec3 p)

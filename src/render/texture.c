@@ -148,17 +148,17 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
 {
     const PatternedPigment *record = &table->scene->patterns.items[index];
     const PigmentEntry *entries = table->scene->pigment_entries.items;
-    Vec3 point = transform_point(&table->to_pattern[index], outer);
+    // Where turbulence moves a point, the entries of the map see it moved, too.
+    Vec3 point = pattern_moved(&record->pattern, &table->source, transform_point(&table->to_pattern[index], outer));
     PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
     if (form == PATTERN_OF_COLOURS) {
-        return image_colour(&table->images[record->pattern.image],
-                            pattern_moved(&record->pattern, &table->source, point));
+        return image_colour(&table->images[record->pattern.image], point);
     }
     if (form == PATTERN_OF_ALL) {
         return average(table, record->entries, point);
     }
     AlongPlace place;
-    double value = pattern_value(&record->pattern, &table->source, point);
+    double value = pattern_value_moved(&record->pattern, &table->source, point);
     ALONG_FIND(entries, record->entries, value, &place);
     Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
     return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
@@ -200,13 +200,14 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
 {
     const Texture *texture = &walk->table->scene->textures.items[index];
     const TextureEntry *entries = walk->table->scene->texture_entries.items;
-    TexturePlace here = {transform_point(&walk->table->texture_to_pattern[index], outer->point), index, outer};
+    Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer->point);
+    TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer};
     if (texture->pattern.type == PATTERN_AVERAGE) {
         walk_average(walk, texture->entries, &here, part, above);
         return;
     }
     AlongPlace place;
-    double value = pattern_value(&texture->pattern, &walk->table->source, here.point);
+    double value = pattern_value_moved(&texture->pattern, &walk->table->source, here.point);
     ALONG_FIND(entries, texture->entries, value, &place);
     walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
     if (place.share > 0.0) {
