@@ -597,7 +597,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     }
     if (error->end != SAMPLING_INTERRUPTED && error->end != SAMPLING_TARGET && !wanted->has_no_estimate) {
         if (run_audit(s) && s->looks.count > 0) {
-            look_show(s->round.small, film, error);
+            look_show(&s->looks, s->round.small, film, error);
         }
         find_missed(s);
     }

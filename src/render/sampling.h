@@ -231,7 +231,7 @@ void look_judge(Looks *looks, const Round *round);
 void look_tell(const Looks *looks, double pixels, SamplingError *error);
 
 // When a run ends: the same for each pixel's own error.
-void look_show(const Small *small, Film *film, const SamplingError *error);
+void look_show(const Looks *looks, const Small *small, Film *film, const SamplingError *error);
 
 // ---- sampling_near.c: means over a pixel and its neighbours
 

@@ -18,7 +18,7 @@
 #include "scene/opaque.h"
 
 // A pick for so many samples, within limits, so that its rays are few beside those of the picture.
-enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96 };
+enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 16 };
 
 // What the squares of areas are known to.
 static const double AREA_ERROR = 0.0125;
@@ -74,6 +74,7 @@ int look_draw(Looks *looks, const Round *round, double samples)
     }
     looks->count = 0;
     looks->pass++;
+    most = fmin(most, LOOK_EACH * count); // of few pixels each so often
     looks->sees_all = 2.0 * count <= floor(most);
     find_met(small);
     double even = sum > 0.0 ? 0.5 / count : 1.0 / count, step = 1.0 / floor(most);
@@ -329,10 +330,15 @@ void look_tell(const Looks *looks, double pixels, SamplingError *error)
     }
 }
 
-void look_show(const Small *small, Film *film, const SamplingError *error)
+void look_show(const Looks *looks, const Small *small, Film *film, const SamplingError *error)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
-    double scale = (exp2(-2.0 * error->slope) - 1.0) / (error->pixel_scale * error->pixel_scale);
+    double sum = 0.0, scale = (exp2(-2.0 * error->slope) - 1.0) / (error->pixel_scale * error->pixel_scale);
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        double own = small->open[pixel] > 0 ? open_error(small, pixel) : 0.0;
+        sum += own * own;
+    }
+    scale *= sum > 0.0 ? looks->square / sum : 0.0; // all together as they were found
     for (size_t pixel = 0; pixel < pixels; pixel++) {
         if (small->open[pixel] > 0) {
             double own = open_error(small, pixel);

@@ -19,15 +19,16 @@ static const double SMALL_WIDTH = 3.0;
 // The same of highlights, which have no edge: a wider one is met by a corner at least.
 static const double SPOT_WIDTH = 1.5;
 
-enum { STRIPS = 8, FILL_ROOT = 4, FILTER_SUM = 512 };
+enum { STRIPS = 16, FILL_ROOT = 4, FILTER_SUM = 512 };
 
 typedef struct View {
     const Small *small;
     Vec3 across, down, ahead; // what goes from a point, seen from the camera, to multiples of right, -up and direction
     double least_slope;       // no length makes less of the picture's width, at depth 1
+    double ends[STRIPS + 1], chords[STRIPS]; // of strips of a unit disc, whose areas are right
 } View;
 
-// False where the camera's vectors span nothing.
+// Without its strips. False where the camera's vectors span nothing.
 static bool view_init(View *view, const Small *small)
 {
     const PreparedCamera *camera = &small->prepared->camera;
@@ -36,12 +37,24 @@ static bool view_init(View *view, const Small *small)
     Vec3 of_ahead = vec3_cross(camera->right, down);
     double size = vec3_dot(camera->right, of_right);
     *view = (View){small, vec3_scale(1.0 / size, of_right), vec3_scale(1.0 / size, of_down),
-                   vec3_scale(1.0 / size, of_ahead), 0.0};
+                   vec3_scale(1.0 / size, of_ahead), 0.0, {0.0}, {0.0}};
     view->least_slope = camera->type == CAMERA_ORTHOGRAPHIC
                             ? vec3_length(view->across)
                             : vec3_length(vec3_cross(view->across, view->ahead)) / vec3_length(view->ahead);
     return camera->type <= CAMERA_ORTHOGRAPHIC && vec3_is_finite(view->across) && vec3_is_finite(view->down) &&
            vec3_is_finite(view->ahead);
+}
+
+static void view_set_strips(View *view)
+{
+    const double step = 3.14159265358979323846 / STRIPS;
+    for (int i = 0; i <= STRIPS; i++) {
+        view->ends[i] = -cos(i * step);
+    }
+    for (int i = 0; i < STRIPS; i++) { // the area between the angles, over the height
+        double area = 0.5 * (step - 0.5 * (sin(2.0 * (i + 1) * step) - sin(2.0 * i * step)));
+        view->chords[i] = area / (view->ends[i + 1] - view->ends[i]);
+    }
 }
 
 static double filter_norm(FilterKind filter)
@@ -186,25 +199,23 @@ static double fill_of(const View *view, const Footprint *at)
     return (crossed + 0.5) / (FILL_ROOT * FILL_ROOT + 0.5);
 }
 
-// The share of a pixel that the ellipse has: its chords along rows, between the pixel's sides, as the filter weights
-// them. Rows lie at even steps of the angle along the ellipse, so that a whole one is right.
+// The share of a pixel that the ellipse has: of strips along its rows, which end at even steps of the angle along it,
+// what is between the pixel's sides, as the filter weights it.
 static double share_of(const View *view, const Footprint *at, int x, int y)
 {
     double radius = filter_radius(view->small->filter), half = sqrt(at->wide_yy), sum = 0.0;
-    double top = fmax(y - radius, at->y - half), bottom = fmin(y + radius, at->y + half);
     double slope = at->wide_xy / at->wide_yy, across = sqrt(fmax(at->wide_xx - slope * at->wide_xy, 0.0));
-    if (!(bottom > top)) {
-        return 0.0;
-    }
-    double first = asin(fmax((top - at->y) / half, -1.0)),
-           step = (asin(fmin((bottom - at->y) / half, 1.0)) - first) / STRIPS;
+    bool is_box = view->small->filter == FILTER_BOX;
     for (int i = 0; i < STRIPS; i++) {
-        double angle = first + (i + 0.5) * step, down = half * sin(angle), cosine = cos(angle);
-        double row = at->y + down, middle = at->x + slope * down, chord = across * cosine,
-               height = half * cosine * step;
-        double left = fmax(x - radius, middle - chord), right = fmin(x + radius, middle + chord);
-        if (right > left) {
-            sum += height * (right - left) * small_weight(view->small, 0.5 * (left + right) - x, row - y);
+        double top = at->y + half * view->ends[i], bottom = at->y + half * view->ends[i + 1];
+        top = top > y - radius ? top : y - radius;
+        bottom = bottom < y + radius ? bottom : y + radius;
+        double row = 0.5 * (top + bottom), middle = at->x + slope * (row - at->y), chord = across * view->chords[i];
+        double left = middle - chord > x - radius ? middle - chord : x - radius;
+        double right = middle + chord < x + radius ? middle + chord : x + radius;
+        if (bottom > top && right > left) {
+            sum += (bottom - top) * (right - left) *
+                   (is_box ? 1.0 : small_weight(view->small, 0.5 * (left + right) - x, row - y));
         }
     }
     double wide = ellipse_area(at->wide_xx, at->wide_xy, at->wide_yy);
@@ -366,6 +377,7 @@ Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, 
     small->film = film;
     small->filter = filter;
     bool is_known = view_init(&view, small) && (uint64_t)film->width * (uint64_t)film->height < UINT32_MAX / SMALL_MOST;
+    view_set_strips(&view);
     *has_memory =
         !is_known || (spots_find(small, spot_is_candidate, spot_is_narrow, &view) && lists_pass(&view, small));
     if (*has_memory && small->first) {
