@@ -99,7 +99,7 @@ static AstNode *make_string(Bench *bench)
     char text[8];
     size_t length = random_below(&bench->random, sizeof text);
     for (size_t i = 0; i < length; i++) {
-        text[i] = (char)random_below(&bench->random, 256);
+        text[i] = (char)(1 + random_below(&bench->random, 255)); // a character 0 would end it
     }
     return make(bench, AST_STRING, AST_OP_NONE, intern_text(bench->names, text, length), NULL, NULL, NULL);
 }
