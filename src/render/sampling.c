@@ -349,6 +349,12 @@ static Last run_slices(Sampling *s, double samples, double until)
 static Last run_chosen(Sampling *s)
 {
     double samples = samples_left(s), seconds = seconds_left(s);
+    // Before that, errors of pixels left out are known too little: in test_sampling's even light, by 2 samples a pixel,
+    // intervals held in 5 of 10 runs.
+    bool may_cut = (double)s->estimate.samples >= START_SAMPLES * pixel_count(s);
+    if (!may_cut && samples > 0.0 && seconds > 0.0) {
+        return run_round(s) ? LAST_NOT : LAST_INTERRUPTED;
+    }
     if (s->round_samples <= samples && s->round_samples * s->sample_seconds <= seconds) {
         return run_round(s) ? LAST_NOT : LAST_INTERRUPTED;
     }

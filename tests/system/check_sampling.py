@@ -192,7 +192,7 @@ def test_goals():
     found = ERROR.search(said)
     tap.ok(status == 0 and found and float(found[4]) >= 32 and "; the target is not reached" in found[6],
            "or it is said that it is not", said)
-    for wanted in 3.7, 9.9, 20.0:
+    for wanted in 5.7, 9.9, 20.0:
         found = ERROR.search(rtlang(BALLS, "--adaptive", f"--samples={wanted}")[1])
         tap.ok(found and wanted <= float(found[4]) <= 1.01 * wanted, f"{wanted} adaptive samples a pixel are what is taken", found and found[4])
     start = time.monotonic()
