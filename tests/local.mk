@@ -229,6 +229,7 @@ test_scripts = \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \
   %D%/system/check_sampling.py \
+  %D%/system/check_blur_stop.py \
   %D%/system/check_stability.py \
   %D%/system/check_study.py \
   %D%/system/check_aarch64.py \

@@ -117,7 +117,9 @@ static inline SamplingOptions session_sampling(const rt_session *session)
 {
     SamplingOptions sampling = session->sampling;
     if (sampling.samples == 0.0 && !sampling.is_adaptive && session->scene.camera.blur_samples > 1) {
-        sampling.samples = session->scene.camera.blur_samples;
+        const Camera *camera = &session->scene.camera;
+        sampling.samples = camera->blur_samples;
+        sampling.stop = (SamplingStop){camera->blur_variance, camera->blur_confidence, camera->blur_least};
     }
     return sampling;
 }

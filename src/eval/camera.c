@@ -228,7 +228,7 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
     bool has_lengths = type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
     Transform turn = has_lengths ? world : transform_identity();
     double unit = vec3_length(transform_direction(&world, vec3(1.0, 0.0, 0.0)));
-    bool has_lens = camera->aperture != 0.0 && camera->blur_samples[0] > 0;
+    bool has_lens = camera->aperture != 0.0 && camera->blur_samples[0] > 0, has_least = camera->blur_samples[1] != 0;
     scene->has_camera = true;
     static const double default_angles[CAMERA_TYPES] = {
         [CAMERA_FISHEYE] = 90.0, [CAMERA_ULTRA_WIDE_ANGLE] = 90.0, [CAMERA_SPHERICAL] = 360.0};
@@ -244,9 +244,10 @@ bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
         .up = transform_direction(&turn, camera->up),
         .lens_radius = has_lens ? unit * fabs(camera->aperture) / 4.0 : 0.0,
         .focal_distance = has_lens ? unit * camera->focal_distance : 1.0,
-        .blur_samples = !has_lens                      ? 0
-                        : camera->blur_samples[1] != 0 ? camera->blur_samples[1]
-                                                       : camera->blur_samples[0],
+        .blur_samples = has_lens ? camera->blur_samples[has_least] : 0,
+        .blur_least = has_lens && has_least ? camera->blur_samples[0] : 0,
+        .blur_confidence = has_lens ? camera->confidence : 0.0,
+        .blur_variance = has_lens ? camera->variance : 0.0,
         .span = span,
     };
     return true;

@@ -86,6 +86,19 @@ typedef struct RenderStatistics {
     uint64_t cut_by_level, cut_by_weight;
 } RenderStatistics;
 
+// Where a pixel has enough: its mean is taken to be no farther off than the root of `variance`, with a probability of
+// `confidence`. Then `samples` is the most that a pixel gets.
+typedef struct SamplingStop {
+    double variance;   // in the scene's working space; 0: all samples are taken
+    double confidence; // between 0 and 1
+    int least;         // samples of a pixel
+} SamplingStop;
+
+static inline bool stop_is_wanted(const SamplingStop *stop)
+{
+    return stop->variance > 0.0;
+}
+
 // Several rays a pixel; docs/sampling.md tells of the method.
 typedef struct SamplingOptions {
     SamplerKind sampler;
@@ -96,6 +109,7 @@ typedef struct SamplingOptions {
     double target_error; // root mean square, in linear light; 0: none
     double time_limit;   // seconds; 0: none
     bool has_no_estimate; // the same picture without its error
+    SamplingStop stop;    // of pixels; not with is_adaptive
     bool no_pixel_errors; // render_pixel_error is not asked for: of a large picture some pixels tell of the error
 } SamplingOptions;
 

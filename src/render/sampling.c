@@ -99,7 +99,12 @@ static void forward_progress(void *client, double done)
 static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
     Sampling *s = client;
-    if (s->traces == TRACES_REPLICAS) {
+    bool stops = stop_has_choice(s->wanted);
+    if (s->traces == TRACES_REPLICAS && stops) {
+        stop_trace_replicas(&s->round, &s->audit, tile, scratch, counted);
+    } else if (stops) {
+        stop_trace(&s->round, tile, scratch, counted);
+    } else if (s->traces == TRACES_REPLICAS) {
         round_trace_replicas(&s->round, &s->audit, tile, scratch, counted);
     } else if (s->traces == TRACES_LOOKS) {
         look_trace(&s->round, &s->looks, tile, scratch, counted);
@@ -149,7 +154,11 @@ static bool run_round(Sampling *s)
     } else if (!atomic_load(&s->prepared->abandon->keeps)) {
         return false; // rays were left out of what is there
     }
-    if (!s->wanted->has_no_estimate) {
+    if (stop_has_choice(s->wanted)) {
+        estimate_now(&s->estimate, s->film, &s->round, s->error);
+        s->error->is_known = s->error->is_known && !s->wanted->has_no_estimate;
+        find_bias(s);
+    } else if (!s->wanted->has_no_estimate) {
         estimate_update(&s->estimate, s->film, &s->round, is_whole, s->error);
         find_bias(s);
     } else {
@@ -167,6 +176,12 @@ static bool trace_beside(Sampling *s, int traces)
     bool is_whole = tiles_run(&work, s->options, &s->audited) == RENDER_OK;
     s->traces = TRACES_ROUND;
     return is_whole;
+}
+
+// Sets that are no sequences are two independent halves, which need no audit.
+static bool has_audit(const SamplingOptions *wanted)
+{
+    return sampler_is_sequence(wanted->sampler) || stop_has_choice(wanted);
 }
 
 // Looks at small shapes that no sample has met; false when it was cancelled.
@@ -196,8 +211,7 @@ static bool run_audit(Sampling *s)
     if (!run_looks(s)) {
         return false;
     }
-    // Sets that are no sequences are two independent halves, which need no audit.
-    if (sampler_is_sequence(s->wanted->sampler) && audit_draw(&s->audit, &s->estimate, &s->round) > 0) {
+    if (has_audit(s->wanted) && audit_draw(&s->audit, &s->estimate, &s->round) > 0) {
         if (!trace_beside(s, TRACES_REPLICAS)) {
             return false;
         }
@@ -277,7 +291,7 @@ static double audit_seconds(Sampling *s)
 {
     const double doubled = 1.25;
     double samples = 0.0;
-    if (s->wanted->has_no_estimate || !s->error->is_known || !sampler_is_sequence(s->wanted->sampler)) {
+    if (s->wanted->has_no_estimate || !s->error->is_known || !has_audit(s->wanted)) {
         return 0.0;
     }
     int count = audit_draw(&s->audit, &s->estimate, &s->round);
@@ -368,6 +382,9 @@ static Last run_chosen(Sampling *s)
 static uint32_t next_count(const Sampling *s, uint32_t count, uint32_t all)
 {
     uint32_t next = all;
+    if (stop_has_choice(s->wanted)) {
+        return all; // each pixel by itself
+    }
     if (!sampler_is_sequence(s->wanted->sampler)) {
         return count == 0 ? (all + 1) / 2 : all;
     }
@@ -466,7 +483,7 @@ static void run_adaptive(Sampling *s)
 // A goal is reached or not by what all pixels say.
 static bool judges_some(const SamplingOptions *wanted, const Film *film)
 {
-    return wanted->no_pixel_errors && !wanted->is_adaptive &&
+    return wanted->no_pixel_errors && !wanted->is_adaptive && !stop_has_choice(wanted) &&
            (double)film->whole_width * film->whole_height >= PIXELS_MANY;
 }
 
@@ -570,7 +587,8 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     uint32_t alike = wanted->is_adaptive ? ALIKE_SAMPLES : (uint32_t)wanted->samples;
     Sampling *s = sampling_new(wanted, options->progress != NULL, film);
     bool has_memory = s != NULL;
-    if (has_memory && !wanted->has_no_estimate) {
+    // A pixel that ends where it has enough says by its replicas what it may have missed.
+    if (has_memory && !wanted->has_no_estimate && !stop_has_choice(wanted)) {
         s->round.small = small_new(prepared, film, wanted->filter, &has_memory);
     }
     if (!has_memory) {

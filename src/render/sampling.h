@@ -105,10 +105,21 @@ typedef struct SampleSums {
     double clear; // the same of the shares of what is behind the scene; with has_alpha
 } SampleSums;
 
+// A pixel that ends where it has enough: two sets of samples of their own.
+typedef struct StopPixel {
+    int x, y;
+    size_t index;
+    uint32_t replica;  // as of a ChosenPixel
+    uint32_t count[2]; // of each set
+} StopPixel;
+
+enum { STOP_PIXELS = TILE_SIZE * TILE_SIZE / 2 }; // at once
+
 // What a thread needs for a tile.
 typedef struct RoundScratch {
     ChosenPixel chosen[TILE_SIZE * TILE_SIZE];
     SampleSums sums[TILE_SIZE * TILE_SIZE];
+    StopPixel stop[STOP_PIXELS];
 } RoundScratch;
 
 // Traces the rays through the corners of pixels: a tile of the picture that these make.
@@ -116,6 +127,14 @@ void round_trace_corners(const Round *round, Tile tile, RenderScratch *scratch, 
 
 // Traces the samples of a tile's pixels.
 void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
+
+// ---- sampling_stop.c: pixels that end where they have enough
+
+// Whether the samples that are wanted suffice to choose by: else all are taken.
+bool stop_has_choice(const SamplingOptions *sampling);
+
+// Traces all samples of a tile's pixels, of a round whose `count` is the most.
+void stop_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderStatistics *counted);
 
 // ---- sampling_estimate.c: figures
 
@@ -232,6 +251,10 @@ void look_tell(const Looks *looks, double pixels, SamplingError *error);
 
 // When a run ends: the same for each pixel's own error.
 void look_show(const Looks *looks, const Small *small, Film *film, const SamplingError *error);
+
+// sampling_stop.c: the same of pixels that end where they have enough, and so do their replicas.
+void stop_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
+                         RenderStatistics *counted);
 
 // ---- sampling_near.c: means over a pixel and its neighbours
 

@@ -16,9 +16,15 @@ static const double RATIO_LEAST = 2.0, RATIO_MOST = 8.0;
 
 enum { STEPS_MOST = 2 };
 
+// Whether halves complete each other; if not, they are independent.
+static bool has_halves(const Round *round)
+{
+    return sampler_is_sequence(round->sampling->sampler) && !stop_has_choice(round->sampling);
+}
+
 static bool has_ratio(const Round *round, int level)
 {
-    return sampler_is_sequence(round->sampling->sampler) && level >= 2;
+    return has_halves(round) && level >= 2;
 }
 
 // Pixels that were doubled just now: nothing has been chosen by what they say.
@@ -155,7 +161,7 @@ static double corners_variance(const Estimate *estimate)
 static double law_error(const Round *round, int level)
 {
     static const double errors[] = {0.35, 0.35, 0.25, 0.25, 0.12, 0.08}, not_net = 0.12, chosen = 0.18, more = 0.25;
-    if (!sampler_is_sequence(round->sampling->sampler)) {
+    if (!has_halves(round)) {
         return 0.0;
     }
     double error = errors[level < 5 ? level : 5];

@@ -2,39 +2,13 @@
 // halves say goes into the pixels' records.
 //
 // SPDX-License-Identifier: MIT
-#include "render/alpha.h"
 #include "render/camera.h"
-#include "render/linear.h"
+#include "render/sampling_batch.h"
 #include "render/scratch.h"
 #include "render/tiles.h"
 
 // So that rays through corners draw other numbers than the samples of their pixel.
 static const uint32_t CORNER_SEED = UINT32_C(0x9e3779b9);
-
-// Samples of a batch on end that go into one sum.
-typedef struct Run {
-    SampleSums *parts;
-    uint32_t which; // of parts->sum
-    int end;
-} Run;
-
-// Samples on their way through the kernel.
-typedef struct Batch {
-    KernelPlaces places;
-    Vec3 lens[KERNEL_RAYS];
-    SampleStream streams[KERNEL_RAYS];
-    int x[KERNEL_RAYS], y[KERNEL_RAYS]; // their pixels
-    double weights[KERNEL_RAYS]; // where they are not all 1
-    Rgb light[KERNEL_RAYS];
-    double clear[KERNEL_RAYS];
-    int count;
-    Run runs[KERNEL_RAYS];
-    int run_count;
-    bool draws;   // whether anything but the place in the pixel is drawn from the streams
-    bool is_box;  // all weights are 1
-    bool meets;   // samples count for small shapes
-    RenderScratch *scratch;
-} Batch;
 
 uint32_t round_samples(const Round *round, size_t pixel)
 {
@@ -43,191 +17,6 @@ uint32_t round_samples(const Round *round, size_t pixel)
         return 0;
     }
     return round->count > 0 ? round->count - count : round_starts(round, count) ? START_SAMPLES : count;
-}
-
-static void batch_init(Batch *batch, const Round *round, RenderScratch *scratch)
-{
-    const Prepared *p = round->prepared;
-    bool has_lens = p->camera.lens_radius > 0.0;
-    batch->scratch = scratch;
-    batch->count = batch->run_count = 0;
-    batch->is_box = round->filter.kind == FILTER_BOX;
-    batch->meets = false;
-    batch->places.lens = has_lens ? batch->lens : NULL;
-    batch->draws = has_lens || (p->kernel->features & RENDER_LIGHTS);
-}
-
-static void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted)
-{
-    const Prepared *p = round->prepared;
-    alpha_trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, batch->clear,
-                batch->scratch, counted);
-}
-
-static void run_add(const Round *round, const Batch *batch, const Run *run, int begin)
-{
-    SampleSums *parts = run->parts;
-    Rgb sum = parts->sum[run->which];
-    for (int i = begin; i < run->end; i++) {
-        Rgb light = batch->is_box ? batch->light[i] : rgb_scale(batch->weights[i], batch->light[i]);
-        sum = rgb_add(sum, light);
-        if (round->sampling->is_adaptive) {
-            parts->squares = rgb_add(parts->squares, rgb_mul(light, light));
-        }
-    }
-    parts->sum[run->which] = sum;
-    for (int i = begin; round->prepared->has_alpha && i < run->end; i++) {
-        parts->clear += (batch->is_box ? 1.0 : batch->weights[i]) * batch->clear[i];
-    }
-}
-
-// Where in their pixels, and on the lens, the samples are.
-static void batch_place(const Round *round, Batch *batch)
-{
-    const Film *film = round->film;
-    double x[KERNEL_RAYS], y[KERNEL_RAYS];
-    sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
-    for (int i = 0; i < batch->count; i++) {
-        FilterSample at = {x[i] - 0.5, y[i] - 0.5, 1.0};
-        if (!batch->is_box) {
-            at = filter_sample(&round->filter, (SamplePoint){x[i], y[i]});
-            batch->weights[i] = at.weight;
-        }
-        batch->places.u[i] = film_u(film, batch->x[i], at.x);
-        batch->places.v[i] = film_v(film, batch->y[i], at.y);
-    }
-    if (batch->places.lens) {
-        sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
-    }
-    for (int i = 0; batch->places.lens && i < batch->count; i++) {
-        batch->lens[i] = camera_lens_point(&round->prepared->camera, (SamplePoint){x[i], y[i]});
-    }
-}
-
-// Tells small shapes which of them are met.
-static void batch_meet(const Round *round, const Batch *batch)
-{
-    for (int i = 0; i < batch->count; i++) {
-        size_t pixel = (size_t)batch->y[i] * (size_t)round->film->width + (size_t)batch->x[i];
-        Ray ray;
-        if (small_open(round->small, pixel) > 0 &&
-            camera_place_ray(&round->prepared->camera, &batch->places, i, &ray)) {
-            small_meet(round->small, pixel, ray);
-        }
-    }
-}
-
-static void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
-{
-    if (batch->count == 0) {
-        return;
-    }
-    batch_place(round, batch);
-    for (int i = batch->count; i < KERNEL_RAYS; i++) {
-        batch->places.u[i] = batch->places.u[batch->count - 1];
-        batch->places.v[i] = batch->places.v[batch->count - 1];
-        if (batch->places.lens) {
-            batch->lens[i] = batch->lens[batch->count - 1];
-        }
-    }
-    if (batch->meets) {
-        batch_meet(round, batch);
-    }
-    uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
-    batch_trace(round, batch, wanted, counted);
-    int begin = 0;
-    for (int i = 0; i < batch->run_count; i++) {
-        run_add(round, batch, &batch->runs[i], begin);
-        begin = batch->runs[i].end;
-    }
-    batch->count = batch->run_count = 0;
-}
-
-static void batch_begin_run(Batch *batch, SampleSums *parts, uint32_t which, int end)
-{
-    batch->runs[batch->run_count++] = (Run){parts, which, end};
-}
-
-// Puts `count` >= 1 new samples of a pixel, the first of which is number `begin`, into runs.
-static void batch_add_runs(Batch *batch, const ChosenPixel *pixel, SampleSums *parts, uint32_t begin, uint32_t count)
-{
-    uint32_t half = (pixel->count + 1) / 2;
-    int first = batch->count;
-    if (pixel->starts) {
-        for (uint32_t j = 0; j < count; j++) {
-            batch_begin_run(batch, parts, begin + j, first + (int)j + 1);
-        }
-        return;
-    }
-    if (begin < half) {
-        uint32_t before = half - begin < count ? half - begin : count;
-        batch_begin_run(batch, parts, 0, first + (int)before);
-    }
-    if (begin + count > half) {
-        batch_begin_run(batch, parts, 1, first + (int)count);
-    }
-}
-
-// Some samples of a pixel; there is room for them. `stream` is that of the first, which is `begin` among the new ones.
-static void batch_add(Batch *batch, const ChosenPixel *pixel, const SampleStream *stream, uint32_t begin, uint32_t count,
-                      SampleSums *parts)
-{
-    batch_add_runs(batch, pixel, parts, begin, count);
-    for (uint32_t j = 0; j < count; j++) {
-        int i = batch->count++;
-        batch->streams[i] = *stream;
-        batch->streams[i].index += j;
-        batch->x[i] = pixel->x;
-        batch->y[i] = pixel->y;
-    }
-}
-
-static uint32_t pixel_seed(const Round *round, int x, int y)
-{
-    const Film *film = round->film;
-    return sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y));
-}
-
-// Inline: as a call it costs 1.4 % of a run of 4 samples.
-RT_ALWAYS_INLINE void pixel_add(const Round *round, Batch *batch, const ChosenPixel *pixel, SampleSums *parts,
-                                RenderStatistics *counted)
-{
-    bool is_new = pixel->starts || pixel->replica > 0;
-    uint32_t before = is_new ? 0 : round->film->records[pixel->index].count, count = pixel->count;
-    uint32_t seed = pixel_seed(round, pixel->x, pixel->y);
-    SampleStream stream = {.kind = round->sampling->sampler,
-                           .seed = pixel->replica > 0 ? sample_hash_add(seed, pixel->replica) : seed,
-                           .first = before,
-                           .count = count};
-    for (uint32_t i = 0; i < count;) {
-        uint32_t room = (uint32_t)(KERNEL_RAYS - batch->count), some = count - i < room ? count - i : room;
-        stream.index = before + i;
-        batch_add(batch, pixel, &stream, i, some, parts);
-        if (batch->count == KERNEL_RAYS) {
-            batch_flush(round, batch, counted);
-        }
-        i += some;
-    }
-}
-
-// What goes from the difference of two sets of samples, `a` and `b` in number, to its square in a PixelRecord.
-static inline double apart_factor(double a, double b)
-{
-    return a * b / (3.0 * (a + b) * (a + b));
-}
-
-// The slope is that of linear light at the pixel; NULL: 1.
-static inline float square_apart(Rgb difference, const Rgb *slope, double factor)
-{
-    Rgb d = slope ? rgb_mul(difference, *slope) : difference;
-    return (float)(factor * (d.red * d.red + d.green * d.green + d.blue * d.blue));
-}
-
-static void value_put(float *value, Rgb light)
-{
-    value[0] = (float)light.red;
-    value[1] = (float)light.green;
-    value[2] = (float)light.blue;
 }
 
 // The mean of the shares with those that were there before, if any.
@@ -243,17 +32,6 @@ static inline double spread_of(const SampleSums *parts, Rgb mean, const Rgb *slo
     Rgb own = slope ? rgb_mul(square, rgb_mul(*slope, *slope)) : square;
     double sum = own.red + own.green + own.blue;
     return sum > 0.0 ? sum / 3.0 : 0.0;
-}
-
-// The slope at a pixel, kept in `place`; NULL where there is none.
-static inline const Rgb *slope_at(const Round *round, const float *value, Rgb *place)
-{
-    const Settings *settings = &round->prepared->scene->settings;
-    if (!linear_is_needed(settings)) {
-        return NULL;
-    }
-    *place = linear_slope(settings, value);
-    return place;
 }
 
 // A pixel that had its corners only, which are left out of its mean. How far the two are apart is kept for

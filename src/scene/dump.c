@@ -92,7 +92,10 @@ static void dump_camera(const Camera *camera, TextBuffer *out)
     if (camera->lens_radius > 0.0) {
         Vec3 ahead = vec3_scale(camera->focal_distance / vec3_length(camera->direction), camera->direction);
         dump_number(out, "\n  aperture ", 4.0 * camera->lens_radius);
-        text_printf(out, "\n  blur_samples %d", camera->blur_samples);
+        int least = camera->blur_least > 0 ? camera->blur_least : 1;
+        text_printf(out, "\n  blur_samples %d, %d", least, camera->blur_samples);
+        dump_number(out, "\n  confidence ", camera->blur_confidence);
+        dump_number(out, "\n  variance ", camera->blur_variance);
         dump_vector(out, "\n  focal_point ", vec3_add(camera->location, ahead));
     }
     text_append(out, "\n}\n");

@@ -44,6 +44,8 @@ typedef struct Camera {
     double lens_radius;    // 0: a point; else rays start on a disc around the location, across the direction …
     double focal_distance; // … and meet those of the same (u, v) at this distance, > 0
     int blur_samples;      // rays a pixel where nothing else is said; with a lens >= 1
+    int blur_least;        // of a pixel that has enough sooner; at most that many
+    double blur_confidence, blur_variance; // which it has where its mean is so likely so near; variance 0: never
     Span span;
 } Camera;
 

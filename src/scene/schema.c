@@ -136,8 +136,10 @@ static const SchemaProperty camera_properties[] = {
      .doc = "`[least,] most`: rays a pixel through the lens; `--samples` wins; 0: no blur"},
     {"focal_point", TYPE_VECTOR, AT(CameraBlueprint, focal_point), GIVEN(CameraBlueprint, has_focal_point),
      .doc = "a point as far from the location as what is sharp; without it that is 1 away"},
-    {"confidence", TYPE_NUMBER, AT(CameraBlueprint, confidence), .doc = "accepted; all rays are traced"},
-    {"variance", TYPE_NUMBER, AT(CameraBlueprint, variance), .doc = "accepted; all rays are traced"},
+    {"variance", TYPE_NUMBER, AT(CameraBlueprint, variance), .range = {RANGE_CLAMP, false, 0.0, 1.0},
+     .doc = "enough rays where off by less than its root"},
+    {"confidence", TYPE_NUMBER, AT(CameraBlueprint, confidence), .range = {RANGE_CLAMP, true, 0.0, 0.999999},
+     .doc = "how sure that is"},
 };
 
 static const CameraBlueprint camera_defaults = {
@@ -147,6 +149,8 @@ static const CameraBlueprint camera_defaults = {
     .up = {0, 1, 0},
     .sky = {0, 1, 0},
     .look_at = {0, 0, 1},
+    .confidence = 0.9, // as POV-Ray 3.7 has it: `confidence 0.9 variance 1/10000` changes no ray of its own
+    .variance = 1e-4,
 };
 
 static const SchemaProperty light_arguments[] = {

@@ -42,7 +42,7 @@ light_source { <0,2,0> rgb 1 }
 plane { z, 1 pigment { rgb 1 } finish { ambient 0.2 diffuse 0.2 reflection 0.8 } }
 plane { -z, 1 pigment { rgb 1 } finish { ambient 0.2 diffuse 0.2 reflection 0.8 } }
 """
-LENS = HEAD + """camera { location <0,2,-7> look_at 0 right x*image_width/image_height angle 50 aperture 1 blur_samples 37
+LENS = HEAD + """camera { location <0,2,-7> look_at 0 right x*image_width/image_height angle 50 aperture 1 blur_samples 37 variance 0
   focal_point 0 }
 light_source { <-4,7,-6> rgb 1 } sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } } plane { y, -1 pigment { rgb 1 } }
 """

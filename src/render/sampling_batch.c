@@ -1,0 +1,177 @@
+// Samples on their way through the kernel, and into their sums.
+//
+// SPDX-License-Identifier: MIT
+#include "render/sampling_batch.h"
+
+#include "render/alpha.h"
+#include "render/camera.h"
+
+void batch_init(Batch *batch, const Round *round, RenderScratch *scratch)
+{
+    const Prepared *p = round->prepared;
+    bool has_lens = p->camera.lens_radius > 0.0;
+    batch->scratch = scratch;
+    batch->count = batch->run_count = 0;
+    batch->is_box = round->filter.kind == FILTER_BOX;
+    batch->meets = false;
+    batch->keeps_squares = round->sampling->is_adaptive || stop_has_choice(round->sampling);
+    batch->places.lens = has_lens ? batch->lens : NULL;
+    batch->draws = has_lens || (p->kernel->features & RENDER_LIGHTS);
+}
+
+void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted)
+{
+    const Prepared *p = round->prepared;
+    alpha_trace(p, &batch->places, batch->draws ? batch->streams : NULL, wanted, batch->light, batch->clear,
+                batch->scratch, counted);
+}
+
+static void run_add(const Round *round, const Batch *batch, const Run *run, int begin)
+{
+    SampleSums *parts = run->parts;
+    Rgb sum = parts->sum[run->which];
+    for (int i = begin; i < run->end; i++) {
+        Rgb light = batch->is_box ? batch->light[i] : rgb_scale(batch->weights[i], batch->light[i]);
+        sum = rgb_add(sum, light);
+        if (batch->keeps_squares) {
+            parts->squares = rgb_add(parts->squares, rgb_mul(light, light));
+        }
+    }
+    parts->sum[run->which] = sum;
+    for (int i = begin; round->prepared->has_alpha && i < run->end; i++) {
+        parts->clear += (batch->is_box ? 1.0 : batch->weights[i]) * batch->clear[i];
+    }
+}
+
+// Where in their pixels, and on the lens, the samples are.
+static void batch_place(const Round *round, Batch *batch)
+{
+    const Film *film = round->film;
+    double x[KERNEL_RAYS], y[KERNEL_RAYS];
+    sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
+    for (int i = 0; i < batch->count; i++) {
+        FilterSample at = {x[i] - 0.5, y[i] - 0.5, 1.0};
+        if (!batch->is_box) {
+            at = filter_sample(&round->filter, (SamplePoint){x[i], y[i]});
+            batch->weights[i] = at.weight;
+        }
+        batch->places.u[i] = film_u(film, batch->x[i], at.x);
+        batch->places.v[i] = film_v(film, batch->y[i], at.y);
+    }
+    if (batch->places.lens) {
+        sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
+    }
+    for (int i = 0; batch->places.lens && i < batch->count; i++) {
+        batch->lens[i] = camera_lens_point(&round->prepared->camera, (SamplePoint){x[i], y[i]});
+    }
+}
+
+// Tells small shapes which of them are met.
+static void batch_meet(const Round *round, const Batch *batch)
+{
+    for (int i = 0; i < batch->count; i++) {
+        size_t pixel = (size_t)batch->y[i] * (size_t)round->film->width + (size_t)batch->x[i];
+        Ray ray;
+        if (small_open(round->small, pixel) > 0 &&
+            camera_place_ray(&round->prepared->camera, &batch->places, i, &ray)) {
+            small_meet(round->small, pixel, ray);
+        }
+    }
+}
+
+void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
+{
+    if (batch->count == 0) {
+        return;
+    }
+    batch_place(round, batch);
+    for (int i = batch->count; i < KERNEL_RAYS; i++) {
+        batch->places.u[i] = batch->places.u[batch->count - 1];
+        batch->places.v[i] = batch->places.v[batch->count - 1];
+        if (batch->places.lens) {
+            batch->lens[i] = batch->lens[batch->count - 1];
+        }
+    }
+    if (batch->meets) {
+        batch_meet(round, batch);
+    }
+    uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
+    batch_trace(round, batch, wanted, counted);
+    int begin = 0;
+    for (int i = 0; i < batch->run_count; i++) {
+        run_add(round, batch, &batch->runs[i], begin);
+        begin = batch->runs[i].end;
+    }
+    batch->count = batch->run_count = 0;
+}
+
+static void batch_begin_run(Batch *batch, SampleSums *parts, uint32_t which, int end)
+{
+    batch->runs[batch->run_count++] = (Run){parts, which, end};
+}
+
+// Puts `count` >= 1 new samples of a pixel, the first of which is number `begin`, into runs.
+static void batch_add_runs(Batch *batch, const ChosenPixel *pixel, SampleSums *parts, uint32_t begin, uint32_t count)
+{
+    uint32_t half = (pixel->count + 1) / 2;
+    int first = batch->count;
+    if (pixel->starts) {
+        for (uint32_t j = 0; j < count; j++) {
+            batch_begin_run(batch, parts, begin + j, first + (int)j + 1);
+        }
+        return;
+    }
+    if (begin < half) {
+        uint32_t before = half - begin < count ? half - begin : count;
+        batch_begin_run(batch, parts, 0, first + (int)before);
+    }
+    if (begin + count > half) {
+        batch_begin_run(batch, parts, 1, first + (int)count);
+    }
+}
+
+// Some samples of a pixel; there is room for them. `stream` is that of the first, which is `begin` among the new ones.
+static void batch_add(Batch *batch, const ChosenPixel *pixel, const SampleStream *stream, uint32_t begin,
+                      uint32_t count, SampleSums *parts)
+{
+    batch_add_runs(batch, pixel, parts, begin, count);
+    for (uint32_t j = 0; j < count; j++) {
+        int i = batch->count++;
+        batch->streams[i] = *stream;
+        batch->streams[i].index += j;
+        batch->x[i] = pixel->x;
+        batch->y[i] = pixel->y;
+    }
+}
+
+uint32_t pixel_seed(const Round *round, int x, int y)
+{
+    const Film *film = round->film;
+    return sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y));
+}
+
+void pixel_add_set(const Round *round, Batch *batch, const ChosenPixel *pixel, uint32_t seed, uint32_t first,
+                   SampleSums *parts, RenderStatistics *counted)
+{
+    uint32_t count = pixel->count;
+    SampleStream stream = {.kind = round->sampling->sampler, .seed = seed, .first = first, .count = count};
+    for (uint32_t i = 0; i < count;) {
+        uint32_t room = (uint32_t)(KERNEL_RAYS - batch->count), some = count - i < room ? count - i : room;
+        stream.index = first + i;
+        batch_add(batch, pixel, &stream, i, some, parts);
+        if (batch->count == KERNEL_RAYS) {
+            batch_flush(round, batch, counted);
+        }
+        i += some;
+    }
+}
+
+void pixel_add(const Round *round, Batch *batch, const ChosenPixel *pixel, SampleSums *parts,
+               RenderStatistics *counted)
+{
+    bool is_new = pixel->starts || pixel->replica > 0;
+    uint32_t before = is_new ? 0 : round->film->records[pixel->index].count;
+    uint32_t seed = pixel_seed(round, pixel->x, pixel->y);
+    pixel_add_set(round, batch, pixel, pixel->replica > 0 ? sample_hash_add(seed, pixel->replica) : seed, before, parts,
+                  counted);
+}

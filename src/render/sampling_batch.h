@@ -1,0 +1,89 @@
+// Samples on their way through the kernel: those of several pixels go together, a call of the kernel at a time. Private
+// to the files of rounds.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SAMPLING_BATCH_H
+#define RENDER_SAMPLING_BATCH_H
+
+#include "render/linear.h"
+#include "render/sampling.h"
+
+// Samples of a batch on end that go into one sum.
+typedef struct Run {
+    SampleSums *parts;
+    uint32_t which; // of parts->sum
+    int end;
+} Run;
+
+// Samples on their way through the kernel.
+typedef struct Batch {
+    KernelPlaces places;
+    Vec3 lens[KERNEL_RAYS];
+    SampleStream streams[KERNEL_RAYS];
+    int x[KERNEL_RAYS], y[KERNEL_RAYS]; // their pixels
+    double weights[KERNEL_RAYS]; // where they are not all 1
+    Rgb light[KERNEL_RAYS];
+    double clear[KERNEL_RAYS];
+    int count;
+    Run runs[KERNEL_RAYS];
+    int run_count;
+    bool draws;   // whether anything but the place in the pixel is drawn from the streams
+    bool is_box;  // all weights are 1
+    bool meets;   // samples count for small shapes
+    bool keeps_squares; // of samples
+    RenderScratch *scratch;
+} Batch;
+
+void batch_init(Batch *batch, const Round *round, RenderScratch *scratch);
+
+// Traces the rays of the batch's places that are wanted, as they stand.
+void batch_trace(const Round *round, Batch *batch, uint64_t wanted, RenderStatistics *counted);
+
+// Traces what waits.
+void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted);
+
+// The seed of the points of a pixel of the film.
+uint32_t pixel_seed(const Round *round, int x, int y);
+
+// Adds the samples of a pixel, pixel->count of the set that `seed` names, from number `first` on.
+void pixel_add_set(const Round *round, Batch *batch, const ChosenPixel *pixel, uint32_t seed, uint32_t first,
+                   SampleSums *parts, RenderStatistics *counted);
+
+// The next samples of a pixel; of a replica, or where it starts, the first.
+void pixel_add(const Round *round, Batch *batch, const ChosenPixel *pixel, SampleSums *parts,
+               RenderStatistics *counted);
+
+// ---- what samples say
+
+// What goes from the difference of two sets of samples, `a` and `b` in number, to its square in a PixelRecord.
+static inline double apart_factor(double a, double b)
+{
+    return a * b / (3.0 * (a + b) * (a + b));
+}
+
+// The slope is that of linear light at the pixel; NULL: 1.
+static inline float square_apart(Rgb difference, const Rgb *slope, double factor)
+{
+    Rgb d = slope ? rgb_mul(difference, *slope) : difference;
+    return (float)(factor * (d.red * d.red + d.green * d.green + d.blue * d.blue));
+}
+
+static inline void value_put(float *value, Rgb light)
+{
+    value[0] = (float)light.red;
+    value[1] = (float)light.green;
+    value[2] = (float)light.blue;
+}
+
+// The slope at a pixel, kept in `place`; NULL where there is none.
+static inline const Rgb *slope_at(const Round *round, const float *value, Rgb *place)
+{
+    const Settings *settings = &round->prepared->scene->settings;
+    if (!linear_is_needed(settings)) {
+        return NULL;
+    }
+    *place = linear_slope(settings, value);
+    return place;
+}
+
+#endif
