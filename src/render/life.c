@@ -262,10 +262,11 @@ static void follow_light(Follower *follower, const ShadeMaterial *material, cons
         .adds = shade_light(follower->p, FEATURES, material, light, at, &unused),
     };
     if (!light->shadowless && distance > 0.0) {
+        uint32_t blocker = NO_BLOCKER;
         out.visible = light->area.size1 > 0 ? shade_area(follower->p, FEATURES, at, light, out.sends, &unused)
                                             : shade_visibility(follower->p, FEATURES, at,
                                                                light->parallel ? NULL : &light->position, towards,
-                                                               distance, &unused);
+                                                               distance, &blocker, &unused);
     }
     follower->failed |= !ARRAY_PUSH(&follower->life->lights, out);
 }

@@ -61,12 +61,6 @@ static bool is_divided(const LightArea *area, const LightPart *part, Rgb arrivin
     return !is_even;
 }
 
-// The columns, or rows, of a part's quarters: their ends in order, and for each the place of the first that is the same
-// light, where the part's own ends come before the others.
-typedef struct LightEnds {
-    int at[4], same[4];
-} LightEnds;
-
 static LightEnds quarter_ends(int first, int last)
 {
     LightEnds ends = {{first, (first + last) / 2, (first + last + 1) / 2, last}, {0, 1, 2, 3}};
@@ -98,7 +92,8 @@ static LightAnswer *kept_answer(const LightGrid *grid, const LightAsked *light, 
 static void ask_for_part(LightGrid *grid)
 {
     const LightPart *part = &grid->divided;
-    LightEnds columns = quarter_ends(part->left, part->right), rows = quarter_ends(part->top, part->bottom);
+    LightEnds columns = grid->columns = quarter_ends(part->left, part->right);
+    LightEnds rows = grid->rows = quarter_ends(part->top, part->bottom);
     for (int place = 0; place < 16; place++) {
         int row = place / 4, column = place % 4, at;
         bool is_corner = is_end(row) && is_end(column);
@@ -134,17 +129,17 @@ static void take_answers(LightGrid *grid)
 // Puts a part, between two of its ends each way, on the list. Its corners are known.
 static void wait_for(LightGrid *grid, const LightPart *whole, int row, int column, int step, double weight)
 {
-    LightEnds columns = quarter_ends(whole->left, whole->right), rows = quarter_ends(whole->top, whole->bottom);
+    const LightEnds *columns = &grid->columns, *rows = &grid->rows;
     LightPart *part = &grid->parts[grid->count++];
-    *part = (LightPart){.left = columns.at[column],
-                        .right = columns.at[column + step],
-                        .top = rows.at[row],
-                        .bottom = rows.at[row + step],
+    *part = (LightPart){.left = columns->at[column],
+                        .right = columns->at[column + step],
+                        .top = rows->at[row],
+                        .bottom = rows->at[row + step],
                         .level = whole->level + (step == 1),
                         .weight = weight};
     for (int corner = 0; corner < 4; corner++) {
-        part->corners[corner] = grid->shares[rows.same[row + (corner & 2 ? step : 0)]]
-                                            [columns.same[column + (corner & 1 ? step : 0)]];
+        part->corners[corner] = grid->shares[rows->same[row + (corner & 2 ? step : 0)]]
+                                            [columns->same[column + (corner & 1 ? step : 0)]];
     }
 }
 

@@ -35,6 +35,12 @@ typedef struct LightAsked {
     Rgb share;
 } LightAsked;
 
+// The columns, or rows, of a part's quarters: their ends in order, and for each the place of the first that is the same
+// light, where the part's own ends come before the others.
+typedef struct LightEnds {
+    int at[4], same[4];
+} LightEnds;
+
 enum {
     LIGHT_PARTS_MAX = 32,   // three wait for each halving of at most 1024 rows, and one is being divided
     LIGHT_ASKED_MAX = 16,   // dividing a part asks for 12 lights at most
@@ -49,6 +55,7 @@ typedef struct LightGrid {
     int next_i, next_j; // not adaptive: the first light that was not asked for yet
     // Adaptive:
     LightPart divided;  // the one that the lights are asked for
+    LightEnds columns, rows; // of that
     bool is_whole;      // the lights are its corners: it may stay whole
     Rgb shares[4][4];   // at the ends of its quarters
     int count;          // of parts that wait

@@ -197,7 +197,7 @@ RT_ALWAYS_INLINE bool shade_is_far(const Prepared *p, Vec3 point, Vec3 end, doub
 
 // The share of the light at `end`, NULL if it has no place, that reaches the point, by colour.
 RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadePoint *at, const Vec3 *end,
-                                      Vec3 towards, double distance, RenderStatistics *statistics)
+                                      Vec3 towards, double distance, uint32_t *blocker, RenderStatistics *statistics)
 {
     Ray ray = {at->point, towards};
     RayStart start = {at->shape, vec3_dot(at->outward, towards) < 0.0, HIDDEN_SHADOW};
@@ -205,19 +205,21 @@ RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, cons
     if (end && shade_is_far(p, at->point, *end, distance)) {
         return shade_far_light(p, at, *end, towards, distance);
     }
-    if (features & RENDER_TRANSPARENCY) {
+    if ((features & RENDER_TRANSPARENCY) && (p->features & RENDER_TRANSPARENCY)) {
         return shade_light_through(p, features, at, ray, start, distance);
     }
-    return rgb_grey(geometry_occluded(p->geometry, features, ray, start, distance) ? 0.0 : 1.0);
+    return rgb_grey(geometry_occluded_again(p->geometry, features, ray, start, distance, blocker) ? 0.0 : 1.0);
 }
 
 // The share of the light of a place in an area, `aside` from its middle, that reaches the point.
 RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at,
-                                    const PreparedLight *light, Vec3 aside, RenderStatistics *statistics)
+                                    const PreparedLight *light, Vec3 aside, uint32_t *blocker,
+                                    RenderStatistics *statistics)
 {
     Vec3 end = vec3_add(light->position, aside), offset = vec3_sub(end, at->point);
     double distance = vec3_length(offset);
-    return shade_visibility(p, features, at, &end, vec3_scale(1.0 / distance, offset), distance, statistics);
+    return shade_visibility(p, features, at, &end, vec3_scale(1.0 / distance, offset), distance, blocker,
+                            statistics);
 }
 
 // The mean over an area light, of which all would be `arriving`.
@@ -225,6 +227,7 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
                                      const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
     LightGrid grid;
+    uint32_t blocker = NO_BLOCKER;
     SurfaceSpot spot = {at->point, at->outward, at->shape};
     if (geometry_sees_ball(p->geometry, &spot, light->position, light->area_radius)) {
         return rgb_grey(1.0);
@@ -234,7 +237,7 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
         for (int k = 0; k < grid.asked_count; k++) {
             LightAsked *asked = &grid.asked[k];
             Vec3 aside = light_area_offset(light, at->point, asked->i, asked->j);
-            asked->share = shade_area_one(p, features, at, light, aside, statistics);
+            asked->share = shade_area_one(p, features, at, light, aside, &blocker, statistics);
         }
     }
     return grid.sum;
@@ -244,9 +247,12 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
 RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
                                 const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
-    return at->stream ? shade_area_one(p, features, at, light, light_area_sample(light, at->point, sample_next(at->stream)),
-                                       statistics)
-                      : shade_area_grid(p, features, at, light, arriving, statistics);
+    if (at->stream) {
+        uint32_t blocker = NO_BLOCKER;
+        Vec3 aside = light_area_sample(light, at->point, sample_next(at->stream));
+        return shade_area_one(p, features, at, light, aside, &blocker, statistics);
+    }
+    return shade_area_grid(p, features, at, light, arriving, statistics);
 }
 
 // Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
@@ -311,10 +317,11 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     }
     // Beyond the plane of a parallel light nothing throws a shadow.
     if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
+        uint32_t blocker = NO_BLOCKER;
         Rgb share = (features & RENDER_LIGHTS) && light->area.size1 > 0
                         ? shade_area(p, features, at, light, arriving, statistics)
                         : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, towards,
-                                           distance, statistics);
+                                           distance, &blocker, statistics);
         if (rgb_is_black(share)) {
             return share;
         }

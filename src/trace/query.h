@@ -349,15 +349,20 @@ RT_ALWAYS_INLINE bool query_planes_occluded(const Geometry *g, unsigned features
     return false;
 }
 
-// True when anything is met at 0 < t < t_max; `asks_spheres` and `asks_parts` when that may be one.
+// True when anything is met at 0 < t < t_max; `asks_spheres` and `asks_parts` when that may be one. *blocker, a part or a
+// composite, is asked first: nothing but time depends on it.
 RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool asks_spheres, bool asks_parts, Ray ray,
-                                     RayStart start, double t_max)
+                                     RayStart start, double t_max, uint32_t *blocker)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
     if (!sphere_ray_is_usable(&sphere_ray)) {
         return false;
     }
     double start_error = query_start_error(g, features, &sphere_ray, start);
+    if ((features & TRACE_PARTS) && *blocker != NO_BLOCKER &&
+        g->kernels->shape_blocks(&g->shapes, &ray, start, start_error, t_max, *blocker)) {
+        return true;
+    }
     if ((features & TRACE_PLANES) && query_planes_occluded(g, features, &sphere_ray, start, start_error, t_max)) {
         return true;
     }
@@ -365,13 +370,22 @@ RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool 
         return true;
     }
     return (features & TRACE_PARTS) && asks_parts &&
-           g->kernels->shapes_occluded(&g->shapes, &ray, start, start_error, t_max);
+           g->kernels->shapes_occluded(&g->shapes, &ray, start, start_error, t_max, blocker);
 }
 
 // True when anything is met at 0 < t < t_max.
 RT_ALWAYS_INLINE bool geometry_occluded(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max)
 {
-    return query_occluded(g, features, true, true, ray, start, t_max);
+    uint32_t blocker = NO_BLOCKER;
+    return query_occluded(g, features, true, true, ray, start, t_max, &blocker);
+}
+
+// The same of one of several ways that have much in common: what was in the way of one is likely in that of the next.
+// *blocker keeps that from one to the next; NO_BLOCKER before the first.
+RT_ALWAYS_INLINE bool geometry_occluded_again(const Geometry *g, unsigned features, Ray ray, RayStart start,
+                                              double t_max, uint32_t *blocker)
+{
+    return query_occluded(g, features, true, true, ray, start, t_max, blocker);
 }
 
 // Of surfaces that a plane is before, those whose way does not end on it.
@@ -445,13 +459,14 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
         occluded |= query_parts_occluded(g, from, rays, asked, &left, &left_parts);
     }
     uint64_t left_planes = (features & TRACE_PLANES) && !has_one_plane && g->plane_count > 0 ? asked : 0;
+    uint32_t blocker = NO_BLOCKER;
     for (uint64_t open = (left | left_parts | left_planes) & ~occluded; open; open &= open - 1) {
         int i = __builtin_ctzll(open);
         Vec3 direction = vec3(rays->towards[0][i], rays->towards[1][i], rays->towards[2][i]);
         Ray ray = {tile_surface_point(from, i), direction};
         RayStart start = {from->shape[i], vec3_dot(tile_surface_outward(from, i), direction) < 0.0, HIDDEN_SHADOW};
         occluded |= (uint64_t)query_occluded(g, features, left >> i & 1, left_parts >> i & 1, ray, start,
-                                             rays->distance[i])
+                                             rays->distance[i], &blocker)
                     << i;
     }
     return occluded;

@@ -25,6 +25,7 @@ typedef struct ShapeQuery {
     bool is_any;       // whatever is met before the end of the way will do
     const Solid *bounded; // the ball that is the first, where its hit's span is only bounded; NULL: no such
     double bounded_enter; // where the ray enters its box
+    uint32_t at;          // of the item that was asked last among all
     const ItemBox *box;   // of the item that is asked; NULL: it has none
     BoxLine line;
 } ShapeQuery;
@@ -332,6 +333,7 @@ static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
     BvhWalk walk;
     BvhChild leaf;
     for (uint32_t i = 0; i < table->unbounded_count; i++) {
+        q->at = i;
         item_closest(q, table->items[i], first);
         if (q->is_any && first->hit.shape != SHAPE_NONE) {
             return;
@@ -349,6 +351,7 @@ static void table_closest(ShapeQuery *q, const ShapeBeam *beam, Foremost *first)
     const ShapeItem *bounded = table->items + table->unbounded_count;
     while (bvh_walk_next(&walk, bvh_walk_limit(&walk, first->limit), &leaf)) {
         uint32_t at = bvh_leaf_first(leaf);
+        q->at = table->unbounded_count + at;
         q->box = &table->boxes[at];
         item_closest(q, bounded[at], first);
         if (q->is_any && first->hit.shape != SHAPE_NONE) {
@@ -380,12 +383,25 @@ static void shapes_closest(const ShapeTable *table, const Ray *ray, RayStart sta
     table_closest(&q, NULL, first);
 }
 
-static bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max)
+static bool shapes_occluded(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max,
+                            uint32_t *blocker)
 {
     ShapeQuery q;
     query_start(&q, table, ray, start, start_error, true);
     Foremost first = foremost_start(&(Hit){t_max, SHAPE_NONE, false}, 0, t_max);
     table_closest(&q, NULL, &first);
+    *blocker = first.hit.shape != SHAPE_NONE ? q.at : *blocker;
+    return first.hit.shape != SHAPE_NONE;
+}
+
+static bool shape_blocks(const ShapeTable *table, const Ray *ray, RayStart start, double start_error, double t_max,
+                         uint32_t blocker)
+{
+    ShapeQuery q;
+    query_start(&q, table, ray, start, start_error, true);
+    Foremost first = foremost_start(&(Hit){t_max, SHAPE_NONE, false}, 0, t_max);
+    q.box = blocker < table->unbounded_count ? NULL : &table->boxes[blocker - table->unbounded_count];
+    item_closest(&q, table->items[blocker], &first);
     return first.hit.shape != SHAPE_NONE;
 }
 

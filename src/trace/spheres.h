@@ -187,7 +187,12 @@ typedef struct SphereKernels {
     // The same for all rays of a tile, of the camera.
     void (*shapes_closest_tile)(const ShapeTable *shapes, const SphereTile *tile, TileForemost *first);
     // True when any of them is met at 0 < t < t_max.
-    bool (*shapes_occluded)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max);
+    // In *blocker what was met, if any was.
+    bool (*shapes_occluded)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max,
+                            uint32_t *blocker);
+    // The same of that alone.
+    bool (*shape_blocks)(const ShapeTable *shapes, const Ray *ray, RayStart start, double start_error, double t_max,
+                         uint32_t blocker);
     // Of the surfaces `asked` for, those with any of them before the ray's end, as shapes_occluded would say of each.
     // What does not pay, or cannot be done, for some together is `left`.
     uint64_t (*shapes_occluded_surfaces)(const ShapeTable *shapes, const TileSurfaces *from, const SurfaceRays *rays,

@@ -243,4 +243,5 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .shapes_occluded = shapes_occluded,
     .shapes_occluded_surfaces = shapes_occluded_surfaces,
     .shapes_surfaces = shapes_surfaces,
+    .shape_blocks = shape_blocks,
 };

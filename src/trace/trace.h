@@ -35,6 +35,7 @@ typedef uint32_t ShapeId;
 enum { SHAPE_INDEX_BITS = 30, PART_SIDE_BITS = 3 };
 typedef enum ShapeKind { SHAPE_SPHERE, SHAPE_PLANE, SHAPE_PART } ShapeKind;
 #define SHAPE_NONE UINT32_MAX
+#define NO_BLOCKER UINT32_MAX // see geometry_occluded_again
 
 static inline ShapeId shape_id(ShapeKind kind, uint32_t index)
 {
