@@ -27,6 +27,9 @@ static const double AUDIT_FACTOR = 1.25; // the width of an audit's interval, as
 static const double AUDIT_CHANCE = 1.1;  // how much less the error must be, since audits fail by chance; measured
 static const double COST_FADE = 0.8; // of what is known from earlier rounds
 
+// What a tile's work is.
+typedef enum Traces { TRACES_ROUND, TRACES_REPLICAS, TRACES_LOOKS } Traces;
+
 typedef struct Sampling {
     const Prepared *prepared;
     const RenderOptions *options;
@@ -39,7 +42,7 @@ typedef struct Sampling {
     Choice choice;
     Audit audit;
     Looks looks;
-    enum { TRACES_ROUND, TRACES_REPLICAS, TRACES_LOOKS } traces; // what a tile's work is
+    Traces traces;
     RenderStatistics audited; // their rays: no part of what the picture's own say
     double audit_scale;    // the upper end of an audit's interval, over what the rounds say of the error
     Predictor *predictor;  // NULL: nobody asks
@@ -169,7 +172,7 @@ static bool run_round(Sampling *s)
 }
 
 // Traces what changes no pixel; false when it was cancelled.
-static bool trace_beside(Sampling *s, int traces)
+static bool trace_beside(Sampling *s, Traces traces)
 {
     TileWork work = {s, s->prepared, s->film->width, s->film->height, trace_tile, NULL};
     s->traces = traces;
