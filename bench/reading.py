@@ -8,29 +8,20 @@ SPDX-License-Identifier: MIT
 """
 import argparse
 import glob
-import gzip
 import math
 import os
 import resource
-import shutil
 import subprocess
 import sys
 import tempfile
 
-FOLDERS = ("/usr/share/doc/povray/examples", "/usr/share/povray-3.7/include")
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "povray"))
+sys.dont_write_bytecode = True  # the folder is distributed as it is
+from survey import EXAMPLES, unpacked  # noqa: E402
+
+FOLDERS = (EXAMPLES, "/usr/share/povray-3.7/include")
 BAR = 0.5
 SECONDS = 120
-
-
-def unpacked(folder, top, copies):
-    if folder not in copies:
-        copy = os.path.join(top, str(len(copies)))
-        shutil.copytree(folder, copy)
-        for path in glob.glob(os.path.join(copy, "**", "*.gz"), recursive=True):
-            with gzip.open(path) as packed, open(path[:-3], "wb") as plain:
-                shutil.copyfileobj(packed, plain)
-        copies[folder] = copy
-    return copies[folder]
 
 
 def cpu_seconds(command, folder):
@@ -59,10 +50,11 @@ def main():
     parser.add_argument("files", nargs="*")
     options = parser.parse_args()
     rtlang = os.path.abspath(os.environ.get("RTLANG", "./rtlang"))
-    rows, copies = [], {}
+    rows = []
     with tempfile.TemporaryDirectory() as top:
+        copies = {"top": top}
         for path in options.files or installed():
-            folder = unpacked(os.path.dirname(os.path.abspath(path)), top, copies)
+            folder = unpacked(os.path.dirname(os.path.abspath(path)), copies)
             name = os.path.basename(path).removesuffix(".gz")
             ours = cpu_seconds([rtlang, "--check", "-q", f"-I{FOLDERS[1]}", name], folder)
             theirs = cpu_seconds(["povray", "-D", "-F", "+W1", "+H1", f"+I{name}"], folder)

@@ -133,7 +133,9 @@ static bool read_value(Eval *ev, const AstNode *node, GrammarStream *stream, Val
     return !failed;
 }
 
-bool paste_value(Eval *ev, const AstNode *node, Value *value)
+// Reads from the text of a node, its macros and directives carried out, by a function; the text is let go again.
+static bool paste(Eval *ev, const AstNode *node, bool is_inner,
+                  bool (*read)(Eval *ev, const AstNode *node, GrammarStream *stream, Value *value), Value *value)
 {
     Splice splice;
     const GrammarText *text = text_of(ev, node->span);
@@ -142,14 +144,19 @@ bool paste_value(Eval *ev, const AstNode *node, Value *value)
     }
     ArenaMark mark = arena_mark(&ev->parse);
     splice_init(&splice, ev);
-    GrammarStream *stream = grammar_stream_open(&splice.context, text, ev->inner > 0, false);
-    bool fine = stream != NULL ? read_value(ev, node, stream, value) : eval_no_memory(ev, node->span);
+    GrammarStream *stream = grammar_stream_open(&splice.context, text, is_inner, false);
+    bool fine = stream != NULL ? read(ev, node, stream, value) : eval_no_memory(ev, node->span);
     if (stream != NULL) {
         grammar_stream_close(stream);
     }
     splice_fini(&splice);
     arena_rewind(&ev->parse, mark);
     return fine && !ev->stop;
+}
+
+bool paste_value(Eval *ev, const AstNode *node, Value *value)
+{
+    return paste(ev, node, ev->inner > 0, read_value, value);
 }
 
 const AstNode *paste_arguments(Eval *ev, const AstNode *call)
@@ -174,28 +181,21 @@ const AstNode *paste_arguments(Eval *ev, const AstNode *call)
     return pasted;
 }
 
-bool paste_function(Eval *ev, const AstNode *function, Value *value)
+static bool read_function(Eval *ev, const AstNode *function, GrammarStream *stream, Value *value)
 {
-    Splice splice;
-    const GrammarText *text = text_of(ev, function->span);
-    if (text == NULL) {
-        return false;
-    }
-    ArenaMark mark = arena_mark(&ev->parse);
-    splice_init(&splice, ev);
-    GrammarStream *stream = grammar_stream_open(&splice.context, text, false, false);
-    bool failed = stream == NULL;
-    const AstNode *read = stream != NULL ? grammar_stream_next(stream, &failed) : NULL;
+    (void)function;  // The stream holds its text.
+    bool failed = false;
+    const AstNode *read = grammar_stream_next(stream, &failed);
     bool fine = read != NULL && read->kind == AST_FUNCTION && function_create(ev, read, value);
     const AstNode *rest = fine ? grammar_stream_next(stream, &failed) : NULL;
     if (rest != NULL) {
         fine = eval_fault(ev, DIAG_E0213, rest->span, "the function has ended before this");
     }
     ev->faulty = ev->faulty || failed;
-    if (stream != NULL) {
-        grammar_stream_close(stream);
-    }
-    splice_fini(&splice);
-    arena_rewind(&ev->parse, mark);
-    return fine && !failed && !ev->stop;
+    return fine && !failed;
+}
+
+bool paste_function(Eval *ev, const AstNode *function, Value *value)
+{
+    return paste(ev, function, false, read_function, value);
 }
