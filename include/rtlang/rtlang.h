@@ -90,11 +90,13 @@ RT_API rt_status rt_set_clock(rt_session *session, double clock);
 
 /* How far a scene may go; beyond, a message says where it was, and the status is RT_FAULT_LIMIT. */
 typedef enum rt_limit {
-    RT_LIMIT_STEPS,   /* turns of loops and macro calls, 30 000 000 */
+    RT_LIMIT_STEPS,   /* turns of loops and macro calls, 30 000 000; 256 bytes of a string that are worked on count as one */
     RT_LIMIT_DEPTH,   /* nesting of expressions, blocks, calls and includes, 1 to 1000; calls and includes nest less */
     RT_LIMIT_OBJECTS, /* shapes, 1 000 000 000 */
     RT_LIMIT_TEXT,    /* bytes of text in all files, 64 GiB */
-    RT_LIMIT_MEMORY   /* bytes of what is read, declared and prepared, and of the picture; the machine's memory */
+    RT_LIMIT_MEMORY,  /* bytes of what is read, declared and prepared, and of the picture; what the machine, its container
+                         and the process's limits leave */
+    RT_LIMIT_MESSAGES /* bytes of what #debug and its like write, 16 MiB */
 } rt_limit;
 /* Sets a limit, at least 1; the defaults stand above. */
 RT_API rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value);

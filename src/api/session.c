@@ -19,6 +19,7 @@
 
 #include "api/probe.h"
 #include "ast/words.h"
+#include "base/machine.h"
 #include "base/stack.h"
 #include "image/image.h"
 #include "render/linear.h"
@@ -44,14 +45,12 @@ const char *rt_version(void)
     return PACKAGE_VERSION;
 }
 
-// The defaults, with as much memory as the machine has.
+// The defaults, with as much memory as there is.
 static Limits limits_of_machine(void)
 {
     Limits limits = LIMITS_DEFAULT;
-    long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
-    if (pages > 0 && page_bytes > 0) {
-        limits.memory_bytes = (size_t)pages * (size_t)page_bytes;
-    }
+    size_t memory = machine_memory();
+    limits.memory_bytes = memory < SIZE_MAX ? memory : limits.memory_bytes;
     return limits;
 }
 
@@ -139,22 +138,17 @@ rt_status session_run_deep(rt_session *session, rt_status (*work)(rt_session *se
 
 // ---- the scene
 
-// Text that is kept takes memory.
-static SourceResult open_standard_input(rt_session *session, Source **source, int *error_number)
-{
-    uint64_t limit = session->limits.text_bytes;
-    limit = limit < session->limits.memory_bytes ? limit : session->limits.memory_bytes;
-    return source_open_stream(session->sources, "<stdin>", STDIN_FILENO, limit, source, error_number);
-}
-
 bool session_open(rt_session *session, const char *path, Source **source)
 {
     int error_number = 0;
     uint64_t limit = session->limits.text_bytes;
     bool is_stream = strcmp(path, "-") == 0;
-    SourceResult result = is_stream ? open_standard_input(session, source, &error_number)
-                                    : source_open_file(session->sources, path, limit, source, &error_number);
     const char *name = is_stream ? "<stdin>" : path;
+    char memory[LIMITS_BYTES_TEXT];
+    source_map_set_memory(session->sources, session->limits.memory_bytes);
+    SourceResult result = is_stream ? source_open_stream(session->sources, name, STDIN_FILENO, limit, source,
+                                                         &error_number)
+                                    : source_open_file(session->sources, path, limit, source, &error_number);
     switch (result) {
     case SOURCE_OK:
         return true;
@@ -172,9 +166,17 @@ bool session_open(rt_session *session, const char *path, Source **source)
     case SOURCE_TOO_LARGE:
         if (diag_report(&session->diags, DIAG_E0504, SPAN_NONE, "`%s` is larger than %llu bytes", name,
                         (unsigned long long)limit)) {
-            diag_suggest(&session->diags, "`--max-text` allows more%s", is_stream ? ", and `--max-memory`" : "");
+            diag_suggest(&session->diags, "`--max-text` allows more");
         }
         break;
+    case SOURCE_TOO_MUCH: // a pipe or a device is kept, because it cannot be read twice
+        limits_bytes_text(session->limits.memory_bytes, memory);
+        if (diag_report(&session->diags, DIAG_E0607, SPAN_NONE, "reading `%s` takes more than %s of memory", name,
+                        memory)) {
+            diag_suggest(&session->diags, "`--max-memory` allows more");
+        }
+        break;
+    case SOURCE_NOT_A_FILE: // only where files alone are asked for
     case SOURCE_NO_MEMORY:
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", name);
         break;

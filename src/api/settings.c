@@ -92,6 +92,9 @@ rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value)
     case RT_LIMIT_MEMORY:
         limits->memory_bytes = value < SIZE_MAX ? (size_t)value : SIZE_MAX;
         return RT_OK;
+    case RT_LIMIT_MESSAGES:
+        limits->message_bytes = value;
+        return RT_OK;
     }
     return RT_FAULT_USAGE;
 }

@@ -23,7 +23,9 @@ typedef struct Limits {
     unsigned ast_depth;     // nesting of expressions and blocks
     unsigned include_depth; // nesting of #include
     unsigned call_depth;    // nesting of macro calls
-    uint64_t steps;         // loop turns and calls of macros and functions, all together
+    uint64_t steps;         // loop turns, calls of macros and functions, and work on strings, all together
+    uint64_t message_bytes; // text of #debug and its like, all together
+    size_t string_bytes;    // of one string
     uint64_t objects;       // shapes in the scene
     uint64_t text_bytes;    // bytes of scene text and data files, all together
     size_t memory_bytes;    // what is read, declared and prepared, and the picture, together
@@ -35,6 +37,8 @@ typedef struct Limits {
         .include_depth = LIMIT_INCLUDE_DEPTH,                                                                          \
         .call_depth = LIMIT_CALL_DEPTH,                                                                                \
         .steps = 30u * 1000 * 1000,                                                                                    \
+        .message_bytes = 16u << 20,                                                                                    \
+        .string_bytes = 64u << 20,                                                                                     \
         .objects = 1000u * 1000 * 1000,                                                                                \
         .text_bytes = (uint64_t)64 << 30,                                                                              \
         .memory_bytes = (size_t)8 << 30,                                                                               \

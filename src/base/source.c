@@ -5,10 +5,14 @@
 // that a message costs one block whatever the length of the file or of the line. Knows nothing of messages.
 //
 // SPDX-License-Identifier: MIT
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE // O_PATH
+#endif
 #include "base/source.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -46,6 +50,8 @@ struct Source {
     uint64_t position; // of source_read
     LineIndex *lines;  // checkpoint k stands at k * BLOCK; NULL until a message asks
     int file;          // NO_FILE when closed or kept
+    dev_t device;      // of the file, with its number: another one of this name is not read in its place
+    ino_t number;
 };
 
 struct SourceMap {
@@ -55,6 +61,7 @@ struct SourceMap {
     uint64_t next_base;
     uint64_t bytes_read;
     const atomic_bool *cancel; // may be NULL
+    size_t memory_bytes;       // most that is kept of one text
     const Source *again; // whose file is open in again_file
     int again_file;
     char block[BLOCK];
@@ -69,6 +76,7 @@ SourceMap *source_map_new(void)
     }
     arena_init(&map->arena, SIZE_MAX);
     map->next_base = 1;
+    map->memory_bytes = SIZE_MAX;
     map->again_file = NO_FILE;
     map->names = intern_new(SIZE_MAX);
     if (!map->names) {
@@ -81,6 +89,11 @@ SourceMap *source_map_new(void)
 void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel)
 {
     map->cancel = cancel;
+}
+
+void source_map_set_memory(SourceMap *map, size_t bytes)
+{
+    map->memory_bytes = bytes;
 }
 
 static void file_close(int *file)
@@ -168,8 +181,8 @@ static SourceResult pipe_read(const SourceMap *map, int file, uint64_t limit_byt
             break;
         }
         bytes.count += (size_t)got;
-        if (bytes.count > limit_bytes) {
-            result = SOURCE_TOO_LARGE;
+        if (bytes.count > limit_bytes || bytes.count > map->memory_bytes) {
+            result = bytes.count > limit_bytes ? SOURCE_TOO_LARGE : SOURCE_TOO_MUCH;
             break;
         }
     }
@@ -186,7 +199,7 @@ static SourceResult pipe_read(const SourceMap *map, int file, uint64_t limit_byt
 }
 
 // Decides by the kind of file whether it can be read again later, and enters it.
-static SourceResult source_enter(SourceMap *map, const char *path, int file, uint64_t limit_bytes, Source **source)
+static SourceResult source_enter(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source)
 {
     struct stat status;
     char *kept = NULL;
@@ -212,13 +225,32 @@ static SourceResult source_enter(SourceMap *map, const char *path, int file, uin
             return result;
         }
     }
-    *source = source_add(map, path, is_seekable ? file : NO_FILE, kept, size);
+    *source = source_add(map, name, is_seekable ? file : NO_FILE, kept, size);
     if (!*source) {
         free(kept);
         errno = 0;
         return SOURCE_NO_MEMORY;
     }
+    (*source)->device = status.st_dev;
+    (*source)->number = status.st_ino;
     return SOURCE_OK;
+}
+
+// Enters a file that was opened, or says why it was not; closes it unless the source keeps it.
+static SourceResult source_opened(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source,
+                                  int *error_number)
+{
+    if (file < 0) {
+        *error_number = errno;
+        return is_cancelled(map) ? SOURCE_CANCELLED
+               : errno == ENOENT || errno == ENOTDIR ? SOURCE_NOT_FOUND : SOURCE_NOT_READABLE;
+    }
+    SourceResult result = source_enter(map, name, file, limit_bytes, source);
+    *error_number = result == SOURCE_OK ? 0 : errno;
+    if (!*source || (*source)->file == NO_FILE) {
+        close(file);
+    }
+    return result;
 }
 
 SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_bytes, Source **source,
@@ -230,17 +262,51 @@ SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_b
     do { // opening a pipe waits for its writer
         file = is_cancelled(map) ? NO_FILE : open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
     } while (file < 0 && errno == EINTR && !is_cancelled(map));
-    if (file < 0) {
-        *error_number = errno;
-        return is_cancelled(map) ? SOURCE_CANCELLED
-               : errno == ENOENT || errno == ENOTDIR ? SOURCE_NOT_FOUND : SOURCE_NOT_READABLE;
+    return source_opened(map, path, file, limit_bytes, source, error_number);
+}
+
+// Opens a path in which nothing is a link, part by part. A pipe is opened without waiting for its writer.
+static int open_real(const char *real)
+{
+    char part[NAME_MAX + 1];
+    int folder = open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
+    for (real++; folder >= 0 && *real != '\0'; real++) {
+        size_t length = strcspn(real, "/");
+        bool is_last = real[length] == '\0';
+        if (length >= sizeof part) {
+            close(folder);
+            errno = ENAMETOOLONG;
+            return NO_FILE;
+        }
+        memcpy(part, real, length);
+        part[length] = '\0';
+        int flags = is_last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
+        int next = openat(folder, part, flags | O_NOFOLLOW | O_CLOEXEC);
+        int error_number = errno;
+        close(folder);
+        errno = error_number;
+        folder = next;
+        if (is_last) {
+            break;
+        }
+        real += length;
     }
-    SourceResult result = source_enter(map, path, file, limit_bytes, source);
-    *error_number = result == SOURCE_OK ? 0 : errno;
-    if (!*source || (*source)->file == NO_FILE) {
+    return folder;
+}
+
+SourceResult source_open_real(SourceMap *map, const char *real, const char *name, uint64_t limit_bytes, Source **source,
+                              int *error_number)
+{
+    struct stat status;
+    *source = NULL;
+    *error_number = 0;
+    int file = is_cancelled(map) ? NO_FILE : open_real(real);
+    bool is_known = file >= 0 && fstat(file, &status) == 0;
+    if (is_known && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
         close(file);
+        return SOURCE_NOT_A_FILE;
     }
-    return result;
+    return source_opened(map, name, file, limit_bytes, source, error_number);
 }
 
 SourceResult source_open_stream(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source,
@@ -374,7 +440,7 @@ static Source *source_find(const SourceMap *map, uint64_t offset)
     return map->sources.items[low];
 }
 
-// Opens the file of a source once more, without waiting should it have become a pipe in the meantime.
+// Opens the file of a source once more, if the name still leads to it.
 static bool source_reopen(SourceMap *map, const Source *source)
 {
     struct stat status;
@@ -387,7 +453,8 @@ static bool source_reopen(SourceMap *map, const Source *source)
     if (map->again_file == NO_FILE) {
         return false;
     }
-    if (fstat(map->again_file, &status) != 0 || !S_ISREG(status.st_mode)) {
+    if (fstat(map->again_file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_dev != source->device ||
+        status.st_ino != source->number) {
         file_close(&map->again_file);
         return false;
     }

@@ -44,7 +44,9 @@ typedef enum SourceResult {
     SOURCE_NOT_FOUND,
     SOURCE_NOT_READABLE, // exists, may not be opened or read
     SOURCE_IS_DIRECTORY,
-    SOURCE_TOO_LARGE, // over the limit of bytes that was given
+    SOURCE_NOT_A_FILE, // a pipe or a device, where a file is wanted
+    SOURCE_TOO_LARGE,  // over the limit of bytes that was given
+    SOURCE_TOO_MUCH,   // more would have to be kept than source_map_set_memory allows
     SOURCE_NO_MEMORY,
     SOURCE_CANCELLED, // see source_map_set_cancel
 } SourceResult;
@@ -67,8 +69,17 @@ void source_map_free(SourceMap *map);          // closes everything
 // When the flag turns true, opening and reading stop soon. It must outlive the map; NULL, as at first: never.
 void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel);
 
-// Opens a file for reading from its start. On success *source is set; on failure *error_number is an errno value or 0.
+// How many bytes may be kept of one pipe or device; at first any number.
+void source_map_set_memory(SourceMap *map, size_t bytes);
+
+// Opens a file, a pipe or a device for reading from its start. On success *source is set; on failure *error_number is
+// an errno value or 0.
 SourceResult source_open_file(SourceMap *map, const char *path, uint64_t limit_bytes, Source **source,
+                              int *error_number) RT_MUST_CHECK;
+
+// The same for a regular file at a path that begins with / and in which nothing is a link (any more): what was checked
+// is what is read, whoever changes the folders meanwhile. Messages call it by the name.
+SourceResult source_open_real(SourceMap *map, const char *real, const char *name, uint64_t limit_bytes, Source **source,
                               int *error_number) RT_MUST_CHECK;
 
 // The same for a stream that is open already, which is read to its end at once and stays the caller's.

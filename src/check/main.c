@@ -581,6 +581,7 @@ int main(int argc, char **argv)
     if (parsed == OPTIONS_GO) {
         sigaction(SIGINT, &action, NULL);
         sigaction(SIGTERM, &action, NULL);
+        signal(SIGXFSZ, SIG_IGN); // what `ulimit -f` forbids is an error of writing
         exit_code = run(&options);
     }
     options_fini(&options);

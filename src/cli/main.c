@@ -27,11 +27,13 @@ static void on_interrupt(int signal_number)
 }
 
 // Without SA_RESTART, so that waiting for a pipe ends; a second signal ends the program at once, as without a handler.
-static void hear_interrupts(void)
+// A file that `ulimit -f` forbids is an error of writing, which is reported, instead of a signal.
+static void hear_signals(void)
 {
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
@@ -450,7 +452,7 @@ int main(int argc, char **argv)
         bool is_colored = options.format == RT_FORMAT_TEXT && color_is_on(options.color);
         rt_set_format(session, is_colored ? RT_FORMAT_COLOR : options.format);
         interrupted_session = session;
-        hear_interrupts();
+        hear_signals();
         status = parsed == OPTIONS_WRONG  ? fail_parse(session, &options)
                  : parsed == OPTIONS_DONE ? print(session, "", RT_OK)
                                           : run(session, &options, &progress);

@@ -164,6 +164,12 @@ static bool apply_max_memory(Options *options, const char *argument, const char 
     return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_MEMORY]);
 }
 
+static bool apply_max_messages(Options *options, const char *argument, const char **expected)
+{
+    *expected = bytes_expected;
+    return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_MESSAGES]);
+}
+
 static bool apply_depth(Options *options, const char *argument, const char **expected)
 {
     static const struct {
@@ -482,7 +488,8 @@ static const OptionRow rows[] = {
     {0, "max-depth", "N", apply_max_depth, "nesting of expressions, blocks, macro calls and includes (default 1000)"},
     {0, "max-objects", "N", apply_max_objects, "shapes in the scene (default 1000000000)"},
     {0, "max-text", "BYTES", apply_max_text, "text of all files of the scene (default 64G)"},
-    {0, "max-memory", "BYTES", apply_max_memory, "memory of scene and picture (default: the machine's)"},
+    {0, "max-memory", "BYTES", apply_max_memory, "memory of scene and picture (default: what there is)"},
+    {0, "max-messages", "BYTES", apply_max_messages, "text of #debug and its like (default 16M)"},
     {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
     {0, "samples", "N", apply_samples,

@@ -31,7 +31,7 @@ typedef struct WarningOption {
     bool is_letter;   // given by `-W`, which a width may have been meant by
 } WarningOption;
 
-enum { LIMIT_COUNT = RT_LIMIT_MEMORY + 1 };
+enum { LIMIT_COUNT = RT_LIMIT_MESSAGES + 1 };
 
 // Pointers refer to argv.
 typedef struct Options {

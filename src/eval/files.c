@@ -17,9 +17,12 @@
 #include "base/suggest.h"
 #include "eval/internal.h"
 
+enum { LINKS_MOST = 40 }; // as many as the kernel follows
+
 struct FileState {
     ARRAY(char *) roots; // real paths of the folders that may be read
     TextBuffer checked;  // the path that was found readable last
+    TextBuffer real;     // the same, all links resolved
 };
 
 // How files of each use are called, and what is looked for under a name that is not found.
@@ -69,6 +72,7 @@ bool files_init(Eval *ev, const Source *scene)
         return false;
     }
     text_init(&files->checked);
+    text_init(&files->real);
     bool fine = add_folder_of(files, source_name(scene));
     for (size_t i = 0; fine && i < options->include_path_count; i++) {
         fine = add_root(files, options->include_paths[i]);
@@ -90,6 +94,7 @@ void files_fini(Eval *ev)
     }
     ARRAY_FREE(&files->roots);
     text_fini(&files->checked);
+    text_fini(&files->real);
     free(files);
     ev->files = NULL;
 }
@@ -112,6 +117,36 @@ static bool lies_below(const char *path, const char *root)
     return strncmp(path, root, length) == 0 && (path[length] == '/' || path[length] == '\0');
 }
 
+// Where a path leads, whether a file is there or not: the real path of the longest beginning that is there, and the
+// rest as it is written. A link to nowhere is followed, too. The caller frees it; NULL: out of memory, or too long.
+static char *place_of(const char *path, unsigned links)
+{
+    char name[PATH_MAX], target[PATH_MAX], joined[2 * PATH_MAX];
+    char *real = realpath(path, NULL);
+    if (real != NULL || errno == ENOMEM || snprintf(name, sizeof name, "%s", path) >= (int)sizeof name) {
+        return real;
+    }
+    char *slash = strrchr(name, '/');
+    const char *last = slash != NULL ? slash + 1 : name;
+    ptrdiff_t length = links > 0 ? readlink(name, target, sizeof target - 1) : -1;
+    if (length > 0) {
+        target[length] = '\0';
+        snprintf(joined, sizeof joined, "%.*s%s", target[0] == '/' ? 0 : (int)(last - name), name, target);
+        return place_of(joined, links - 1);
+    }
+    if (slash == NULL) {
+        real = realpath(".", NULL);
+    } else if (slash == name) {
+        real = strdup("");
+    } else {
+        *slash = '\0';
+        real = place_of(name, links);
+    }
+    bool is_joined = real != NULL && snprintf(joined, sizeof joined, "%s/%s", real, last) < (int)sizeof joined;
+    free(real);
+    return is_joined ? strdup(joined) : NULL;
+}
+
 // The folder of a path as it is written, or the one that it leads to when it is a link.
 static void folder_to_allow(const char *path, const char *real, char *folder, size_t size)
 {
@@ -119,11 +154,11 @@ static void folder_to_allow(const char *path, const char *real, char *folder, si
     size_t real_length = real_slash > real ? (size_t)(real_slash - real) : 1;
     int length = slash == NULL || slash == path ? 1 : (int)(slash - path);
     snprintf(folder, size, "%.*s", length, slash == NULL ? "." : path);
-    char *resolved = realpath(folder, NULL);
-    if (resolved == NULL || strlen(resolved) != real_length || strncmp(resolved, real, real_length) != 0) {
+    char *place = place_of(folder, LINKS_MOST);
+    if (place == NULL || strlen(place) != real_length || strncmp(place, real, real_length) != 0) {
         snprintf(folder, size, "%.*s", (int)real_length, real);
     }
-    free(resolved);
+    free(place);
 }
 
 static bool is_allowed(const Eval *ev, const char *real)
@@ -142,6 +177,7 @@ static bool is_allowed(const Eval *ev, const char *real)
     return false;
 }
 
+// Says of a file that is there and of one that is not the same: whether there is one is not the scene's to know.
 static bool fault_outside(Eval *ev, const char *path, const char *real, Span span)
 {
     char folder[PATH_MAX];
@@ -153,6 +189,18 @@ static bool fault_outside(Eval *ev, const char *path, const char *real, Span spa
         diag_suggest(ev->options.diags, "pass `--allow-read %s` to allow it", folder);
     }
     return false;
+}
+
+// Reports a name that leads to no file, and out of the folders that may be read. A name that stays in the current folder
+// is more likely mistyped.
+static bool is_outside(Eval *ev, const char *name, Span span)
+{
+    char *place = place_of(name, LINKS_MOST), *current = realpath(".", NULL);
+    bool is_out = place != NULL && current != NULL && !lies_below(place, current) && !is_allowed(ev, place) &&
+                  !fault_outside(ev, name, place, span);
+    free(place);
+    free(current);
+    return is_out;
 }
 
 // A file that exists. The answer for a path holds until another is asked for, so that a file that is included a
@@ -169,13 +217,15 @@ static bool may_read(Eval *ev, const char *path, Span span)
                                : eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(errno));
     }
     bool is_below = is_allowed(ev, real) || fault_outside(ev, path, real, span);
-    free(real);
-    if (!is_below) {
-        return false;
-    }
     text_clear(&files->checked);
-    text_append(&files->checked, path);
-    return true;
+    text_clear(&files->real);
+    if (is_below) {
+        text_append(&files->checked, path);
+        text_append(&files->real, real);
+    }
+    free(real);
+    bool has_memory = !files->checked.failed && !files->real.failed;
+    return is_below && (has_memory || eval_no_memory(ev, span));
 }
 
 // ---- looking
@@ -233,7 +283,8 @@ bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there)
     text_init(&search.path);
     *is_there = find(ev, &search, NULL);
     bool fine = search_failed(ev, &search) ? eval_no_memory(ev, span)
-                                           : !*is_there || may_read(ev, text_get(&search.path), span);
+                : *is_there                ? may_read(ev, text_get(&search.path), span)
+                                           : !is_outside(ev, search.name, span);
     text_fini(&search.path);
     return fine;
 }
@@ -315,6 +366,9 @@ static void report_missing(Eval *ev, Search *search, FileUse use, const AstNode 
 {
     Span span = node->span;
     ev->include_is_missing = ev->include_is_missing || use == FILE_INCLUDE;
+    if (is_outside(ev, search->name, span)) {
+        return;
+    }
     if (eval_report(ev, DIAG_E0501, span, "%s `%s` not found", uses[use].what, search->name)) {
         if (!is_absolute(search->name)) {
             note_folders(ev);
@@ -343,6 +397,9 @@ static void report_result(Eval *ev, SourceResult result, const char *path, FileU
         eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(error_number));
         break;
     case SOURCE_IS_DIRECTORY: eval_fault(ev, DIAG_E0503, span, "`%s` is a directory, not a file", path); break;
+    case SOURCE_NOT_A_FILE:
+        eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: it is a pipe or a device, not a file", path);
+        break;
     case SOURCE_TOO_LARGE:
         if (eval_report(ev, DIAG_E0504, span, "with `%s` the scene reads more than %llu bytes of text", path,
                         (unsigned long long)ev->options.limits->text_bytes)) {
@@ -350,17 +407,19 @@ static void report_result(Eval *ev, SourceResult result, const char *path, FileU
         }
         ev->stop = true;
         break;
+    case SOURCE_TOO_MUCH: // files are not kept, but for those that the kernel makes while they are read
     case SOURCE_NO_MEMORY: eval_no_memory(ev, span); break;
     }
 }
 
+// Opens what may_read has just found readable.
 static bool open_found(Eval *ev, const char *path, FileUse use, Span span, Source **source)
 {
     int error_number = 0;
     uint64_t read = source_bytes_read(ev->options.sources);
     uint64_t limit = ev->options.limits->text_bytes;
-    SourceResult result = source_open_file(ev->options.sources, path, limit > read ? limit - read : 0, source,
-                                           &error_number);
+    SourceResult result = source_open_real(ev->options.sources, text_get(&ev->files->real), path,
+                                           limit > read ? limit - read : 0, source, &error_number);
     report_result(ev, result, path, use, error_number, span);
     return result == SOURCE_OK;
 }

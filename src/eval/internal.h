@@ -175,6 +175,7 @@ typedef struct Eval {
     TextBuffer line;              // of #debug, not ended yet
     CursorFrame *free_frames;     // for reuse, in the program arena
     uint64_t steps;
+    uint64_t message_bytes; // that were passed on
     uint64_t clear_count; // shapes that some light may go through
     bool has_unbalanced;          // a macro that is_unbalanced was defined
     unsigned splice_nesting;      // of fragments that are being parsed
@@ -250,6 +251,8 @@ void eval_frame_leave(Eval *ev);
 bool eval_cancelled(Eval *ev);
 // Counts a turn of a loop or a call; false, with `stop` set, when there were too many.
 bool eval_step(Eval *ev, Span span) RT_MUST_CHECK;
+// Counts work on so many bytes of strings as steps that take as long; false as eval_step.
+bool eval_work(Eval *ev, size_t bytes, Span span) RT_MUST_CHECK;
 // Reports that evaluation nests too deeply and sets `stop`; returns false.
 bool eval_too_deep(Eval *ev, Span span);
 

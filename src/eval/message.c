@@ -4,6 +4,8 @@
 // values.
 //
 // SPDX-License-Identifier: MIT
+#include <string.h>
+
 #include "eval/internal.h"
 
 // Measured: a line of more than 80 bytes is broken before the last blank or tab at 61 to 80, which begins the next
@@ -25,6 +27,7 @@ static size_t break_at(const char *text, size_t length)
 
 static void send(Eval *ev, EvalStream stream, const char *text, size_t length)
 {
+    ev->message_bytes += length;
     if (ev->options.message != NULL) {
         ev->options.message(ev->options.client, stream, text, length);
     }
@@ -32,18 +35,35 @@ static void send(Eval *ev, EvalStream stream, const char *text, size_t length)
 
 static void send_line(Eval *ev, EvalStream stream, const char *text, size_t length)
 {
+    char line[LINE_BREAK_LAST + 1];
     do {
         size_t part = break_at(text, length);
-        send(ev, stream, text, part);
-        send(ev, stream, "\n", 1);
+        memcpy(line, text, part);
+        line[part] = '\n';
+        send(ev, stream, line, part + 1);
         text += part;
         length -= part;
     } while (length > 0);
 }
 
+static void fault_many(Eval *ev, uint64_t most, Span span)
+{
+    char bytes[LIMITS_BYTES_TEXT];
+    limits_bytes_text(most, bytes);
+    if (eval_report(ev, DIAG_E0609, span, "more than %s of messages", bytes)) {
+        diag_suggest(ev->options.diags, "if all of them are wanted, `--max-messages` allows more");
+    }
+    ev->stop = true;
+}
+
 void message_write(Eval *ev, EvalStream stream, const char *text, size_t length, Span span)
 {
+    uint64_t most = ev->options.limits->message_bytes;
     for (size_t i = 0; i < length; i++) {
+        if (ev->message_bytes + ev->line.length >= most) {
+            fault_many(ev, most, span);
+            return;
+        }
         if (text[i] == '\n') {
             send_line(ev, stream, text_get(&ev->line), ev->line.length);
             text_clear(&ev->line);

@@ -10,6 +10,8 @@
 
 #include "eval/internal.h"
 
+enum { BYTES_A_STEP = 256 }; // of a string: as many are compared or copied in the time of a loop's turn
+
 enum { REPORTED_SLOTS_FIRST = 64 };
 
 const char *eval_text(const Eval *ev, Symbol symbol)
@@ -170,13 +172,13 @@ bool eval_cancelled(Eval *ev)
     return ev->stop;
 }
 
-bool eval_step(Eval *ev, Span span)
+static bool take_steps(Eval *ev, uint64_t steps, Span span)
 {
     if (RT_UNLIKELY(eval_cancelled(ev))) {
         return false;
     }
-    if (RT_LIKELY(ev->steps < ev->options.limits->steps)) {
-        ev->steps++;
+    if (RT_LIKELY(steps <= ev->options.limits->steps - ev->steps)) {
+        ev->steps += steps;
         return true;
     }
     if (eval_report(ev, DIAG_E0605, span, "more than %llu loop turns and calls of macros and functions",
@@ -186,6 +188,16 @@ bool eval_step(Eval *ev, Span span)
     }
     ev->stop = true;
     return false;
+}
+
+bool eval_step(Eval *ev, Span span)
+{
+    return take_steps(ev, 1, span);
+}
+
+bool eval_work(Eval *ev, size_t bytes, Span span)
+{
+    return take_steps(ev, bytes / BYTES_A_STEP, span);
 }
 
 bool eval_too_deep(Eval *ev, Span span)

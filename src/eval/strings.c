@@ -22,8 +22,23 @@ enum {
     SECONDS_A_DAY = 86400,
 };
 
+static bool fault_long(Eval *ev, const AstNode *node)
+{
+    char most[LIMITS_BYTES_TEXT];
+    limits_bytes_text(ev->options.limits->string_bytes, most);
+    eval_fault(ev, DIAG_E0610, node->span, "a string of more than %s", most);
+    ev->stop = true;
+    return false;
+}
+
 static bool give_string(Eval *ev, const AstNode *node, Value *value, const char *text, size_t length)
 {
+    if (length > ev->options.limits->string_bytes) {
+        return fault_long(ev, node);
+    }
+    if (!eval_work(ev, length, node->span)) {
+        return false;
+    }
     char *copy = arena_copy_text(&ev->scratch, text, length);
     if (copy == NULL) {
         return eval_no_memory(ev, node->span);
@@ -145,7 +160,9 @@ bool builtin_concat(Eval *ev, const AstNode *node, Value *value)
     text_init(&out);
     for (const AstNode *part = node->a; part != NULL; part = part->next) {
         Value string;
-        if (eval_string(ev, part, &string)) {
+        if (fine && out.length > ev->options.limits->string_bytes) {
+            fine = fault_long(ev, node);
+        } else if (eval_string(ev, part, &string)) {
             text_append_n(&out, string.text, string.length);
         } else {
             fine = false;
@@ -244,6 +261,9 @@ bool builtin_strcmp(Eval *ev, const AstNode *node, Value *value)
     size_t at = 0;
     while (one.text[at] != '\0' && one.text[at] == other.text[at]) {
         at++;
+    }
+    if (!eval_work(ev, at, node->span)) {
+        return false;
     }
     // As POV-Ray: how far the first bytes that differ are apart.
     *value = value_of_number((unsigned char)one.text[at] - (unsigned char)other.text[at]);

@@ -159,7 +159,7 @@ bool atomic_file_open(AtomicFile *file, const char *path, ImageError *error)
     bool in_place = true, opened;
     int code;
 
-    *file = (AtomicFile){.fd = -1};
+    *file = (AtomicFile){.fd = -1, .name = path};
     if (strcmp(path, "-") == 0) {
         file->fd = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
         opened = file->fd >= 0;
@@ -181,7 +181,7 @@ bool atomic_file_open(AtomicFile *file, const char *path, ImageError *error)
 
 static const char *file_label(const AtomicFile *file)
 {
-    return file->path != NULL ? file->path : "standard output";
+    return file->path != NULL ? file->name : "standard output";
 }
 
 bool atomic_file_write(const AtomicFile *file, const void *data, size_t length, ImageError *error)

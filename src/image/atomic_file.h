@@ -14,9 +14,10 @@
 #include "image/image.h"
 
 typedef struct AtomicFile {
-    int fd;          // open for writing
-    char *path;      // the destination, NULL for standard output; owned
-    char *temporary; // the name it has meanwhile, "" if none yet; NULL: written in place; owned
+    int fd;           // open for writing
+    const char *name; // as it was given, for messages; the caller's
+    char *path;       // the destination, NULL for standard output; owned
+    char *temporary;  // the name it has meanwhile, "" if none yet; NULL: written in place; owned
 } AtomicFile;
 
 // `path` `-` is standard output. All functions fill `error` on failure; a failed open needs no abandon.

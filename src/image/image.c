@@ -75,11 +75,8 @@ static ImageStatus format_find(const char *path, ImageDepth depth, char ending[s
     if (strcmp(ending, "png") == 0) {
         return depth == IMAGE_DEPTH_FLOAT ? IMAGE_BAD_DEPTH : IMAGE_OK;
     }
-    *module = module_load_oiio(error);
-    if (*module == NULL) {
-        return IMAGE_NO_MODULE;
-    }
-    return (*module)->check(ending, depth, error);
+    ImageStatus status = module_load_oiio(module, error);
+    return status == IMAGE_OK ? (*module)->check(ending, depth, error) : status;
 }
 
 // Whether the path's ending is one of these.

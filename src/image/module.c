@@ -10,7 +10,9 @@
 
 #include <dlfcn.h>
 #include <limits.h>
+#include <pthread.h>
 #include <stdio.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "base/install.h"
@@ -20,22 +22,52 @@
 typedef struct ModuleKind {
     const char *file, *symbol;
     unsigned version; // the first member of what the symbol names
+    size_t room;      // address space that its libraries want
 } ModuleKind;
 
-static const void *module_load_from(const char *folder, const ModuleKind *kind, ImageError *error)
+enum { ROOM_JPEG = 16 << 20, ROOM_OIIO = 512 << 20 };
+
+static void *do_nothing(void *argument)
+{
+    return argument;
+}
+
+// Whether there is room for libraries and a thread of theirs. Some start one as they are loaded, and abort the program
+// where they cannot: log4cplus does, which OpenImageIO 2.4 loads (450 MB of address space; 400 MB: SIGABRT).
+static bool has_room(size_t bytes)
+{
+    pthread_t thread;
+    void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) {
+        return false;
+    }
+    munmap(room, bytes);
+    return pthread_create(&thread, NULL, do_nothing, NULL) == 0 && pthread_join(thread, NULL) == 0;
+}
+
+static bool is_loaded(const char *path)
+{
+    void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
+    return handle != NULL && dlclose(handle) == 0;
+}
+
+static ImageStatus module_load_from(const char *folder, const ModuleKind *kind, const void **module, ImageError *error)
 {
     char path[PATH_MAX];
     const unsigned *version;
     void *handle;
 
     if (snprintf(path, sizeof path, "%s/%s", folder, kind->file) >= (int)sizeof path || access(path, R_OK) != 0) {
-        return NULL;
+        return IMAGE_NO_MODULE;
+    }
+    if (!is_loaded(path) && !has_room(kind->room)) {
+        return IMAGE_NO_MEMORY;
     }
     // Not unloaded: OpenImageIO keeps threads, and a handle is counted, not copied.
     handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (handle == NULL) {
         image_error_set(error, "%s", dlerror());
-        return NULL;
+        return IMAGE_NO_MODULE;
     }
     version = dlsym(handle, kind->symbol);
     if (version == NULL || *version != kind->version) {
@@ -43,43 +75,55 @@ static const void *module_load_from(const char *folder, const ModuleKind *kind, 
         version = NULL;
     }
     dlclose(handle);
-    return version;
+    *module = version;
+    return version != NULL ? IMAGE_OK : IMAGE_NO_MODULE;
 }
 
-static const void *module_load(const ModuleKind *kind, ImageError *error)
+static ImageStatus module_load(const ModuleKind *kind, const void **module, ImageError *error)
 {
-    const void *module = NULL;
+    ImageStatus status = IMAGE_NO_MODULE;
     char folder[PATH_MAX];
     TextBuffer places;
 
     text_init(&places);
     image_error_clear(error);
-    for (unsigned i = 0; i < INSTALL_PLACES && module == NULL; i++) {
+    for (unsigned i = 0; i < INSTALL_PLACES && status == IMAGE_NO_MODULE; i++) {
         if (install_place(INSTALL_MODULES, i, folder)) {
-            module = module_load_from(folder, kind, error);
+            status = module_load_from(folder, kind, module, error);
             text_printf(&places, "%s%s", places.length > 0 ? ", " : "", folder);
         }
     }
-    if (module != NULL) {
+    if (status != IMAGE_NO_MODULE) {
         image_error_clear(error);
     } else if (error->detail[0] == '\0') {
         image_error_set(error, "no %s in %s", kind->file, text_get(&places));
     }
     text_fini(&places);
-    return module;
+    return status;
 }
 
-const JpegModule *module_load_jpeg(ImageError *error)
+ImageStatus module_load_jpeg(const JpegModule **module, ImageError *error)
 {
-    return module_load(&(ModuleKind){JPEG_MODULE_FILE, JPEG_MODULE_SYMBOL, JPEG_MODULE_VERSION}, error);
+    const void *found = NULL;
+    ImageStatus status = module_load(&(ModuleKind){JPEG_MODULE_FILE, JPEG_MODULE_SYMBOL, JPEG_MODULE_VERSION, ROOM_JPEG},
+                                     &found, error);
+
+    *module = found;
+    return status;
 }
 
-const OiioModule *module_load_oiio(ImageError *error)
+ImageStatus module_load_oiio(const OiioModule **module, ImageError *error)
 {
+    *module = NULL;
 #ifdef WITH_OPENIMAGEIO
-    return module_load(&(ModuleKind){OIIO_MODULE_FILE, OIIO_MODULE_SYMBOL, OIIO_MODULE_VERSION}, error);
+    const void *found = NULL;
+    ImageStatus status = module_load(&(ModuleKind){OIIO_MODULE_FILE, OIIO_MODULE_SYMBOL, OIIO_MODULE_VERSION, ROOM_OIIO},
+                                     &found, error);
+
+    *module = found;
+    return status;
 #else
     image_error_set(error, "this rtlang was built without it");
-    return NULL;
+    return IMAGE_NO_MODULE;
 #endif
 }

@@ -60,9 +60,10 @@ static FILE *open_readable(const char *path, ImageError *error)
 
 static ImageStatus read_jpeg(FILE *stream, const PictureLimit *limit, PictureFile *file, ImageError *error)
 {
-    const JpegModule *module = module_load_jpeg(error);
+    const JpegModule *module;
+    ImageStatus status = module_load_jpeg(&module, error);
 
-    return module == NULL ? IMAGE_NO_MODULE : module->read(stream, limit, picture_file_allocate, file, error);
+    return status != IMAGE_OK ? status : module->read(stream, limit, picture_file_allocate, file, error);
 }
 
 typedef ImageStatus (*StreamRead)(FILE *, const PictureLimit *, PictureFile *, ImageError *);
@@ -127,9 +128,10 @@ static size_t place_found(FILE *stream)
 static ImageStatus read_by_module(const char *path, const char *name, const PictureLimit *limit, PictureFile *file,
                                   ImageError *error)
 {
-    const OiioModule *module = module_load_oiio(error);
+    const OiioModule *module;
+    ImageStatus status = module_load_oiio(&module, error);
 
-    return module == NULL ? IMAGE_NO_MODULE : module->read(path, name, limit, picture_file_allocate, file, error);
+    return status != IMAGE_OK ? status : module->read(path, name, limit, picture_file_allocate, file, error);
 }
 
 ImageStatus picture_file_read(const char *path, const char *format, const PictureLimit *limit, PictureFile *file,

@@ -3,8 +3,8 @@
 //     == name of the case
 //     the program
 //     -- file lib/x.inc        a file beside it, before the expectations; lib/ is on the include path
-//     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth, objects or
-//                              text_bytes
+//     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth, objects,
+//                              text_bytes, message_bytes or string_bytes
 //     -- declare N 5           a number declared before the scene begins, as with -D
 //     -- warning all           which warnings are told, as after -W; may repeat
 //     -- validate              the scene as a whole is looked at, too, as before it is traced
@@ -140,6 +140,10 @@ static void set_limit(Limits *limits, const char *setting)
         limits->call_depth = value;
     } else if (strcmp(name, "include_depth") == 0) {
         limits->include_depth = value;
+    } else if (strcmp(name, "message_bytes") == 0) {
+        limits->message_bytes = value;
+    } else if (strcmp(name, "string_bytes") == 0) {
+        limits->string_bytes = value;
     } else if (strcmp(name, "text_bytes") == 0) {
         limits->text_bytes = value;
     } else if (strcmp(name, "objects") == 0) {

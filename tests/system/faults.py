@@ -59,7 +59,11 @@ sphere { 0, 1 pigment { rgb "red" } }
 #include "../outside.txt"
 #fopen File "link.txt" read
 #if (file_exists("/etc/passwd")) #end
+#include "/etc/no such file"
+#fopen File "dangling.txt" read
+#if (file_exists("/no such folder/x")) #end
 """,
+    "pipe_included": b'#include "pipe.inc"\n',
     "error_directive": b'#error "stop here"\n',
     "messages": b'#debug "one\\n"\n#warning "two"\n#debug "three\\n"\n' + GOOD,
 }
@@ -77,6 +81,7 @@ FILES = {
     "away.scn": b"camera { location -5*z look_at -9*z }\nlight_source { 9, 1 }\nsphere { 0, 1 }\nbox { 1, 2 }\nplane { z, 3 }\n",
     "beside.scn": b"camera { orthographic location <9, 0, -5> right 4*x up 3*y }\nlight_source { 9, 1 }\nsphere { 0, 1 }\n",
     "fixed.scn": GOOD.replace(b"look_at 0", b"look_at 0 right 4/3*x"),
+    "talks.scn": b'#while (1) #debug "again\\n" #end\n',
     "good.scn": GOOD,
     "loop_a.inc": b'#include "loop_b.inc"\n',
     "loop_b.inc": b'#include "loop_a.inc"\n',
@@ -134,6 +139,8 @@ COMMANDS = {
     "limit_objects": ["--max-objects=1000", "--check", "many.scn"],
     "limit_text": ["--max-text=30", "--check", "many.scn"],
     "limit_memory": ["--max-memory=2M", "--check", "many.scn"],
+    "limit_memory_device": ["--max-memory=1M", "--check", "/dev/zero"],
+    "limit_messages": ["--max-messages=100", "--check", "talks.scn"],
     "limit_memory_picture": ["-W", "65535", "-H", "65535", "--max-memory=8G", "-o", "x.png", "good.scn"],
     "limit_memory_shapes": ["-W", "8", "-H", "8", "--max-memory=16M", "-o", "x.png", "many.scn"],
     "limit_zero": ["--max-steps=0", "good.scn"],

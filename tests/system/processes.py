@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: MIT
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -112,11 +113,9 @@ def tests(tap, program):
         write("endless.scn", b"#while (1) #end\n")
         write("long.scn", b"sphere { 0, 1 }\n" * 2000000)
         write("block.scn", b"union {\n" + b"sphere { 0, 1 }\n" * 2000000 + b"}\n")
-        os.mkfifo("pipe.inc")
-        write("waits.scn", b'#include "pipe.inc"\n')
+        os.mkfifo("waits.scn")
         cases = [["--check", "--max-steps=1000000000000", "endless.scn"], ["--check", "long.scn"],
-                 ["--check", "block.scn"], ["--dump=ast", "long.scn"], ["--check", "-"], ["--check", "pipe.inc"],
-                 ["--check", "waits.scn"]]
+                 ["--check", "block.scn"], ["--dump=ast", "long.scn"], ["--check", "-"], ["--check", "waits.scn"]]
         for arguments in cases:
             for number, code in (signal.SIGINT, 130), (signal.SIGTERM, 143):
                 process = subprocess.Popen([program, *arguments], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
@@ -177,5 +176,31 @@ def tests(tap, program):
         short = subprocess.run([*command, f"--max-memory={needs - 1}"], stderr=subprocess.PIPE, check=False)
         tap.ok(short.returncode == 4 and b"E0607" in short.stderr, "and less does not", short.stderr)
 
+    def limited(which, most, *arguments):
+        return subprocess.run([program, "-q", *arguments], stderr=subprocess.PIPE, check=False,
+                              preexec_fn=lambda: resource.setrlimit(which, (most, most)))
+
+    def test_limits_of_the_shell():
+        write("limited.scn", QUICK)
+        write("kept.png", OLD_PICTURE)
+        before = set(os.listdir())
+        done = limited(resource.RLIMIT_FSIZE, 1024, "-W800", "-H600", "-o", "kept.png", "limited.scn")
+        tap.equal((done.returncode, done.stderr, read("kept.png"), set(os.listdir()) - before),
+                  (3, b"rtlang: error[E0505]: cannot write `kept.png`: File too large\n", OLD_PICTURE, set()),
+                  "ulimit -f: a message, the old picture, and nothing left over")
+        if limited(resource.RLIMIT_AS, 400 << 20, "--version").returncode != 0:
+            tap.skip("ulimit -v", "a sanitizer wants more")
+            return
+        done = limited(resource.RLIMIT_AS, 400 << 20, "-W8", "-H8", "-o", "limited.exr", "limited.scn")
+        said = done.stderr.decode()
+        if "E0507" in said:
+            tap.skip("ulimit -v and a format of OpenImageIO's", "built without OpenImageIO")
+        else:
+            tap.ok(done.returncode == 4 and "E0602" in said, "ulimit -v and a format of OpenImageIO's", said)
+        write("grows.scn", b"#declare N = 1000;\n#while (1) #declare A = array[N]; #for (I, 0, N-1) #declare A[I]=I; #end\n"
+                           b"#declare N = N*2; #end\n")
+        done = limited(resource.RLIMIT_AS, 400 << 20, "--check", "grows.scn")
+        tap.ok(done.returncode == 4 and b"E0607" in done.stderr, "ulimit -v is the limit of memory", done.stderr)
+
     return [test_kill, test_kill_at_any_time, test_interrupt, test_interrupt_in_json, test_signals, test_endless_ray,
-            test_progress, test_million_spheres, test_budget]
+            test_progress, test_million_spheres, test_budget, test_limits_of_the_shell]

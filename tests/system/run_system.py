@@ -94,6 +94,8 @@ def test_messages():
     os.mkdir("folder.png")
     os.symlink("/dev/full", "full.png")
     os.symlink("/etc/passwd", "link.txt")
+    os.symlink("/etc/no such file", "dangling.txt")
+    os.mkfifo("pipe.inc")
     write("../outside.txt", b"1")
     write("old.png", OLD_PICTURE)
     for name, scene in faults.SCENES.items():
@@ -328,7 +330,7 @@ def test_actions():
     tap.ok(version.returncode == 0 and re.fullmatch(rb"rtlang \d+\.\d+\.\d+\n", version.stdout), "--version", version)
     usage = rtlang("--help")
     tap.equal((usage.returncode, usage.stderr), (0, b""), "--help")
-    options = "clock allow-read max-steps max-depth max-objects max-text max-memory output width height threads " \
+    options = "clock allow-read max-steps max-depth max-objects max-text max-memory max-messages output width height threads " \
         "include-path declare depth file-gamma check dump quiet version help"
     for option in options.split():
         tap.ok(b"--" + option.encode() in usage.stdout, "--help tells of --" + option)

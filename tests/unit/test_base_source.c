@@ -70,6 +70,29 @@ static void test_open_failures(void)
                source_open_file(map, loop.text, NO_LIMIT, &source, &error_number) == SOURCE_NOT_READABLE &&
                error_number == ELOOP,
            "a link to itself cannot be read");
+    Path link = path_of("link"), below = path_of("link/ten");
+    char *real = realpath(file.text, NULL), *real_folder = realpath(folder, NULL);
+    tap_ok(real != NULL && source_open_real(map, real, "name", 9, &source, &error_number) == SOURCE_TOO_LARGE,
+           "a real path is opened");
+    tap_ok(real_folder != NULL && symlink(real_folder, link.text) == 0 &&
+               source_open_real(map, below.text, "name", NO_LIMIT, &source, &error_number) == SOURCE_NOT_FOUND &&
+               error_number == ENOTDIR,
+           "a part that has become a link is not followed");
+    unlink(link.text);
+    tap_ok(symlink(real, link.text) == 0 &&
+               source_open_real(map, link.text, "name", NO_LIMIT, &source, &error_number) == SOURCE_NOT_READABLE &&
+               error_number == ELOOP,
+           "nor is the last one");
+    unlink(link.text);
+    tap_ok(mkfifo(link.text, 0600) == 0 &&
+               source_open_real(map, link.text, "name", NO_LIMIT, &source, &error_number) == SOURCE_NOT_A_FILE,
+           "and a pipe is not waited for");
+    unlink(link.text);
+    free(real);
+    free(real_folder);
+    source_map_set_memory(map, 1 << 20);
+    tap_ok(source_open_file(map, "/dev/zero", NO_LIMIT, &source, &error_number) == SOURCE_TOO_MUCH && !source,
+           "what must be kept has a limit of its own");
     tap_ok(source_open_file(map, file.text, 10, &source, &error_number) == SOURCE_OK && source && error_number == 0,
            "as large as the limit is fine");
     tap_ok(source_base(source) == 1, "a failure takes no numbers");
