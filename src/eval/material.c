@@ -225,6 +225,7 @@ bool texture_hides_all(const TextureBlueprint *texture)
            texture->pigment.colour.filter == 0.0 && texture->pigment.colour.transmit == 0.0;
 }
 
+// `ways` is NULL for a layer below another, which was checked and counted with the top.
 static bool add_one_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
                             uint32_t *index, unsigned *ways)
 {
@@ -247,13 +248,14 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
         }
         return scene_add_texture(builder->ev->scene, &record, index) || no_memory(builder);
     }
-    unsigned unused;
-    *ways = layers_ways(texture);
-    if (!layers_have_patterns(builder->ev, texture) ||
+    if (ways != NULL) {
+        *ways = layers_ways(texture);
+    }
+    if ((ways != NULL && !layers_have_patterns(builder->ev, texture)) ||
         !add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
         (has_bumps(texture) && !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
         (texture->below && !texture_hides_all(texture) &&
-         !add_texture(builder, texture->below, &moved, &record.below, &unused))) {
+         !add_texture(builder, texture->below, &moved, &record.below, NULL))) {
         return false;
     }
     return scene_add_texture(builder->ev->scene, &record, index) || no_memory(builder);
