@@ -233,11 +233,11 @@ static void report_status(rt_session *session, const Picture *picture, const Pic
     }
 }
 
-static bool picture_load(rt_session *session, size_t index)
+static bool picture_load(rt_session *session, Scene *scene, size_t index)
 {
-    const PictureSource *source = &session->scene.picture_sources.items[index];
-    Picture *picture = &session->scene.pictures.items[index];
-    uint64_t used = scene_bytes(&session->scene), most = session->limits.memory_bytes;
+    const PictureSource *source = &scene->picture_sources.items[index];
+    Picture *picture = &scene->pictures.items[index];
+    uint64_t used = scene_bytes(scene), most = session->limits.memory_bytes;
     PictureLimit limit = {.pixels = UINT64_MAX, .bytes = most > used ? most - used : 0};
     PictureFile file;
     ImageError error;
@@ -264,9 +264,8 @@ static bool picture_load(rt_session *session, size_t index)
 }
 
 // Places that `filter` and `transmit` name must be in the palette.
-static bool check_shades(rt_session *session, const ImageMap *map)
+static bool check_shades(rt_session *session, const Scene *scene, const ImageMap *map)
 {
-    const Scene *scene = &session->scene;
     const Picture *picture = &scene->pictures.items[map->picture];
     for (uint32_t i = map->shades; i != RECORD_NONE; i = scene->picture_shades.items[i].next) {
         const PictureShade *shade = &scene->picture_shades.items[i];
@@ -286,14 +285,14 @@ static bool check_shades(rt_session *session, const ImageMap *map)
     return true;
 }
 
-bool session_load_pictures(rt_session *session)
+bool session_load_pictures(rt_session *session, Scene *scene)
 {
     bool fine = true;
-    for (size_t i = 0; fine && i < session->scene.pictures.count; i++) {
-        fine = picture_load(session, i) && !atomic_load(&session->cancel);
+    for (size_t i = 0; fine && i < scene->pictures.count; i++) {
+        fine = picture_load(session, scene, i) && !atomic_load(&session->cancel);
     }
-    for (size_t i = 0; fine && i < session->scene.image_maps.count; i++) {
-        fine = check_shades(session, &session->scene.image_maps.items[i]);
+    for (size_t i = 0; fine && i < scene->image_maps.count; i++) {
+        fine = check_shades(session, scene, &scene->image_maps.items[i]);
     }
     return fine;
 }

@@ -17,6 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "api/painter.h"
 #include "api/probe.h"
 #include "ast/words.h"
 #include "base/machine.h"
@@ -196,6 +197,11 @@ static void forward_message(void *client, EvalStream stream, const char *text, s
     session_say(session, streams[stream], text, length);
 }
 
+static bool load_pictures(void *client, Scene *scene)
+{
+    return session_load_pictures(client, scene);
+}
+
 static rt_status load(rt_session *session, void *argument)
 {
     Source *source = argument;
@@ -219,6 +225,8 @@ static rt_status load(rt_session *session, void *argument)
         .no_literals = session->no_literals,
         .threads = session->load_threads > 0 ? session->load_threads : render_default_threads(),
         .tracer = &probe_tracer,
+        .painter = &painter,
+        .load_pictures = load_pictures,
         .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,
@@ -231,7 +239,7 @@ static rt_status load(rt_session *session, void *argument)
     if (fine) {
         scene_hint_of_view(&session->scene, session->width, session->height, &session->diags);
     }
-    fine = fine && session->diags.error_count == 0 && session_load_pictures(session);
+    fine = fine && session->diags.error_count == 0 && session_load_pictures(session, &session->scene);
     diag_finish(&session->diags);
     session->loaded = fine;
     return session_status(session, fine);

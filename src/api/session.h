@@ -141,8 +141,8 @@ static inline int session_film_height(const rt_session *session)
     return session->crop.width ? session->crop.height : session->height;
 }
 
-// Reads the pictures that the scene uses; reports the first that cannot be.
-bool session_load_pictures(rt_session *session);
+// Reads the pictures that a scene uses; reports the first that cannot be.
+bool session_load_pictures(rt_session *session, Scene *scene);
 
 // Opens a scene file; reports why not.
 bool session_open(rt_session *session, const char *path, Source **source);

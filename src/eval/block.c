@@ -58,6 +58,7 @@ static const BlockHook closings[KIND_COUNT] = {
     [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
     [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close, [KIND_DISC] = disc_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
+    [KIND_PATTERN] = pattern_close,
     [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
     [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close, [KIND_NORMAL] = normal_close,
     [KIND_IMAGE_MAP] = image_close, [KIND_LIGHT_SOURCE] = light_close,
@@ -505,7 +506,8 @@ static bool may_stand_here(Block *block, const SchemaProperty *property, const A
         return block_fault(block, DIAG_E0255, item->span, "`%s` cannot follow an identifier in %s: only transforms can",
                            property->word, block_word(block));
     }
-    bool is_patterned = block->kind == KIND_TEXTURE || block->kind == KIND_PIGMENT || block->kind == KIND_NORMAL;
+    bool is_patterned = block->kind == KIND_TEXTURE || block->kind == KIND_PIGMENT || block->kind == KIND_NORMAL ||
+                        block->kind == KIND_PATTERN;
     if (is_patterned && !pattern_allows(block, property, item)) {
         return false;
     }

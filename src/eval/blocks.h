@@ -82,6 +82,9 @@ bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Bl
 // The same, with an object moved before what is said of it after its shape or name. NULL: it is not.
 bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
                       Blueprint *record, SchemaKind *is) RT_MUST_CHECK;
+// The block, read into *record as by block_read, becomes a value that is kept for the whole program; what rtlang has not
+// becomes one that is a fault where it is used.
+bool block_read_declared(Eval *ev, const AstNode *node, SchemaKind kind, Blueprint *record, Value *value) RT_MUST_CHECK;
 // Transforms what has been read of a block so far.
 bool block_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 // The kind that a word begins, KIND_NONE when it begins none.
@@ -159,8 +162,8 @@ static inline bool normal_lacks_pattern(const NormalBlueprint *normal)
 bool block_begins_like_colour(Block *block, const AstNode *item);
 
 // material.c
-// The scene's record of a pigment that is moved by `outer`.
-bool pigment_place(Eval *ev, const PigmentBlueprint *pigment, const Transform *outer, Span span,
+// A scene's record of a pigment that is moved by `outer`.
+bool pigment_place(Eval *ev, Scene *scene, const PigmentBlueprint *pigment, const Transform *outer, Span span,
                    Pigment *out) RT_MUST_CHECK;
 // True when nothing below a texture can be seen: it is of one colour that lets no light through.
 bool texture_hides_all(const TextureBlueprint *texture);
@@ -215,8 +218,8 @@ bool image_map_action(Block *block, const SchemaProperty *property, const AstNod
 bool image_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool image_body(Block *block) RT_MUST_CHECK; // of image_map
 bool image_close(Block *block) RT_MUST_CHECK;
-// The scene's record of a picture that is laid over something.
-bool image_place(Eval *ev, const ImageBlueprint *image, uint32_t *index) RT_MUST_CHECK;
+// A scene's record of a picture that is laid over something.
+bool image_place(Eval *ev, Scene *scene, const ImageBlueprint *image, uint32_t *index) RT_MUST_CHECK;
 
 // settings.c
 // A gamma after its word, whose name and place are for messages: a number, or `srgb`, which leaves *gamma as it is.

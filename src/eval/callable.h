@@ -41,7 +41,14 @@ void spline_at(const Spline *spline, SplineType type, double t, double v[5]);
 
 enum { FUNCTION_SLOTS_MAX = 56 }; // parameters and variables of sums at one place, as in POV-Ray
 
-typedef enum FunctionKind { FUNCTION_NUMBER, FUNCTION_TRANSFORM, FUNCTION_SPLINE, FUNCTION_UNSUPPORTED } FunctionKind;
+typedef enum FunctionKind {
+    FUNCTION_NUMBER,
+    FUNCTION_TRANSFORM,
+    FUNCTION_SPLINE,
+    FUNCTION_PATTERN,
+    FUNCTION_PIGMENT,
+    FUNCTION_UNSUPPORTED,
+} FunctionKind;
 
 typedef struct FunctionNode FunctionNode;
 
@@ -77,6 +84,7 @@ struct Function {
     const FunctionNode *body; // FUNCTION_NUMBER
     const Spline *spline;     // FUNCTION_SPLINE
     Transform transform;      // FUNCTION_TRANSFORM
+    struct Painted *painted;  // FUNCTION_PATTERN, FUNCTION_PIGMENT
 };
 
 // A body while it is compiled. u and v are called x and y here.

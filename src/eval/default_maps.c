@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
 
-#define AT_VALUE(value, red, green, blue) {.at = (value), .colour = {red, green, blue, 0.0, 0.0}}
+#define AT_VALUE(value, red, green, blue) {.at = (float)(value), .colour = {red, green, blue, 0.0, 0.0}}
 
 static const PatternEntry grey[] = {AT_VALUE(0.0, 0.0, 0.0, 0.0), AT_VALUE(1.0, 1.0, 1.0, 1.0)};
 static const PatternEntry radial[] = {AT_VALUE(0.0, 0.0, 1.0, 1.0), AT_VALUE(0.333, 1.0, 1.0, 0.0),

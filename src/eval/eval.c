@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "eval/blocks.h"
+#include "eval/painted.h"
 #include "eval/probe.h"
 
 // Levels of native recursion for each level that a text may nest: room for calls within calls.
@@ -154,6 +155,7 @@ static void fini(Eval *ev)
     data_files_fini(ev);
     files_fini(ev);
     probes_fini(ev);
+    painted_fini(ev);
     scope_fini(ev);
     text_fini(&ev->line);
     ARRAY_FREE(&ev->streams);

@@ -18,6 +18,7 @@
 #include "base/library.h"
 #include "base/limits.h"
 #include "base/source.h"
+#include "math/noise.h"
 #include "scene/scene.h"
 
 typedef enum EvalStream {
@@ -63,6 +64,17 @@ typedef struct EvalTracer {
     void (*close)(void *opened);
 } EvalTracer;
 
+// What patterns and pigments are at points, which the evaluator itself must not know.
+typedef struct EvalPainter {
+    // A scene of pigments, whose pictures are read; NULL when out of memory. It stays as it is until `close`, and the
+    // noise stays valid as long.
+    void *(*open)(const Scene *pigments, const Noise *noise);
+    // Of a pigment that is a pattern, its value alone. The generator is that of patterns that say nothing else.
+    double (*value)(void *opened, const Pigment *pigment, NoiseGenerator generator, Vec3 point);
+    Rgbft (*colour)(void *opened, const Pigment *pigment, NoiseGenerator generator, Vec3 point);
+    void (*close)(void *opened);
+} EvalPainter;
+
 typedef struct EvalOptions {
     SourceMap *sources;
     InternTable *names; // reserved words interned
@@ -83,6 +95,8 @@ typedef struct EvalOptions {
     int threads;               // for long runs of such statements; 0 and 1: the caller's alone
     size_t literal_piece;      // bytes of text that each of these takes at a time; 0: as is best
     const EvalTracer *tracer;  // for `trace`; NULL: there is none
+    const EvalPainter *painter; // for functions of patterns and pigments; NULL: there is none
+    bool (*load_pictures)(void *client, Scene *scene); // of these; false after a fault; NULL: none are read
     EvalNames *declared;       // set in the end; may be NULL
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console

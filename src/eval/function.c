@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
 #include "eval/callable.h"
+#include "eval/painted.h"
 
 static bool fault_parameter(FunctionBody *body, const AstNode *node, const char *why)
 {
@@ -97,6 +98,21 @@ static bool make_spline(Eval *ev, const AstNode *block, Function *function)
     return true;
 }
 
+static bool make_painted(Eval *ev, const AstNode *block, Function *function)
+{
+    const char *unsupported = NULL;
+    function->kind = block->symbol == W_pattern ? FUNCTION_PATTERN : FUNCTION_PIGMENT;
+    function->parameter_count = 3;
+    if (!painted_create(ev, block, &function->painted, &unsupported)) {
+        return false;
+    }
+    if (unsupported != NULL) {
+        function->kind = FUNCTION_UNSUPPORTED;
+        function->word = unsupported;
+    }
+    return true;
+}
+
 static bool make_of_block(Eval *ev, const AstNode *node, Function *function)
 {
     const AstNode *block = node->b;
@@ -106,18 +122,14 @@ static bool make_of_block(Eval *ev, const AstNode *node, Function *function)
         return eval_fault(ev, DIAG_E0261, block->span, "`%s` cannot stand in the body of a function",
                           eval_text(ev, block->symbol));
     }
-    bool is_image = node->a != NULL && node->a->kind == AST_NUMBER;
-    if (node->a != NULL && !is_image) {
+    if (node->a != NULL) {
         return eval_fault(ev, DIAG_E0260, node->a->span, "a function of a `%s` takes no list of parameters",
                           eval_text(ev, block->symbol));
     }
     switch (block->symbol) {
     case W_transform: return make_transform(ev, block, function);
     case W_spline: return make_spline(ev, block, function);
-    default:
-        function->kind = FUNCTION_UNSUPPORTED;
-        function->word = eval_text(ev, block->symbol);
-        return true;
+    default: return make_painted(ev, block, function);
     }
 }
 

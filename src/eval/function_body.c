@@ -346,6 +346,17 @@ static FunctionNode *compile_builtin(Compiler *compiler, const AstNode *node)
     return compile_arguments(compiler, node->a, kept);
 }
 
+// Two more than vectors have elsewhere.
+static bool component_of(const Eval *ev, const Function *function, Symbol name, unsigned *component)
+{
+    const char *word = eval_text(ev, name);
+    if (function->kind == FUNCTION_PIGMENT && strcmp(word, "hf") == 0) {
+        *component = COMPONENT_HEIGHT;
+        return true;
+    }
+    return value_component(strcmp(word, "grey") == 0 ? W_gray : name, function_width(function), component);
+}
+
 static FunctionNode *call_node(Compiler *compiler, const AstNode *call, const Function *function, const AstNode *member)
 {
     Eval *ev = compiler->ev;
@@ -361,13 +372,14 @@ static FunctionNode *call_node(Compiler *compiler, const AstNode *call, const Fu
         call_fault_count(ev, call, "function", function->parameter_count);
         return NULL;
     }
-    if (function->kind != FUNCTION_NUMBER && member == NULL) {
+    bool is_vector = function_width(function) > 1;
+    if (is_vector && member == NULL) {
         return fault_body(compiler, call, "a vector", "take one component of it, as in `F(x, y, z).x`");
     }
-    if (function->kind == FUNCTION_NUMBER && member != NULL) {
+    if (!is_vector && member != NULL) {
         return fault_body(compiler, member, "a component of a number", NULL);
     }
-    if (member != NULL && !value_component(member->symbol, function_width(function), &component)) {
+    if (member != NULL && !component_of(ev, function, member->symbol, &component)) {
         eval_fault(ev, DIAG_E0204, member->span, "a vector of %u has no component `%s`", function_width(function),
                    eval_text(ev, member->symbol));
         return NULL;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "eval/callable.h"
+#include "eval/painted.h"
 
 static double value_of(const FunctionNode *node, FunctionRun *run)
 {
@@ -182,10 +183,15 @@ bool function_builtin(Word word, FunctionNode *node, unsigned *least, unsigned *
 
 unsigned function_width(const Function *function)
 {
-    if (function->kind == FUNCTION_SPLINE) {
-        return function->spline->components;
+    switch (function->kind) {
+    case FUNCTION_SPLINE: return function->spline->components;
+    case FUNCTION_TRANSFORM: return 3;
+    case FUNCTION_PIGMENT: return 5;
+    case FUNCTION_NUMBER:
+    case FUNCTION_PATTERN:
+    case FUNCTION_UNSUPPORTED: break;
     }
-    return function->kind == FUNCTION_TRANSFORM ? 3 : 1;
+    return 1;
 }
 
 static bool run_body(Eval *ev, const Function *function, const double *arguments, Span span, double *number)
@@ -201,25 +207,28 @@ static bool run_body(Eval *ev, const Function *function, const double *arguments
     return !ev->stop;
 }
 
-static void apply_vector(const Function *function, const double *arguments, double v[5])
+static bool apply_made(Eval *ev, const Function *function, const double *arguments, Span span, double v[5])
 {
+    if (function->painted != NULL) {
+        return painted_at(ev, function->painted, arguments, span, v);
+    }
     if (function->kind == FUNCTION_SPLINE) {
         spline_at(function->spline, function->spline->type, arguments[0], v);
-        return;
+        return true;
     }
     Vec3 point = transform_point(&function->transform, vec3(arguments[0], arguments[1], arguments[2]));
     v[0] = point.x;
     v[1] = point.y;
     v[2] = point.z;
     v[3] = v[4] = 0.0;
+    return true;
 }
 
 // The height of the body counts all calls inside it, so no call further in needs to be counted.
 unsigned function_apply(Eval *ev, const Function *function, const double *arguments, Span span, double v[5])
 {
     if (function->kind != FUNCTION_NUMBER) {
-        apply_vector(function, arguments, v);
-        return function_width(function);
+        return apply_made(ev, function, arguments, span, v) ? function_width(function) : 0;
     }
     if (!eval_deepen(ev, function->body->height, span)) {
         return 0;
@@ -227,6 +236,12 @@ unsigned function_apply(Eval *ev, const Function *function, const double *argume
     bool fine = run_body(ev, function, arguments, span, v);
     eval_shallow(ev, function->body->height);
     return fine ? 1 : 0;
+}
+
+// The manual's formula, 2.2.2.5.4 "Pigment Functions".
+static double height_of(const double v[5])
+{
+    return (v[0] + v[1] / 255.0) * 0.996093;
 }
 
 double function_run_call(const FunctionNode *node, FunctionRun *run)
@@ -239,6 +254,12 @@ double function_run_call(const FunctionNode *node, FunctionRun *run)
     if (node->function->kind == FUNCTION_NUMBER) {
         return run_body(run->ev, node->function, arguments, run->span, v) ? v[0] : 0.0;
     }
-    apply_vector(node->function, arguments, v);
-    return node->slot == COMPONENT_GRAY ? number_gray(v) : v[node->slot];
+    if (!apply_made(run->ev, node->function, arguments, run->span, v)) {
+        return 0.0;
+    }
+    switch (node->slot) {
+    case COMPONENT_GRAY: return number_gray(v);
+    case COMPONENT_HEIGHT: return height_of(v);
+    default: return v[node->slot];
+    }
 }

@@ -215,18 +215,18 @@ bool image_close(Block *block)
            block_fault(block, DIAG_E0253, block->node->span, "`%s` needs the name of an image file", block_word(block));
 }
 
-bool image_place(Eval *ev, const ImageBlueprint *image, uint32_t *index)
+bool image_place(Eval *ev, Scene *scene, const ImageBlueprint *image, uint32_t *index)
 {
     ImageMap map = image->map;
     map.shades = RECORD_NONE;
     for (size_t i = image->shade_count; i-- > 0;) {
         PictureShade shade = image->shades[i];
         shade.next = map.shades;
-        if (!scene_add_picture_shade(ev->scene, &shade, &map.shades)) {
+        if (!scene_add_picture_shade(scene, &shade, &map.shades)) {
             return eval_no_memory(ev, image->span);
         }
     }
-    return (scene_add_picture(ev->scene, &image->source, image->span, &map.picture) &&
-            scene_add_image_map(ev->scene, &map, index)) ||
+    return (scene_add_picture(scene, &image->source, image->span, &map.picture) &&
+            scene_add_image_map(scene, &map, index)) ||
            eval_no_memory(ev, image->span);
 }

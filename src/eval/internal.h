@@ -181,6 +181,8 @@ typedef struct Eval {
     unsigned splice_nesting;      // of fragments that are being parsed
     size_t repeated_reports;         // of what was reported at its place before
     ARRAY(struct Probe *) probes; // objects that were traced, see probe.c
+    ARRAY(struct Painted *) painted; // functions of patterns and pigments, see painted.c
+    size_t painted_bytes;         // of their pictures
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     LiteralWatch literal;
@@ -435,7 +437,7 @@ double number_radians(double degrees);
 double number_gray(const double v[3]);
 
 // The place of a component in a tuple of `width` components, COMPONENT_GRAY for `gray`; false when it has none.
-enum { COMPONENT_GRAY = 5 };
+enum { COMPONENT_GRAY = 5, COMPONENT_HEIGHT = 6 }; // the last one: `hf`, in the body of a function
 bool value_component(Symbol name, unsigned width, unsigned *component);
 
 // ---- the initialisers of arrays (array.c)

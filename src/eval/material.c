@@ -11,6 +11,7 @@ enum { TREE_DEPTH_WEIGHT = 2 }; // of native recursion, see eval_deepen
 
 typedef struct Builder {
     Eval *ev;
+    Scene *scene;
     Span span; // of the object that needs the texture
 } Builder;
 
@@ -49,7 +50,7 @@ static bool add_pigment_entries(const Builder *builder, const PatternMap *map, u
             (from->pigment && !add_pigment(builder, from->pigment, &identity, &entry.pigment))) {
             return false;
         }
-        if (!scene_add_pigment_entry(builder->ev->scene, &entry, first)) {
+        if (!scene_add_pigment_entry(builder->scene, &entry, first)) {
             return no_memory(builder);
         }
     }
@@ -63,14 +64,14 @@ static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigmen
     bool is_picture = part->pattern.type == PATTERN_IMAGE_MAP;
     PatternedPigment record = {.pattern = part->pattern, .entries = RECORD_NONE};
     if (!place_pattern(builder, &part->transform, outer, &record.to_world) ||
-        (is_picture && !image_place(builder->ev, part->image, &record.pattern.image)) ||
+        (is_picture && !image_place(builder->ev, builder->scene, part->image, &record.pattern.image)) ||
         (!is_picture &&
          !add_pigment_entries(builder, part->map ? part->map : pattern_default_map((PatternType)part->pattern.type),
                               &record.entries))) {
         return false;
     }
     *out = (Pigment){.pattern = 0};
-    return scene_add_pattern(builder->ev->scene, &record, &out->pattern) || no_memory(builder);
+    return scene_add_pattern(builder->scene, &record, &out->pattern) || no_memory(builder);
 }
 
 static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out)
@@ -101,7 +102,7 @@ static bool add_slopes(const Builder *builder, const PatternMap *map, uint32_t *
         if (!eval_step(builder->ev, builder->span)) {
             return false;
         }
-        if (!scene_add_slope_entry(builder->ev->scene, &entry, first)) {
+        if (!scene_add_slope_entry(builder->scene, &entry, first)) {
             return no_memory(builder);
         }
     }
@@ -118,7 +119,7 @@ static bool add_normal_entries(const Builder *builder, const PatternMap *map, ui
             !add_normal(builder, map->entries[i].normal, &identity, false, &entry.normal)) {
             return false;
         }
-        if (!scene_add_normal_entry(builder->ev->scene, &entry, first)) {
+        if (!scene_add_normal_entry(builder->scene, &entry, first)) {
             return no_memory(builder);
         }
     }
@@ -143,7 +144,7 @@ static bool add_one_normal(const Builder *builder, const NormalBlueprint *normal
          !add_slopes(builder, normal->slopes, &record.slopes))) {
         return false;
     }
-    return scene_add_normal(builder->ev->scene, &record, index) || no_memory(builder);
+    return scene_add_normal(builder->scene, &record, index) || no_memory(builder);
 }
 
 static bool add_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer, bool keeps_length,
@@ -209,7 +210,7 @@ static bool add_texture_entries(const Builder *builder, const PatternPart *part,
             !add_texture(builder, map->entries[i].texture, &identity, &entry.texture, &own)) {
             return false;
         }
-        if (!scene_add_texture_entry(builder->ev->scene, &entry, first)) {
+        if (!scene_add_texture_entry(builder->scene, &entry, first)) {
             return no_memory(builder);
         }
         most = own > most ? own : most;
@@ -238,7 +239,7 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
         .normal = RECORD_NONE,
     };
     Transform moved = transform_compose(texture->part.transform, *outer);
-    if (!scene_add_finish(builder->ev->scene, &texture->finish, &record.finish)) {
+    if (!scene_add_finish(builder->scene, &texture->finish, &record.finish)) {
         return no_memory(builder);
     }
     if (texture->part.pattern.type != PATTERN_NONE) {
@@ -246,7 +247,7 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
             !add_texture_entries(builder, &texture->part, &record.entries, ways)) {
             return false;
         }
-        return scene_add_texture(builder->ev->scene, &record, index) || no_memory(builder);
+        return scene_add_texture(builder->scene, &record, index) || no_memory(builder);
     }
     if (ways != NULL) {
         *ways = layers_ways(texture);
@@ -258,7 +259,7 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
          !add_texture(builder, texture->below, &moved, &record.below, NULL))) {
         return false;
     }
-    return scene_add_texture(builder->ev->scene, &record, index) || no_memory(builder);
+    return scene_add_texture(builder->scene, &record, index) || no_memory(builder);
 }
 
 static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
@@ -287,19 +288,20 @@ static bool add_interior(const Builder *builder, const TextureBlueprint *texture
     interior.fade_distance *= world_scale(builder->ev);
     *index = RECORD_NONE;
     return (interior.ior == 1.0 && interior.fade_distance == 0.0 && interior.caustics == 0.0) ||
-           scene_add_interior(builder->ev->scene, &interior, index) || no_memory(builder);
+           scene_add_interior(builder->scene, &interior, index) || no_memory(builder);
 }
 
-bool pigment_place(Eval *ev, const PigmentBlueprint *pigment, const Transform *outer, Span span, Pigment *out)
+bool pigment_place(Eval *ev, Scene *scene, const PigmentBlueprint *pigment, const Transform *outer, Span span,
+                   Pigment *out)
 {
-    Builder builder = {ev, span};
+    Builder builder = {ev, scene, span};
     return add_pigment(&builder, pigment, outer, out);
 }
 
 bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
                     const InteriorBlueprint *interior, bool is_hollow, Span span, MaterialIndex *index)
 {
-    Builder builder = {ev, span};
+    Builder builder = {ev, ev->scene, span};
     Compound compound = {.is_hollow = is_hollow};
     unsigned ways;
     if (!add_interior(&builder, texture, interior, &compound.interior)) {

@@ -217,9 +217,9 @@ bool block_is_lacking(const Block *block, Symbol symbol)
         SchemaKind kind;
         Word word;
     } table[] = {
-        {KIND_PIGMENT, W_quilted}, {KIND_PIGMENT, W_control0}, {KIND_PIGMENT, W_control1}, {KIND_PIGMENT, W_object},
-        {KIND_PIGMENT, W_interior}, {KIND_PIGMENT, W_exponent}, {KIND_NORMAL, W_object},    {KIND_NORMAL, W_interior},
-        {KIND_NORMAL, W_exponent},
+        {KIND_PIGMENT, W_object},  {KIND_PIGMENT, W_interior}, {KIND_PIGMENT, W_exponent},
+        {KIND_NORMAL, W_object},   {KIND_NORMAL, W_interior},  {KIND_NORMAL, W_exponent},
+        {KIND_PATTERN, W_object},  {KIND_PATTERN, W_interior}, {KIND_PATTERN, W_exponent},
     };
     for (size_t i = 0; i < RT_COUNT_OF(table); i++) {
         if (table[i].kind == block->kind && (Symbol)table[i].word == symbol) {

@@ -253,7 +253,7 @@ static bool keep(Eval *ev, Span span, SchemaKind kind, const void *record, Value
     return kept || eval_no_memory(ev, span);
 }
 
-static bool read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Value *value)
+bool block_read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Blueprint *record, Value *value)
 {
     ObjectState *objects = ev->objects;
     bool was_deferring = objects->is_deferring;
@@ -261,15 +261,13 @@ static bool read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Value
     UnsupportedBlueprint outer = objects->deferred;
     objects->is_deferring = true;
     objects->has_deferred = false;
-    Blueprint record;
     SchemaKind is;
-    block_defaults(ev, kind, &record);
-    bool is_read = block_read(ev, block, kind, &ev->program, &record, &is);
+    bool is_read = block_read(ev, block, kind, &ev->program, record, &is);
     if (objects->has_deferred) {
-        record.unsupported = objects->deferred;
+        record->unsupported = objects->deferred;
         is = KIND_UNSUPPORTED;
     }
-    bool is_kept = is_read && keep(ev, block->span, is, &record, value);
+    bool is_kept = is_read && keep(ev, block->span, is, record, value);
     objects->is_deferring = was_deferring;
     objects->has_deferred = had_deferred;
     objects->deferred = outer;
@@ -290,7 +288,9 @@ bool eval_block(Eval *ev, const AstNode *block, Value *value)
     if (!schema_kind(kind)->is_declarable) {
         return eval_fault(ev, DIAG_E0256, block->span, "`%s` cannot be declared", schema_kind(kind)->word);
     }
-    return read_declared(ev, block, kind, value);
+    Blueprint record;
+    block_defaults(ev, kind, &record);
+    return block_read_declared(ev, block, kind, &record, value);
 }
 
 // ---- the state

@@ -34,7 +34,8 @@ static bool add_entry(Block *block, EntryList *list, const PatternEntry *entry, 
         list->items = items;
         list->capacity = capacity;
     }
-    list->items[list->count++] = *entry;
+    list->items[list->count] = *entry;
+    list->items[list->count++].at = number_single(entry->at); // as POV-Ray keeps it
     return true;
 }
 
@@ -219,6 +220,8 @@ static PatternType owner_of(Symbol word)
     case W_metric:
     case W_offset:
     case W_solid: return PATTERN_CRACKLE;
+    case W_control0:
+    case W_control1: return PATTERN_QUILTED;
     case W_agate_turb: return PATTERN_AGATE;
     case W_mortar:
     case W_brick_size: return PATTERN_BRICK;
@@ -294,7 +297,7 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     if (type == PATTERN_NONE && is_plain && !block->has_unsupported) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` needs a pattern before it", property->word);
     }
-    if (pattern_info(type)->blocks || type == PATTERN_QUILTED || (type == PATTERN_AVERAGE && has_values)) {
+    if (pattern_info(type)->blocks || (type == PATTERN_QUILTED && block->kind == KIND_NORMAL) || (type == PATTERN_AVERAGE && has_values)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
                            pattern_info(type)->word);
     }
@@ -527,7 +530,8 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     if (info->has_count && (!block_value(block, &count, item->span) || !check_count(block, pattern, item->span))) {
         return false;
     }
-    return (!info->blocks || read_block_entries(block, type, item->span)) && read_amount(block);
+    bool has_entries = info->blocks != 0 && block->kind != KIND_PATTERN;
+    return (!has_entries || read_block_entries(block, type, item->span)) && read_amount(block);
 }
 
 bool pattern_wave_action(Block *block, const SchemaProperty *property, const AstNode *item)
@@ -555,12 +559,20 @@ static bool average_has_weights(Block *block)
     return sum > 0.0 || block_fault(block, DIAG_E0253, block->node->span, "`average` needs a map of weights above 0");
 }
 
-// POV-Ray keeps lambda and omega in single precision.
+// POV-Ray keeps these in single precision.
 static bool settle_values(Block *block)
 {
     PatternPart *part = &block->record->patterned;
     part->pattern.lambda = number_single(part->pattern.lambda);
     part->pattern.omega = number_single(part->pattern.omega);
+    part->pattern.frequency = number_single(part->pattern.frequency);
+    part->pattern.phase = number_single(part->pattern.phase);
+    part->pattern.exponent = number_single(part->pattern.exponent);
+    part->pattern.agate_turb = number_single(part->pattern.agate_turb);
+    if (part->pattern.type == PATTERN_QUILTED) {
+        part->pattern.vector.x = number_single(part->pattern.vector.x);
+        part->pattern.vector.y = number_single(part->pattern.vector.y);
+    }
     const Vec3 *size = &part->pattern.vector;
     bool is_flat = size->x == 0.0 || size->y == 0.0 || size->z == 0.0;
     return part->pattern.type != PATTERN_BRICK || !is_flat ||
@@ -599,6 +611,9 @@ bool pattern_close(Block *block)
     }
     if (part->pattern.type == PATTERN_AVERAGE && !average_has_weights(block)) {
         return false;
+    }
+    if (block->kind == KIND_PATTERN && part->pattern.type == PATTERN_NONE && !block->has_unsupported) {
+        return block_fault(block, DIAG_E0253, block->node->span, "`pattern` needs the word of a pattern");
     }
     if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && !part->map) {
         return block_fault(block, DIAG_E0253, block->node->span, "a pattern of textures needs a `texture_map`");

@@ -47,7 +47,7 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *br
 
 bool memory_has(const Eval *ev, size_t bytes)
 {
-    size_t taken = ev->memory.used + scene_bytes(ev->scene);
+    size_t taken = ev->memory.used + ev->painted_bytes + scene_bytes(ev->scene);
     return taken <= ev->memory.limit && bytes <= ev->memory.limit - taken;
 }
 

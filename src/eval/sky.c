@@ -54,7 +54,7 @@ bool objects_finish(Eval *ev)
     ev->scene->sky_span = span;
     for (const SkyLayer *layer = sky->top; layer; layer = layer->below) {
         Pigment record;
-        if (!eval_step(ev, span) || !pigment_place(ev, &layer->pigment, &sky->transform, span, &record)) {
+        if (!eval_step(ev, span) || !pigment_place(ev, ev->scene, &layer->pigment, &sky->transform, span, &record)) {
             return false;
         }
         if (!scene_add_sky_layer(ev->scene, &record)) {

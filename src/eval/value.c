@@ -39,6 +39,7 @@ static const char *const block_descriptions[KIND_COUNT] = {
     [KIND_LOOKS_LIKE] = "a looks_like",
     [KIND_REFLECTION] = "a reflection",
     [KIND_TRANSFORM] = "a transform",
+    [KIND_PATTERN] = "a pattern",
     [KIND_UNSUPPORTED] = "something that is not supported",
 };
 

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-// At `low`, or the share of `high` that is mixed in.
+// At `low`, or the share of `high` that is mixed in. As in POV-Ray the way between two entries is of single precision.
 typedef struct AlongPlace {
     uint32_t low, high;
     double share;
@@ -27,7 +27,7 @@ typedef struct AlongPlace {
             uint32_t along_next = (items)[along_at].next;                                                              \
             *(place) = (AlongPlace){                                                                                   \
                 along_at, along_next,                                                                                  \
-                ((value) - (items)[along_at].at) / ((items)[along_next].at - (items)[along_at].at)};                   \
+                ((value) - (items)[along_at].at) / (double)(float)((items)[along_next].at - (items)[along_at].at)};    \
         }                                                                                                              \
     } while (0)
 

@@ -68,6 +68,9 @@ static double in_cube(double x)
     return x < 0.0 ? x + floor(-x) + 1.0 : x - floor(x);
 }
 
+// 2 / sqrt(3) with as many digits as POV-Ray has of it. Measured.
+static const double quilt_steepness = 1.154700538;
+
 // Away from the middle of each unit cube, by a cubic of the distance.
 static Vec3 quilted(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
@@ -75,7 +78,7 @@ static Vec3 quilted(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     Vec3 offset = vec3(in_cube(p.x) - 0.5, in_cube(p.y) - 0.5, in_cube(p.z) - 0.5);
     double t = vec3_length(offset), rest = 1.0 - t;
     double height = t * (t * (t + 3.0 * rest * pattern->vector.y) + 3.0 * rest * rest * pattern->vector.x);
-    return vec3_scale(2.0 / sqrt(3.0) * height, offset);
+    return vec3_scale(quilt_steepness * height, offset);
 }
 
 typedef Vec3 (*NormalFunction)(const Pattern *pattern, const NoiseSource *source, Vec3 p);

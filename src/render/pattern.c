@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "render/normal_special.h"
 #include "render/pattern_noise.h"
 
 static const double pi = 3.14159265358979323846;
@@ -97,6 +98,13 @@ static double julia(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     return escape(p.x, p.y, pattern->vector.x, pattern->vector.y, pattern->count);
 }
 
+// How far a normal is turned there.
+static double quilted(const Pattern *pattern, const NoiseSource *source, Vec3 p)
+{
+    Vec3 turn = normal_special(pattern, source, p);
+    return (fabs(turn.x) + fabs(turn.y) + fabs(turn.z)) / 3.0;
+}
+
 // ---- blocks: the number of the kind that is there
 
 // What is left of x after whole periods, in [0, period).
@@ -139,7 +147,7 @@ static double hexagon(const Pattern *pattern, const NoiseSource *source, Vec3 p)
         r_whole = -q_whole - s_whole;
     }
     double colour = fmod(2.0 * q_whole + r_whole, 3.0);
-    return colour < 0.0 ? colour + 3.0 : colour;
+    return colour < 0.0 ? colour + 3.0 : fabs(colour); // -0 becomes 0
 }
 
 // Mortar (0) fills the end of each period of x, y and z. Odd courses are moved by half a brick in x, even ones in z.
@@ -184,6 +192,7 @@ static const PatternFunction values[PATTERN_COUNT] = {
     [PATTERN_SPIRAL1] = pattern_spiral1,
     [PATTERN_MANDEL] = mandel,
     [PATTERN_JULIA] = julia,
+    [PATTERN_QUILTED] = quilted,
 };
 
 static double wave(const Pattern *pattern, double x)

@@ -47,29 +47,32 @@ static bool find_waves(TextureTable *table, const Scene *scene)
     if (!table->waves) {
         return false;
     }
-    noise_wave_sources(table->noise, count, table->waves);
+    noise_wave_sources(table->source.noise, count, table->waves);
     table->source.waves = table->waves;
     table->source.wave_count = count;
     return true;
 }
 
-static bool find_noise(TextureTable *table, const Scene *scene)
+static bool find_noise(TextureTable *table, const Scene *scene, const Noise *noise)
 {
     if (!any_pattern(scene, pattern_needs_noise)) {
         return true;
     }
     NoiseGenerator usual = scene->settings.version < 3.5 ? NOISE_ORIGINAL : NOISE_CORRECTED;
     int said = scene->settings.noise_generator;
-    table->noise = malloc(sizeof *table->noise);
-    if (!table->noise) {
-        return false;
+    if (!noise) {
+        table->noise = malloc(sizeof *table->noise);
+        if (!table->noise) {
+            return false;
+        }
+        noise_init(table->noise);
+        noise = table->noise;
     }
-    noise_init(table->noise);
-    table->source = (NoiseSource){.noise = table->noise, .generator = said != 0 ? noise_generator(said) : usual};
+    table->source = (NoiseSource){.noise = noise, .generator = said != 0 ? noise_generator(said) : usual};
     return find_waves(table, scene);
 }
 
-bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
+bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent)
 {
     *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
     table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
@@ -77,7 +80,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, int exponent)
     table->normal_to_pattern = malloc((scene->normals.count + 1) * sizeof *table->normal_to_pattern);
     table->images = images_new(scene);
     if (!table->to_pattern || !table->texture_to_pattern || !table->normal_to_pattern || !table->images ||
-        !find_noise(table, scene)) {
+        !find_noise(table, scene, noise)) {
         texture_table_fini(table);
         return false;
     }
@@ -116,32 +119,38 @@ bool texture_table_has_transparent_image(const TextureTable *table)
 
 // ---- pigments
 
+// Colours of pigments are mixed in single precision, operation by operation as POV-Ray does it, so that a function of a
+// pigment has the same digits.
+static double blend_one(double a, double share, double b)
+{
+    float way = (float)(share * (double)((float)b - (float)a));
+    return (double)((float)a + way);
+}
+
 static Rgbft blend(Rgbft a, double share, Rgbft b)
 {
-    double rest = 1.0 - share;
-    return (Rgbft){rest * a.red + share * b.red, rest * a.green + share * b.green, rest * a.blue + share * b.blue,
-                   rest * a.filter + share * b.filter, rest * a.transmit + share * b.transmit};
+    return (Rgbft){blend_one(a.red, share, b.red), blend_one(a.green, share, b.green),
+                   blend_one(a.blue, share, b.blue), blend_one(a.filter, share, b.filter),
+                   blend_one(a.transmit, share, b.transmit)};
 }
 
-static Rgbft plus_share(Rgbft sum, double share, Rgbft colour)
-{
-    return (Rgbft){sum.red + share * colour.red, sum.green + share * colour.green, sum.blue + share * colour.blue,
-                   sum.filter + share * colour.filter, sum.transmit + share * colour.transmit};
-}
-
-// All entries at once; their values are weights.
+// All entries at once; their values are weights. In single precision, too.
 static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
 {
     const PigmentEntry *entries = table->scene->pigment_entries.items;
-    Rgbft sum = {0.0, 0.0, 0.0, 0.0, 0.0};
-    double weights = 0.0;
+    float sum[5] = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F}, weights = 0.0F;
     for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
-        weights += entries[at].at;
+        Rgbft colour = texture_pigment(table, &entries[at].pigment, point);
+        float weight = (float)entries[at].at;
+        weights += weight;
+        sum[0] += weight * (float)colour.red;
+        sum[1] += weight * (float)colour.green;
+        sum[2] += weight * (float)colour.blue;
+        sum[3] += weight * (float)colour.filter;
+        sum[4] += weight * (float)colour.transmit;
     }
-    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
-        sum = plus_share(sum, entries[at].at / weights, texture_pigment(table, &entries[at].pigment, point));
-    }
-    return sum;
+    return (Rgbft){(double)(sum[0] / weights), (double)(sum[1] / weights), (double)(sum[2] / weights),
+                   (double)(sum[3] / weights), (double)(sum[4] / weights)};
 }
 
 static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
@@ -168,6 +177,12 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
 {
     return pigment->pattern == RECORD_NONE ? pigment_colour(pigment) : patterned(table, pigment->pattern, point);
+}
+
+double texture_pattern_value(const TextureTable *table, uint32_t pattern, Vec3 point)
+{
+    return pattern_value(&table->scene->patterns.items[pattern].pattern, &table->source,
+                         transform_point(&table->to_pattern[pattern], point));
 }
 
 // ---- textures

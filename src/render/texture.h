@@ -19,7 +19,7 @@
 typedef struct TextureTable {
     const Scene *scene;
     double scale;                  // from prepared lengths to the scene's, a power of two
-    Noise *noise;                  // NULL when no pattern needs it
+    Noise *noise;                  // its own, or NULL
     WaveSource *waves;             // likewise
     NoiseSource source;
     Transform *to_pattern;         // for each of the scene's patterns
@@ -28,8 +28,9 @@ typedef struct TextureTable {
     Transform *normal_to_pattern;  // for each of its normals
 } TextureTable;
 
-// Lengths of the prepared scene are the scene's times 2^-exponent. False when out of memory.
-bool texture_table_init(TextureTable *table, const Scene *scene, int exponent) RT_MUST_CHECK;
+// Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what it
+// needs. False when out of memory.
+bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent) RT_MUST_CHECK;
 void texture_table_fini(TextureTable *table);
 
 // Whether some picture lets light through.
@@ -37,6 +38,8 @@ bool texture_table_has_transparent_image(const TextureTable *table);
 
 // The colour of a pigment at a point in the scene's lengths.
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);
+// The value of one of the scene's patterns there.
+double texture_pattern_value(const TextureTable *table, uint32_t pattern, Vec3 point);
 
 // A point as a pattern of textures sees it.
 typedef struct TexturePlace TexturePlace;

@@ -42,7 +42,7 @@ typedef enum PatternType {
     PATTERN_SPIRAL1,
     PATTERN_MANDEL,
     PATTERN_JULIA,
-    PATTERN_QUILTED, // of normals only
+    PATTERN_QUILTED,
     PATTERN_AVERAGE, // no pattern: all that lies along it, mixed
     PATTERN_COUNT
 } PatternType;

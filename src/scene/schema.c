@@ -61,7 +61,9 @@ static const SchemaProperty pattern_modifiers[] = {
     {"spiral1", TYPE_ACTION, ACTION_PATTERN, .doc = "so many arms that wind around z"},
     {"mandel", TYPE_ACTION, ACTION_PATTERN, .doc = "the Mandelbrot set in x and y, after so many steps"},
     {"julia", TYPE_ACTION, ACTION_PATTERN, .doc = "the Julia set of a complex number, after so many steps"},
-    {"average", TYPE_ACTION, ACTION_PATTERN, .doc = "all entries of the map at once, by their weights"},
+    {"quilted", TYPE_ACTION, ACTION_PATTERN, .doc = "a cushion in each unit cube"},
+    {"control0", TYPE_NUMBER, PATTERN_AT(vector.x), .doc = "of `quilted`: how steep in the middle; 1 unless said"},
+    {"control1", TYPE_NUMBER, PATTERN_AT(vector.y), .doc = "of `quilted`: how steep at the seams; 1 unless said"},
     {"form", TYPE_VECTOR, PATTERN_AT(form),
      .doc = "of `crackle`: what the distances to the nearest three points count"},
     {"metric", TYPE_NUMBER, PATTERN_AT(metric), .range = {RANGE_FAULT, true, 0.0, INFINITY},
@@ -345,7 +347,9 @@ static const SettingsBlueprint settings_defaults = {
     .number_of_waves = SETTINGS_WAVES,
 };
 
+#define AVERAGE {"average", TYPE_ACTION, ACTION_PATTERN, .doc = "all entries of the map at once, by their weights"}
 static const SchemaProperty texture_properties[] = {
+    AVERAGE,
     {"pigment", TYPE_BLOCK, ACTION_PIGMENT, .doc = "its colour"},
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
@@ -360,9 +364,7 @@ static const SchemaProperty normal_arguments[] = {
 };
 
 static const SchemaProperty normal_properties[] = {
-    {"quilted", TYPE_ACTION, ACTION_PATTERN, .doc = "a cushion in each unit cube"},
-    {"control0", TYPE_NUMBER, PATTERN_AT(vector.x), .doc = "of `quilted`: how steep in the middle; 1 unless said"},
-    {"control1", TYPE_NUMBER, PATTERN_AT(vector.y), .doc = "of `quilted`: how steep at the seams; 1 unless said"},
+    AVERAGE,
     {"bump_size", TYPE_NUMBER, AT(NormalBlueprint, amount), .doc = "how deep"},
     {"accuracy", TYPE_NUMBER, AT(NormalBlueprint, accuracy), .range = POSITIVE,
      .doc = "how far from the point the pattern is looked at"},
@@ -377,6 +379,7 @@ static const SchemaProperty pigment_arguments[] = {
 };
 
 static const SchemaProperty pigment_properties[] = {
+    AVERAGE,
     {"color_map", TYPE_BLOCK, ACTION_MAP, .doc = "colours along a pattern of values"},
     {"colour_map", TYPE_BLOCK, ACTION_MAP, .doc = "the same"},
     {"pigment_map", TYPE_BLOCK, ACTION_MAP, .doc = "pigments along a pattern of values"},
@@ -467,6 +470,7 @@ static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
                                             .lambda = 2.0, .omega = 0.5}                                               \
     }
 
+static const PatternPart pattern_defaults = PATTERN_PART;
 static const PigmentBlueprint pigment_defaults = {.part = PATTERN_PART};
 #define NORMAL_DEFAULTS                                                                                                \
     {                                                                                                                  \
@@ -751,6 +755,11 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                         .is_declarable = true,
                         .groups = {LIST(transform_properties), TRANSFORMS},
                         .doc = "Transforms in the order in which they are written."},
+    [KIND_PATTERN] = {.word = "pattern",
+                      .size = sizeof(PatternPart),
+                      .defaults = &pattern_defaults,
+                      .groups = {PATTERNS, TRANSFORMS},
+                      .doc = "In a function: one of the patterns, without what lies along it."},
     [KIND_UNSUPPORTED] = {.word = "",
                           .size = sizeof(UnsupportedBlueprint),
                           .defaults = &unsupported_defaults,

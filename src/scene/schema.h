@@ -52,6 +52,7 @@ typedef enum SchemaKind {
     KIND_LOOKS_LIKE,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
+    KIND_PATTERN, // of a function
     KIND_UNSUPPORTED, // declared, but of a kind or with a property that rtlang has not
     KIND_COUNT
 } SchemaKind;

@@ -22,6 +22,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "api/painter.h"
 #include "api/probe.h"
 #include "ast/words.h"
 #include "eval/eval.h"
@@ -256,6 +257,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
         .image_width = 320,
         .image_height = 240,
         .tracer = &probe_tracer,
+        .painter = &painter,
         .message = take_message,
         .client = outcome,
     };
