@@ -198,7 +198,7 @@ const Noise *eval_noise(Eval *ev, Span span)
             eval_no_memory(ev, span);
             return NULL;
         }
-        noise_init(noise);
+        noise_init(noise, NULL);
         ev->noise = noise;
     }
     return ev->noise;

@@ -6,13 +6,18 @@
 // SPDX-License-Identifier: MIT
 #include "math/noise.h"
 
-#include <math.h>
+#include <string.h>
+
+#include "base/attributes.h"
+#include "base/isa.h"
+#include "math/noise_cell.h"
+#include "math/noise_kernel.h"
+
+ISA_LIST(NoiseKernel, noise_kernel_, kernels);
 
 // ---- tables
 
-// At a lattice point whose hash is h, half of lattice[h] is the value and the three numbers after it are the gradient;
-// of the second and third component of noise_vector, the same from lattice[h + 4] and lattice[h + 8] on.
-static const double lattice[256 + 11] = {
+const double noise_numbers[NOISE_LATTICE + 8] = {
     -1.0, 0.604974, -0.937102, 0.414115, 0.576226, -0.0161593, 0.432334, 0.103685, 0.590539, 0.0286412, 0.46981,
     -0.84622, -0.0734112, -0.304097, -0.40206, -0.210132, -0.919127, 0.652033, -0.83151, -0.183948, -0.671107,
     0.852476, 0.043595, -0.404532, 0.75494, -0.335653, 0.618433, 0.605707, 0.708583, -0.477195, 0.899474, 0.490623,
@@ -114,8 +119,30 @@ static void fill_sites(double *sites)
     }
 }
 
-void noise_init(Noise *noise)
+static void fill_lattice(Noise *noise)
 {
+    for (int i = 0; i < NOISE_LATTICE; i++) {
+        for (int which = 0; which < 3; which++) {
+            noise->lattice[i][which] = noise_numbers[i + 4 * which];
+        }
+        noise->lattice[i][3] = 0.0;
+    }
+}
+
+static const NoiseKernel *kernel_choose(const char *isa)
+{
+    for (size_t i = 0; isa && i < RT_COUNT_OF(kernels); i++) {
+        if (strcmp(isa, kernels[i]->name) == 0) {
+            return kernels[i];
+        }
+    }
+    return kernels[0];
+}
+
+void noise_init(Noise *noise, const char *isa)
+{
+    noise->kernel = kernel_choose(isa);
+    fill_lattice(noise);
     fill_sites(noise->sites);
     uint32_t state = 1;
     shuffle_hash(noise->hash);
@@ -130,151 +157,38 @@ NoiseGenerator noise_generator(double number)
     return number >= NOISE_PERLIN ? NOISE_PERLIN : number >= NOISE_CORRECTED ? NOISE_CORRECTED : NOISE_ORIGINAL;
 }
 
-// ---- the lattice
-
-// Where a coordinate lies in the lattice.
-typedef struct Cell {
-    unsigned index[2]; // of the lattice points before and after it, below the period
-    double way[2];     // from them to it
-    double weight[2];  // what they count, 3 t^2 - 2 t^3
-} Cell;
-
-// floor, without a call for numbers of ordinary size.
-static inline double floor_of(double x, long long *number)
-{
-    static const double largest = 1e15; // beyond, a double has no fraction left to speak of
-    if (fabs(x) < largest) {
-        *number = (long long)x;
-        *number -= (double)*number > x;
-        return (double)*number;
-    }
-    *number = (long long)fmax(fmin(floor(x), largest), -largest);
-    return floor(x);
-}
-
-// All coordinates are moved by `offset`, so that POV-Ray meets none below 0; its points lie at these places.
-static inline Cell cell_of(double x, double offset, unsigned period)
-{
-    long long number;
-    double moved = x + offset, t = moved - floor_of(moved, &number);
-    unsigned index = (unsigned)number & (period - 1);
-    double weight = t * t * (3.0 - 2.0 * t);
-    return (Cell){{index, (index + 1) & (period - 1)}, {t, t - 1.0}, {1.0 - weight, weight}};
-}
-
-static inline double cut(double x)
-{
-    return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
-}
-
-typedef struct Lattice {
-    Cell x, y, z;
-    unsigned hash[2][2][2]; // of the corners, below 256
-} Lattice;
-
-static unsigned hash_of(const Noise *noise, unsigned x, unsigned y, unsigned z)
-{
-    return noise->hash[noise->hash[noise->hash[x] ^ y] ^ z];
-}
-
-// The fraction is that of the coordinate itself; the offset only chooses the hash.
-static inline Cell hashed_cell(double x)
-{
-    Cell cell = cell_of(x, 0.0, NOISE_CELLS);
-    for (int i = 0; i < 2; i++) {
-        cell.index[i] = (cell.index[i] + 10000) & (NOISE_CELLS - 1);
-    }
-    return cell;
-}
-
-static inline void find_lattice(const Noise *noise, Vec3 p, Lattice *at)
-{
-    at->x = hashed_cell(p.x);
-    at->y = hashed_cell(p.y);
-    at->z = hashed_cell(p.z);
-    for (int i = 0; i < 2; i++) {
-        unsigned of_x = noise->hash[at->x.index[i]];
-        for (int j = 0; j < 2; j++) {
-            unsigned of_y = noise->hash[of_x ^ at->y.index[j]];
-            for (int k = 0; k < 2; k++) {
-                at->hash[i][j][k] = noise->hash[of_y ^ at->z.index[k]] & 255;
-            }
-        }
-    }
-}
-
-typedef double Two __attribute__((vector_size(16))); // of the two lattice points that differ in z
-
-static inline Two both(double a, double b)
-{
-    return (Two){a, b};
-}
-
-static inline double component(const Lattice *at, unsigned which)
-{
-    const Two way_z = both(at->z.way[0], at->z.way[1]), weight_z = both(at->z.weight[0], at->z.weight[1]);
-    double sum = 0.0;
-    for (int i = 0; i < 2; i++) {
-        for (int j = 0; j < 2; j++) {
-            const double *a = &lattice[at->hash[i][j][0] + 4 * which], *b = &lattice[at->hash[i][j][1] + 4 * which];
-            double weight = at->x.weight[i] * at->y.weight[j];
-            Two value = both(0.5, 0.5) * both(a[0], b[0]) + both(a[1], b[1]) * both(at->x.way[i], at->x.way[i]) +
-                        both(a[2], b[2]) * both(at->y.way[j], at->y.way[j]) + both(a[3], b[3]) * way_z;
-            Two part = both(weight, weight) * weight_z * value;
-            sum += part[0];
-            sum += part[1];
-        }
-    }
-    return sum;
-}
-
-static double original(const Noise *noise, Vec3 p)
-{
-    Lattice at;
-    find_lattice(noise, p, &at);
-    return component(&at, 0);
-}
-
-// Perlin's lattice: gradients follow one another along z.
-static double perlin(const Noise *noise, Vec3 p)
-{
-    static const double offset = 10000000.023157213; // as measured, to the last bit
-    Cell x = cell_of(p.x, offset, NOISE_GRADIENTS), y = cell_of(p.y, offset, NOISE_GRADIENTS),
-         z = cell_of(p.z, offset, NOISE_GRADIENTS);
-    double sum = 0.0;
-    for (int i = 0; i < 2; i++) {
-        for (int j = 0; j < 2; j++) {
-            unsigned row = noise->order[(noise->order[x.index[i]] + y.index[j]) % NOISE_GRADIENTS];
-            for (int k = 0; k < 2; k++) {
-                Vec3 way = vec3(x.way[i], y.way[j], z.way[k]);
-                sum += x.weight[i] * y.weight[j] * z.weight[k] *
-                       vec3_dot(noise->gradients[(row + z.index[k]) % NOISE_GRADIENTS], way);
-            }
-        }
-    }
-    return sum;
-}
+// ---- at a point
 
 double noise_value(const Noise *noise, NoiseGenerator generator, Vec3 p)
 {
-    switch (generator) {
-    case NOISE_PERLIN: return cut(0.4925 + 0.795 * perlin(noise, p));
-    case NOISE_CORRECTED: return cut(0.48985582 * (original(noise, p) + 1.05242));
-    default: return cut(original(noise, p) + 0.5);
-    }
+    return noise->kernel->value(noise, generator, p);
 }
 
 double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p)
 {
-    double value = noise_value(noise, generator, p);
-    return generator == NOISE_ORIGINAL ? value : cut(2.0 * value - 0.5);
+    return noise->kernel->spread(noise, generator, p);
 }
 
 Vec3 noise_vector(const Noise *noise, Vec3 p)
 {
-    Lattice at;
-    find_lattice(noise, p, &at);
-    return vec3(component(&at, 0), component(&at, 1), component(&at, 2));
+    return noise->kernel->vector(noise, p);
+}
+
+double noise_sum(const Noise *noise, NoiseGenerator generator, const Octaves *octaves, Vec3 p)
+{
+    return noise->kernel->sum(noise, generator, octaves, p);
+}
+
+Vec3 noise_vector_sum(const Noise *noise, const Octaves *octaves, Vec3 p)
+{
+    return noise->kernel->vector_sum(noise, octaves, p);
+}
+
+// ---- cells
+
+static unsigned hash_of(const Noise *noise, unsigned x, unsigned y, unsigned z)
+{
+    return noise->hash[noise->hash[noise->hash[x] ^ y] ^ z];
 }
 
 // Here nothing is added to the coordinates.
@@ -294,33 +208,6 @@ Vec3 noise_site(const Noise *noise, Vec3 corner)
 {
     const double *numbers = site_numbers(noise, corner);
     return vec3_add(corner, vec3(numbers[0], numbers[1], numbers[2]));
-}
-
-// ---- sums
-
-// Only the first octave of the spread generators is cut.
-double noise_sum(const Noise *noise, NoiseGenerator generator, const Octaves *octaves, Vec3 p)
-{
-    double sum = noise_spread(noise, generator, p), scale = octaves->lambda, weight = octaves->omega;
-    for (unsigned i = 1; i < octaves->count; i++) {
-        double value = noise_value(noise, generator, vec3_scale(scale, p));
-        sum += weight * (generator == NOISE_ORIGINAL ? value : 2.0 * value - 0.5);
-        scale *= octaves->lambda;
-        weight *= octaves->omega;
-    }
-    return sum;
-}
-
-Vec3 noise_vector_sum(const Noise *noise, const Octaves *octaves, Vec3 p)
-{
-    Vec3 sum = noise_vector(noise, p);
-    double scale = octaves->lambda, weight = octaves->omega;
-    for (unsigned i = 1; i < octaves->count; i++) {
-        sum = vec3_add_scaled(sum, weight, noise_vector(noise, vec3_scale(scale, p)));
-        scale *= octaves->lambda;
-        weight *= octaves->omega;
-    }
-    return sum;
 }
 
 // ---- waves

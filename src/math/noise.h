@@ -16,6 +16,7 @@ enum {
     NOISE_CELLS = 4096,      // period of the first two generators, of the shuffled numbers below it
     NOISE_GRADIENTS = 2048,  // period of the third
     NOISE_SITES = NOISE_CELLS + 2,
+    NOISE_LATTICE = 256 + 3, // numbers of the first two generators at their lattice points
 };
 
 typedef enum NoiseGenerator {
@@ -24,14 +25,19 @@ typedef enum NoiseGenerator {
     NOISE_PERLIN,       // gradients only, as in K. Perlin, "An Image Synthesizer", SIGGRAPH 1985
 } NoiseGenerator;
 
+typedef struct NoiseKernel NoiseKernel; // private to noise*.c
+
 typedef struct Noise {
+    const NoiseKernel *kernel;
+    _Alignas(16) double lattice[NOISE_LATTICE][4]; // of each number that of each component, and 0
     uint16_t hash[NOISE_CELLS];
     uint16_t order[NOISE_GRADIENTS];
     Vec3 gradients[NOISE_GRADIENTS]; // of unit length
     double sites[NOISE_SITES]; // from 0 to 1, see noise_site
 } Noise;
 
-void noise_init(Noise *noise);
+// `isa`: the name of the instruction set to use, which this processor must have; NULL for the plain one.
+void noise_init(Noise *noise, const char *isa);
 
 // The nearest generator to a number of the language; 0 stands for none.
 NoiseGenerator noise_generator(double number);

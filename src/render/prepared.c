@@ -254,7 +254,8 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     p->geometry = geometry_new_with(scene, exponent, options);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
-    if (!p->abandon || !p->geometry || !p->lights || !p->finishes || !texture_table_init(&p->textures, scene, NULL, exponent)) {
+    if (!p->abandon || !p->geometry || !p->lights || !p->finishes ||
+        !texture_table_init(&p->textures, scene, NULL, exponent, geometry_isa_name(p->geometry))) {
         prepared_free(p);
         return NULL;
     }

@@ -53,7 +53,7 @@ static bool find_waves(TextureTable *table, const Scene *scene)
     return true;
 }
 
-static bool find_noise(TextureTable *table, const Scene *scene, const Noise *noise)
+static bool find_noise(TextureTable *table, const Scene *scene, const Noise *noise, const char *isa)
 {
     if (!any_pattern(scene, pattern_needs_noise)) {
         return true;
@@ -65,14 +65,15 @@ static bool find_noise(TextureTable *table, const Scene *scene, const Noise *noi
         if (!table->noise) {
             return false;
         }
-        noise_init(table->noise);
+        noise_init(table->noise, isa);
         noise = table->noise;
     }
     table->source = (NoiseSource){.noise = noise, .generator = said != 0 ? noise_generator(said) : usual};
     return find_waves(table, scene);
 }
 
-bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent)
+bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent,
+                        const char *isa)
 {
     *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
     table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
@@ -80,7 +81,7 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     table->normal_to_pattern = malloc((scene->normals.count + 1) * sizeof *table->normal_to_pattern);
     table->images = images_new(scene);
     if (!table->to_pattern || !table->texture_to_pattern || !table->normal_to_pattern || !table->images ||
-        !find_noise(table, scene, noise)) {
+        !find_noise(table, scene, noise, isa)) {
         texture_table_fini(table);
         return false;
     }

@@ -29,8 +29,9 @@ typedef struct TextureTable {
 } TextureTable;
 
 // Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what it
-// needs. False when out of memory.
-bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent) RT_MUST_CHECK;
+// needs, for the instruction set of that name. False when out of memory.
+bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent,
+                        const char *isa) RT_MUST_CHECK;
 void texture_table_fini(TextureTable *table);
 
 // Whether some picture lets light through.

@@ -54,7 +54,7 @@ int main(void)
 {
     Noise *noise = malloc(sizeof *noise);
     if (tap_ok(noise != NULL, "memory for the tables")) {
-        noise_init(noise);
+        noise_init(noise, NULL);
         test_search(noise, 0.0, 10.0);
         test_search(noise, 0.75, 10.0);
         test_search(noise, -2.0, 1e5);

@@ -3,9 +3,11 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/attributes.h"
 #include "math/noise.h"
+#include "trace/trace.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 
@@ -112,14 +114,80 @@ static void test_everywhere(const Noise *noise)
     tap_ok(wild == 0, "noise far away is from 0 to 1, too (%d are not)", wild);
 }
 
+// What one set of kernels gives at a point, all of it: numbers, a vector, and sums of four octaves.
+enum { NUMBERS = 9 };
+
+static void everything(const Noise *noise, NoiseGenerator which, Vec3 p, double numbers[NUMBERS])
+{
+    const Octaves octaves = {2.1, 0.6, 4};
+    Vec3 vector = noise_vector(noise, p), sum = noise_vector_sum(noise, &octaves, p);
+    const double all[NUMBERS] = {noise_value(noise, which, p), noise_spread(noise, which, p),
+                                 noise_sum(noise, which, &octaves, p), vector.x, vector.y, vector.z,
+                                 sum.x, sum.y, sum.z};
+    memcpy(numbers, all, sizeof all);
+}
+
+// Some whole, some beyond what a number of 32 bits holds, of any sign.
+static Vec3 any_point(Random *random)
+{
+    double away = exp2(random_between(random, -4, 40));
+    Vec3 p = vec3_scale(away, random_direction(random));
+    return random_below(random, 8) == 0 ? vec3(floor(p.x), -floor(p.y), p.z) : p;
+}
+
+static void test_instruction_sets(Noise *noise, Noise *plain)
+{
+    Random random = {random_seed(NULL)};
+    noise_init(plain, "plain");
+    for (size_t i = 0; geometry_isa(i); i++) {
+        noise_init(noise, geometry_isa(i));
+        int different = 0;
+        for (int turn = 0; turn < 20000; turn++) {
+            double own[NUMBERS], others[NUMBERS];
+            Vec3 p = any_point(&random);
+            NoiseGenerator which = (NoiseGenerator)(NOISE_ORIGINAL + turn % 3);
+            everything(noise, which, p, own);
+            everything(plain, which, p, others);
+            different += memcmp(own, others, sizeof own) != 0;
+        }
+        tap_ok(different == 0, "noise by %s has the bits of plain (%d differ)", geometry_isa(i), different);
+    }
+}
+
+// Fractions that a double holds exactly even beyond 2^30, where floors take another way: a period changes no bit.
+static void test_far_periods(const Noise *noise)
+{
+    Random random = {random_seed(NULL)};
+    int different = 0;
+    for (int turn = 0; turn < 2000; turn++) {
+        double coordinates[3];
+        for (int axis = 0; axis < 3; axis++) {
+            coordinates[axis] = 0x1p-10 * random_below(&random, 1u << 22);
+        }
+        Vec3 p = vec3(coordinates[0], coordinates[1], coordinates[2]);
+        double near_by[NUMBERS], far[NUMBERS];
+        for (int away = 0; away < 2; away++) {
+            double periods = (away ? 0x1p20 : 0x1p10) + random_below(&random, 1000);
+            double sign = random_below(&random, 2) ? 1.0 : -1.0;
+            everything(noise, NOISE_ORIGINAL, p, near_by);
+            everything(noise, NOISE_ORIGINAL, vec3_add(p, vec3(4096.0 * periods * sign, 0.0, -4096.0 * periods)), far);
+            different += near_by[0] != far[0] || near_by[3] != far[3] || near_by[4] != far[4] || near_by[5] != far[5];
+        }
+    }
+    tap_ok(different == 0, "whole periods change no bit of exact fractions (%d differ)", different);
+}
+
 int main(void)
 {
-    Noise *noise = malloc(sizeof *noise);
-    if (tap_ok(noise != NULL, "memory for the tables")) {
-        noise_init(noise);
+    Noise *noise = malloc(sizeof *noise), *plain = malloc(sizeof *plain);
+    if (tap_ok(noise && plain, "memory for the tables")) {
+        noise_init(noise, NULL);
         test_values(noise);
         test_everywhere(noise);
+        test_far_periods(noise);
+        test_instruction_sets(noise, plain);
     }
     free(noise);
+    free(plain);
     return tap_done();
 }
