@@ -84,6 +84,11 @@ static inline double vec3_max_abs(Vec3 a)
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
+static inline double vec3_sum_abs(Vec3 a)
+{
+    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
+
 // Component by component.
 static inline Vec3 vec3_least(Vec3 a, Vec3 b)
 {

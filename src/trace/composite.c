@@ -13,12 +13,13 @@
 typedef struct Crossing {
     double t;
     double error;     // how far t may be off by rounding; before has_error how long the chord is
+    double bound;     // of that, if has_bound
     uint32_t solid; // within the assembly
     uint8_t side;
     bool leaves;    // the solid's own inside, not minding PART_INVERSE
     bool is_flat;   // changes nothing
     bool is_hidden; // found before the crossings of its group
-    bool has_error; // worked out when it is asked for first: most crossings are never come to
+    bool has_error, has_bound; // worked out when they are asked for first: most crossings are never come to
 } Crossing;
 
 // An assembly while a ray passes through it.
@@ -28,9 +29,12 @@ typedef struct Passage {
     const Ray *ray;
     double start_error;    // how far along the ray its start may be off its surface
     double enter;          // where the ray comes to the assembly's box
+    double origin_size, direction_size; // sums of the ray's coordinates' sizes
     double nearest_share;  // no crossing that is left is nearer than this share of its t; 0: not known
+    double greatest_bound; // of the crossings that are left; less than 0: not known
     uint32_t *inside;      // for each node
-    bool *is_inside;       // for each solid, PART_INVERSE minded
+    bool *is_inside;       // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
+    Ray *objects;          // the ray in each solid's space, but for planes
     Crossing *crossings;   // a heap by t, then by number
     uint32_t count;
     bool is_over;          // nothing more of it can be seen
@@ -107,30 +111,53 @@ static uint32_t heap_pop(Passage *p)
 static double crossing_error(const Passage *p, Crossing *c)
 {
     if (!c->has_error) {
-        const Solid *solid = passage_solid(p, c->solid);
-        Ray object = solid_ray(solid, p->ray);
-        c->error = solid_end_error(solid, p->ray, &object, c->t, c->side, c->error);
+        c->error = solid_end_error(passage_solid(p, c->solid), p->ray, &p->objects[c->solid], c->t, c->side, c->error);
         c->has_error = true;
     }
     return c->error;
 }
 
+static double end_bound(const Passage *p, uint32_t index, double t, uint8_t side)
+{
+    double span = p->origin_size + fabs(t) * p->direction_size;
+    return solid_crossing_bound(passage_solid(p, index), p->ray, &p->objects[index], t, side, span);
+}
+
+// At least the error; most questions have the same answer for it. May be NaN.
+static double crossing_bound(const Passage *p, Crossing *c)
+{
+    if (!c->has_bound) {
+        c->bound = end_bound(p, c->solid, c->t, c->side);
+        c->has_bound = true;
+    }
+    return c->bound;
+}
+
+// Whether b lies behind a by more than both may be off.
+static bool crossing_is_apart(const Passage *p, Crossing *a, Crossing *b)
+{
+    return b->t - crossing_bound(p, b) > a->t + crossing_bound(p, a) ||
+           b->t - crossing_error(p, b) > a->t + crossing_error(p, a);
+}
+
 static void passage_add(Passage *p, uint32_t index, double t, double length, uint8_t side, bool leaves, bool is_flat)
 {
-    p->crossings[p->count++] = (Crossing){t, length, index, side, leaves, is_flat, false, false};
+    p->crossings[p->count++] =
+        (Crossing){.t = t, .error = length, .solid = index, .side = side, .leaves = leaves, .is_flat = is_flat};
 }
 
 static void passage_flat(Passage *p, uint32_t index, RayStart start)
 {
     const Solid *solid = passage_solid(p, index);
-    Ray object = solid_ray(solid, p->ray);
+    Ray *object = &p->objects[index];
     double t;
     bool is_start = starts_on_part(start) && solid_equal(solid, &p->table->solids[part_index(start.shape)]);
-    if (is_start || !solid_flat_root(solid, &object, &t) || !(t > 0.0)) {
+    *object = solid_ray(solid, p->ray);
+    if (is_start || !solid_flat_root(solid, object, &t) || !(t > 0.0)) {
         return;
     }
     if (!starts_beside(p->table, start, solid) ||
-        t > solid_crossing_error(solid, p->ray, &object, t, 0) + p->start_error) {
+        t > solid_crossing_error(solid, p->ray, object, t, 0) + p->start_error) {
         passage_add(p, index, t, (double)INFINITY, 0, false, true);
     }
 }
@@ -144,13 +171,20 @@ static void passage_decide(Passage *p, double enter, double leave)
     p->is_over = p->is_over || p->decided_until < p->decided_from;
 }
 
-// Whether a ray that starts on a surface has passed an end of a chord, since that lies within rounding of its start.
-static bool passage_is_past(const Passage *p, const Solid *solid, const Ray *object, const Chord *chord, bool leaves,
-                            bool is_beside)
+// Whether an end of a chord, t > 0, lies within rounding of the ray's start on a surface: no farther than the error and
+// the start's own. What is at least the error is asked first.
+static bool end_is_at_start(const Passage *p, uint32_t index, double t, uint8_t side, double length)
 {
-    double t = leaves ? chord->leave : chord->enter;
+    return (isinf(t) || !(t > end_bound(p, index, t, side) + p->start_error)) &&
+           !(t > solid_end_error(passage_solid(p, index), p->ray, &p->objects[index], t, side, length) + p->start_error);
+}
+
+// Whether the ray has passed an end of a chord. No error is greater than the chord is long.
+RT_ALWAYS_INLINE bool passage_is_past(const Passage *p, uint32_t index, double t, uint8_t side, double length,
+                                      bool is_beside)
+{
     return !(t > 0.0) ||
-           (is_beside && !(t > solid_chord_error(solid, p->ray, object, chord, leaves) + p->start_error));
+           (is_beside && !(t > length + p->start_error) && end_is_at_start(p, index, t, side, length));
 }
 
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
@@ -161,20 +195,27 @@ static void passage_solid_begin(Passage *p, uint32_t index, RayStart start, bool
     bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
     Chord chord;
-    Ray object = solid_ray(solid, p->ray);
-    if ((is_start && !inward) || !solid_chord(solid, &object, is_start ? part_side(start.shape) : SIDE_NONE, &chord) ||
-        passage_is_past(p, solid, &object, &chord, true, is_beside)) {
+    const Ray *object = p->ray;
+    if (solid->kind != PART_PLANE) {
+        p->objects[index] = solid_ray(solid, p->ray);
+        object = &p->objects[index];
+    }
+    if ((is_start && !inward) || !solid_chord(solid, object, is_start ? part_side(start.shape) : SIDE_NONE, &chord)) {
         p->is_over = p->is_over || solid->decides;
         return;
     }
-    bool is_inside = is_start || passage_is_past(p, solid, &object, &chord, false, is_beside);
+    double length = chord.leave - chord.enter;
+    if ((solid->decides && chord.leave < p->decided_from) || // whether it is past or not
+        passage_is_past(p, index, chord.leave, chord.leave_side, length, is_beside)) {
+        p->is_over = p->is_over || solid->decides;
+        return;
+    }
+    bool is_inside = is_start || passage_is_past(p, index, chord.enter, chord.enter_side, length, is_beside);
     if (solid->decides) {
         passage_decide(p, is_inside ? 0.0 : chord.enter, chord.leave);
     }
-    double length = chord.leave - chord.enter;
-    if (is_inside) {
-        passage_toggle(p, index);
-    } else {
+    p->is_inside[index] = is_inside;
+    if (!is_inside) {
         passage_add(p, index, chord.enter, length, chord.enter_side, false, false);
     }
     if (chord.leave < (double)INFINITY) {
@@ -244,26 +285,41 @@ static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Foremost *fi
     return seen;
 }
 
-// Puts all leaves into their states, and the crossings into order.
+// Puts all leaves into the states that they have where the ray starts.
+static void passage_set_states(Passage *p)
+{
+    const Assembly *assembly = p->assembly;
+    for (uint32_t i = 0; i < assembly->node_count; i++) {
+        p->inside[i] = p->table->nodes[assembly->first_node + i].idle_inside;
+    }
+    for (uint32_t i = 0; i < assembly->solid_count; i++) {
+        bool is_inside = p->is_inside[i];
+        p->is_inside[i] = passage_solid(p, i)->flags & PART_INVERSE;
+        if (is_inside) {
+            passage_toggle(p, i);
+        }
+    }
+}
+
+// Finds the crossings and puts them into order. Mostly it turns out on the way that nothing can be seen.
 static void passage_begin(Passage *p, RayStart start)
 {
     const Assembly *assembly = p->assembly;
     bool is_own =
         starts_on_part(start) && part_index(start.shape) - assembly->first_solid < assembly->solid_count;
-    for (uint32_t i = 0; i < assembly->node_count; i++) {
-        p->inside[i] = p->table->nodes[assembly->first_node + i].idle_inside;
-    }
-    for (uint32_t i = 0; i < assembly->solid_count; i++) {
-        p->is_inside[i] = passage_solid(p, i)->flags & PART_INVERSE;
-    }
     for (uint32_t i = 0; i < assembly->solid_count && !p->is_over; i++) {
+        p->is_inside[i] = false;
         if (solid_is_flat(passage_solid(p, i))) {
             passage_flat(p, i, start);
         } else {
             passage_solid_begin(p, i, start, is_own);
         }
     }
-    for (uint32_t i = p->is_over ? 0 : p->count / 2; i-- > 0;) {
+    if (p->is_over || p->count == 0) {
+        return;
+    }
+    passage_set_states(p);
+    for (uint32_t i = p->count / 2; i-- > 0;) {
         heap_sift(p, i);
     }
 }
@@ -271,8 +327,19 @@ static void passage_begin(Passage *p, RayStart start)
 // Whether no crossing that is left may lie at the limit or before it. Those before it are asked about errors by nobody.
 static bool passage_is_beyond(Passage *p, double limit)
 {
-    if (!(p->crossings[0].t > limit)) {
+    const double t = p->crossings[0].t;
+    if (!(t > limit)) {
         return false;
+    }
+    if (p->greatest_bound < 0.0) {
+        p->greatest_bound = 0.0;
+        for (uint32_t i = 0; i < p->count; i++) {
+            double bound = crossing_bound(p, &p->crossings[i]);
+            p->greatest_bound = bound <= p->greatest_bound ? p->greatest_bound : isnan(bound) ? (double)INFINITY : bound;
+        }
+    }
+    if (t * (t / (t + p->greatest_bound)) * (1.0 - 16.0 * 0x1p-53) > limit) {
+        return true; // the others' shares are no less than that of the nearest with the greatest of all
     }
     if (p->nearest_share == 0.0) {
         p->nearest_share = 1.0;
@@ -282,7 +349,7 @@ static bool passage_is_beyond(Passage *p, double limit)
             p->nearest_share = share < p->nearest_share ? share : p->nearest_share;
         }
     }
-    return p->crossings[0].t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
+    return t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
 }
 
 void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
@@ -294,14 +361,26 @@ void assembly_closest(const ShapeTable *table, const Assembly *assembly, const R
     uint32_t inside[assembly->node_count];
     bool is_inside[assembly->solid_count];
     Crossing crossings[2 * (size_t)assembly->solid_count];
-    Passage p = {table, assembly, ray,       start_error, enter, 0.0,
-                 inside, is_inside, crossings, 0,           false, 0.0, (double)INFINITY};
+    Ray objects[assembly->solid_count];
+    Passage p = {.table = table,
+                 .assembly = assembly,
+                 .ray = ray,
+                 .start_error = start_error,
+                 .enter = enter,
+                 .origin_size = vec3_sum_abs(ray->origin),
+                 .direction_size = vec3_sum_abs(ray->direction),
+                 .greatest_bound = -1.0,
+                 .inside = inside,
+                 .is_inside = is_inside,
+                 .objects = objects,
+                 .crossings = crossings,
+                 .decided_until = (double)INFINITY};
     passage_begin(&p, start);
     while (!p.is_over && p.count > 0 && !passage_is_beyond(&p, first->limit)) {
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
-        double until = crossings[begin].t + crossing_error(&p, &crossings[begin]);
-        while (p.count > 0 && crossings[0].t - crossing_error(&p, &crossings[0]) <= until) {
+        Crossing earliest = crossings[begin];
+        while (p.count > 0 && !crossing_is_apart(&p, &earliest, &crossings[0])) {
             begin = heap_pop(&p);
         }
         if (passage_cross(&p, begin, end, first)) {

@@ -43,7 +43,7 @@ static void line_set(ShapeQuery *q)
     for (int axis = 0; axis < 3; axis++) {
         line->low_from[axis] = origin[axis] + pad;
         line->high_from[axis] = origin[axis] - pad;
-        line->inverse[axis] = 1.0 / copysign(fmax(fabs(d[axis]), 0x1p-60), d[axis]);
+        line->inverse[axis] = 1.0 / copysign(fabs(d[axis]) > 0x1p-60 ? fabs(d[axis]) : 0x1p-60, d[axis]);
     }
     line->unscale = 1.0 / tree->scale;
     line->is_set = true;

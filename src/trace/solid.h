@@ -26,7 +26,7 @@ typedef struct Solid {
     MaterialIndex material;
     uint32_t order, body;
     Vec3 centre;
-    double extent;         // solid_measure
+    double extent, spread; // solid_measure
     Vec3 columns;          // lengths of the columns of to_object
     uint8_t entries[3];    // of each column: a bit for each that is not 0
     Linear to_object, to_world; // what tests need stands before what surfaces need
@@ -55,11 +55,16 @@ bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord
 bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
 
 // What the bounds of rounding want of the map: its columns, and as `extent` the sum of the lengths that it gives to the
-// fixed shape, more where it makes angles narrow: what its own rounding, and its inverse's, are beside.
+// fixed shape, more where it makes angles narrow: what its own rounding, and its inverse's, are beside. `spread` is that
+// and the sum of the coordinates of the centre.
 void solid_measure(Solid *solid);
 
 // How far a crossing's t may be off by rounding; docs/numerics.md has the bound. Infinite along the surface.
 double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side);
+
+// What is at least that, for less work; `span` is |o| + t |d| of the ray, each |v| the sum of its coordinates' sizes. It
+// may be NaN.
+double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double span);
 
 // The same for a ball, whose crossing is not off by more than its chord is long.
 double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, double t);

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "trace/geometry.h"
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
 
@@ -357,8 +358,49 @@ static void test_scale(void)
     tap_ok(hits > 500 && differ == 0, "a power of two changes no bit (%d of %d differ)", differ, hits);
 }
 
+// What stands for the error of a crossing where either gives the same answer is never less.
+static void test_bounds(void)
+{
+    static const PartKind kinds[] = {PART_BALL, PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE};
+    Random random = {9};
+    int asked = 0, less = 0, loose = 0;
+    for (int i = 0; i < 3000; i++) {
+        Scene scene;
+        double size = ldexp(1.0, (int)(random_bits(&random) % 60) - 30);
+        Part part = random_part(&random, kinds[i % 5], size);
+        scene_init(&scene);
+        add_part(&scene, &part);
+        Geometry *geometry = prepare(&scene, 0);
+        const Solid *solid = &geometry->shapes.solids[0];
+        for (int k = 0; k < 20; k++) {
+            Ray ray = random_ray(&random, size), object = solid_ray(solid, &ray);
+            Chord chord = CHORD_ALL;
+            double t = 0.0;
+            if (solid_is_flat(solid) ? !solid_flat_root(solid, &object, &t)
+                                     : !solid_chord(solid, &object, SIDE_NONE, &chord)) {
+                continue;
+            }
+            for (int end = 0; end < 2; end++) {
+                uint8_t side = end ? chord.leave_side : chord.enter_side;
+                t = solid_is_flat(solid) ? t : end ? chord.leave : chord.enter;
+                double span = vec3_sum_abs(ray.origin) + fabs(t) * vec3_sum_abs(ray.direction);
+                double error = solid_crossing_error(solid, &ray, &object, t, side);
+                double bound = solid_crossing_bound(solid, &ray, &object, t, side, span);
+                less += bound < error;
+                loose += bound > 100.0 * error;
+                asked++;
+            }
+        }
+        geometry_free(geometry);
+        scene_fini(&scene);
+    }
+    tap_ok(asked > 10000 && less == 0, "bounds of errors are no less than errors (%d of %d are)", less, asked);
+    tap_ok(loose < asked / 100, "and seldom a hundred times as much (%d are)", loose);
+}
+
 int main(void)
 {
+    test_bounds();
     test_on_surface();
     test_tree();
     test_secondary(1e-12);
