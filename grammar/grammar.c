@@ -59,7 +59,10 @@ bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
         state->client_ended = true;
         return false;
     }
-    arena_rewind(state->context->arena, state->mark);
+    bool has_nodes = has_lookahead && (state->current.kind == TOKEN_VECTOR || state->current.kind == TOKEN_ITEMS);
+    if (!has_nodes) { // else with the next item
+        arena_rewind(state->context->arena, state->mark);
+    }
     state->item_begin = has_lookahead ? state->current.span.begin : 0;
     state->faults_before = state->context->diags->error_count;
     return true;
