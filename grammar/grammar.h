@@ -39,6 +39,20 @@ typedef struct GrammarLiteral {
     unsigned colours;        // how many numbers of it the text says: 0, 3 or 5
 } GrammarLiteral;
 
+// The transforms that such a statement says of the sphere, in their order: those of nothing but numbers.
+enum { GRAMMAR_MOVES_MOST = 4 };
+
+typedef struct GrammarMove {
+    Symbol word;    // `translate`, `rotate`, `scale` or `matrix`
+    unsigned count; // of the numbers: 1, 3 or, of a matrix, 12
+    double numbers[12];
+} GrammarMove;
+
+typedef struct GrammarMoves {
+    unsigned count;
+    GrammarMove items[GRAMMAR_MOVES_MOST];
+} GrammarMoves;
+
 
 // Some of them, one after the other; spans are from `base` on.
 typedef struct GrammarLiterals {
@@ -89,10 +103,10 @@ typedef struct GrammarHooks {
     // of its kind would give, too; false: not so. Then others of that kind, without a tree. `literal_state` changes
     // whenever a kind may give something else than before. NULL in `literal`: all are parsed.
     const uint64_t *literal_state;
-    void (*literal_watch)(void *client, const GrammarLiteral *literal);
+    void (*literal_watch)(void *client, const GrammarLiteral *literal, const GrammarMoves *moves);
     bool (*literal_learn)(void *client, GrammarLiteralKind *kind);
-    LiteralResult (*literal)(void *client, const GrammarLiteral *literal);
-    // Takes `count` >= 1 lists, none of them empty, at once and on `literal_threads`; it seems that about `more` will
+    LiteralResult (*literal)(void *client, const GrammarLiteral *literal, const GrammarMoves *moves);
+    // The same for those that say no transform. Takes `count` >= 1 lists, none of them empty, at once and on `literal_threads`; it seems that about `more` will
     // follow. False: nothing was done, they are to be given one by one.
     bool (*literals)(void *client, const GrammarLiterals *lists, size_t count, size_t more);
     int literal_threads;  // long runs of them are read on so many; 0 and 1: on the caller's alone

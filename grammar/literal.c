@@ -2,8 +2,8 @@
 //
 // Turns `sphere { <n, n, n>, n … }` at the top level of a file into calls of the evaluator's `literal`, as long as what
 // follows the radius is text that was seen before: a statement that is like none before is parsed like any other, and
-// when the evaluator says what it has become, its text is kept as a pattern, with a gap where the numbers of its
-// pigment stand. All that is not sure to be read alike is left to the scanner.
+// when the evaluator says what it has become, its text is kept as a pattern, with gaps where the numbers of its
+// pigment and of its transforms stand. All that is not sure to be read alike is left to the scanner.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -36,7 +36,7 @@ static const char *read_numbers(const char *at, const char *end, unsigned count,
     return at;
 }
 
-// `sphere { <n, n, n>, n`; NULL: something else.
+// `sphere { <n, n, n>, n`, or one number for all three; NULL: something else.
 static const char *read_head(const char *at, const char *end, GrammarLiteral *literal)
 {
     static const char word[] = "sphere";
@@ -44,34 +44,35 @@ static const char *read_head(const char *at, const char *end, GrammarLiteral *li
         return NULL;
     }
     at = plain_skip_blanks(at + sizeof word - 1);
-    if (*at != '{' || *(at = plain_skip_blanks(at + 1)) != '<') {
+    if (*at != '{') {
         return NULL;
     }
-    at = read_numbers(at + 1, end, 3, literal->centre);
-    if (at == NULL || *at != '>' || *(at = plain_skip_blanks(at + 1)) != ',') {
-        return NULL;
+    at = plain_skip_blanks(at + 1);
+    if (*at == '<') {
+        at = read_numbers(at + 1, end, 3, literal->centre);
+        at = at != NULL && *at == '>' ? plain_skip_blanks(at + 1) : NULL;
+    } else {
+        at = read_numbers(at, end, 1, literal->centre);
+        literal->centre[1] = literal->centre[2] = literal->centre[0];
     }
-    return plain_read_number(plain_skip_blanks(at + 1), end, &literal->radius);
+    return at != NULL && *at == ',' ? plain_read_number(plain_skip_blanks(at + 1), end, &literal->radius) : NULL;
 }
 
 // ---- patterns
 
-void grammar_literals_forget(GrammarState *state)
+static bool is_colour(Symbol word)
 {
-    for (unsigned i = 0; i < LITERAL_PATTERNS; i++) {
-        free(state->literals[i] != NULL ? state->literals[i]->text : NULL);
-        free(state->literals[i]);
-        state->literals[i] = NULL;
-    }
-    state->learning = NULL;
+    return word == W_rgb || word == W_rgbf || word == W_rgbt || word == W_rgbft;
 }
 
-// The numbers of a pigment, in the order red, green, blue, filter, transmit.
-static const char *read_colour(const char *at, const char *end, Word word, GrammarLiteral *literal)
+static bool is_move(Symbol word)
 {
-    unsigned count = word == W_rgb ? 3 : word == W_rgbft ? 5 : 4;
-    double colour[5] = {0};
-    at = read_numbers(at, end, count, colour);
+    return word == W_translate || word == W_rotate || word == W_scale || word == W_matrix;
+}
+
+// The numbers of a pigment, put in the order red, green, blue, filter, transmit.
+static void set_colour(double *colour, Word word, GrammarLiteral *literal)
+{
     if (word == W_rgbt) {
         colour[4] = colour[3];
         colour[3] = 0.0;
@@ -80,33 +81,59 @@ static const char *read_colour(const char *at, const char *end, Word word, Gramm
     for (unsigned i = 0; i < literal->colours; i++) {
         literal->kind.colour[i] = (float)colour[i];
     }
-    return at;
 }
 
-static const char *match(const LiteralPattern *pattern, const char *at, const char *end, GrammarLiteral *literal)
+static const char *read_part(const LiteralPart *part, const char *at, const char *end, GrammarLiteral *literal,
+                             GrammarMoves *moves)
 {
-    if ((size_t)(end - at) <= pattern->before + pattern->after || memcmp(at, pattern->text, pattern->before) != 0) {
-        return NULL;
+    if (is_colour(part->word)) {
+        double colour[5] = {0};
+        at = read_numbers(at, end, part->count, colour);
+        set_colour(colour, part->word, literal);
+        return at;
     }
-    at += pattern->before;
+    GrammarMove *move = &moves->items[moves->count++];
+    move->word = part->word;
+    move->count = part->count;
+    return part->count > 1 ? read_numbers(at, end, part->count, move->numbers)
+                           : plain_read_number(at, end, move->numbers);
+}
+
+static const char *match(const LiteralPattern *pattern, const char *at, const char *end, GrammarLiteral *literal,
+                         GrammarMoves *moves)
+{
+    const char *text = pattern->text;
     literal->kind = pattern->kind;
     literal->colours = 0;
-    if (pattern->word != 0) {
-        at = read_colour(at, end, pattern->word, literal);
-        if (at == NULL || (size_t)(end - at) <= pattern->after) {
+    moves->count = 0;
+    for (unsigned i = 0; i < pattern->part_count; i++) {
+        const LiteralPart *part = &pattern->parts[i];
+        if ((size_t)(end - at) <= part->before || memcmp(at, text, part->before) != 0) {
+            return NULL;
+        }
+        text += part->before;
+        at = read_part(part, at + part->before, end, literal, moves);
+        if (at == NULL) {
             return NULL;
         }
     }
-    return memcmp(at, pattern->text + pattern->before, pattern->after) == 0 ? at + pattern->after : NULL;
+    return (size_t)(end - at) > pattern->after && memcmp(at, text, pattern->after) == 0 ? at + pattern->after : NULL;
 }
 
-// Where the words of a text are known to be words of the language, its braces pair up, and all else is numbers and
-// commas: its end, after the brace that closes the sphere. *gap: the numbers of the only pigment, if they are all that
-// is said of its colour.
+// ---- finding the numbers of a text
+
 typedef struct Gap {
-    const char *begin, *end;
+    const char *begin, *end; // of the numbers
     Word word;
+    unsigned count;
 } Gap;
+
+// Those of a text in their order; `colour` is the number of the pigment's, or `count`.
+typedef struct Gaps {
+    Gap items[LITERAL_PARTS];
+    unsigned count, colour;
+    bool is_full; // there are more transforms
+} Gaps;
 
 // `}`, after `rgb <…>` perhaps with a filter and a transmit before it.
 static bool ends_colour(const char *at, const char *end, Word word)
@@ -123,25 +150,60 @@ static bool ends_colour(const char *at, const char *end, Word word)
     return at != NULL && *at == '}';
 }
 
-static void find_gap(const char *at, const char *end, Symbol word, Gap *gap)
+// The numbers of the only pigment, if they are all that is said of its colour.
+static void find_colour(const char *at, const char *end, Symbol word, Gaps *gaps)
 {
-    GrammarLiteral literal;
+    unsigned count = word == W_rgb ? 3 : word == W_rgbft ? 5 : 4;
+    double numbers[5];
     at = plain_skip_blanks(at);
-    if ((word != W_rgb && word != W_rgbf && word != W_rgbt && word != W_rgbft) || *at != '<') {
+    if (!is_colour(word) || *at != '<' || gaps->colour < gaps->count) {
         return;
     }
-    const char *after = read_colour(at + 1, end, (Word)word, &literal);
+    const char *after = read_numbers(at + 1, end, count, numbers);
     if (after != NULL && *after == '>' && ends_colour(plain_skip_blanks(after + 1), end, (Word)word)) {
-        *gap = (Gap){at + 1, after, (Word)word};
+        gaps->colour = gaps->count;
+        gaps->items[gaps->count++] = (Gap){at + 1, after, (Word)word, count};
     }
 }
 
-static const char *survey(const GrammarState *state, const char *at, const char *end, Gap *gap)
+// Those of a transform, which no operator follows. One that is written otherwise is no gap: the evaluator sees that the
+// sphere was moved by more than it is told of.
+static void find_move(const char *at, const char *end, Symbol word, Gaps *gaps)
+{
+    double numbers[12];
+    at = plain_skip_blanks(at);
+    bool is_vector = *at == '<';
+    unsigned count = !is_vector ? 1 : word == W_matrix ? 12 : 3;
+    at += is_vector;
+    const char *after = is_vector ? read_numbers(at, end, count, numbers) : plain_read_number(at, end, numbers);
+    const char *next = after != NULL && (!is_vector || *after == '>') ? plain_skip_blanks(after + is_vector) : NULL;
+    if (next == NULL || (*next != '}' && !plain_is_letter(*next))) {
+        return;
+    }
+    gaps->is_full = gaps->is_full || gaps->count - (gaps->colour < gaps->count) == GRAMMAR_MOVES_MOST;
+    if (!gaps->is_full) {
+        gaps->colour += gaps->colour == gaps->count;
+        gaps->items[gaps->count++] = (Gap){at, after, (Word)word, count};
+    }
+}
+
+static void forget_colour(Gaps *gaps)
+{
+    if (gaps->colour < gaps->count) {
+        gaps->count--;
+        memmove(&gaps->items[gaps->colour], &gaps->items[gaps->colour + 1],
+                (gaps->count - gaps->colour) * sizeof *gaps->items);
+    }
+}
+
+// Where the words of a text are known to be words of the language, its braces pair up, and all else is numbers and
+// commas: its end, after the brace that closes the sphere.
+static const char *survey(const GrammarState *state, const char *at, const char *end, Gaps *gaps)
 {
     unsigned depth = 1, pigments = 0;
     bool begins_pigment = false, is_after_number = true; // the radius
     const char *limit = end - at > LITERAL_TEXT_LONGEST ? at + LITERAL_TEXT_LONGEST : end;
-    *gap = (Gap){0};
+    *gaps = (Gaps){0};
     while (at < limit && depth > 0) {
         const char *begin = at;
         if (plain_is_letter(*at)) {
@@ -154,7 +216,9 @@ static const char *survey(const GrammarState *state, const char *at, const char 
             }
             pigments += word == W_pigment;
             if (begins_pigment) {
-                find_gap(at, end, word, gap);
+                find_colour(at, end, word, gaps);
+            } else if (depth == 1 && is_move(word)) {
+                find_move(at, end, word, gaps);
             }
             begins_pigment = word == W_pigment || (begins_pigment && (word == W_color || word == W_colour));
             is_after_number = false;
@@ -174,12 +238,12 @@ static const char *survey(const GrammarState *state, const char *at, const char 
         }
     }
     if (pigments != 1) {
-        *gap = (Gap){0};
+        forget_colour(gaps);
     }
-    return depth == 0 ? at : NULL;
+    return depth == 0 && !gaps->is_full ? at : NULL;
 }
 
-static LiteralPattern *new_pattern(const char *text, const char *end, const Gap *gap)
+static LiteralPattern *new_pattern(const char *text, const char *end, const Gaps *gaps)
 {
     LiteralPattern *pattern = malloc(sizeof *pattern);
     char *copy = malloc((size_t)(end - text));
@@ -188,43 +252,61 @@ static LiteralPattern *new_pattern(const char *text, const char *end, const Gap 
         free(copy);
         return NULL;
     }
-    *pattern = (LiteralPattern){.text = copy, .word = gap->word};
-    pattern->before = (size_t)((gap->word != 0 ? gap->begin : end) - text);
-    pattern->after = (size_t)(gap->word != 0 ? end - gap->end : 0);
-    memcpy(copy, text, pattern->before);
-    memcpy(copy + pattern->before, end - pattern->after, pattern->after);
+    *pattern = (LiteralPattern){.text = copy, .part_count = gaps->count};
+    for (unsigned i = 0; i < gaps->count; i++) {
+        const Gap *gap = &gaps->items[i];
+        size_t before = (size_t)(gap->begin - text);
+        pattern->parts[i] = (LiteralPart){before, gap->word, gap->count};
+        pattern->has_moves = pattern->has_moves || is_move(gap->word);
+        memcpy(copy, text, before);
+        copy += before;
+        text = gap->end;
+    }
+    pattern->after = (size_t)(end - text);
+    memcpy(copy, text, pattern->after);
     return pattern;
+}
+
+static void pattern_free(LiteralPattern *pattern)
+{
+    if (pattern != NULL) {
+        free(pattern->text);
+        free(pattern);
+    }
+}
+
+void grammar_literals_forget(GrammarState *state)
+{
+    for (unsigned i = 0; i < LITERAL_PATTERNS; i++) {
+        pattern_free(state->literals[i]);
+        state->literals[i] = NULL;
+    }
+    state->learning = NULL;
 }
 
 // Keeps the text of a statement that begins here, which is parsed as any other, to see what becomes of it.
 static void begin_learning(GrammarState *state, const char *begin, const char *text, const char *end,
                            const GrammarLiteral *literal)
 {
-    Gap gap;
+    Gaps gaps;
     if (++state->literal_misses > MISSES_MOST && state->literal_misses % MISSES_MOST != 0) {
         return;
     }
-    const char *after = survey(state, text, end, &gap);
-    LiteralPattern *last = state->literals[LITERAL_PATTERNS - 1];
-    LiteralPattern *pattern = after != NULL ? new_pattern(text, after, &gap) : NULL;
-    if (pattern == NULL) {
+    const char *after = survey(state, text, end, &gaps);
+    LiteralPattern *pattern = after != NULL ? new_pattern(text, after, &gaps) : NULL;
+    GrammarLiteral copy = *literal;
+    GrammarMoves moves;
+    if (pattern == NULL || match(pattern, text, end, &copy, &moves) != after) {
+        pattern_free(pattern);
         return;
     }
-    if (last != NULL) {
-        free(last->text);
-        free(last);
-    }
+    pattern_free(state->literals[LITERAL_PATTERNS - 1]);
     memmove(state->literals + 1, state->literals, (LITERAL_PATTERNS - 1) * sizeof *state->literals);
     state->literals[0] = state->learning = pattern;
     state->learning_end = state->offset + (uint64_t)(after - begin);
-    GrammarLiteral copy = *literal;
     copy.span = (Span){state->offset, state->learning_end};
-    copy.colours = 0;
-    if (gap.word != 0) {
-        (void)read_colour(gap.begin, end, gap.word, &copy);
-    }
     const GrammarHooks *hooks = state->context->hooks;
-    hooks->literal_watch(hooks->client, &copy);
+    hooks->literal_watch(hooks->client, &copy, &moves);
 }
 
 static void end_learning(GrammarState *state)
@@ -237,7 +319,7 @@ static void end_learning(GrammarState *state)
 }
 
 const char *literal_read(LiteralPattern *const *patterns, const char *at, const char *end, GrammarLiteral *literal,
-                         unsigned *which, const char **text)
+                         GrammarMoves *moves, unsigned *which, const char **text)
 {
     *text = read_head(at, end, literal);
     *which = LITERAL_PATTERNS;
@@ -246,7 +328,7 @@ const char *literal_read(LiteralPattern *const *patterns, const char *at, const 
         return NULL;
     }
     for (unsigned i = 0; i < LITERAL_PATTERNS && patterns[i] != NULL; i++) {
-        const char *after = match(patterns[i], *text, end, literal);
+        const char *after = match(patterns[i], *text, end, literal, moves);
         if (after != NULL) {
             *which = i;
             return after;
@@ -282,9 +364,10 @@ const char *grammar_literals_read(GrammarState *state, const char *at, const cha
     size_t taken = 0;
     while (!state->ended) {
         GrammarLiteral literal;
+        GrammarMoves moves;
         unsigned which;
         const char *begin = plain_skip_blanks(at), *text;
-        const char *after = literal_read(state->literals, begin, end, &literal, &which, &text);
+        const char *after = literal_read(state->literals, begin, end, &literal, &moves, &which, &text);
         if (text == NULL) {
             break;
         }
@@ -301,13 +384,13 @@ const char *grammar_literals_read(GrammarState *state, const char *at, const cha
         }
         state->literal_misses = 0;
         literal.span = (Span){offset, offset + (uint64_t)(after - begin)};
-        LiteralResult result = hooks->literal(hooks->client, &literal);
+        LiteralResult result = hooks->literal(hooks->client, &literal, &moves);
         if (result == LITERAL_LEFT) {
             break;
         }
         at = after;
         literal_set_previous(state, literal.span.end);
-        taken++;
+        taken += !pattern->has_moves;
         if (result == LITERAL_STOP) {
             state->client_ended = state->ended = true;
         }

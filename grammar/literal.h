@@ -14,18 +14,30 @@ enum {
     LITERALS_MANY = 128,              // so many in a buffer: it is worth while to look for more piece by piece
 };
 
+// Numbers that differ from statement to statement: of the pigment's colour, or of a transform.
+typedef struct LiteralPart {
+    size_t before; // bytes of text between the numbers before it, or the radius, and its own
+    Word word;     // before its numbers
+    unsigned count;
+} LiteralPart;
+
+enum { LITERAL_PARTS = GRAMMAR_MOVES_MOST + 1 };
+
 struct LiteralPattern {
-    char *text;          // before the gap, then after it
-    size_t before, after;
-    Word word;           // before the numbers in the gap; 0: there is none
+    char *text;          // all but the numbers
+    LiteralPart parts[LITERAL_PARTS];
+    unsigned part_count;
+    size_t after;        // bytes of text behind the last numbers
+    bool has_moves;      // some are of transforms
     bool is_used;        // the evaluator knows what it gives; else such statements are not read here
     GrammarLiteralKind kind;
 };
 
-// Reads the statement that begins here, all but its span, into *literal: returns its end, and sets the pattern it is
-// like. NULL: it is like none, or not a literal sphere at all, and *text, the text after the radius, is NULL.
+// Reads the statement that begins here, all but its span, into *literal and *moves: returns its end, and sets the
+// pattern it is like. NULL: it is like none, or not a literal sphere at all, and *text, the text after the radius, is
+// NULL.
 const char *literal_read(LiteralPattern *const *patterns, const char *at, const char *end, GrammarLiteral *literal,
-                         unsigned *which, const char **text);
+                         GrammarMoves *moves, unsigned *which, const char **text);
 
 // The form of a statement that is like a pattern: all of its text but the numbers (literal_form.c).
 typedef struct LiteralGap {
@@ -50,7 +62,7 @@ enum {
 typedef struct LiteralForm {
     const LiteralPattern *pattern; // NULL: none is known
     char head[32];                 // up to the first number
-    size_t head_length;
+    size_t head_length, before;    // bytes; of the text between the radius and the numbers of the colour
     LiteralGap gaps[LITERAL_NUMBERS]; // between centre and radius, then between the numbers of the colour
     LiteralDigits digits[LITERAL_NUMBERS]; // of the numbers in the same order
     unsigned colours;                 // numbers of the colour
@@ -58,7 +70,7 @@ typedef struct LiteralForm {
     unsigned odd, statements, learnt; // numbers of other digits, and statements, since it was learnt; how often that was
 } LiteralForm;
 
-// Of a statement that was read by literal_read.
+// Of a statement that was read by literal_read; one that says a transform has no form.
 void literal_form_learn(LiteralForm *form, const LiteralPattern *pattern, const char *begin, const char *end);
 // As literal_read, of a statement of this form that the buffer does not end soon after; NULL: it is none.
 const char *literal_form_read(LiteralForm *form, const char *at, const char *end, GrammarLiteral *literal);

@@ -92,28 +92,28 @@ static const char *row_learn(LiteralGap *gaps, LiteralDigits *digits, const char
     return at;
 }
 
-static unsigned colour_numbers(Word word)
-{
-    return word == 0 ? 0 : word == W_rgb ? 3 : word == W_rgbft ? 5 : 4;
-}
-
 // What LiteralPattern leaves open, blanks around the numbers of the colour, belongs to no form.
 static bool form_take_apart(LiteralForm *form, const LiteralPattern *pattern, const char *begin, const char *end)
 {
-    const char *first = memchr(begin, '<', (size_t)(end - begin));
+    const char *first = memchr(begin, '{', (size_t)(end - begin));
     first = first != NULL ? plain_skip_blanks(first + 1) : end;
+    if (pattern->has_moves || *first != '<') {
+        return false;
+    }
+    first = plain_skip_blanks(first + 1);
     form->head_length = (size_t)(first - begin);
     if (form->head_length > sizeof form->head) {
         return false;
     }
     memcpy(form->head, begin, form->head_length);
     const char *at = row_learn(form->gaps, form->digits, first, end, HEAD_NUMBERS);
-    form->colours = colour_numbers(pattern->word);
-    if (at == NULL || pattern->word == 0) {
+    form->colours = pattern->part_count > 0 ? pattern->parts[0].count : 0;
+    form->before = pattern->part_count > 0 ? pattern->parts[0].before : 0;
+    if (at == NULL || form->colours == 0) {
         return at != NULL;
     }
-    at = row_learn(form->gaps + HEAD_NUMBERS, form->digits + HEAD_NUMBERS, at + pattern->before, end, form->colours);
-    return at != NULL && *at == pattern->text[pattern->before];
+    at = row_learn(form->gaps + HEAD_NUMBERS, form->digits + HEAD_NUMBERS, at + form->before, end, form->colours);
+    return at != NULL && *at == pattern->text[form->before];
 }
 
 void literal_form_learn(LiteralForm *form, const LiteralPattern *pattern, const char *begin, const char *end)
@@ -184,8 +184,9 @@ RT_ALWAYS_INLINE const char *colour_read(LiteralForm *form, bool is_even, const 
     if (at == NULL) {
         return NULL;
     }
-    bool has_transmit = form->pattern->word == W_rgbt;
-    literal->colours = form->pattern->word == W_rgb ? 3 : 5;
+    Word word = form->pattern->parts[0].word;
+    bool has_transmit = word == W_rgbt;
+    literal->colours = word == W_rgb ? 3 : 5;
     for (unsigned i = 0; i < 3; i++) {
         literal->kind.colour[i] = (float)colour[i];
     }
@@ -205,17 +206,17 @@ RT_ALWAYS_INLINE const char *form_read(LiteralForm *form, bool is_even, const ch
         return NULL;
     }
     at = row_read(form, is_even, 0, at + form->head_length, end, HEAD_NUMBERS, numbers);
-    if (at == NULL || !(numbers[3] > 0.0) || memcmp(at, pattern->text, pattern->before) != 0) {
+    if (at == NULL || !(numbers[3] > 0.0) || memcmp(at, pattern->text, form->before) != 0) {
         return NULL;
     }
     memcpy(literal->centre, numbers, sizeof literal->centre);
     literal->radius = numbers[3];
     literal->kind = pattern->kind;
     literal->colours = 0;
-    at += pattern->before;
+    at += form->before;
     at = form->colours > 0 ? colour_read(form, is_even, at, end, literal) : at;
     form->statements++;
-    bool is_like = at != NULL && memcmp(at, pattern->text + pattern->before, pattern->after) == 0;
+    bool is_like = at != NULL && memcmp(at, pattern->text + form->before, pattern->after) == 0;
     return is_like ? at + pattern->after : NULL;
 }
 

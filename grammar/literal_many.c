@@ -75,8 +75,9 @@ static const char *read_statement(const Readers *readers, Forms *forms, const ch
         return after;
     }
     unsigned which;
-    after = literal_read(patterns, at, end, literal, &which, &text);
-    if (after == NULL || !patterns[which]->is_used) {
+    GrammarMoves moves;
+    after = literal_read(patterns, at, end, literal, &moves, &which, &text);
+    if (after == NULL || !patterns[which]->is_used || patterns[which]->has_moves) {
         return NULL;
     }
     // Where numbers are set in columns no form lasts.
@@ -161,12 +162,13 @@ static Readers *readers_new(const GrammarState *state, size_t bytes, int count)
 // Hands a piece's spheres over one by one. False when what follows the last one taken is something else.
 static bool piece_take(GrammarState *state, const Piece *piece, uint64_t base)
 {
+    static const GrammarMoves no_moves;
     const GrammarHooks *hooks = state->context->hooks;
     for (size_t i = 0; i < piece->count; i++) {
         GrammarLiteral *literal = &piece->literals[i];
         literal->span.begin += base;
         literal->span.end += base;
-        LiteralResult result = hooks->literal(hooks->client, literal);
+        LiteralResult result = hooks->literal(hooks->client, literal, &no_moves);
         if (result == LITERAL_LEFT) {
             return false;
         }

@@ -86,7 +86,8 @@ static inline const char *plain_read_any(const char *at, const char *end, double
 {
     size_t length = (size_t)(end - at), used;
     length = length < PLAIN_NUMBER_LONGEST ? length : PLAIN_NUMBER_LONGEST;
-    if (!plain_is_digit(*at) || number_scan(at, length, number, &used) != NUMBER_OK || used >= PLAIN_NUMBER_LONGEST) {
+    bool is_number = plain_is_digit(*at) || (*at == '.' && plain_is_digit(at[1]));
+    if (!is_number || number_scan(at, length, number, &used) != NUMBER_OK || used >= PLAIN_NUMBER_LONGEST) {
         return NULL;
     }
     at += used;

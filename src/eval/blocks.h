@@ -132,6 +132,8 @@ bool block_finite(Block *block, double number, Span span, const char *word) RT_M
 // transforms.c: the actions of the schema's transforms
 bool transform_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool transform_close(Block *block) RT_MUST_CHECK;
+// That of a word and the numbers after it: 1 or 3, of a matrix 12. False: it is none, or more is to be said of it.
+bool transform_of_numbers(Symbol word, const double *numbers, unsigned count, Transform *transform) RT_MUST_CHECK;
 // A vector's length and the vector of length 1 along it (zero for zero), without overflow; one whose length is 1
 // to rounding stays as it is.
 double vector_length(Vec3 vector);
@@ -262,6 +264,8 @@ typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
 // A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. SHAPE_NOTHING,
 // with a warning, for one of no extent.
 ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part);
+// Of a sphere that sphere_image_radius has found to be none after its transforms.
+ShapeResult shape_make_stretched(Eval *ev, const SphereBlueprint *sphere, const Transform *transform, Part *part);
 // The radius of a sphere under a transform; false when it is no sphere any more.
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.
@@ -271,6 +275,9 @@ bool shape_flattened(Eval *ev, const ObjectPart *part);
 bool object_place(Eval *ev, SchemaKind kind, const void *object) RT_MUST_CHECK;
 // A sphere of a plain material; false after a fault.
 bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span) RT_MUST_CHECK;
+// The same for one that the statement transforms.
+bool sphere_place_moved(Eval *ev, Vec3 centre, double radius, const Transform *transform, const Material *material,
+                        Span span) RT_MUST_CHECK;
 // Whether what the scene takes, and so many bytes more, is within the limit of memory.
 bool memory_has(const Eval *ev, size_t bytes);
 

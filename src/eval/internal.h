@@ -128,7 +128,8 @@ typedef struct ObjectState ObjectState; // object.c: default texture, scratch of
 typedef struct LiteralWatch {
     uint64_t state; // changed by whatever changes what such a statement gives
     GrammarLiteral literal;
-    size_t shapes, spheres, messages; // before it
+    GrammarMoves moves;
+    size_t shapes, spheres, parts, messages; // before it
     bool is_watching, is_plain;
 } LiteralWatch;
 

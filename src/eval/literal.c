@@ -26,31 +26,54 @@ static size_t message_count(const Eval *ev)
     return ev->options.diags->error_count + ev->options.diags->warning_count;
 }
 
-static void watch(void *client, const GrammarLiteral *literal)
+static void watch(void *client, const GrammarLiteral *literal, const GrammarMoves *moves)
 {
     Eval *ev = eval_of(client);
     ev->literal = (LiteralWatch){
         .is_watching = true,
         .state = ev->literal.state,
         .literal = *literal,
+        .moves = *moves,
         .shapes = ev->scene->shape_count,
         .spheres = ev->scene->spheres.count,
+        .parts = ev->scene->parts.count,
         .messages = message_count(ev),
     };
 }
 
-bool object_is_plain_sphere(const Eval *ev, SchemaKind kind, const Blueprint *record)
+static bool is_plain_but_for_place(const Eval *ev, SchemaKind kind, const Blueprint *record)
 {
     const ObjectPart *part = &record->part;
     const TextureBlueprint *texture = part->texture ? part->texture : ev->objects->defaults;
-    return kind == KIND_SPHERE && transform_is_identity(&part->transform) &&
-                           !part->is_inverse && !part->no_shadow && !part->no_image && !part->no_reflection &&
-                           !part->interior && !part->clips && !part->bounds && texture->ior == 0.0;
+    return kind == KIND_SPHERE && !part->is_inverse && !part->no_shadow && !part->no_image && !part->no_reflection &&
+           !part->interior && !part->clips && !part->bounds && texture->ior == 0.0;
+}
+
+bool object_is_plain_sphere(const Eval *ev, SchemaKind kind, const Blueprint *record)
+{
+    return is_plain_but_for_place(ev, kind, record) && transform_is_identity(&record->part.transform);
+}
+
+// What the transforms of a statement are together. False when the statement itself is to say what is wrong with one.
+static bool moves_compose(const GrammarMoves *moves, Transform *all)
+{
+    *all = transform_identity();
+    for (unsigned i = 0; i < moves->count; i++) {
+        const GrammarMove *move = &moves->items[i];
+        Transform transform;
+        if (!transform_of_numbers(move->word, move->numbers, move->count, &transform)) {
+            return false;
+        }
+        *all = transform_compose(*all, transform);
+    }
+    return transform_is_finite(all);
 }
 
 void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record)
 {
-    ev->literal.is_plain = object_is_plain_sphere(ev, kind, record);
+    Transform all;
+    ev->literal.is_plain = is_plain_but_for_place(ev, kind, record) && moves_compose(&ev->literal.moves, &all) &&
+                           memcmp(&all, &record->part.transform, sizeof all) == 0;
 }
 
 // The colour that the text says is the colour that the sphere has.
@@ -65,7 +88,7 @@ static bool has_colour(const GrammarLiteral *literal, const Material *material)
     return true;
 }
 
-static bool is_same(const Scene *scene, size_t number, const GrammarLiteral *literal)
+static bool is_same_sphere(const Scene *scene, size_t number, const GrammarLiteral *literal)
 {
     const Sphere *sphere = &scene->spheres.items[number];
     const double *centre = literal->centre;
@@ -78,18 +101,21 @@ static bool learn(void *client, GrammarLiteralKind *kind)
     Eval *ev = eval_of(client);
     const LiteralWatch *watched = &ev->literal;
     const Scene *scene = ev->scene;
+    bool is_sphere = scene->spheres.count == watched->spheres + 1;
     bool is_plain = watched->is_watching && watched->is_plain && !ev->stop &&
-                    message_count(ev) == watched->messages &&
-                    scene->shape_count == watched->shapes + 1 && scene->spheres.count == watched->spheres + 1;
+                    message_count(ev) == watched->messages && scene->shape_count == watched->shapes + 1 &&
+                    (is_sphere || (watched->moves.count > 0 && scene->parts.count == watched->parts + 1));
     ev->literal.is_watching = false;
     if (!is_plain) {
         return false;
     }
-    const Sphere *sphere = &scene->spheres.items[watched->spheres];
-    if ((sphere->material & MATERIAL_COMPOUND) || !is_same(scene, watched->spheres, &watched->literal)) {
+    MaterialIndex index = is_sphere ? scene->spheres.items[watched->spheres].material
+                                    : scene->parts.items[watched->parts].material;
+    if ((index & MATERIAL_COMPOUND) ||
+        (watched->moves.count == 0 && !is_same_sphere(scene, watched->spheres, &watched->literal))) {
         return false;
     }
-    const Material *material = &scene->materials.items[sphere->material];
+    const Material *material = &scene->materials.items[index];
     *kind = (GrammarLiteralKind){
         {material->red, material->green, material->blue, material->filter, material->transmit}, material->finish};
     return has_colour(&watched->literal, material);
@@ -113,15 +139,19 @@ static Vec3 literal_centre(const GrammarLiteral *literal)
     return vec3(literal->centre[0] + 0.0, literal->centre[1] + 0.0, literal->centre[2] + 0.0);
 }
 
-static LiteralResult take(void *client, const GrammarLiteral *literal)
+static LiteralResult take(void *client, const GrammarLiteral *literal, const GrammarMoves *moves)
 {
     Eval *ev = eval_of(client);
     Material material;
-    if (!literal_material(literal, &material)) {
+    Transform all;
+    if (!literal_material(literal, &material) || (moves->count > 0 && !moves_compose(moves, &all))) {
         return LITERAL_LEFT;
     }
-    ev->faulty = !sphere_place_plain(ev, literal_centre(literal), literal->radius, &material, literal->span) ||
-                 ev->faulty;
+    Vec3 centre = literal_centre(literal);
+    bool is_placed = moves->count > 0
+                         ? sphere_place_moved(ev, centre, literal->radius, &all, &material, literal->span)
+                         : sphere_place_plain(ev, centre, literal->radius, &material, literal->span);
+    ev->faulty = !is_placed || ev->faulty;
     return eval_cancelled(ev) ? LITERAL_STOP : LITERAL_TAKEN;
 }
 

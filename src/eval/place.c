@@ -155,6 +155,28 @@ bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *ma
             eval_no_memory(ev, span));
 }
 
+bool sphere_place_moved(Eval *ev, Vec3 centre, double radius, const Transform *transform, const Material *material,
+                        Span span)
+{
+    SphereBlueprint sphere = {.part = {.span = span}, .centre = centre, .radius = radius};
+    Transform world = world_transform(ev);
+    Transform whole = transform_compose(*transform, world);
+    double image;
+    if (sphere_image_radius(radius, &whole, &image)) {
+        Vec3 place = transform_point(&whole, centre);
+        if (!vec3_is_finite(place) || !isfinite(image) || !(image > 0.0)) {
+            return shape_flattened(ev, &sphere.part);
+        }
+        return sphere_place_plain(ev, place, image, material, span);
+    }
+    Part part;
+    if (!may_add(ev, span) || shape_make_stretched(ev, &sphere, &whole, &part) != SHAPE_MADE) {
+        return false;
+    }
+    return (scene_add_material_record(ev->scene, material, &part.material) && scene_add_part(ev->scene, &part)) ||
+           eval_no_memory(ev, span);
+}
+
 static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner, const Part *part)
 {
     MaterialIndex material;
@@ -406,7 +428,9 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
         return is_placed;
     }
     Part shape;
-    ShapeResult result = shape_make(ev, kind, object, &inner->outer, &shape);
+    bool is_stretched = may_be_round && !inner->clips; // it was found not to be round
+    ShapeResult result = is_stretched ? shape_make_stretched(ev, object, &inner->outer, &shape)
+                                      : shape_make(ev, kind, object, &inner->outer, &shape);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING;
     }

@@ -271,15 +271,42 @@ static Transform sphere_to_world(const SphereBlueprint *sphere, const Transform 
     return round;
 }
 
-ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part)
+static Part part_of(const ObjectPart *common)
 {
-    const ObjectPart *common = object;
-    *part = (Part){
+    return (Part){
         .node = NODE_NONE,
         .source = common->span.begin,
         .to_world = transform_identity(),
         .to_object = transform_identity(),
     };
+}
+
+// What is left of a part when its to_world is known.
+static ShapeResult part_finish(Eval *ev, const ObjectPart *common, Part *part)
+{
+    make_zeros_positive(&part->to_world);
+    if (!transform_is_finite(&part->to_world) || !transform_invert(&part->to_world, &part->to_object)) {
+        shape_flattened(ev, common);
+        return SHAPE_FAULT;
+    }
+    normalise_corners(part);
+    return SHAPE_MADE;
+}
+
+ShapeResult shape_make_stretched(Eval *ev, const SphereBlueprint *sphere, const Transform *transform, Part *part)
+{
+    *part = part_of(&sphere->part);
+    ShapeResult result = sphere_form(ev, sphere, part);
+    if (result == SHAPE_MADE) {
+        part->to_world = transform_compose(part->to_world, *transform);
+        result = part_finish(ev, &sphere->part, part);
+    }
+    return result;
+}
+
+ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part)
+{
+    *part = part_of(object);
     if (kind == KIND_PLANE) {
         return plane_make(ev, object, transform, part);
     }
@@ -290,11 +317,5 @@ ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Tran
     part->to_world = kind == KIND_BOX      ? *transform
                      : kind == KIND_SPHERE ? sphere_to_world(object, &part->to_world, transform)
                                            : transform_compose(part->to_world, *transform);
-    make_zeros_positive(&part->to_world);
-    if (!transform_is_finite(&part->to_world) || !transform_invert(&part->to_world, &part->to_object)) {
-        shape_flattened(ev, common);
-        return SHAPE_FAULT;
-    }
-    normalise_corners(part);
-    return SHAPE_MADE;
+    return part_finish(ev, object, part);
 }

@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "eval/blocks.h"
 
@@ -97,6 +98,11 @@ static bool read_matrix_numbers(Block *block, const AstNode *vector, Transform *
     return true;
 }
 
+static bool column_is_empty(const Transform *matrix, int column)
+{
+    return matrix->m[0][column] == 0.0 && matrix->m[1][column] == 0.0 && matrix->m[2][column] == 0.0;
+}
+
 static bool read_matrix(Block *block, Span word, Transform *matrix)
 {
     const AstNode *item = cursor_peek(&block->cursor);
@@ -108,7 +114,7 @@ static bool read_matrix(Block *block, Span word, Transform *matrix)
         return false;
     }
     for (int column = 0; column < 3; column++) {
-        if (matrix->m[0][column] == 0.0 && matrix->m[1][column] == 0.0 && matrix->m[2][column] == 0.0) {
+        if (column_is_empty(matrix, column)) {
             eval_warn(block->ev, DIAG_W0343, item->span, "a column of `matrix` is 0; 1 is taken on its diagonal");
             matrix->m[column][column] = 1.0;
         }
@@ -145,6 +151,26 @@ static bool read_transform(Block *block, const AstNode *item, Transform *transfo
     *transform = ((const TransformBlueprint *)value.record)->transform;
     cursor_skip(&block->cursor);
     return true;
+}
+
+bool transform_of_numbers(Symbol word, const double *numbers, unsigned count, Transform *transform)
+{
+    bool is_fine = count == (word == W_matrix ? 12 : count == 1 ? 1 : 3);
+    for (unsigned i = 0; i < count; i++) {
+        is_fine = is_fine && isfinite(numbers[i]);
+    }
+    if (!is_fine) {
+        return false;
+    }
+    if (word == W_matrix) {
+        memcpy(transform->m, numbers, sizeof transform->m);
+        return !column_is_empty(transform, 0) && !column_is_empty(transform, 1) && !column_is_empty(transform, 2);
+    }
+    Vec3 by = count == 1 ? vec3(numbers[0], numbers[0], numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
+    *transform = word == W_translate ? transform_translate(by)
+                 : word == W_rotate  ? transform_rotate(by)
+                                     : transform_scale(by);
+    return word != W_scale || (by.x != 0.0 && by.y != 0.0 && by.z != 0.0);
 }
 
 bool transform_action(Block *block, const SchemaProperty *property, const AstNode *item)

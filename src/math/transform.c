@@ -139,10 +139,44 @@ static Vec3 vec3_ldexp(Vec3 a, int exponent)
     return vec3(ldexp(a.x, exponent), ldexp(a.y, exponent), ldexp(a.z, exponent));
 }
 
+// The exponent of a positive number as frexp has it.
+static int exponent_of(double x)
+{
+    int exponent;
+    frexp(x, &exponent);
+    return exponent;
+}
+
+// Whether the linear part only scales, by positive numbers, and its zeros are positive.
+static bool is_plain_scale(const Transform *transform)
+{
+    static const double zeros[3];
+    const double(*m)[3] = transform->m;
+    return m[0][0] > 0.0 && m[1][1] > 0.0 && m[2][2] > 0.0 && memcmp(&m[0][1], zeros, sizeof zeros) == 0 &&
+           memcmp(&m[1][2], zeros, sizeof zeros) == 0;
+}
+
+// What the cofactors below come to for those, without the products by 0: the same to the last bit.
+static void invert_plain_scale(const Transform *transform, Transform *inverse)
+{
+    double entries[3], scaled[3];
+    int exponents[3];
+    for (int i = 0; i < 3; i++) {
+        exponents[i] = exponent_of(transform->m[i][i]);
+        scaled[i] = vec3_ldexp(vec3(transform->m[i][i], 0.0, 0.0), -exponents[i]).x;
+    }
+    double determinant = scaled[0] * (scaled[1] * scaled[2]);
+    for (int i = 0; i < 3; i++) {
+        double cofactor = scaled[(i + 1) % 3] * scaled[(i + 2) % 3];
+        entries[i] = vec3_ldexp(vec3(cofactor / determinant, 0.0, 0.0), -exponents[i]).x;
+    }
+    *inverse = transform_scale(vec3(entries[0], entries[1], entries[2]));
+}
+
 // By cofactors, of rows scaled to about 1 so that the determinant neither over- nor underflows. A determinant below
 // its own rounding error is a singular matrix: a triple product is off by at most (2 + 1 + 3) u times the same sum
 // with all terms positive (Higham, Accuracy and Stability of Numerical Algorithms, 3.1).
-bool transform_invert(const Transform *transform, Transform *inverse)
+static bool invert_linear(const Transform *transform, Transform *inverse)
 {
     Vec3 rows[3];
     int exponents[3];
@@ -165,14 +199,24 @@ bool transform_invert(const Transform *transform, Transform *inverse)
     if (!(fabs(determinant) > uncertainty)) {
         return false;
     }
-    Transform result;
     for (int i = 0; i < 3; i++) {
         Vec3 column = vec3(columns[i].x / determinant, columns[i].y / determinant, columns[i].z / determinant);
         column = vec3_ldexp(column, -exponents[i]);
-        result.m[0][i] = column.x;
-        result.m[1][i] = column.y;
-        result.m[2][i] = column.z;
-        result.m[3][i] = 0.0;
+        inverse->m[0][i] = column.x;
+        inverse->m[1][i] = column.y;
+        inverse->m[2][i] = column.z;
+        inverse->m[3][i] = 0.0;
+    }
+    return true;
+}
+
+bool transform_invert(const Transform *transform, Transform *inverse)
+{
+    Transform result;
+    if (is_plain_scale(transform) && transform_is_finite(transform)) {
+        invert_plain_scale(transform, &result);
+    } else if (!invert_linear(transform, &result)) {
+        return false;
     }
     Vec3 origin = vec3_neg(transform_direction(&result, transform_row(transform, 3)));
     result.m[3][0] = origin.x;
@@ -187,12 +231,18 @@ bool transform_invert(const Transform *transform, Transform *inverse)
 
 bool transform_is_finite(const Transform *transform)
 {
+    double nothing = 0.0; // as long as all is finite
     for (int row = 0; row < 4; row++) {
-        if (!vec3_is_finite(transform_row(transform, row))) {
-            return false;
-        }
+        const double *m = transform->m[row];
+        nothing += (m[0] - m[0]) + (m[1] - m[1]) + (m[2] - m[2]);
     }
-    return true;
+    return nothing == 0.0;
+}
+
+// Of numbers; fmax is a call.
+static double greater(double a, double b)
+{
+    return a > b ? a : b;
 }
 
 static double middle_of_three(double a, double b, double c)
@@ -207,13 +257,17 @@ bool transform_is_similarity(const Transform *transform, double *factor)
 {
     const double tolerance = 8 * 18 * UNIT_ROUNDOFF;
     double greatest = 0.0, least = INFINITY;
+    if (!transform_is_finite(transform)) {
+        return false;
+    }
     for (int i = 0; i < 3; i++) {
-        double size = vec3_max_abs(transform_row(transform, i));
-        greatest = fmax(greatest, size);
-        least = fmin(least, size);
+        const double *m = transform->m[i];
+        double size = greater(fabs(m[0]), greater(fabs(m[1]), fabs(m[2])));
+        greatest = greater(greatest, size);
+        least = size < least ? size : least;
     }
     // The greatest entries of rows of one length differ by no more than sqrt(3).
-    if (greatest >= 1.75 * least || !transform_is_finite(transform)) {
+    if (greatest >= 1.75 * least) {
         return false;
     }
     int exponent;

@@ -20,10 +20,14 @@ const char *part_word(PartKind kind)
     return words[kind];
 }
 
+bool part_map_is_diagonal(const double (*r)[3])
+{
+    return r[0][1] == 0.0 && r[0][2] == 0.0 && r[1][0] == 0.0 && r[1][2] == 0.0 && r[2][0] == 0.0 && r[2][1] == 0.0;
+}
+
 bool part_map_is_round(const double (*r)[3])
 {
-    return r[0][1] == 0.0 && r[0][2] == 0.0 && r[1][0] == 0.0 && r[1][2] == 0.0 && r[2][0] == 0.0 && r[2][1] == 0.0 &&
-           fabs(r[0][0]) == fabs(r[1][1]) && fabs(r[1][1]) == fabs(r[2][2]);
+    return part_map_is_diagonal(r) && fabs(r[0][0]) == fabs(r[1][1]) && fabs(r[1][1]) == fabs(r[2][2]);
 }
 
 const char *part_name(const Part *part)

@@ -14,6 +14,9 @@ const char *part_word(PartKind kind);
 // The same for a part: a ball may be a "stretched sphere".
 const char *part_name(const Part *part);
 
+// Whether it only scales along the axes.
+bool part_map_is_diagonal(const double (*rows)[3]);
+
 // Whether a ball under the map of these rows is a sphere, with its axes where they were.
 bool part_map_is_round(const double (*rows)[3]);
 

@@ -22,7 +22,7 @@ static inline double max_abs(Vec3 a)
 static double row_size(const Transform *transform, int row)
 {
     const double *m = transform->m[row];
-    return fmax(fabs(m[0]), fmax(fabs(m[1]), fabs(m[2])));
+    return max_abs(vec3(m[0], m[1], m[2]));
 }
 
 // ---- all spheres
@@ -92,21 +92,25 @@ typedef struct Extent {
     double size;
     Vec3 place;
     uint64_t source;
-    const char *what;
+    const char *what; // of a part it is made when it is told of
+    const Part *part; // or NULL
 } Extent;
 
-static Extent transform_extent(const Transform *to_world, uint64_t source, const char *what)
+static const char *extent_name(const Extent *extent)
 {
-    const double *origin = to_world->m[3];
-    return (Extent){fmax(row_size(to_world, 0), fmax(row_size(to_world, 1), row_size(to_world, 2))),
-                    {origin[0], origin[1], origin[2]},
-                    source,
-                    what};
+    return extent->part ? part_name(extent->part) : extent->what;
 }
+
 
 static Extent part_extent(const Part *part)
 {
-    Extent extent = transform_extent(&part->to_world, part->source, part_name(part));
+    const Transform *map = &part->to_world;
+    Extent extent = {
+        .size = max_abs(vec3(row_size(map, 0), row_size(map, 1), row_size(map, 2))),
+        .place = vec3(map->m[3][0], map->m[3][1], map->m[3][2]),
+        .source = part->source,
+        .part = part,
+    };
     if (part->kind == PART_BOX) {
         const double *low = &part->data[0].x, *high = &part->data[1].x;
         extent.size = 0.0;
@@ -183,15 +187,18 @@ static ExponentRange exponents_of(double size, double place)
 // has a size, to both. Those that are 0, infinite or NaN do not count.
 typedef struct Lengths {
     ExponentRange at; // what is not held at one of these does not count
+    bool all_count;   // but all does
     double least_size, greatest, least_place;
 } Lengths;
 
 static void lengths_visit(void *client, double size, double place, bool is_needed)
 {
     Lengths *lengths = client;
-    ExponentRange held = exponents_of(size, place);
-    if (!is_needed && (held.low > lengths->at.low || held.high < lengths->at.high)) {
-        return;
+    if (!is_needed && !lengths->all_count) {
+        ExponentRange held = exponents_of(size, place);
+        if (held.low > lengths->at.low || held.high < lengths->at.high) {
+            return;
+        }
     }
     if (size > 0.0 && size <= DBL_MAX) {
         lengths->least_size = fmin(lengths->least_size, size);
@@ -263,8 +270,7 @@ static ExponentRange exponents_of_most(const Scene *scene, int middle)
 static SceneScale scale_with(const Scene *scene, const SphereSurvey *spheres)
 {
     bool is_all_held;
-    Lengths all = {{0, 0}, (double)INFINITY, 0.0, (double)INFINITY};
-    all.at = (ExponentRange){EXPONENT_MOST, EXPONENT_LEAST}; // everything counts
+    Lengths all = {{0, 0}, true, (double)INFINITY, 0.0, (double)INFINITY};
     if (scene->spheres.count > 0) {
         lengths_visit(&all, spheres->least_radius, spheres->greatest_place, true);
         lengths_visit(&all, spheres->greatest_radius, spheres->greatest_place, true);
@@ -274,7 +280,7 @@ static SceneScale scale_with(const Scene *scene, const SphereSurvey *spheres)
     if (is_all_held) {
         return (SceneScale){middle, all.least_size};
     }
-    Lengths most = {exponents_of_most(scene, middle), (double)INFINITY, 0.0, (double)INFINITY};
+    Lengths most = {exponents_of_most(scene, middle), false, (double)INFINITY, 0.0, (double)INFINITY};
     visit_all(scene, lengths_visit, &most);
     middle = lengths_middle(&most, &is_all_held);
     middle = middle < most.at.low ? most.at.low : middle > most.at.high ? most.at.high : middle;
@@ -310,9 +316,10 @@ static void tell_lost(const Watch *watch, const Extent *extent, double place)
     DiagSink *diags = watch->diags;
     Span at = scene_source_span(extent->source);
     bool is_kept =
-        is_lost ? diag_report(diags, DIAG_W0440, at, "the size of this %s is lost beside its coordinates", extent->what)
+        is_lost ? diag_report(diags, DIAG_W0440, at, "the size of this %s is lost beside its coordinates",
+                              extent_name(extent))
                 : diag_report(diags, DIAG_W0441, at, "this %s is smaller than the spacing of numbers at its place",
-                              extent->what);
+                              extent_name(extent));
     if (is_kept) {
         diag_note(diags, SPAN_NONE, "its size is %g, and coordinates of %g are %g apart", extent->size, place,
                   spacing(place));
@@ -339,7 +346,7 @@ static void tell_beyond(const Watch *watch, double length, uint64_t source, cons
 static void tell_far(const Watch *watch, const Extent *extent, double distance)
 {
     if (diag_report(watch->diags, DIAG_W0443, scene_source_span(extent->source),
-                    "this %s is too far from the camera for its size", extent->what)) {
+                    "this %s is too far from the camera for its size", extent_name(extent))) {
         diag_note(watch->diags, SPAN_NONE, "it is %.2g of its sizes away, and rays are exact to %.2g",
                   distance / extent->size, RANGE_RADII);
         diag_note(watch->diags, SPAN_NONE,
@@ -354,7 +361,7 @@ static inline void check_extent(const Watch *watch, const Extent *extent, const 
     bool is_point = extent->size == 0.0; // a box of which rounding leaves nothing
     if (!((extent->size >= watch->least || is_point) && extent->size < watch->end && place < watch->end)) {
         bool is_far = place >= watch->end;
-        tell_beyond(watch, is_far ? place : extent->size, extent->source, extent->what,
+        tell_beyond(watch, is_far ? place : extent->size, extent->source, extent_name(extent),
                     is_far ? not_seen_perhaps : seen_beyond);
         return;
     }
@@ -441,7 +448,7 @@ static void check_spheres(const Scene *scene, const SphereSurvey *survey, const 
     for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         // ball_make (trace/sphere.h) leaves out spheres whose squares are beyond.
-        Extent extent = {sphere->radius, sphere->centre, scene_sphere_source(scene, i), "sphere"};
+        Extent extent = {sphere->radius, sphere->centre, scene_sphere_source(scene, i), "sphere", NULL};
         check_extent(watch, &extent, "it is not drawn");
     }
 }

@@ -14,9 +14,8 @@ static double times_power(double x, int exponent, double power)
     return RT_LIKELY(isfinite(power)) ? x * power : ldexp(x, exponent);
 }
 
-static Solid solid_of(const Part *part, int exponent)
+static Solid solid_of(const Part *part, int exponent, double down, double up)
 {
-    double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);
     Solid solid = {
         .kind = part->kind,
         .flags = part->flags,
@@ -48,13 +47,21 @@ static Solid solid_of(const Part *part, int exponent)
 }
 
 // The box of a part, moved outward by the error of its support (see scene/part.c).
-static Bounds part_bounds(const Part *part, int exponent)
+static Bounds part_bounds(const Part *part, int exponent, double down)
 {
     if (part->kind == PART_PLANE || (part->flags & PART_INVERSE)) {
         return BOUNDS_ALL;
     }
-    double low[3], high[3], down = ldexp(1.0, -exponent);
+    double low[3], high[3];
+    bool is_along_axes = part->kind == PART_BALL && part_map_is_diagonal(part->to_world.m);
     for (int axis = 0; axis < 3; axis++) {
+        if (is_along_axes) { // what the general way comes to
+            double half = fabs(part->to_world.m[axis][axis]), middle = part->to_world.m[3][axis];
+            double error = 12.0 * (DBL_EPSILON / 2) * (half + fabs(middle));
+            high[axis] = times_power(middle + half + error, -exponent, down);
+            low[axis] = times_power(middle - half - error, -exponent, down);
+            continue;
+        }
         Vec3 n = vec3(axis == 0, axis == 1, axis == 2);
         double error = 12.0 * (DBL_EPSILON / 2) * part_reach(part, n);
         part_span(part, n, &low[axis], &high[axis]);
@@ -229,9 +236,10 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
     Work work = {0};
     bool done = storage_take(table, scene, &work);
     if (done) {
+        double down = ldexp(1.0, -exponent), up = ldexp(1.0, exponent);
         for (uint32_t i = 0; i < table->solid_count; i++) {
-            table->solids[i] = solid_of(&scene->parts.items[i], exponent);
-            work.solids[i] = part_bounds(&scene->parts.items[i], exponent);
+            table->solids[i] = solid_of(&scene->parts.items[i], exponent, down, up);
+            work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);
         }
         nodes_init(table, scene);
         for (uint32_t i = 0; i < table->assembly_count; i++) {

@@ -134,6 +134,7 @@ static double extent_of(const Solid *solid)
 void solid_measure(Solid *solid)
 {
     double *columns = &solid->columns.x;
+    bool is_alone = true; // every entry in its column
     for (int axis = 0; axis < 3; axis++) {
         double square = 0.0;
         solid->entries[axis] = 0;
@@ -143,8 +144,9 @@ void solid_measure(Solid *solid)
             solid->entries[axis] |= (uint8_t)((entry != 0.0) << from);
         }
         columns[axis] = sqrt(square);
+        is_alone = is_alone && (solid->entries[axis] & (solid->entries[axis] - 1)) == 0;
     }
-    solid->extent = extent_of(solid);
+    solid->extent = is_alone ? 0.0 : extent_of(solid); // asked for where a column has more
     solid->spread = solid->extent + vec3_sum_abs(solid->centre);
 }
 

@@ -26,7 +26,7 @@ typedef struct Solid {
     MaterialIndex material;
     uint32_t order, body;
     Vec3 centre;
-    double extent, spread; // solid_measure
+    double extent, spread; // solid_measure; extent: 0 where no column has more than one entry
     Vec3 columns;          // lengths of the columns of to_object
     uint8_t entries[3];    // of each column: a bit for each that is not 0
     Linear to_object, to_world; // what tests need stands before what surfaces need

@@ -18,7 +18,8 @@ COUNT, SEED, BATCH = 400, 1, 50
 # What makes a text faulty; one in two has none of it.
 FAULTY = {"<{c}>", "finish { phnog 1 }", "finish { diffuse -1 }", "torus", "3", "alpha 1", "srgb <{c}>", "}", ";", ",", "}\n", "#end",
           "sphere", "5", "sphere { <1, 2, 3", "union { sphere { 0, 1 } ", "0", "-1", "", ",,", "interior { ior 1.5 }",
-          "clipped_by { plane { y, 9 } }"}
+          "clipped_by { plane { y, 9 } }", "scale 1 > {m}", "translate {m},", "matrix {m}", "translate -{m}", "translate <{m}, 1>",
+          "matrix <1, 0, 0, 0, 1, 0, 0, 0, 0, {m3}>", "matrix <{m12}>"}
 SCANNER_BLOCK = 256 * 1024
 DATA_BLOCK = 64 * 1024
 # What a turn of a loop over a file tells of what it has read; nothing, most of the time.
@@ -72,15 +73,25 @@ class Text:
         more = self.pick(*[""] * 8, "translate x", "scale 2", "rotate 90*y", "no_shadow", "interior { ior 1.5 }", "hollow",
                          "inverse", "rotate 0", "translate <0, 0, 0>", "// why\n", "/* no */", "clipped_by { plane { y, 9 } }",
                          "#debug \"within\\n\"", "M()", "torus", "texture { pigment { rgbt <1, 1, 1, 0.5> } }", "3", "alpha 1")
-        return f"{self.pick(' ', '  ', chr(10))}{self.pick(body, body, body, body + ' ' + more)} }}"
+        parts = [self.pick(body, body, body, body + ' ' + more)]
+        for _ in range(self.pick(0, 0, 1, 1, 2, 2, 3, 5)):
+            parts.insert(self.dice.randrange(len(parts) + 1), self.move())
+        return f"{self.pick(' ', '  ', chr(10))}{' '.join(parts)} }}"
+
+    def move(self):
+        """A transform; {m}, {m3} and {m12} are its numbers."""
+        return self.pick("translate <{m3}>", "translate<{m3}>", "scale <{m3}>", "rotate <{m3}>", "scale {m}", "translate {m}",
+                         "matrix <{m12}>", "rotate {m}*y", "scale <1,2,1>", "scale 0", "scale <1, 0, {m}>", "translate {m} + 1",
+                         "translate <{m3}> * 2", "translate -{m}", "scale <{m3}> / 2", "translate <{m}, 1>", "translate {m},",
+                         "matrix <1, 0, 0, 0, 1, 0, 0, 0, 0, {m3}>", "rotate {m}", "scale 1 > {m}", "matrix {m}")
 
     def sphere(self, odd):
         rest = self.dice.choice(self.kinds) if self.dice.random() > odd else self.rest()
-        for gap, count in ("{c5}", 5), ("{c4}", 4), ("{c}", 3):
+        for gap, count in ("{m12}", 12), ("{m3}", 3), ("{m}", 1), ("{c5}", 5), ("{c4}", 4), ("{c}", 3):
             rest = rest.replace(gap, self.numbers(count, odd / 4))
         radius = self.pick("0", "-1", "1e-320", self.odd_number()) if self.dice.random() < odd / 4 else \
             f"{self.dice.uniform(0.01, 3):.6f}"
-        centre = f"<{self.numbers(3, odd / 8)}>" if self.dice.random() > odd / 8 else self.pick("0", "<1, 2>", "<1 2 3>", "x")
+        centre = f"<{self.numbers(3, odd / 8)}>" if self.dice.random() > odd / 8 else self.pick("0", ".5", "-2", "<1, 2>", "<1 2 3>", "x")
         between = ", " if self.dice.random() > odd / 8 else self.pick(" ", ",", ",,", "")
         blank = self.pick("", " ", "\n")
         return f"sphere {{{blank}{centre}{between}{radius}{rest}"
