@@ -8,7 +8,7 @@
 
 #include "eval/scope.h"
 
-enum { REPEATS_MOST = 20000 }; // messages that repeat what has been said, before loops of a faulty scene end
+enum { FAULTY_STEPS = 100000 }; // that say nothing new, before loops of a faulty scene end
 
 typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 
@@ -386,7 +386,7 @@ bool loop_continues(Eval *ev, CursorFrame *frame)
     if (frame->kind == FRAME_WHILE) {
         bool holds;
         double number;
-        if (ev->repeated_reports > REPEATS_MOST && ev->options.diags->error_count > 0) {
+        if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
             return false; // what would have ended the loop may be what is not understood
         }
         if (quick_number(ev, node->a, &number)) {

@@ -180,7 +180,7 @@ typedef struct Eval {
     uint64_t clear_count; // shapes that some light may go through
     bool has_unbalanced;          // a macro that is_unbalanced was defined
     unsigned splice_nesting;      // of fragments that are being parsed
-    size_t repeated_reports;         // of what was reported at its place before
+    uint64_t steps_reported;         // at the last message that said something new
     ARRAY(struct Probe *) probes; // objects that were traced, see probe.c
     ARRAY(struct Painted *) painted; // functions of patterns and pigments, see painted.c
     size_t painted_bytes;         // of their pictures

@@ -78,12 +78,12 @@ static bool is_new(Eval *ev, DiagCode code, Span span)
     size_t mask = ev->reported.count - 1;
     for (size_t slot = key & mask; ev->reported.items[slot] != 0; slot = (slot + 1) & mask) {
         if (ev->reported.items[slot] == key) {
-            ev->repeated_reports++;
             return false;
         }
     }
     insert(ev, key);
     ev->reported_count++;
+    ev->steps_reported = ev->steps;
     return true;
 }
 
