@@ -29,7 +29,8 @@ static bool lay_out(rt_session *session, Source *source, const TextBuffer *text)
     arena_init(&arena, session->limits.memory_bytes);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
                               session->no_literals};
-    bool fine = format_source(&context, source, text_get(text), text->length, &session->dump);
+    bool fine = format_source(&context, source, text_get(text), text->length, &session->cancel,
+                              &session->dump);
     arena_fini(&arena);
     if (!fine) {
         text_clear(&session->dump);

@@ -8,15 +8,16 @@
 #ifndef FORMAT_FORMAT_H
 #define FORMAT_FORMAT_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "base/text.h"
 #include "grammar/grammar.h"
 
-// Appends the layout of `source`, whose bytes are `text`, to `out`. False when the text is faulty or memory ran out;
-// that is reported, and what `out` then holds means nothing.
+// Appends the layout of `source`, whose bytes are `text`, to `out`. False when the text is faulty or memory ran out,
+// which is reported, or when `cancel` has become true; what `out` then holds means nothing.
 bool format_source(const GrammarContext *context, Source *source, const char *text, size_t length,
-                   TextBuffer *out) RT_MUST_CHECK;
+                   const atomic_bool *cancel, TextBuffer *out) RT_MUST_CHECK;
 
 #endif

@@ -346,7 +346,7 @@ static bool set_lines(const Pieces *pieces, TextBuffer *out)
     Layout layout = {.pieces = pieces, .out = out, .at_start = true};
     Frame whole = {.role = PIECE_PLAIN};
     layout.no_memory = !ARRAY_PUSH(&layout.frames, whole);
-    for (size_t i = 0; !layout.no_memory; i++) {
+    for (size_t i = 0; !layout.no_memory && !pieces_are_cancelled(pieces); i++) {
         const Piece *piece = piece_at(&layout, i);
         if (is_end(piece)) {
             write_comments(&layout, piece);
@@ -358,17 +358,18 @@ static bool set_lines(const Pieces *pieces, TextBuffer *out)
     if (!layout.no_memory && !layout.at_start) {
         text_append_char(out, '\n');
     }
-    bool fine = !layout.no_memory && !out->failed;
+    bool fine = !layout.no_memory && !out->failed && !pieces_are_cancelled(pieces);
     ARRAY_FREE(&layout.frames);
     return fine;
 }
 
-bool format_source(const GrammarContext *context, Source *source, const char *text, size_t length, TextBuffer *out)
+bool format_source(const GrammarContext *context, Source *source, const char *text, size_t length,
+                   const atomic_bool *cancel, TextBuffer *out)
 {
-    Pieces pieces = {.text = text, .length = length};
+    Pieces pieces = {.text = text, .length = length, .cancel = cancel};
     bool clean = pieces_read(&pieces, context, source);
     bool fine = clean && pieces_find_roles(&pieces) && set_lines(&pieces, out);
-    if (!fine && (clean || pieces.no_memory)) {
+    if (!fine && !pieces_are_cancelled(&pieces) && (clean || pieces.no_memory)) {
         diag_report(context->diags, DIAG_E0602, SPAN_NONE, "out of memory laying out the text");
     }
     pieces_free(&pieces);

@@ -108,7 +108,7 @@ static bool add_piece(void *client, const GrammarToken *token)
     piece.newlines = at_most_two(gap.newlines);
     cutter->end = piece.end;
     pieces->no_memory |= !ARRAY_PUSH(&pieces->pieces, piece);
-    return !pieces->no_memory;
+    return !pieces->no_memory && !pieces_are_cancelled(pieces);
 }
 
 bool pieces_read(Pieces *pieces, const GrammarContext *context, Source *source)

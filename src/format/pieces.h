@@ -63,13 +63,19 @@ typedef struct Pieces {
     ARRAY(Piece) pieces;    // the last one is the end of the text
     ARRAY(Comment) comments;
     bool no_memory;
+    const atomic_bool *cancel;
 } Pieces;
 
-// Cuts the text. False when it is faulty or memory ran out.
+static inline bool pieces_are_cancelled(const Pieces *pieces)
+{
+    return atomic_load_explicit(pieces->cancel, memory_order_relaxed);
+}
+
+// Cuts the text. False when it is faulty, memory ran out or the work was cancelled.
 bool pieces_read(Pieces *pieces, const GrammarContext *context, Source *source) RT_MUST_CHECK;
 void pieces_free(Pieces *pieces);
 
-// Fills in role, space, items, partners, widths. False when out of memory.
+// Fills in role, space, items, partners, widths. False when out of memory or cancelled.
 bool pieces_find_roles(Pieces *pieces) RT_MUST_CHECK;
 
 // The first character of a mark; '\0' of anything else, and of the marks of two characters `<=`, `>=`, `!=` theirs.

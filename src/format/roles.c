@@ -465,9 +465,9 @@ static void read_piece(Reader *reader)
 bool pieces_find_roles(Pieces *pieces)
 {
     Reader reader = {.pieces = pieces, .head = NO_PIECE, .fopen = NO_PIECE};
-    for (; reader.at < pieces->pieces.count && !pieces->no_memory; reader.at++) {
+    for (; reader.at < pieces->pieces.count && !pieces->no_memory && !pieces_are_cancelled(pieces); reader.at++) {
         read_piece(&reader);
     }
     ARRAY_FREE(&reader.open);
-    return !pieces->no_memory;
+    return !pieces->no_memory && !pieces_are_cancelled(pieces);
 }

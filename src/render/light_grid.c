@@ -231,6 +231,13 @@ void light_grid_next(LightGrid *grid, Rgb arriving)
         next_of_all(grid);
     }
     if (grid->asked_count == 0) {
-        free(grid->allocated);
+        light_grid_end(grid);
     }
+}
+
+void light_grid_end(LightGrid *grid)
+{
+    grid->asked_count = 0;
+    free(grid->allocated);
+    grid->allocated = NULL;
 }

@@ -72,4 +72,7 @@ void light_grid_begin(LightGrid *grid, const LightArea *area);
 // that are wanted are known: then `sum` is the mean. All of the light would be `arriving`. To be called until then.
 void light_grid_next(LightGrid *grid, Rgb arriving);
 
+// Asks for no more lights, whatever is known: for a run that is cancelled. The last light_grid_next does it, too.
+void light_grid_end(LightGrid *grid);
+
 #endif

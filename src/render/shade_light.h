@@ -233,11 +233,16 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
         return rgb_grey(1.0);
     }
     light_grid_begin(&grid, &light->area);
-    for (; grid.asked_count > 0; light_grid_next(&grid, arriving)) {
+    while (grid.asked_count > 0) {
         for (int k = 0; k < grid.asked_count; k++) {
             LightAsked *asked = &grid.asked[k];
             Vec3 aside = light_area_offset(light, at->point, asked->i, asked->j);
             asked->share = shade_area_one(p, features, at, light, aside, &blocker, statistics);
+        }
+        if (prepared_is_abandoned(p)) { // grids have up to 10^6 lights
+            light_grid_end(&grid);
+        } else {
+            light_grid_next(&grid, arriving);
         }
     }
     return grid.sum;
