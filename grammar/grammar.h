@@ -106,8 +106,8 @@ typedef struct GrammarHooks {
     void (*literal_watch)(void *client, const GrammarLiteral *literal, const GrammarMoves *moves);
     bool (*literal_learn)(void *client, GrammarLiteralKind *kind);
     LiteralResult (*literal)(void *client, const GrammarLiteral *literal, const GrammarMoves *moves);
-    // The same for those that say no transform. Takes `count` >= 1 lists, none of them empty, at once and on `literal_threads`; it seems that about `more` will
-    // follow. False: nothing was done, they are to be given one by one.
+    // The same for those that say no transform. Takes `count` >= 1 lists, none of them empty, at once and on
+    // `literal_threads`; it seems that about `more` will follow. False: nothing was done, they are to be given one by one.
     bool (*literals)(void *client, const GrammarLiterals *lists, size_t count, size_t more);
     int literal_threads;  // long runs of them are read on so many; 0 and 1: on the caller's alone
     size_t literal_piece; // bytes of text that each of these takes at a time; 0: as is best

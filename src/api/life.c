@@ -446,6 +446,9 @@ static rt_status trace_pixel(rt_session *session, void *argument)
     GeometryOptions geometry = {.threads = render_default_threads(), .isa = session->isa};
     Vec3 origin = scene_move_near(&session->scene);
     Prepared *prepared = prepared_new(&session->scene, &geometry);
+    if (prepared) {
+        prepared_seed(prepared, session->sampling.seed);
+    }
     bool is_traced = prepared && life_trace(&life, prepared, session->width, session->height, x, y);
     prepared_free(prepared);
     scene_move_back(&session->scene, origin);

@@ -373,6 +373,7 @@ static rt_status render_scene(rt_session *session, void *argument)
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
         return session_status(session, false);
     }
+    prepared_seed(prepared, session->sampling.seed);
     if (session->has_alpha) {
         prepared_want_alpha(prepared);
     }

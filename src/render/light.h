@@ -82,7 +82,7 @@ RT_ALWAYS_INLINE uint64_t light_key(const PreparedLight *light, Vec3 point, int 
 {
     uint64_t bits[3];
     memcpy(bits, (double[]){point.x, point.y, point.z}, sizeof bits);
-    uint64_t key = light_mix(light->number << 42 | (uint64_t)i << 21 | (uint64_t)j);
+    uint64_t key = light_mix(light->seed ^ (light->number << 42 | (uint64_t)i << 21 | (uint64_t)j));
     for (int axis = 0; axis < 3; axis++) {
         key = light_mix(key ^ bits[axis]);
     }

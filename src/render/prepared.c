@@ -242,6 +242,13 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
     }
 }
 
+void prepared_seed(Prepared *prepared, uint64_t seed)
+{
+    for (size_t i = 0; i < prepared->light_count; i++) {
+        prepared->lights[i].seed = seed * UINT64_C(0x9e3779b97f4a7c15); // all bits of it count
+    }
+}
+
 Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
 {
     Prepared *p = calloc(1, sizeof *p);

@@ -42,6 +42,7 @@ typedef struct PreparedLight {
     LightArea area;
     double area_radius; // no place of the area is farther from its middle
     uint64_t number; // among the scene's lights, for `jitter`
+    uint64_t seed;   // of `jitter`
 } PreparedLight;
 
 // A finish with everything worked out that does not depend on pigment and ray.

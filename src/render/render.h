@@ -26,6 +26,8 @@ typedef struct Prepared Prepared;
 // is prepared and traced. NULL when out of memory.
 Prepared *prepared_new(const Scene *scene, const GeometryOptions *options) RT_MUST_CHECK;
 void prepared_free(Prepared *prepared);
+// Other numbers for the `jitter` of area lights, 0 being those of the beginning.
+void prepared_seed(Prepared *prepared, uint64_t seed);
 // Films get their `clear` from here on.
 void prepared_want_alpha(Prepared *prepared);
 

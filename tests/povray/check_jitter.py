@@ -2,7 +2,9 @@
 """Area lights with `jitter` beside POV-Ray's, as samples of one distribution: each column of a picture of a half shadow whose edge is
 upright has rows that are equal but for chance, so the means of both programs' columns are compared by a z-test.
 
-The same test rejects a light without jitter, so it can tell. Prints TAP.
+The same test rejects a light without jitter, so it can tell. A scene with shapes is held by chance.py, which
+`make survey` uses, too: as it is, and with the light of one program moved by a twentieth of its size, which must be told
+apart. Prints TAP.
 SPDX-License-Identifier: MIT
 """
 import os
@@ -14,6 +16,7 @@ TOP = os.environ.get("top_srcdir", ".")
 sys.path.insert(0, os.path.join(TOP, "tests", "system"))
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True
+import chance  # noqa: E402
 import pictures  # noqa: E402
 from tap import Tap  # noqa: E402
 
@@ -29,6 +32,34 @@ LIGHTS = {"plain": "jitter", "circular": "circular jitter", "adaptive": "adaptiv
 # Of 48 columns and four lights none is beyond 5 by chance but once in 9000 runs; the mean of the squares of 48 normal numbers
 # is above 2 once in 20000.
 GREATEST, MEAN_SQUARE = 5.0, 2.0
+
+SHAPES = """#version 3.7; global_settings { assumed_gamma 1 }
+camera { location <0, 2, -8> right x*4/3 angle 45 look_at 0 }
+light_source { <-4 + %s, 8, -6>, rgb 1.2 area_light 3*x, 3*z, 5, 5 jitter %s }
+plane { y, -1 pigment { rgb 0.9 } finish { ambient 0.1 diffuse 0.8 } }
+sphere { <0, 0, 0>, 1 pigment { rgb <1, 0.4, 0.2> } finish { ambient 0.1 diffuse 0.7 phong 0.4 } }
+difference { box { <1.5, -1, -1>, <3, 0.5, 1> } sphere { <2.2, 0.5, -1>, 0.7 } pigment { rgb <0.3, 0.8, 0.4> } }
+cylinder { <-2.5, -1, 1>, <-2, 1.5, 0>, 0.3 pigment { rgb <0.3, 0.4, 1> } }
+"""
+SHAPES_SIZE = (96, 72)
+MOVED = 0.15  # a twentieth of the light's 3
+
+
+def judge_shapes(tap, folder):
+    """Two lines for each kind of jittered light: like POV-Ray's, and told apart when it is moved."""
+    for light in "", "circular orient", "adaptive 1":
+        scene = os.path.join(folder, "shapes.pov")
+        draws = {}
+        for moved in 0, MOVED:
+            with open(scene, "w", encoding="ascii") as out:
+                out.write(SHAPES % (moved, light))
+            draws[moved] = chance.draw_rtlang(scene, folder, [], SHAPES_SIZE)
+            if moved == 0:
+                theirs = chance.draw_povray(scene, folder, [], SHAPES_SIZE)
+        like, apart = chance.judge(draws[0], theirs), chance.judge(draws[MOVED], theirs)
+        name = light or "plain"
+        tap.ok(like["like"] and like["loose"] >= 40, f"shapes, {name}: {chance.words(like)}")
+        tap.ok(not apart["like"], f"shapes, {name}, the light moved by a twentieth: {chance.words(apart)}")
 
 
 def columns(path):
@@ -78,6 +109,7 @@ def main():
             tap.ok(0.8 < spread < 1.25, f"{name}: the variances of rtlang's columns are {spread:.3f} times POV-Ray's")
             still = scores(render(pictures.render_rtlang, SCENE % light.replace("jitter", ""), folder), theirs)
             tap.ok(not is_like(still), f"{name}: without jitter it is told apart: {words(still)}")
+        judge_shapes(tap, folder)
     return tap.done()
 
 

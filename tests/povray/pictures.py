@@ -105,10 +105,10 @@ def render_rtlang(scene, picture, folders, width=WIDTH, height=HEIGHT, more=(), 
                    "-o", picture, *more, *paths, scene], folder)
 
 
-def render_povray(scene, picture, folders, width=WIDTH, height=HEIGHT, folder=None):
+def render_povray(scene, picture, folders, width=WIDTH, height=HEIGHT, folder=None, more=()):
     paths = [f"+L{folder}" for folder in folders]
     run("povray", [povray(), f"+I{scene}", f"+O{picture}", f"+W{width}", f"+H{height}", "+FN16",
-                   "File_Gamma=1.0", "-A", "-D", "-P", "+Q9", *paths], folder)
+                   "File_Gamma=1.0", "-A", "-D", "-P", "+Q9", *more, *paths], folder)
 
 
 def compare(one, other):

@@ -23,6 +23,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
+import chance  # noqa: E402
 import documents  # noqa: E402
 import pictures  # noqa: E402
 import survey_times  # noqa: E402
@@ -75,7 +76,7 @@ MARK = "survey"
 # The greatest difference of a pixel, in steps of 1/65535, up to which scenes are counted together.
 STEPS = [2, 16, 256, 4096, 65535]
 MEETS, BUT_FOR, MISSES = "meets", "meets where POV-Ray agrees with itself", "misses"
-CHANCE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\bjitter\b|\b(?:aperture|blur_samples)\s+[\d.]+(?:\s*,\s*\d+)?', re.DOTALL)
+SIZE = 160, 120  # of the pictures of --render
 ELSEWHERE = 24  # how often POV-Ray draws a scene that differs all but the same, to tell where it does not agree with itself
 
 
@@ -196,11 +197,11 @@ def read(scene, options, folders, known):
 
 
 def without_chance(path):
-    """A copy of a scene without the words that make programs draw numbers by chance, each its own: check_jitter.py and
-    check_blur.sh compare those. The path itself when there are none."""
+    """A copy of a scene without the words that make programs draw numbers by chance, each its own; the path itself when
+    there are none."""
     with open(path, encoding="latin-1") as file:
         text = file.read()
-    plain = CHANCE.sub(lambda found: found.group() if found.group().startswith(("//", "/*", '"')) else " ", text)
+    plain = chance.without(text)
     if plain == text:
         return path, False
     copy = os.path.join(os.path.dirname(path), "still_" + os.path.basename(path))
@@ -209,10 +210,26 @@ def without_chance(path):
     return copy, True
 
 
+def judge_chance(record, folders):
+    """What chance.py says of the scene as it is. POV-Ray's rays through a lens are the same in each of its pictures, and so
+    not by chance: of those it is told only that they were left out."""
+    if chance.has_lens(record["path"]):
+        return {"lens": True}
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            return chance.judge(chance.draw_rtlang(record["path"], folder, folders, SIZE),
+                                chance.draw_povray(record["path"], folder, folders, SIZE))
+        except pictures.RunFailed as failure:
+            return {"like": False, "failed": str(failure)}
+
+
 def render(record, options, folders):
-    """Adds what rtcheck says of an accepted scene."""
+    """Adds what rtcheck says of an accepted scene; of one with chance, of the scene without it, and what means say."""
     path, record["without_chance"] = without_chance(record["path"])
-    command = [os.environ["RTCHECK"], "--json", "-j1", "-W160", "-H120", f"--elsewhere={ELSEWHERE}", *(f"-I{place}" for place in folders)]
+    if record["without_chance"]:
+        record["chance"] = judge_chance(record, folders)
+    command = [os.environ["RTCHECK"], "--json", "-j1", f"-W{SIZE[0]}", f"-H{SIZE[1]}",
+               f"--elsewhere={ELSEWHERE}", *(f"-I{place}" for place in folders)]
     done = call(command, path, options.timeout * (ELSEWHERE + 2))
     if not done:
         record["picture"] = {"failed": "time limit"}
@@ -276,9 +293,12 @@ def write_table(records, path):
     documents.write(path, MARK, "\n".join(lines) + "\n")
 
 
-def verdict(picture):
+def verdict(record):
     """Whether a scene that was compared meets the bar."""
-    return MISSES if not picture["agrees"] else BUT_FOR if picture["not_elsewhere"] > 0 else MEETS
+    picture, by_chance = record["picture"], record.get("chance", {})
+    if not picture["agrees"] or not by_chance.get("like", True):
+        return MISSES
+    return BUT_FOR if picture["not_elsewhere"] > 0 else MEETS
 
 
 def print_pictures(records):
@@ -291,14 +311,21 @@ def print_pictures(records):
         print(f"{count:6}  greatest difference {below} to {step} of 65535")
         below = step + 1
     judged = [record for record in drawn if record not in failed]
-    verdicts = collections.Counter(verdict(record["picture"]) for record in judged)
+    verdicts = collections.Counter(verdict(record) for record in judged)
     print(f"{verdicts[MEETS]:6}  {MEETS}: within 2 of 65535 in all but 0.01 % of their pixels")
     print(f"{verdicts[BUT_FOR]:6}  {BUT_FOR}: but for at most 0.1 % that change with a billionth of a pixel or with the scene's size")
     print(f"{verdicts[MISSES]:6}  {MISSES}")
-    print(f"{sum(record['without_chance'] for record in judged):6}  compared without `jitter` and focal blur, which are chance")
+    drawn_by_chance = [record["chance"] for record in judged if "chance" in record]
+    lenses = sum("lens" in each for each in drawn_by_chance)
+    print(f"{len(drawn_by_chance) - lenses:6}  of them with `jitter`: compared without it, and {chance.DRAWS} pictures "
+          "of each program with it")
+    print(f"{lenses:6}  compared without their lens only")
     for record in drawn:
         picture = record["picture"]
-        words = picture.get("failed") or picture.get("fault") or f"{verdict(picture)} {json.dumps(picture)}"
+        words = picture.get("failed") or picture.get("fault") or f"{verdict(record)} {json.dumps(picture)}"
+        by_chance = record.get("chance", {})
+        words += " lens" if "lens" in by_chance else " " + by_chance["failed"] if "failed" in by_chance else \
+            f" {chance.words(by_chance)}" if by_chance else ""
         print(f"{record['scene']}: " + " ".join(words.split()))
 
 

@@ -76,8 +76,8 @@ REPEATED_COUNTS = 500, 1500
 LITERAL_COUNTS = 4000, 12000 # more than the scanner's buffer holds
 
 
-# Stretched spheres -> the most that a scene of them costs of one of as many others, in tracing and in all: those that are
-# said by a centre and a radius alone are read by the fastest way that there is.
+# Stretched spheres -> the most that a scene of them costs of one of as many others, in tracing and in all: those that
+# are said by a centre and a radius alone are read by the fastest way that there is.
 STRETCHED_BAR = 2.0
 STRETCHED_SIZE = ("-W320", "-H240")
 STRETCHED_COUNT = 8000

@@ -18,7 +18,8 @@ COUNT, SEED, BATCH = 400, 1, 50
 # What makes a text faulty; one in two has none of it.
 FAULTY = {"<{c}>", "finish { phnog 1 }", "finish { diffuse -1 }", "torus", "3", "alpha 1", "srgb <{c}>", "}", ";", ",", "}\n", "#end",
           "sphere", "5", "sphere { <1, 2, 3", "union { sphere { 0, 1 } ", "0", "-1", "", ",,", "interior { ior 1.5 }",
-          "clipped_by { plane { y, 9 } }", "scale 1 > {m}", "translate {m},", "matrix {m}", "translate -{m}", "translate <{m}, 1>",
+          "clipped_by { plane { y, 9 } }", "scale 1 > {m}", "translate {m},", "matrix {m}", "translate -{m}",
+          "translate <{m}, 1>",
           "matrix <1, 0, 0, 0, 1, 0, 0, 0, 0, {m3}>", "matrix <{m12}>"}
 SCANNER_BLOCK = 256 * 1024
 DATA_BLOCK = 64 * 1024
@@ -80,9 +81,10 @@ class Text:
 
     def move(self):
         """A transform; {m}, {m3} and {m12} are its numbers."""
-        return self.pick("translate <{m3}>", "translate<{m3}>", "scale <{m3}>", "rotate <{m3}>", "scale {m}", "translate {m}",
-                         "matrix <{m12}>", "rotate {m}*y", "scale <1,2,1>", "scale 0", "scale <1, 0, {m}>", "translate {m} + 1",
-                         "translate <{m3}> * 2", "translate -{m}", "scale <{m3}> / 2", "translate <{m}, 1>", "translate {m},",
+        return self.pick("translate <{m3}>", "translate<{m3}>", "scale <{m3}>", "rotate <{m3}>", "scale {m}",
+                         "translate {m}", "matrix <{m12}>", "rotate {m}*y", "scale <1,2,1>", "scale 0",
+                         "scale <1, 0, {m}>", "translate {m} + 1", "translate <{m3}> * 2", "translate -{m}",
+                         "scale <{m3}> / 2", "translate <{m}, 1>", "translate {m},",
                          "matrix <1, 0, 0, 0, 1, 0, 0, 0, 0, {m3}>", "rotate {m}", "scale 1 > {m}", "matrix {m}")
 
     def sphere(self, odd):
@@ -91,7 +93,8 @@ class Text:
             rest = rest.replace(gap, self.numbers(count, odd / 4))
         radius = self.pick("0", "-1", "1e-320", self.odd_number()) if self.dice.random() < odd / 4 else \
             f"{self.dice.uniform(0.01, 3):.6f}"
-        centre = f"<{self.numbers(3, odd / 8)}>" if self.dice.random() > odd / 8 else self.pick("0", ".5", "-2", "<1, 2>", "<1 2 3>", "x")
+        centre = f"<{self.numbers(3, odd / 8)}>" if self.dice.random() > odd / 8 else \
+            self.pick("0", ".5", "-2", "<1, 2>", "<1 2 3>", "x")
         between = ", " if self.dice.random() > odd / 8 else self.pick(" ", ",", ",,", "")
         blank = self.pick("", " ", "\n")
         return f"sphere {{{blank}{centre}{between}{radius}{rest}"
