@@ -243,6 +243,7 @@ test_scripts = \
   %D%/povray/check_antialias.py \
   %D%/povray/check_cameras.py \
   %D%/povray/check_jitter.py \
+  %D%/povray/check_lens.py \
   %D%/povray/check_area_lights.py \
   %D%/povray/check_pairs.py \
   %D%/povray/check_scenes.py \

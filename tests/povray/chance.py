@@ -7,7 +7,10 @@ the greatest of them all. If both draw from one distribution that happens once i
 together and whatever their distribution is. Where all pictures are the same, the means must be.
 
 POV-Ray's numbers belong to the threads that draw its blocks of pixels: other sizes of these give other numbers, as does
-`--seed` to rtlang. SPDX-License-Identifier: MIT
+`--seed` to rtlang. Its rays through a lens are no such numbers: they are the same in every picture and nearly so in
+every pixel, 0.03 pixels aside in the mean, so that pictures of both are not of one distribution. There the size of the
+lens is found: POV-Ray's picture less rtlang's is, by least squares, so much of what moving the picture changes, and so
+much of what a lens of another size does. SPDX-License-Identifier: MIT
 """
 import itertools
 import math
@@ -22,6 +25,9 @@ SPLITS = math.comb(2 * DRAWS, DRAWS) // 2  # exchanging the two is the same
 SIZES = [11, 13, 17, 19, 23, 27, 29, 31, 37, 41, 43, 47, 53, 59, 61, 64]  # of POV-Ray's blocks
 STILL = 0.25   # of 65535: where the means spread less, nothing is left to chance
 CODE_BAR = 2.0 # by which such blocks may differ
+LENS_STEP = 0.05
+LENS_BAR = 0.025  # share by which POV-Ray's lens may seem wider or narrower
+LENS_RAYS = [300, 400, 500]  # of POV-Ray's pictures, each with other rays; of rtlang's the middle one
 WORDS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|\bjitter\b'
                    r'|\b(?:aperture|blur_samples)\s+[\d.]+(?:\s*,\s*\d+)?', re.DOTALL)
 
@@ -51,6 +57,56 @@ def block_means(path):
                             for y in rows)
                 means.append(total / (columns * len(rows)))
     return means
+
+
+def with_lens(text, factor, rays):
+    """A scene's text with a lens of another size and so many rays a pixel."""
+    def change(found):
+        word = found.group()
+        if word.startswith("aperture"):
+            return f"aperture {float(word.split()[1]) * factor}"
+        return f"blur_samples {rays} variance 0" if word.startswith("blur_samples") else word
+
+    return WORDS.sub(change, text)
+
+
+def solve(rows):
+    """The x of the least squares of rows (b, a1, a2, …): b = a·x."""
+    count = len(rows[0]) - 1
+    sums = [[sum(row[i] * row[j] for row in rows) for j in (*range(1, count + 1), 0)] for i in range(1, count + 1)]
+    for i in range(count):
+        sums[i] = [each / sums[i][i] for each in sums[i]]
+        for j in range(count):
+            if j != i:
+                factor = sums[j][i]
+                sums[j] = [a - factor * b for a, b in zip(sums[j], sums[i])]
+    return [row[count] for row in sums]
+
+
+def lens_error(scene, folder, folders, size, factor=1.0):
+    """The share by which POV-Ray's lens seems wider than rtlang's, whose own is `factor` times what the scene says."""
+    with open(scene, encoding="latin-1") as file:
+        text = file.read()
+    copy = os.path.join(os.path.dirname(scene), "lens_of_" + os.path.basename(scene))
+    picture = os.path.join(folder, "lens.png")
+
+    def draw(program, scale, rays, **how):
+        with open(copy, "w", encoding="latin-1") as file:
+            file.write(with_lens(text, scale, rays))
+        program(copy, picture, folders, *size, folder=os.path.dirname(scene), **how)
+        return pictures.read_png(picture, depths=(16,))
+
+    middle, narrow, wide = (draw(pictures.render_rtlang, factor * scale, LENS_RAYS[1], more=["--seed=1"])[2]
+                            for scale in (1, 1 - LENS_STEP, 1 + LENS_STEP))
+    found = []
+    for rays in LENS_RAYS:
+        width, height, theirs = draw(pictures.render_povray, 1, rays)
+        inner = (3 * (y * width + x) + colour
+                 for y in range(1, height - 1) for x in range(1, width - 1) for colour in range(3))
+        rows = [(theirs[i] - middle[i], middle[i + 3] - middle[i - 3], middle[i + 3 * width] - middle[i - 3 * width],
+                 (wide[i] - narrow[i]) / (2 * LENS_STEP)) for i in inner]
+        found.append(solve(rows)[2])
+    return sum(found) / len(found)
 
 
 def draw_rtlang(scene, folder, folders, size, count=DRAWS):

@@ -211,12 +211,12 @@ def without_chance(path):
 
 
 def judge_chance(record, folders):
-    """What chance.py says of the scene as it is. POV-Ray's rays through a lens are the same in each of its pictures, and so
-    not by chance: of those it is told only that they were left out."""
-    if chance.has_lens(record["path"]):
-        return {"lens": True}
+    """What chance.py says of the scene as it is."""
     with tempfile.TemporaryDirectory() as folder:
         try:
+            if chance.has_lens(record["path"]):
+                lens = chance.lens_error(record["path"], folder, folders, SIZE)
+                return {"like": abs(lens) <= chance.LENS_BAR, "lens": lens}
             return chance.judge(chance.draw_rtlang(record["path"], folder, folders, SIZE),
                                 chance.draw_povray(record["path"], folder, folders, SIZE))
         except pictures.RunFailed as failure:
@@ -319,12 +319,12 @@ def print_pictures(records):
     lenses = sum("lens" in each for each in drawn_by_chance)
     print(f"{len(drawn_by_chance) - lenses:6}  of them with `jitter`: compared without it, and {chance.DRAWS} pictures "
           "of each program with it")
-    print(f"{lenses:6}  compared without their lens only")
+    print(f"{lenses:6}  of them with a lens: compared without it, and the size of the lens")
     for record in drawn:
         picture = record["picture"]
         words = picture.get("failed") or picture.get("fault") or f"{verdict(record)} {json.dumps(picture)}"
         by_chance = record.get("chance", {})
-        words += " lens" if "lens" in by_chance else " " + by_chance["failed"] if "failed" in by_chance else \
+        words += f" lens {100 * by_chance['lens']:+.2f} %" if "lens" in by_chance else " " + by_chance["failed"] if "failed" in by_chance else \
             f" {chance.words(by_chance)}" if by_chance else ""
         print(f"{record['scene']}: " + " ".join(words.split()))
 
