@@ -1,4 +1,4 @@
-"""Scenes that programs draw by chance, each by its own numbers: several pictures of both, held to be of one distribution.
+"""Scenes that programs draw by chance, each by its own numbers: pictures of both, held to be of one distribution.
 
 A picture is cut into blocks of BLOCK × BLOCK pixels, whose means are what is compared. Where some of the pictures
 differ, the sum over all blocks and colours of z², the difference of both programs' means against what the pictures
@@ -127,8 +127,8 @@ def draw_povray(scene, folder, folders, size, sizes=tuple(SIZES[:DRAWS])):
 
 
 def products(draws):
-    """(sums over blocks of the products of each two draws' deviations in units of their spread, how many blocks, how many
-    others differ)."""
+    """(sums over blocks of the products of each two draws' deviations in units of their spread, how many blocks, how
+    many others differ)."""
     count = len(draws)
     sums = [[0.0] * count for _ in draws]
     loose = differ = 0
@@ -150,8 +150,8 @@ def products(draws):
 
 
 def judge(ours, theirs):
-    """{"like": whether they are of one distribution, "rank": how many of the "splits" have a sum that is not less than the
-    true one's, "mean": of its z², "loose": block means by chance, "differ": others that differ}."""
+    """{"like": whether they are of one distribution, "rank": how many of the "splits" have a sum that is not less than
+    the true one's, "mean": of its z², "loose": block means by chance, "differ": others that differ}."""
     sums, loose, differ = products(ours + theirs)
     half = len(ours)
 
