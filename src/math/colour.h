@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "math/extreme.h"
+
 typedef struct Rgb {
     double red, green, blue;
 } Rgb;
@@ -49,12 +51,12 @@ static inline Rgb rgb_add_scaled(Rgb a, double s, Rgb b)
 
 static inline double rgb_max(Rgb a)
 {
-    return fmax(a.red, fmax(a.green, a.blue));
+    return greater_of(a.red, greater_of(a.green, a.blue));
 }
 
 static inline double rgb_max_abs(Rgb a)
 {
-    return fmax(fabs(a.red), fmax(fabs(a.green), fabs(a.blue)));
+    return greater_of(fabs(a.red), greater_of(fabs(a.green), fabs(a.blue)));
 }
 
 // The scene language's grey.

@@ -7,13 +7,13 @@
 #include "math/noise_kernel.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/attributes.h"
 #include "base/isa.h"
 #include "math/noise_cell.h"
 
 typedef double Four __attribute__((vector_size(32), aligned(16)));
+typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
 typedef int64_t FourMask __attribute__((vector_size(32), aligned(16)));
 typedef int32_t FourInts __attribute__((vector_size(16)));
 
@@ -93,15 +93,17 @@ typedef struct Side {
     Four way_y, way_z, weight_y, weight_z;
 } Side;
 
+RT_ALWAYS_INLINE const FourAnywhere *numbers_at(unsigned hash)
+{
+    return (const FourAnywhere *)&noise_numbers[hash];
+}
+
 // The weighted values of the lattice points of one side.
 RT_ALWAYS_INLINE void side_parts(const unsigned hash[2][2], const Side *side, double way_x, double weight_x,
                                  Four *parts)
 {
-    Four a, b, c, d;
-    memcpy(&a, &noise_numbers[hash[0][0]], sizeof a);
-    memcpy(&b, &noise_numbers[hash[0][1]], sizeof b);
-    memcpy(&c, &noise_numbers[hash[1][0]], sizeof c);
-    memcpy(&d, &noise_numbers[hash[1][1]], sizeof d);
+    const Four a = *numbers_at(hash[0][0]), b = *numbers_at(hash[0][1]);
+    const Four c = *numbers_at(hash[1][0]), d = *numbers_at(hash[1][1]);
     Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
     Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
     Four value = 0.5 * __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5) +

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "math/extreme.h"
+
 typedef struct Vec3 {
     double x, y, z;
 } Vec3;
@@ -81,7 +83,7 @@ static inline Vec3 vec3_reflect(Vec3 d, Vec3 n)
 
 static inline double vec3_max_abs(Vec3 a)
 {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    return greater_of(fabs(a.x), greater_of(fabs(a.y), fabs(a.z)));
 }
 
 static inline double vec3_sum_abs(Vec3 a)

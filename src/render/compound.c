@@ -5,6 +5,7 @@
 // there costs little.
 //
 // SPDX-License-Identifier: MIT
+#include "math/extreme.h"
 #include "render/shade.h"
 
 enum { ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES, FLAT_FEATURES = ALL_FEATURES & ~RENDER_NORMALS };
@@ -28,7 +29,7 @@ RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const T
         return;
     }
     onward->reflectance = rgb_add_scaled(onward->reflectance, layer->part, reflectance);
-    onward->reflection_weight = fmax(onward->reflection_weight, weight);
+    onward->reflection_weight = greater_of(onward->reflection_weight, weight);
     onward->reflection_exponent = material->finish->reflection_exponent;
 }
 
@@ -47,7 +48,7 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     if (shade_mirror(FLAT_FEATURES, &material, sum->at, &reflectance)) {
         add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->onward);
     }
-    sum->refraction = fmin(sum->refraction, material.finish->refraction);
+    sum->refraction = less_of(sum->refraction, material.finish->refraction);
     add_light(FLAT_FEATURES, sum, layer, sum->at, &material);
     return shade_left_below(FLAT_FEATURES, &material, sum->at);
 }
@@ -107,7 +108,7 @@ static void end_stack(BumpSum *bumps)
     }
     ShadeOnward *way = way_for(bumps->ways, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
     way->through = rgb_add_scaled(way->through, stack->refraction * stack->part, through);
-    way->through_weight = fmax(way->through_weight, stack->refraction * rgb_max_abs(through));
+    way->through_weight = greater_of(way->through_weight, stack->refraction * rgb_max_abs(through));
     way->part += stack->part;
 }
 
@@ -135,7 +136,7 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     if (shade_mirror(ALL_FEATURES, &material, &at, &reflectance)) {
         add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, way_for(bumps->ways, at.normal));
     }
-    stack->refraction = fmin(stack->refraction, material.finish->refraction);
+    stack->refraction = less_of(stack->refraction, material.finish->refraction);
     stack->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
     add_light(ALL_FEATURES, sum, layer, &at, &material);
     return left;

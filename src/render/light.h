@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/attributes.h"
+#include "math/extreme.h"
 #include "render/power.h"
 #include "render/prepared.h"
 #include "render/sampler.h"
@@ -112,7 +113,7 @@ RT_ALWAYS_INLINE Vec3 light_area_place(const PreparedLight *light, Vec3 point, d
         v += aside;
     }
     if (area->circular && (u != 0.0 || v != 0.0)) {
-        double side = fmax(fabs(u), fabs(v));
+        double side = greater_of(fabs(u), fabs(v));
         double shrink = side / sqrt(u * u + v * v);
         u *= shrink;
         v *= shrink;

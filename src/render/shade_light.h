@@ -9,6 +9,7 @@
 #define RENDER_SHADE_LIGHT_H
 
 #include "base/attributes.h"
+#include "math/extreme.h"
 #include "render/inside.h"
 #include "render/kernel.h"
 #include "render/light.h"
@@ -290,9 +291,9 @@ RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigm
     const double at_normal = 1.0 / (k * k), at_grazing = 1.0 / ((1.0 - k) * (1.0 - k));
     bool is_bumpy = features & RENDER_NORMALS;
     double x =
-        acos(is_bumpy ? fmax(fmin(cosine, 1.0), -1.0) : fmin(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
+        acos(is_bumpy ? greater_of(less_of(cosine, 1.0), -1.0) : less_of(fabs(cosine), 1.0)) * (2.0 / 3.14159265358979323846);
     double fresnel = (1.0 / ((x - k) * (x - k)) - at_normal) / (at_grazing - at_normal);
-    fresnel = is_bumpy ? fmin(fresnel, 1.0) : fresnel;
+    fresnel = is_bumpy ? less_of(fresnel, 1.0) : fresnel;
     double share = metallic * (1.0 - fresnel);
     return rgb(1.0 + share * (pigment.red - 1.0), 1.0 + share * (pigment.green - 1.0),
                1.0 + share * (pigment.blue - 1.0));
@@ -352,8 +353,8 @@ RT_ALWAYS_INLINE Rgb shade_reflectance(unsigned features, const ShadeMaterial *m
         return finish->reflection_min;
     }
     double grazing = (features & RENDER_INTERIORS) && finish->is_fresnel
-                         ? inside_fresnel(features & RENDER_NORMALS ? fmax(cosine, 0.0) : cosine, ior_ratio)
-                         : shade_power(fmax(1.0 - cosine, 0.0), finish->reflection_falloff);
+                         ? inside_fresnel(features & RENDER_NORMALS ? greater_of(cosine, 0.0) : cosine, ior_ratio)
+                         : shade_power(greater_of(1.0 - cosine, 0.0), finish->reflection_falloff);
     Rgb span = rgb_add_scaled(finish->reflection_max, -1.0, finish->reflection_min);
     Rgb share = rgb_add_scaled(finish->reflection_min, grazing, span);
     if (finish->reflection_metallic > 0.0) {

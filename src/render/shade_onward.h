@@ -8,6 +8,7 @@
 #define RENDER_SHADE_ONWARD_H
 
 #include "base/limits.h"
+#include "math/extreme.h"
 #include "render/shade_light.h"
 
 // A ray that is still to be traced, or (closes) the end of one whose light is raised to a power before it is added.
@@ -239,7 +240,7 @@ RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, con
 // Notes the share of a ray that is not followed, in whole units, so that sums do not depend on their order.
 RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, int level, Rgb share, RenderStatistics *statistics)
 {
-    double cut = fmin(fmax(rgb_luminance(share), 0.0), 1.0);
+    double cut = less_of(greater_of(rgb_luminance(share), 0.0), 1.0);
     uint64_t units = (uint64_t)(cut * 0x1p32);
     statistics->cut_by_level += level >= p->max_trace_level ? units : 0;
     statistics->cut_by_weight += level >= p->max_trace_level ? 0 : units;

@@ -9,6 +9,7 @@
 #ifndef RENDER_SHADE_TILE_H
 #define RENDER_SHADE_TILE_H
 
+#include "math/extreme.h"
 #include "render/sampler_many.h"
 #include "render/shade.h"
 #include "render/tile_light.h"
@@ -149,7 +150,7 @@ RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile
         Vec3 place = vec3_add(light->position, aside), offset = vec3_sub(place, point);
         lane_set(end, (unsigned)i, place);
         rays->distance[i] = vec3_length(offset);
-        rays->farthest = fmax(rays->farthest, rays->distance[i]);
+        rays->farthest = greater_of(rays->farthest, rays->distance[i]);
         lane_set(rays->towards, (unsigned)i, vec3_scale(1.0 / rays->distance[i], offset));
     }
 }

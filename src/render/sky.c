@@ -1,6 +1,7 @@
 // Sky and fog; see sky.h.
 //
 // SPDX-License-Identifier: MIT
+#include "math/extreme.h"
 #include "render/sky.h"
 
 #include <math.h>
@@ -62,7 +63,7 @@ static double mean_density(double alt, double a, double b)
 // Of a way that leads up for ever.
 static double endless_depth(double alt, double slope, double from)
 {
-    double below = fmax(-from, 0.0), above = fmax(from, 0.0);
+    double below = greater_of(-from, 0.0), above = greater_of(from, 0.0);
     return (below + alt * (half_pi - atan(above / alt))) / slope;
 }
 
@@ -79,7 +80,7 @@ static double ground_depth(double alt, double slope, double from, double way)
     if (from >= 0.0 && to >= 0.0) {
         return way * mean_density(alt, from, to);
     }
-    double low = fmin(from, to), high = fmax(from, to);
+    double low = less_of(from, to), high = greater_of(from, to);
     return (-low + alt * atan(high / alt)) / fabs(slope);
 }
 
@@ -98,7 +99,7 @@ FogShare fog_between(const Prepared *p, const Ray *ray, double way)
     for (size_t i = 0; i < p->scene->fogs.count; i++) {
         const Fog *fog = &p->scene->fogs.items[i];
         Rgb colour = rgbft_rgb(fog->colour);
-        double left = fmax(exp(-fog_depth(p, fog, ray, way) / fog->distance), fog->colour.transmit);
+        double left = greater_of(exp(-fog_depth(p, fog, ray, way) / fog->distance), fog->colour.transmit);
         Rgb tint = rgb_add(rgb_grey(1.0 - fog->colour.filter), rgb_scale(fog->colour.filter, colour));
         sum.through = rgb_mul(sum.through, rgb_scale(left, tint));
         sum.own = rgb_add_scaled(sum.own, 1.0 - left, colour);

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "math/extreme.h"
 #include "render/along.h"
 
 static Transform way_back(const Transform *to_world)
@@ -248,7 +249,7 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
         }
     }
     walk->through.light = rgb_add_scaled(walk->through.light, part, above);
-    walk->through.weight = fmax(walk->through.weight, rgb_max_abs(above));
+    walk->through.weight = greater_of(walk->through.weight, rgb_max_abs(above));
 }
 
 TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,

@@ -9,6 +9,7 @@
 
 #include <float.h>
 
+#include "math/extreme.h"
 #include "math/ray.h"
 #include "trace/bvh.h"
 #include "trace/simd.h"
@@ -57,7 +58,7 @@ RT_ALWAYS_INLINE bool bvh_walk_approach(BvhWalk *walk, const Bvh *bvh, Axes *ori
     double enter = 0.0;
     double leave = (double)INFINITY;
     for (int axis = 0; axis < 3; axis++) {
-        double inverse = 1.0 / copysign(fmax(fabs(d[axis]), 0x1p-60), d[axis]);
+        double inverse = 1.0 / copysign(greater_of(fabs(d[axis]), 0x1p-60), d[axis]);
         double side = copysign(half[axis] + pad, d[axis]);
         double near = (-side - (*origin)[axis]) * inverse;
         double far = (side - (*origin)[axis]) * inverse;

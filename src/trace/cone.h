@@ -8,6 +8,7 @@
 #ifndef TRACE_CONE_H
 #define TRACE_CONE_H
 
+#include "math/extreme.h"
 #include "trace/chord.h"
 
 enum { CONE_ROUND, CONE_BASE, CONE_CAP };
@@ -45,17 +46,17 @@ RT_ALWAYS_INLINE bool cone_round_chord(const ConeRoots *r, Chord *chord)
     if (!(r->discriminant >= 0.0) && !(r->a < 0.0)) {
         return false;
     }
-    double sum = -(r->b + copysign(sqrt(fmax(r->discriminant, 0.0)), r->b)); // terms of one sign
+    double sum = -(r->b + copysign(sqrt(greater_of(r->discriminant, 0.0)), r->b)); // terms of one sign
     double first = sum / r->a, second = r->c / sum;
     if (r->a > 0.0) {
-        chord->enter = fmin(first, second);
-        chord->leave = fmax(first, second);
+        chord->enter = less_of(first, second);
+        chord->leave = greater_of(first, second);
     } else if (r->a == 0.0) {
         *(r->b < 0.0 ? &chord->enter : &chord->leave) = second;
     } else if (r->q > 0.0) {
-        chord->enter = fmax(first, second);
+        chord->enter = greater_of(first, second);
     } else {
-        chord->leave = fmin(first, second);
+        chord->leave = less_of(first, second);
     }
     return !isnan(chord->enter) && !isnan(chord->leave);
 }

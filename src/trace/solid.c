@@ -6,6 +6,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "math/extreme.h"
 #include "trace/box.h"
 #include "trace/cone.h"
 #include "trace/flat.h"
@@ -113,7 +114,7 @@ static Vec3 object_point(const Solid *solid, Vec3 point, uint8_t side)
 static double fixed_size(const Solid *solid, int axis)
 {
     const double *low = &solid->data[0].x, *high = &solid->data[1].x;
-    return solid->kind == PART_BOX ? fmax(fabs(low[axis]), fabs(high[axis])) : 1.0;
+    return solid->kind == PART_BOX ? greater_of(fabs(low[axis]), fabs(high[axis])) : 1.0;
 }
 
 static double extent_of(const Solid *solid)
@@ -214,7 +215,7 @@ double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *objec
 double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, double t)
 {
     double chord = 2.0 * fabs(vec3_dot(object->origin, object->direction) / vec3_length_squared(object->direction) + t);
-    return fmin(solid_crossing_error(ball, ray, object, t, 0), chord);
+    return less_of(solid_crossing_error(ball, ray, object, t, 0), chord);
 }
 
 double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double length)
