@@ -60,6 +60,7 @@ unit_programs = \
   tests/unit/test_image_strips \
   tests/unit/test_image_values \
   tests/unit/test_medium \
+  tests/unit/test_outline \
   tests/unit/test_render \
   tests/unit/test_render_sampler \
   tests/unit/test_light_grid \
@@ -67,6 +68,7 @@ unit_programs = \
   tests/unit/test_tiles \
   tests/unit/test_race \
   tests/sampling/test_sampling \
+  tests/sampling/test_share \
   tests/sampling/test_small \
   tests/sampling/test_forward
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
@@ -140,6 +142,8 @@ tests_unit_test_image_values_CPPFLAGS = $(AM_CPPFLAGS) $(PNG_CFLAGS)
 tests_unit_test_image_values_LDADD = libimage.la libmath.la libbase.la $(PNG_LIBS)
 tests_unit_test_medium_SOURCES = %D%/unit/test_medium.c $(unit_headers)
 tests_unit_test_medium_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_outline_SOURCES = %D%/unit/test_outline.c $(unit_headers)
+tests_unit_test_outline_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_stack_SOURCES = %D%/unit/test_stack.c $(unit_headers)
@@ -165,6 +169,8 @@ tests_unit_test_tiles_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_race_SOURCES = %D%/unit/test_race.c src/check/race_ratio.c src/check/race_settings.c $(unit_headers)
 tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
 tests_sampling_test_sampling_LDADD = libapi.la
+tests_sampling_test_share_SOURCES = %D%/sampling/test_share.c %D%/sampling/scenes.h $(unit_headers)
+tests_sampling_test_share_LDADD = libapi.la
 tests_sampling_test_small_SOURCES = %D%/sampling/test_small.c %D%/sampling/scenes.h $(unit_headers)
 tests_sampling_test_small_LDADD = libapi.la
 tests_sampling_test_forward_SOURCES = %D%/sampling/test_forward.c %D%/sampling/scenes.h
@@ -356,7 +362,8 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 .PHONY: check-sampling
 check-long: check-sampling
 check-sampling: tests/sampling/test_sampling$(EXEEXT) tests/sampling/test_small$(EXEEXT) \
-		tests/sampling/test_forward$(EXEEXT)
+		tests/sampling/test_share$(EXEEXT) tests/sampling/test_forward$(EXEEXT)
 	tests/sampling/test_sampling$(EXEEXT) long
 	tests/sampling/test_small$(EXEEXT) long
+	tests/sampling/test_share$(EXEEXT) long
 	tests/sampling/test_forward$(EXEEXT) long

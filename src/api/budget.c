@@ -23,7 +23,9 @@ static rt_budget budget_of(const rt_session *session)
         .scene = scene,
         .prepared = (scene - pictures - plain) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
         .picture = film_bytes(width, height, session_is_sampled(session), session->has_alpha) +
-                   (session_is_sampled(session) && objects > 0 ? small_bytes(width, height, objects) : 0) +
+                   (session_is_sampled(session) && objects > 0
+                        ? small_bytes(width, height, objects) + share_bytes(width, height, objects)
+                        : 0) +
                    (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
         .limit = session->limits.memory_bytes,
     };

@@ -82,6 +82,9 @@ uint64_t film_bytes(int width, int height, bool is_sampled, bool has_clear);
 // The bytes of the lists of small shapes that a sampled film may need, of so many shapes in all.
 uint64_t small_bytes(int width, int height, uint64_t shapes);
 
+// Those of the strata of pixels that edges of spheres cross, of so many shapes in all.
+uint64_t share_bytes(int width, int height, uint64_t shapes);
+
 typedef struct RenderStatistics {
     uint64_t camera_rays, shadow_rays, reflected_rays, transmitted_rays;
     // Shares of camera rays, in units of 2^-32, that were not followed: beyond max_trace_level, below adc_bailout.

@@ -506,6 +506,7 @@ static void sampling_free(Sampling *s)
         free(s->choice.memory);
         free(s->corners);
         predictor_free(s->predictor);
+        share_free(s->round.share);
         small_free(s->round.small);
         free(s);
     }
@@ -593,6 +594,12 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     // A pixel that ends where it has enough says by its replicas what it may have missed.
     if (has_memory && !wanted->has_no_estimate && !stop_has_choice(wanted)) {
         s->round.small = small_new(prepared, film, wanted->filter, &has_memory);
+    }
+    // Of fewer samples strata are hardly ever weighted; of a run to a goal, which may be made again by its number of
+    // samples, all pixels are.
+    bool has_shares = wanted->is_adaptive || wanted->samples >= SHARE_SAMPLES;
+    if (has_memory && has_shares && wanted->filter == FILTER_BOX && !stop_has_choice(wanted)) {
+        s->round.share = share_new(prepared, film, &has_memory);
     }
     if (!has_memory) {
         sampling_free(s);

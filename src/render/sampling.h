@@ -11,6 +11,7 @@
 #include "render/prepared.h"
 #include "render/render.h"
 #include "render/sampler_many.h"
+#include "render/sampling_share.h"
 #include "render/sampling_small.h"
 #include "render/sobol.h"
 #include "render/tiles.h"
@@ -31,6 +32,7 @@ typedef struct Round {
     uint32_t least_key, end_key;
     uint32_t count;          // how many samples they shall have; 0: twice as many as they have
     float *corners;          // of the picture's pixels, rows of width + 1 colours; NULL: not kept any more
+    Share *share;            // NULL: no pixel has strata
     Small *small;            // NULL: there are no small shapes, or nobody asks for the error
     bool has_corners;        // a pixel with one sample has the mean of its corners: what goes on from there starts anew
     bool draws_more;         // than the place in the pixel: for area lights or a lens
@@ -56,6 +58,20 @@ static inline int round_block_end(int at, int origin, int end)
     int next = at + JUDGED_BLOCK - (origin + at) % JUDGED_BLOCK;
     return next < end ? next : end;
 }
+
+// Whether a pixel is as far off as another set of samples would be. One that is made of corners is not, nor one of
+// which it is known that it has met all small shapes that are in it, since another set may not have; nor is one that
+// was left with few samples, maybe since these met none of a narrow stratum.
+static inline bool round_is_like_replica(const Round *round, size_t pixel)
+{
+    uint32_t count = round->film->records[pixel].count;
+    bool was_chosen = round->buckets && share_has(round->share, pixel);
+    return count > 1 && !small_has(round->small, pixel) &&
+           !(was_chosen && share_variance(round->share, pixel, count) > 0.0);
+}
+
+// Takes round->share->contrast from the samples that strata have so far.
+void share_set_contrast(const Round *round);
 
 enum { START_SAMPLES = 4 };
 
@@ -103,6 +119,7 @@ typedef struct SampleSums {
     Rgb sum[START_SAMPLES];
     Rgb squares;  // over all
     double clear; // the same of the shares of what is behind the scene; with has_alpha
+    ShareSums *shares; // by stratum; NULL: the pixel has none
 } SampleSums;
 
 // A pixel that ends where it has enough: two sets of samples of their own.
@@ -119,6 +136,7 @@ enum { STOP_PIXELS = TILE_SIZE * TILE_SIZE / 2 }; // at once
 typedef struct RoundScratch {
     ChosenPixel chosen[TILE_SIZE * TILE_SIZE];
     SampleSums sums[TILE_SIZE * TILE_SIZE];
+    ShareSums shares[TILE_SIZE * TILE_SIZE]; // of those
     StopPixel stop[STOP_PIXELS];
 } RoundScratch;
 

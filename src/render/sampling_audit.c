@@ -45,6 +45,9 @@ static inline double pixel_square(const Draw *draw, size_t pixel)
 {
     const PixelRecord *record = &draw->round->film->records[pixel];
     double by_halves = (double)record->outer * draw->gain[estimate_level(record->count)];
+    if (share_has(draw->round->share, pixel) && record->count > 1) {
+        by_halves = fmax(by_halves, share_variance(draw->round->share, pixel, record->count));
+    }
     return small_has(draw->round->small, pixel)
                ? fmax(by_halves, small_variance(draw->round->small, pixel, record->count))
                : by_halves;
@@ -68,7 +71,9 @@ static void total_block(Draw *draw, Tile block)
             draw->pixels++;
             draw->by_halves += by_halves;
             draw->sum += square;
-            draw->own_squares += small_has(draw->round->small, pixel) ? 0.0 : square * square;
+            bool is_known = small_has(draw->round->small, pixel) ||
+                            (share_has(draw->round->share, pixel) && !round_is_like_replica(draw->round, pixel));
+            draw->own_squares += is_known ? 0.0 : square * square;
         }
     }
 }

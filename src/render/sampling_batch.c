@@ -38,6 +38,10 @@ static void run_add(const Round *round, const Batch *batch, const Run *run, int 
         }
     }
     parts->sum[run->which] = sum;
+    if (parts->shares) {
+        share_add(parts->shares, run->which, &batch->in_x[begin], &batch->in_y[begin], &batch->light[begin],
+                  run->end - begin);
+    }
     for (int i = begin; round->prepared->has_alpha && i < run->end; i++) {
         parts->clear += (batch->is_box ? 1.0 : batch->weights[i]) * batch->clear[i];
     }
@@ -47,7 +51,7 @@ static void run_add(const Round *round, const Batch *batch, const Run *run, int 
 static void batch_place(const Round *round, Batch *batch)
 {
     const Film *film = round->film;
-    double x[KERNEL_RAYS], y[KERNEL_RAYS];
+    double *x = batch->in_x, *y = batch->in_y;
     sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
     for (int i = 0; i < batch->count; i++) {
         FilterSample at = {x[i] - 0.5, y[i] - 0.5, 1.0};
@@ -58,11 +62,12 @@ static void batch_place(const Round *round, Batch *batch)
         batch->places.u[i] = film_u(film, batch->x[i], at.x);
         batch->places.v[i] = film_v(film, batch->y[i], at.y);
     }
+    double lens_x[KERNEL_RAYS], lens_y[KERNEL_RAYS];
     if (batch->places.lens) {
-        sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, x, y);
+        sample_next_of(round->prepared->points, batch->streams, NULL, (uint32_t)batch->count, lens_x, lens_y);
     }
     for (int i = 0; batch->places.lens && i < batch->count; i++) {
-        batch->lens[i] = camera_lens_point(&round->prepared->camera, (SamplePoint){x[i], y[i]});
+        batch->lens[i] = camera_lens_point(&round->prepared->camera, (SamplePoint){lens_x[i], lens_y[i]});
     }
 }
 

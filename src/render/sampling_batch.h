@@ -21,6 +21,7 @@ typedef struct Batch {
     Vec3 lens[KERNEL_RAYS];
     SampleStream streams[KERNEL_RAYS];
     int x[KERNEL_RAYS], y[KERNEL_RAYS]; // their pixels
+    double in_x[KERNEL_RAYS], in_y[KERNEL_RAYS]; // from 0 to 1: where in these, before any filter
     double weights[KERNEL_RAYS]; // where they are not all 1
     Rgb light[KERNEL_RAYS];
     double clear[KERNEL_RAYS];

@@ -50,6 +50,7 @@ static inline uint16_t bucket_of(double priority)
 typedef struct Constants {
     double to_constant[LEVELS], to_priority[LEVELS]; // by level: counts are powers of two
     double floor;
+    double of_share; // from the variance that strata bring to the halves' halves that it would be seen by
     double of_sort[SPREAD_SORTS]; // the mean constant of pixels with such a spread
 } Constants;
 
@@ -89,6 +90,9 @@ static double constant_of(const Constants *constants, const Round *round, size_t
 {
     const PixelRecord *record = &round->film->records[pixel];
     double seen = (double)record->inner, known = inner_of_small(round->small, pixel, record->count);
+    if (share_has(round->share, pixel) && record->count > 1) {
+        known = fmax(known, constants->of_share * share_variance(round->share, pixel, record->count));
+    }
     double own = (seen > known ? seen : known) * constants->to_constant[estimate_level(record->count)];
     if (record->count == 1) {
         return own;
@@ -105,6 +109,7 @@ static void constants_init(Constants *constants, const Estimate *estimate, doubl
         sum += constants->to_constant[level] * estimate->levels[level].inner_now;
     }
     constants->floor = fmax(PRIORITY_FLOOR * sum / pixels, 1e-30);
+    constants->of_share = exp2(power) * (exp2(power) - 1.0);
 }
 
 // The buckets of a row, from the constants around its pixels. A pixel's own counts the more, the more samples it is
@@ -136,6 +141,9 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
     Constants constants;
     double spent = 0.0;
     choice->power = mean_log_ratio(estimate);
+    if (round->share) {
+        share_set_contrast(round);
+    }
     constants_init(&constants, estimate, (double)film->width * film->height, choice->power);
     sorts_init(&constants, film);
     choice->corner_priority = 1.0;

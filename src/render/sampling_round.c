@@ -34,17 +34,39 @@ static inline double spread_of(const SampleSums *parts, Rgb mean, const Rgb *slo
     return sum > 0.0 ? sum / 3.0 : 0.0;
 }
 
+// Puts the means by shares for those of new samples, and their sums for the sums of halves; returns the mean of all.
+static Rgb sums_weight(const ChosenPixel *chosen, bool has_before, SampleSums *parts, Rgb *before, Rgb *mean)
+{
+    ShareMeans means;
+    share_close(parts->shares, has_before, chosen->is_judged, &means);
+    double count = chosen->count, first = (chosen->count + 1) / 2;
+    if (!chosen->starts) {
+        parts->sum[0] = rgb_scale(first, means.halves[0]);
+        parts->sum[1] = rgb_scale(count - first, means.halves[1]);
+    }
+    // So that spread_of is what samples spread by within the strata.
+    Rgb spread_out = rgb_add_scaled(rgb_mul(means.fresh, means.fresh), -1.0, means.between);
+    parts->squares = rgb_add_scaled(parts->squares, count, spread_out);
+    *before = means.before;
+    *mean = means.fresh;
+    return means.all;
+}
+
 // A pixel that had its corners only, which are left out of its mean. How far the two are apart is kept for
 // sampling_pilot.c.
-static void pixel_start(const Round *round, size_t pixel, const SampleSums *parts)
+static void pixel_start(const Round *round, const ChosenPixel *chosen, SampleSums *parts)
 {
+    size_t pixel = chosen->index;
     PixelRecord *record = &round->film->records[pixel];
     float *value = &round->film->rgb[3 * pixel];
     const Rgb *sum = parts->sum;
     const double alike = apart_factor(1.0, 1.0);
     Rgb before = rgb(value[0], value[1], value[2]), place;
     Rgb halves[2] = {rgb_scale(0.5, rgb_add(sum[0], sum[1])), rgb_scale(0.5, rgb_add(sum[2], sum[3]))};
-    Rgb mean = rgb_scale(0.5, rgb_add(halves[0], halves[1]));
+    Rgb mean = rgb_scale(0.5, rgb_add(halves[0], halves[1])), none;
+    if (parts->shares) {
+        (void)sums_weight(chosen, false, parts, &none, &mean);
+    }
     value_put(value, mean);
     const Rgb *slope = slope_at(round, value, &place);
     float first = square_apart(rgb_add_scaled(sum[0], -1.0, sum[1]), slope, alike);
@@ -113,7 +135,7 @@ static inline void pixel_judge(const Round *round, const Shares *shares, size_t 
     }
 }
 
-static inline void pixel_finish(const Round *round, Shares *shares, const ChosenPixel *chosen, const SampleSums *parts)
+static inline void pixel_finish(const Round *round, Shares *shares, const ChosenPixel *chosen, SampleSums *parts)
 {
     size_t pixel = chosen->index;
     PixelRecord *record = &round->film->records[pixel];
@@ -122,7 +144,7 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
         clear_put(&round->film->clear[pixel], chosen->starts ? 0.0 : record->count, chosen->count, parts);
     }
     if (chosen->starts) {
-        pixel_start(round, pixel, parts);
+        pixel_start(round, chosen, parts);
         return;
     }
     if (shares->before != record->count || shares->count != chosen->count) {
@@ -130,7 +152,11 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
     }
     Rgb mean = rgb_scale(shares->of_new, rgb_add(parts->sum[0], parts->sum[1]));
     Rgb old = rgb(value[0], value[1], value[2]);
-    value_put(value, rgb_add(rgb_scale(shares->of_old, old), rgb_scale(shares->of_mean, mean)));
+    Rgb all = rgb_add(rgb_scale(shares->of_old, old), rgb_scale(shares->of_mean, mean));
+    if (parts->shares) {
+        all = sums_weight(chosen, shares->before > 0, parts, &old, &mean);
+    }
+    value_put(value, all);
     record->count += chosen->count;
     if (chosen->is_judged) {
         pixel_judge(round, shares, pixel, parts, old, mean);
@@ -174,20 +200,15 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
     }
     for (const ChosenPixel *pixel = chosen; pixel < end; pixel++) {
         SampleSums *sums = &parts[pixel - chosen];
-        *sums = (SampleSums){.squares = rgb_grey(0.0)};
+        *sums = (SampleSums){.squares = rgb_grey(0.0),
+                             .shares = share_begin(round->share, pixel->index, pixel->starts,
+                                                   &scratch->round.shares[pixel - chosen])};
         pixel_add(round, &batch, pixel, sums, counted);
     }
     batch_flush(round, &batch, counted);
     for (const ChosenPixel *pixel = chosen; pixel < end; pixel++) {
         pixel_finish(round, &shares, pixel, &parts[pixel - chosen]);
     }
-}
-
-// Whether a pixel is as far off as another set of samples would be. One that is made of corners is not, nor one of
-// which it is known that it has met all small shapes that are in it, since another set may not have.
-static bool is_like_replica(const Round *round, size_t pixel)
-{
-    return round->film->records[pixel].count > 1 && !small_has(round->small, pixel);
 }
 
 // Of a pixel that is like its replica, half the square of how far that is from it: its variance. Of others the product
@@ -197,10 +218,13 @@ static void replica_judge(const Round *round, AuditPick *pick, const SampleSums 
     const float *value = &round->film->rgb[3 * pick->pixel];
     uint32_t count = round->film->records[pick->pixel].count;
     Rgb place, own = rgb(value[0], value[1], value[2]), apart[2];
-    bool is_single = is_like_replica(round, pick->pixel);
+    bool is_single = round_is_like_replica(round, pick->pixel);
     for (int i = 0; i < 2; i++) {
         Rgb sum = rgb_add(sets[i].sum[0], sets[i].sum[1]);
         Rgb mean = rgb_scale(1.0 / (count > 1 ? (double)count : (double)AUDIT_SAMPLES), sum);
+        if (sets[i].shares && (i == 0 || !is_single)) {
+            mean = share_mean(sets[i].shares);
+        }
         apart[i] = rgb_add_scaled(mean, -1.0, own);
     }
     const Rgb *slope = slope_at(round, value, &place);
@@ -230,8 +254,12 @@ void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScr
             continue;
         }
         uint32_t had = film->records[pick->pixel].count;
-        sets[count][0] = sets[count][1] = (SampleSums){.squares = rgb_grey(0.0)};
-        for (uint32_t i = 0; i < (is_like_replica(round, pick->pixel) ? 1u : 2u); i++) {
+        for (int i = 0; i < 2; i++) {
+            ShareSums *shares = &scratch->round.shares[2 * count + i];
+            sets[count][i] = (SampleSums){.squares = rgb_grey(0.0),
+                                          .shares = share_begin(round->share, pick->pixel, false, shares)};
+        }
+        for (uint32_t i = 0; i < (round_is_like_replica(round, pick->pixel) ? 1u : 2u); i++) {
             ChosenPixel chosen = {.x = x, .y = y, .index = pick->pixel, .count = had > 1 ? had : AUDIT_SAMPLES,
                                   .replica = 2 * pick->replica + i};
             pixel_add(round, &batch, &chosen, &sets[count][i], counted);
