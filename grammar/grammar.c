@@ -40,12 +40,22 @@ static bool holds_word(const AstNode *items)
     return false;
 }
 
+// A declaration of what a directive gives, which may be nothing, before what may be its value then: a sign behind a
+// directive has torn the statement already.
+static bool may_lack_value(const GrammarState *state, const AstNode *item)
+{
+    int next = state->current.kind;
+    return item->kind == AST_DECLARE && item->b->kind == AST_INLINE && !(item->flags & AST_ENDED) &&
+           !(item->b->flags & AST_IN_PARENTHESES) && (state->torn || next == TOKEN_NUMBER);
+}
+
 bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
 {
     if (state->builder.failed) {
         return false;
     }
-    if (state->kept == NULL && gives_word(item) && grammar_tear(state)) {
+    bool is_doubtful = gives_word(item) || (has_lookahead && may_lack_value(state, item));
+    if (state->kept == NULL && is_doubtful && (state->torn || grammar_tear(state))) {
         state->torn_by_fault = true;
         return false;
     }

@@ -99,6 +99,7 @@ typedef struct GrammarHooks {
     Source *(*include)(void *client, const AstNode *directive);
     void (*leave)(void *client);
     bool (*is_stopped)(void *client);
+    bool is_top; // what stands between items is of the scene and no part of anything
     // Literal spheres (grammar/literal.c). The next item is one: to be watched. Then: what it gave, which the next one
     // of its kind would give, too; false: not so. Then others of that kind, without a tree. `literal_state` changes
     // whenever a kind may give something else than before. NULL in `literal`: all are parsed.

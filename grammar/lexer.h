@@ -132,7 +132,10 @@ typedef struct GrammarState {
     bool array_begins;     // the next brace opens them
     size_t own_frame;      // of the stream, in which this directive began; 0: it is none
     bool takes_elements;   // elements of arrays may stand for themselves in it
-    bool is_for_head;      // of a #for
+    bool is_target;        // the last token delivered is that name, or an index of it
+    size_t open_before;    // directives of the stream that were open when it began
+    int fragment;          // what it begins with: TOKEN_START_…
+    bool is_declared;      // the last token delivered is the name that it declares
     bool takes_string;     // it is a directive that takes a string
     bool ends_before;      // the last token delivered may end an expression
     bool ends_vector;      // it is the `>` of a vector

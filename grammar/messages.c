@@ -486,11 +486,11 @@ static bool cuts_branch(GrammarState *state)
     return is_inside && (role == ROLE_MIDDLE || role == ROLE_ELSE || role == ROLE_END);
 }
 
-// Whether a directive that holds other text, or a call of a macro, stands in the present item before the fault: it may
-// make sense once they are resolved, or never be read.
+// Whether the fault is a directive, or one that holds other text, or a call of a macro, stands in the present item before
+// it: it may make sense once they are resolved, or never be read.
 static bool has_directives(const GrammarState *state)
 {
-    if (grammar_role(state->current.kind) == ROLE_OPENS && state->previous.kind == TOKEN_BUILTIN) {
+    if (grammar_role(state->current.kind) == ROLE_OPENS && !grammar_is_directive(state->previous.kind)) {
         return true;
     }
     for (size_t i = 0; i < state->openers.count; i++) {
@@ -539,7 +539,10 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
         return;
     }
     bool is_reported = state->current.kind == TOKEN_INVALID && state->current.known == NULL;
-    if (!is_reported && state->current.kind != TOKEN_END_OF_FILE && has_directives(state) && grammar_tear(state)) {
+    bool in_value = expected.seen[EXPECT_VALUE] || expected.seen[EXPECT_OPERATOR];
+    bool is_resolved = grammar_role(state->current.kind) == ROLE_SIMPLE && !in_value;
+    if (!is_reported && state->current.kind != TOKEN_END_OF_FILE && (is_resolved || has_directives(state)) &&
+        grammar_tear(state)) {
         state->torn_by_fault = true;
         return;
     }
@@ -547,8 +550,7 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
         grammar_report_unreadable(state, &state->current);
         return;
     }
-    if (!report_reserved(state) && !report_split(state) &&
-        !report_misplaced_directive(state, &expected)) {
+    if (!report_reserved(state) && !report_split(state) && !report_misplaced_directive(state, &expected)) {
         report_general(state, &expected);
     }
 }

@@ -350,7 +350,7 @@ include: HASH_INCLUDE sum           %prec JUXTAPOSED { $$ = NODE(INCLUDE, NONE, 
 declare:
   assignment                        %prec JUXTAPOSED { $$ = grammar_end_declare(state, $assignment); }
 | assignment ';'                    %prec JUXTAPOSED { $$ = ast_flag($assignment, AST_ENDED); }
-| assignment ';' ';'                { $$ = ast_flag($assignment, AST_ENDED); }
+| assignment ';' ';'                { $$ = ast_flag($assignment, AST_ENDED | AST_ENDED_TWICE); }
 ;
 
 assignment:

@@ -24,6 +24,7 @@ static bool is_at_end(const Frame *frame)
 static AstNode *next_item(GrammarStream *stream, uint64_t past)
 {
     bool has_comma = false;
+    Span comma = {0};
     GrammarState state; // of what stands between items: no fragment
     grammar_begin(&state, stream->context);
     state.stream = stream;
@@ -35,10 +36,15 @@ static AstNode *next_item(GrammarStream *stream, uint64_t past)
         bool is_done = live != NULL && stream->frames.count == 1 && stream->end.begin >= past &&
                        (live->held_count == 0 || live->held[live->held_count - 1].span.begin > past);
         Token token;
+        if (!is_done) {
+            stream_read(stream, &token);
+        }
+        if (has_comma && live != NULL && (is_done || token.kind == TOKEN_END_OF_FILE)) {
+            stream_fault(stream, DIAG_E0259, comma, "no comma is expected here");
+        }
         if (is_done) {
             return NULL;
         }
-        stream_read(stream, &token);
         if (token.kind == TOKEN_END_OF_FILE) {
             stream->ends_in_comma = has_comma;
             if (stream->frames.count > 0 && !frame_has_text(&stream->frames.items[stream->frames.count - 1])) {
@@ -52,7 +58,10 @@ static AstNode *next_item(GrammarStream *stream, uint64_t past)
             stream_call_macro(stream, &token);
         } else if (token.kind == ',' && !has_comma) {
             has_comma = true;
-        } else if (token.kind != ';' || live != NULL || stream_peek_kind(stream) != TOKEN_END_OF_FILE) {
+            comma = token.span;
+        } else if (token.kind != ';' || !stream->has_item || live != NULL ||
+                   stream_peek_kind(stream) != TOKEN_END_OF_FILE) {
+            stream->has_item = true;
             stream_unread(stream, &token);
             AstNode *item = stream_parse(stream, TOKEN_START_ITEM, base_of_items(stream), false);
             return item != NULL && has_comma ? ast_flag(item, AST_AFTER_COMMA) : item;

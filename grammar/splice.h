@@ -51,6 +51,7 @@ struct GrammarStream {
     bool failed;  // reading cannot go on
     bool is_refused; // at the place where the statement was torn: see grammar_stream_is_refused
     bool is_cut;  // a directive stood right after the last item
+    bool has_item; // one was read, behind which a `;` may end the text
     bool ends_in_comma;
     bool is_open; // an item or a directive is being read
     Span end;     // of the last token
@@ -83,6 +84,10 @@ static inline bool frame_has_text(const Frame *frame)
     return frame->kind < FRAME_BRANCH;
 }
 
+// Directives that have not met their #end.
+size_t stream_open_directives(const GrammarStream *stream);
+// Whether a fragment is the head of a directive.
+bool stream_is_head(int start);
 // The next token of the text, wherever it stands; leaves frames whose text is at its end.
 void stream_read(GrammarStream *stream, Token *token);
 // Takes back the token that was read last.

@@ -376,7 +376,7 @@ static void include_file(Reading *reading)
     GrammarHooks *hooks = stream->hooks;
     ArenaMark mark = arena_mark(stream->context->arena);
     stream_unread(stream, &reading->directive);
-    bool is_inside = stream->is_open || stream->within;
+    bool is_inside = stream->is_open || stream->within || !hooks->is_top;
     AstNode *node = stream_parse(stream, TOKEN_START_DIRECTIVE, 0, false);
     Source *source = node != NULL && is_inside ? hooks->include(hooks->client, node) : NULL;
     if (node != NULL && !is_inside && !hooks->run(hooks->client, node, false)) {

@@ -169,10 +169,20 @@ void stream_unread(GrammarStream *stream, const Token *token)
 
 int stream_peek_kind(GrammarStream *stream)
 {
-    size_t at = stream_innermost_text(stream);
-    const Frame *frame = at > 0 ? &stream->frames.items[at - 1] : NULL;
-    if (frame == NULL || frame->kind != FRAME_LIVE) {
-        return frame != NULL && frame->at < frame->count ? frame->tokens[frame->at].kind : TOKEN_END_OF_FILE;
+    size_t at = stream->frames.count;
+    const Frame *frame = NULL;
+    while (at > 0) {
+        frame = &stream->frames.items[--at];
+        if (frame->kind == FRAME_LIVE) {
+            break;
+        }
+        if (frame_has_text(frame) && frame->at < frame->count) {
+            return frame->tokens[frame->at].kind;
+        }
+        frame = NULL;
+    }
+    if (frame == NULL) {
+        return TOKEN_END_OF_FILE;
     }
     Token token;
     grammar_read_token(stream->live, &token);
@@ -230,7 +240,22 @@ GrammarText *grammar_text_copy(const GrammarText *text, Arena *arena)
     return arena_copy(arena, text, sizeof *text + text->count * sizeof *text->tokens);
 }
 
+size_t stream_open_directives(const GrammarStream *stream)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < stream->frames.count; i++) {
+        count += stream->frames.items[i].kind >= FRAME_WHILE && stream->frames.items[i].kind <= FRAME_SWITCH;
+    }
+    return count;
+}
+
 // ---- fragments
+
+bool stream_is_head(int start)
+{
+    return start == TOKEN_START_CONDITION || start == TOKEN_START_SUBJECT || start == TOKEN_START_RANGE ||
+           start == TOKEN_START_FOR;
+}
 
 AstNode *stream_parse(GrammarStream *stream, int start, int base_depth, bool is_raw)
 {
@@ -246,15 +271,20 @@ AstNode *stream_parse(GrammarStream *stream, int start, int base_depth, bool is_
     state.offset = stream->end.end;
     state.stream = stream;
     state.start = start;
+    state.fragment = start;
+    state.open_before = stream_open_directives(stream);
     state.base_depth = base_depth;
     state.is_raw = is_raw;
-    state.is_for_head = start == TOKEN_START_FOR;
     state.takes_elements = start == TOKEN_START_SUBJECT;
     state.begins_raw = start == TOKEN_START_DIRECTIVE;
     bool was_open = stream->is_open;
     stream->is_open = true;
     ++*stream->hooks->nesting;
     bool fine = grammar_yyparse(&state) == 0 && !state.faulty && !state.builder.failed && !stream->failed;
+    if (fine && stream_is_head(start) && stream_open_directives(stream) > state.open_before) {
+        stream_fault(stream, DIAG_E0106, stream->end, "a directive in the head of another ends in it");
+        fine = false;
+    }
     --*stream->hooks->nesting;
     stream->is_open = was_open;
     if (!fine) {

@@ -35,6 +35,8 @@ static void track_more(GrammarState *state)
     const Token *last = &state->previous;
     const Opener *open = grammar_innermost(state);
     state->after_dot = state->last_but_one == '.';
+    state->is_declared = state->last_but_one == TOKEN_HASH_DECLARE || state->last_but_one == TOKEN_HASH_LOCAL;
+    state->is_target = last->kind != '=' && (state->is_target || state->is_declared);
     state->last_but_one = last->kind;
     if (last->kind == '<' && !state->ends_before) {
         Opener vector = {.kind = '<', .span = last->span};
@@ -133,16 +135,36 @@ static bool takes_string(int directive)
     }
 }
 
-// After these words, and first in the head of a #for, stands a name itself: no directive and no call gives one.
-static bool wants_name(const GrammarState *state)
+// Where POV-Ray looks at the next token as it stands and runs no directive or call.
+static bool is_as_it_stands(const GrammarState *state, const Token *token)
 {
+    const Opener *open = state->openers.count > 0 ? &state->openers.items[state->openers.count - 1] : NULL;
+    if ((state->array_begins || state->is_target) && state->ends_before && open != NULL && open->kind == '[') {
+        return true;
+    }
     switch (state->previous.kind) {
     case TOKEN_HASH_DECLARE:
     case TOKEN_HASH_LOCAL:
-    case TOKEN_HASH_UNDEF: return true;
-    case '(': return state->is_for_head && state->openers.count == 1;
+    case TOKEN_HASH_UNDEF:
+    case TOKEN_HASH_VERSION:
+    case TOKEN_ARRAY: return true;
+    case TOKEN_NAME: return state->is_declared;
+    case '(':
+        return state->openers.count == 1 && (state->fragment == TOKEN_START_SUBJECT ||
+                                             (state->fragment == TOKEN_START_FOR && token->kind == TOKEN_NAME));
+    case 0:
+    case TOKEN_START_CONDITION:
+    case TOKEN_START_RANGE: return state->fragment == TOKEN_START_CONDITION || state->fragment == TOKEN_START_RANGE;
     default: return false;
     }
+}
+
+// A part of a directive, in the head of another, that began before that head.
+static bool ends_outside(const GrammarState *state, const Token *token)
+{
+    DirectiveRole role = grammar_role(token->kind);
+    bool is_part = role == ROLE_ELSE || role == ROLE_MIDDLE || role == ROLE_END;
+    return stream_is_head(state->fragment) && is_part && stream_open_directives(state->stream) <= state->open_before;
 }
 
 void grammar_splice_token(GrammarState *state, Token *token)
@@ -171,22 +193,34 @@ void grammar_splice_token(GrammarState *state, Token *token)
             }
             break;
         }
+        // What follows a declaration may be anything, but for a second semicolon.
+        bool is_past_end = state->fragment == TOKEN_START_DIRECTIVE && state->previous.kind == ';' &&
+                           state->openers.count == 0 && token->kind != ';';
+        if (is_past_end) {
+            stream_unread(stream, token);
+            stream_deliver_end(stream, token);
+            return;
+        }
         // No operator continues a string.
         if (state->takes_string && state->ends_before && state->openers.count == 0 && token->kind != '[') {
             stream_unread(stream, token);
             stream_deliver_end(stream, token);
             return;
         }
-        if (state->is_raw || wants_name(state) || (!is_directive && !stream_is_at_call(stream, state, token))) {
+        if (state->is_raw || is_as_it_stands(state, token) || (!is_directive && !stream_is_at_call(stream, state, token))) {
             break;
         }
-        if (may_end && state->base_depth != NO_BASE && state->openers.count <= (size_t)state->base_depth) {
+        bool is_passed = state->fragment == TOKEN_START_SUBJECT && grammar_role(token->kind) == ROLE_SIMPLE;
+        if (may_end && !is_passed && state->base_depth != NO_BASE &&
+            state->openers.count <= (size_t)state->base_depth) {
             cut(stream, state, token);
             return;
         }
         if (is_between_elements(state)) {
             stream_fault(stream, DIAG_E0223, token->span,
                          "no directive and no macro call can stand here, in the elements of an array");
+        } else if (is_directive && ends_outside(state, token)) {
+            stream_fault_stray(stream, token);
         } else if (is_directive) {
             stream_run_directive(stream, token);
         } else {

@@ -42,6 +42,7 @@ enum {
     AST_WITHOUT_COMMA = 16, // an argument that follows another with a blank only; ast_equal does not look at it
     AST_KNOWN = 32,         // an expression that was worked out while it was read: its value is in `known`
     AST_BEFORE_NAME = 128, // a #declare or #version without `;` right before the declared name, or before a macro's
+    AST_ENDED_TWICE = 256, // a #declare with `;;`
     AST_PASTES = 64, // an expression with a macro call for an operand or an element, whose text may fall apart there
 };
 

@@ -114,7 +114,7 @@ static bool two_numbers(Eval *ev, const AstNode *node, Value *value)
     bool is_finite = isfinite(a[0]) && isfinite(a[1]);
     switch (node->symbol) {
     case W_atan2:
-        return a[0] == 0.0 && a[1] == 0.0 ? fault_domain(ev, node, 0.0) : give_number(value, atan2(a[0], a[1]));
+        return !number_is_true(a[0]) && !number_is_true(a[1]) ? fault_domain(ev, node, 0.0) : give_number(value, atan2(a[0], a[1]));
     case W_pow:
         return a[0] == 0.0 && a[1] == 0.0 ? fault_domain(ev, node, 0.0)
                                             : give_result(ev, node, value, pow(a[0], a[1]), is_finite);

@@ -144,7 +144,7 @@ bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *tex
         cursor->included = true;
         cursor->mark = arena_mark(&ev->parse);
     }
-    frame->stream = splice_stream_open(ev, text, owned, !cursor->top && ev->inner > 0, is_call);
+    frame->stream = splice_stream_open(ev, text, owned, cursor->top, is_call);
     return frame->stream != NULL || eval_no_memory(ev, cursor->span);
 }
 
@@ -281,17 +281,26 @@ bool cursor_at_value(Cursor *cursor)
                             (item->kind == AST_WORD && word_class(item->symbol) == WORD_COLOUR));
 }
 
-static bool take(Cursor *cursor, Value *value, Span *span)
+// The next item; NULL where there is none, which is reported.
+static const AstNode *take_item(Cursor *cursor, Span *span)
 {
     const AstNode *item = cursor_peek(cursor);
-    if (item == NULL) {
-        *span = cursor_end(cursor);
-        bool is_told = cursor->ev->stop || cursor->is_lossy || eval_follows_syntax(cursor->ev, cursor->span);
-        return !is_told && eval_fault(cursor->ev, DIAG_E0213, *span, "a value is missing at the end");
+    if (item != NULL) {
+        *span = item->span;
+        cursor->item = NULL;
+        return item;
     }
-    *span = item->span;
-    cursor->item = NULL;
-    return eval_expression(cursor->ev, item, value);
+    *span = cursor_end(cursor);
+    if (!cursor->ev->stop && !cursor->is_lossy && !eval_follows_syntax(cursor->ev, cursor->span)) {
+        (void)eval_fault(cursor->ev, DIAG_E0213, *span, "a value is missing at the end");
+    }
+    return NULL;
+}
+
+static bool take(Cursor *cursor, Value *value, Span *span)
+{
+    const AstNode *item = take_item(cursor, span);
+    return item != NULL && eval_expression(cursor->ev, item, value);
 }
 
 bool cursor_value(Cursor *cursor, Value *value)
@@ -308,6 +317,6 @@ bool cursor_number(Cursor *cursor, double *number, Span *span)
 
 bool cursor_vector3(Cursor *cursor, Vec3 *vector, Span *span)
 {
-    Value value;
-    return take(cursor, &value, span) && value_vector3(cursor->ev, &value, *span, vector);
+    const AstNode *item = take_item(cursor, span);
+    return item != NULL && eval_vector3(cursor->ev, item, vector);
 }

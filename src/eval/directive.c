@@ -17,6 +17,9 @@ typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 // A call of a macro whose text ends with the semicolon, or a directive whose branch does.
 static bool is_ended_within(const Eval *ev, const AstNode *node)
 {
+    while ((node->kind == AST_BINARY || node->kind == AST_UNARY) && !(node->flags & AST_IN_PARENTHESES)) {
+        node = node->kind == AST_BINARY ? node->b : node->a;
+    }
     if (node->kind == AST_INLINE) {
         return ev->is_value_ended;
     }
@@ -37,17 +40,23 @@ static bool runs_into_name(const AstNode *node)
     return (node->flags & AST_BEFORE_NAME) && is_open;
 }
 
-// Since version 3.5 of the language numbers, vectors and colours end with a semicolon, as do functions and splines that
-// have a name already.
+// Since version 3.5 of the language numbers, vectors and colours end with a semicolon. So do functions and splines that
+// have a name already; before 3.5 POV-Ray takes these without one where no directive comes next.
 static bool needs_end(const Eval *ev, const AstNode *node, const Value *value)
 {
     bool is_callable = value->kind == VALUE_FUNCTION || value->kind == VALUE_SPLINE;
-    bool is_expression = value->kind == VALUE_NUMBER || value_is_tuple(value) || (is_callable && !ev->is_value_made);
-    return (is_expression && !(ev->version < 3.5)) || runs_into_name(node);
+    bool is_expression = value->kind == VALUE_NUMBER || value_is_tuple(value);
+    return (is_expression && !(ev->version < 3.5)) || (is_callable && !ev->is_value_made) || runs_into_name(node);
 }
 
 static void check_end(Eval *ev, const AstNode *node, const Value *value)
 {
+    bool is_callable = value->kind == VALUE_FUNCTION || value->kind == VALUE_SPLINE;
+    bool takes_two = value->kind == VALUE_NUMBER || value_is_tuple(value) || (is_callable && !ev->is_value_made);
+    if ((node->flags & AST_ENDED_TWICE) && !takes_two) {
+        eval_fault(ev, DIAG_E0106, (Span){node->span.end - 1, node->span.end},
+                   "a second `;` may end a number, a vector or a colour, not %s", value_describe(value));
+    }
     if ((node->flags & AST_ENDED) || !needs_end(ev, node, value) || is_ended_within(ev, node->b)) {
         return;
     }
@@ -194,8 +203,12 @@ static void run_version(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     double version;
-    if (node->a->kind == AST_CALL && !(node->a->flags & AST_KNOWN) && !call_is_value(ev, node->a)) {
-        eval_fault(ev, DIAG_E0202, node->a->span, "`#version` takes a number, not the call of a macro");
+    const AstNode *first = node->a;
+    while (first->kind == AST_BINARY && !(first->flags & AST_IN_PARENTHESES)) {
+        first = first->a;
+    }
+    if (first->kind == AST_CALL && !(first->flags & AST_KNOWN) && !call_is_value(ev, first)) {
+        eval_fault(ev, DIAG_E0202, first->span, "`#version` takes a number, not the call of a macro");
         return;
     }
     ev->inner++;

@@ -80,6 +80,7 @@ void eval_item(Eval *ev, const AstNode *item)
         cursor_skip(&cursor);
         repeat_turns(&cursor);
     }
+    ev->faulty = (!ev->lacks_brace && !cursor_lacks_comma(&cursor, "the scene")) || ev->faulty;
     cursor_close(&cursor);
 }
 

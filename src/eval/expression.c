@@ -249,13 +249,16 @@ static bool eval_member(Eval *ev, const AstNode *node, Value *value)
         return eval_fault(ev, DIAG_E0204, node->span, "%s has no component `%s`", value_describe(value),
                           eval_text(ev, node->symbol));
     }
-    if (value->kind == VALUE_VECTOR && value->components == 2) {
+    if (is_number) {
+        value_set_number(value, value->number);
+        return true;
+    }
+    uint8_t kept = value->kept > value->components ? value->kept : value->components;
+    if (value->components == 2 && kept == 2) {
         value->v[2] = 0.0; // for `gray`
     }
-    double number = is_number                     ? value->number
-                    : component == COMPONENT_GRAY ? number_gray(value->v)
-                                                  : value->v[component];
-    value_set_number(value, number);
+    value_set_number(value, component == COMPONENT_GRAY ? number_gray(value->v) : value->v[component]);
+    value->kept = kept;
     return true;
 }
 
@@ -303,9 +306,11 @@ static bool eval_special(Eval *ev, const AstNode *node, EvalFn evaluate, Value *
 }
 
 // They stand around numbers and vectors only.
-static bool check_parentheses(Eval *ev, const AstNode *node, const Value *value)
+static bool check_parentheses(Eval *ev, const AstNode *node, Value *value)
 {
     if (value->kind == VALUE_NUMBER || value_is_tuple(value)) {
+        value->is_scaled = value->has_third = false;
+        value->is_closed = true;
         return true;
     }
     if (eval_report(ev, DIAG_E0202, node->span, "%s cannot stand in parentheses", value_describe(value))) {

@@ -68,7 +68,15 @@ typedef struct DataFile DataFile;     // datafile.c
 typedef struct Value {
     uint8_t kind;       // ValueKind
     uint8_t components; // of a vector
-    uint16_t block;     // VALUE_BLOCK: its SchemaKind
+    union {
+        uint16_t block; // VALUE_BLOCK: its SchemaKind
+        struct {
+            uint8_t kept; // so many of `v` hold what a vector had whose component this is, or began with; 0: none
+            bool is_scaled : 1; // a number times a vector, see operators.c
+            bool is_closed : 1; // parentheses stand around it, or around the number that a number begins with
+            bool has_third : 1; // a vector of 2: v[4] is its third component where a vector of 3 is wanted
+        };
+    };
     Symbol name;        // the identifier it was read from, for messages; SYMBOL_NONE
     union {
         double number;
@@ -285,6 +293,8 @@ const char *value_describe(const Value *value);
 // Conversions with the language's promotions; on failure they report "expected …, found …" at the span. A value of
 // VALUE_NONE has been reported already and fails quietly.
 bool value_number(Eval *ev, const Value *value, Span span, double *number) RT_MUST_CHECK;
+// The components, and behind them what a vector leaves there that the expression began with, then 0; how many.
+unsigned value_components(const Value *value, double v[5]);
 bool value_vector3(Eval *ev, const Value *value, Span span, Vec3 *vector) RT_MUST_CHECK;
 bool value_colour(Eval *ev, const Value *value, Span span, Rgbft *colour) RT_MUST_CHECK;
 bool value_string(Eval *ev, const Value *value, Span span) RT_MUST_CHECK;
@@ -627,8 +637,8 @@ void splice_fini(Splice *splice);
 // What the grammar asks and tells of literal spheres (literal.c), put to the other hooks.
 void literal_hooks(Eval *ev, GrammarHooks *hooks);
 
-// Items of a text, on demand. `owned` (NULL or the text) is freed with it. NULL when out of memory.
-SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool within,
+// Items of a text, on demand, of the top level or not. `owned` (NULL or the text) is freed with it. NULL when out of memory.
+SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool top,
                                  bool is_call) RT_MUST_CHECK;
 const AstNode *splice_stream_next(SpliceStream *stream, bool top) RT_MUST_CHECK;
 bool splice_stream_is_cut(const SpliceStream *stream);

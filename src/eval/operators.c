@@ -60,7 +60,10 @@ bool operator_unary(Eval *ev, const AstNode *node, Value *value)
         return eval_fault(ev, DIAG_E0202, node->a->span, "`%s` needs a number or a vector, found %s", spelling(node),
                           value_describe(value));
     }
-    for (unsigned i = 0; node->op != AST_OP_PLUS && i < value->components; i++) {
+    for (unsigned i = 0; node->op != AST_OP_PLUS && i < 5; i++) {
+        if (i >= value->components && !(i == 4 && value->has_third)) {
+            continue;
+        }
         value->v[i] = node->op == AST_OP_NEG ? -value->v[i] : !number_is_true(value->v[i]);
     }
     return true;
@@ -134,15 +137,51 @@ static unsigned width(const Value *value)
     return value->kind == VALUE_NUMBER ? 0 : value->components;
 }
 
+static double operate(const AstNode *node, double one, double other)
+{
+    switch (node->op) {
+    case AST_OP_ADD: return one + other;
+    case AST_OP_SUB: return one - other;
+    case AST_OP_MUL: return one * other;
+    case AST_OP_DIV: return other == 0.0 ? HUGE_VAL : one / other;
+    default: return relation((AstOp)node->op, one, other);
+    }
+}
+
+// As measured: where a vector of 3 is wanted, what the expression begins with has three components at once, unless it is
+// a vector, or the component of one, without parentheses.
+static bool third_component(const Value *left, double *third)
+{
+    *third = left->kind == VALUE_NUMBER ? left->number : left->has_third ? left->v[4] : 0.0;
+    return left->is_closed || left->has_third || (left->kind == VALUE_NUMBER && left->kept == 0);
+}
+
+// As measured: a vector plus a number times a longer vector has as many components as the longer one, but those beyond
+// its own are 0: <1, 2> + 3 * z is <1, 2, 0>, and <1, 2> + z * 3 is <1, 2, 3>. What began with a component of a vector
+// keeps that vector's components behind its own.
 static bool tuple_arithmetic(Eval *ev, const AstNode *node, Value *left, Value *right)
 {
     unsigned components = width(left) > width(right) ? width(left) : width(right);
     bool is_colour = left->kind == VALUE_COLOUR || right->kind == VALUE_COLOUR;
+    bool is_sum = node->op == AST_OP_ADD || node->op == AST_OP_SUB;
+    bool is_product = node->op == AST_OP_MUL || node->op == AST_OP_DIV;
+    for (unsigned i = width(left); is_sum && right->is_scaled && width(left) > 0 && i < width(right); i++) {
+        right->v[i] = 0.0;
+    }
+    double third, right_third = right->kind == VALUE_NUMBER ? right->number : 0.0;
+    left->has_third = third_component(left, &third) && components == 2;
+    left->is_scaled = is_product && (left->kind == VALUE_NUMBER ? left->kept == 0 : left->is_scaled);
     widen(left, components);
     widen(right, components);
     for (unsigned i = 0; i < components; i++) {
-        left->v[i] = arithmetic(ev, node, left->v[i], right->v[i]);
+        left->v[i] = is_sum || is_product ? arithmetic(ev, node, left->v[i], right->v[i])
+                                          : relation((AstOp)node->op, left->v[i], right->v[i]);
     }
+    if (left->has_third) {
+        left->v[4] = operate(node, third, right_third);
+        left->kept = left->kept < 4 ? left->kept : 4;
+    }
+    left->is_closed = false;
     left->kind = is_colour ? VALUE_COLOUR : VALUE_VECTOR;
     left->components = (uint8_t)components;
     return true;
@@ -162,10 +201,9 @@ static bool is_arithmetic_value(const Value *value)
 
 static bool fault_operand(Eval *ev, const AstNode *node, const Value *left, const Value *right)
 {
-    bool takes_vectors = is_arithmetic(node);
-    bool left_fits = takes_vectors ? is_arithmetic_value(left) : left->kind == VALUE_NUMBER;
-    return eval_fault(ev, DIAG_E0202, left_fits ? node->b->span : node->a->span, "`%s` needs %s, found %s",
-                      spelling(node), takes_vectors ? "a number or a vector" : "a number",
+    bool left_fits = is_arithmetic_value(left);
+    return eval_fault(ev, DIAG_E0202, left_fits ? node->b->span : node->a->span,
+                      "`%s` needs a number or a vector, found %s", spelling(node),
                       value_describe(left_fits ? right : left));
 }
 
@@ -196,7 +234,7 @@ bool operator_binary(Eval *ev, const AstNode *node, Value *value)
                                             : relation((AstOp)node->op, value->number, right.number);
         return true;
     }
-    if (is_arithmetic(node) && is_arithmetic_value(value) && is_arithmetic_value(&right)) {
+    if (is_arithmetic_value(value) && is_arithmetic_value(&right)) {
         return tuple_arithmetic(ev, node, value, &right);
     }
     bool compares = node->op >= AST_OP_EQ && node->op <= AST_OP_GE;

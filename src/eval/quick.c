@@ -94,7 +94,7 @@ static bool two_numbers(const AstNode *node, const double *a, double *number)
     } else if (node->symbol == W_div) {
         *number = number_to_int(a[0] / a[1]);
     } else {
-        if (a[0] == 0.0 && a[1] == 0.0) {
+        if (!number_is_true(a[0]) && !number_is_true(a[1])) {
             return false;
         }
         *number = node->symbol == W_pow ? pow(a[0], a[1]) : atan2(a[0], a[1]);

@@ -247,7 +247,8 @@ void splice_init(Splice *splice, Eval *ev)
                   .call = call,
                   .include = include,
                   .leave = leave,
-                  .is_stopped = is_stopped},
+                  .is_stopped = is_stopped,
+                  .is_top = true},
     };
     literal_hooks(ev, &splice->hooks);
 }
@@ -259,7 +260,7 @@ void splice_fini(Splice *splice)
 
 // ---- items on demand
 
-SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool within, bool is_call)
+SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool top, bool is_call)
 {
     SpliceStream *stream = malloc(sizeof *stream);
     if (stream == NULL) {
@@ -267,10 +268,10 @@ SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText 
         return NULL;
     }
     splice_init(&stream->splice, ev);
-    stream->splice.cursor.top = false;
+    stream->splice.cursor.top = stream->splice.hooks.is_top = top;
     stream->owned = owned;
     stream->mark = arena_mark(&ev->parse);
-    stream->stream = grammar_stream_open(&stream->splice.context, text, within, is_call);
+    stream->stream = grammar_stream_open(&stream->splice.context, text, !top && ev->inner > 0, is_call);
     if (stream->stream == NULL) {
         free(owned);
         free(stream);

@@ -44,7 +44,8 @@ typedef struct SplineReader {
     bool has_head; // a name or a type stood first: no comma may follow
 } SplineReader;
 
-// Keeps the points in rising order; one at a place that is taken replaces what is there.
+// Keeps the points in rising order. As in POV-Ray one at a place that is taken replaces what is there, unless that is the
+// last of several: then the new one is left out.
 static bool insert(SplineReader *reader, const SplinePoint *point)
 {
     PointList *list = &reader->points;
@@ -53,7 +54,9 @@ static bool insert(SplineReader *reader, const SplinePoint *point)
         at--;
     }
     if (at < list->count && list->items[at].t == point->t) {
-        list->items[at] = *point;
+        if (at == 0 || at + 1 < list->count) {
+            list->items[at] = *point;
+        }
         return true;
     }
     if (!ARRAY_PUSH(list, *point)) {
@@ -128,11 +131,12 @@ static bool read_point(SplineReader *reader)
     if (value.kind != VALUE_NUMBER && !value_is_tuple(&value)) {
         return eval_fault(ev, DIAG_E0202, span, "a point of a spline is a vector, not %s", value_describe(&value));
     }
-    if (value_is_tuple(&value)) {
-        memcpy(reader->carry, value.v, value.components * sizeof *value.v);
-        reader->components = value.components > reader->components ? value.components : reader->components;
-    } else {
-        reader->carry[0] = reader->carry[1] = value.number;
+    double v[5];
+    memcpy(reader->carry, v, value_components(&value, v) * sizeof *v);
+    if (value.kind == VALUE_NUMBER) {
+        reader->carry[1] = value.number;
+    } else if (value.components > reader->components) {
+        reader->components = value.components;
     }
     memcpy(point.v, reader->carry, sizeof point.v);
     return insert(reader, &point) || eval_no_memory(ev, span);

@@ -135,12 +135,11 @@ bool builtin_vstr(Eval *ev, const AstNode *node, Value *value)
         !format_argument(ev, argument(node, 4), "a precision", &precision)) {
         return false;
     }
-    double v[5] = {0};
-    if (value_is_tuple(&vector)) {
-        memcpy(v, vector.v, vector.components * sizeof *v);
-    } else if (!value_number(ev, &vector, argument(node, 1)->span, &v[0])) {
+    double v[5];
+    if (!value_is_tuple(&vector) && !value_number(ev, &vector, argument(node, 1)->span, &v[0])) {
         return false;
     }
+    (void)value_components(&vector, v);
     TextBuffer out;
     text_init(&out);
     unsigned components = (unsigned)fmin(fmax(count, 2.0), 5.0);

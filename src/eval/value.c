@@ -80,16 +80,29 @@ bool value_number(Eval *ev, const Value *value, Span span, double *number)
     return true;
 }
 
+unsigned value_components(const Value *value, double v[5])
+{
+    unsigned own = value->kind == VALUE_NUMBER ? 1 : value->components, count = value->kept > own ? value->kept : own;
+    for (unsigned i = 0; i < 5; i++) {
+        v[i] = i < count ? value->v[i] : 0.0;
+    }
+    return count;
+}
+
 bool value_vector3(Eval *ev, const Value *value, Span span, Vec3 *vector)
 {
-    if (value->kind == VALUE_NUMBER) {
-        *vector = vec3(value->number, value->number, value->number);
-        return true;
-    }
-    if (value->kind != VALUE_VECTOR || value->components > 3) {
+    if (value->kind != VALUE_NUMBER && (value->kind != VALUE_VECTOR || value->components > 3)) {
         return fault_expected(ev, value, span, "a vector of 3");
     }
-    *vector = vec3(value->v[0], value->v[1], value->components == 3 ? value->v[2] : 0.0);
+    double v[5];
+    (void)value_components(value, v);
+    bool is_filled = value->is_closed || value->has_third || value->kept == 0;
+    if (value->kind == VALUE_NUMBER && is_filled) {
+        *vector = vec3(v[0], v[0], v[0]);
+    } else {
+        bool is_short = value->components == 2 && is_filled;
+        *vector = vec3(v[0], v[1], !is_short ? v[2] : value->has_third ? value->v[4] : 0.0);
+    }
     return true;
 }
 
@@ -141,6 +154,7 @@ bool value_store(Eval *ev, const Value *value, Arena *arena, Span span, Value *c
 {
     *copy = *value;
     copy->name = SYMBOL_NONE;
+    copy->block = value->kind == VALUE_BLOCK ? value->block : 0;
     if (value->kind == VALUE_COLOUR || (value->kind == VALUE_VECTOR && value->components == 5)) {
         copy->kind = VALUE_COLOUR;
         for (unsigned i = 0; i < 5; i++) {
