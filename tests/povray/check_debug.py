@@ -22,15 +22,16 @@ import pictures  # noqa: E402
 LINES_LEAST = 600  # what the whole folder must print at least
 
 
-def run(arguments, folder):
-    done = pictures.call(arguments, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=120)
+def run(arguments, folder, seconds=120):
+    done = pictures.call(arguments, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=seconds)
     return done.returncode, done.stderr.decode("latin-1")
 
 
-def of_povray(name, folder):
+def of_povray(name, folder, seconds=120):
     """(lines of #debug, what went wrong or None)."""
     stream = name + ".txt"  # must stand in the current folder
-    status, text = run([pictures.povray(), "+I" + name, "-D", "+W4", "+H4", "-F", "+GD" + stream], folder)
+    status, text = run([pictures.povray(), "+I" + name, "-D", "+W4", "+H4", "-F", "+GD" + stream], folder,
+                       seconds)
     path = os.path.join(folder, stream)
     lines = open(path, encoding="latin-1", newline="").read().split("\n") if os.path.exists(path) else []
     error = re.search(r"^File .*(?:Parse Error|Fatal)(?:.|\n .*\n)*", text, re.MULTILINE)
@@ -42,7 +43,7 @@ def of_rtlang(name, folder):
     status, text = run([os.environ["RTLANG"], "--check", "-q", "--diagnostics=json", "-W4", "-H4", name], folder)
     records = [json.loads(line) for line in text.splitlines()]
     lines = [record["text"] for record in records if record["type"] == "message"]
-    faults = [f"line {record['line']}: {record['message']}" for record in records if record.get("severity") == "error"]
+    faults = [f"line {record['line']}: {record['code']} {record['message']}" for record in records if record.get("severity") == "error"]
     return lines + [""], None if status == 0 else f"rtlang ended with {status}: " + "; ".join(faults[:3])
 
 

@@ -2,8 +2,12 @@
 """Gives generated programs to rtlang and to POV-Ray and compares what they print with #debug.
 
 Usage: check_programs.py [COUNT [SEED]]   Prints TAP, a line for each batch, and of each difference the seed and the program.
-`generate_programs.py SEED` prints a program again. Skips where there is no POV-Ray. SPDX-License-Identifier: MIT
+COUNT programs are valid, many in a run (generate_programs.py); COUNT others are odd, torn or wrong, each in a run of its
+own, and what one of the two takes the other must take, too (generate_odd_programs.py), but for the DECISIONS below.
+`generate_programs.py SEED` and `generate_odd_programs.py SEED` print a program again. Skips where there is no POV-Ray.
+SPDX-License-Identifier: MIT
 """
+import collections
 import concurrent.futures
 import os
 import re
@@ -14,12 +18,32 @@ import tempfile
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
 import check_debug  # noqa: E402
+import generate_odd_programs  # noqa: E402
 import generate_programs  # noqa: E402
 import pictures  # noqa: E402
 
-COUNT, SEED = 100, 1
+COUNT, ODD, SEED = 100, 240, 1
 BATCH = 20  # programs that share a run: a run of POV-Ray takes most of a second, whatever it does
+WORKERS = 16  # most of which POV-Ray sleeps
 PREFACE = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\ncamera { location -5*z look_at 0 }\nsphere { 0, 1 }\n"
+
+# What POV-Ray takes and rtlang refuses: its first error, what the program holds, and the words of docs/language.md for it.
+DECISIONS = [
+    (r"E0\d\d\d", r"#include \"torn\d+\.inc\"", "half of a statement or directive in an included file"),
+    (r"E0(106|107|205)", r"#macro T\d+\(P?\) [^\n]*#\w+[^\n]*#end", "a directive that a macro begins and does not end"),
+    (r"E0208", r"", "in different texts (E0208)"),
+    (r"E0(213|221)", r"#\w+", "a directive without a value in the place of one (E0213, E0221)"),
+    (r"E0301", r"#ifn?def", "an index below 0 in `#ifdef` (E0301)"),
+    (r"E0205 .* of a (function|spline)", r"#version 3\.[01]", "a copy of a function or spline without `;`"),
+    (r"E0106", r"#default", "`#default` with a directive before its brace"),
+    (r"E0(110|111)", r"", "(E0110)"),
+    (r"E0223", r"array", "(E0223)"),
+]
+DECIDED_MOST = 0.03   # of all odd programs
+AGREED_LEAST = 0.25   # that both take
+CRASHED_MOST = 0.02   # in which POV-Ray ends by a signal, or never
+SECONDS = 20          # a program whose loop never ends for POV-Ray
+SHOWN = 5             # differences that are made small
 
 
 def write(path, text):
@@ -67,6 +91,95 @@ def compare(seeds):
     return faults, sum(len(theirs) for theirs, _ in pairs)
 
 
+def decision(text, fault):
+    """The number of the decision that a refusal is covered by, or None."""
+    first = re.search(r"E0\d\d\d [^;]*", fault)
+    for number, (code, holds, _) in enumerate(DECISIONS):
+        if first and re.match(code, first.group()) and re.search(holds, text):
+            return number
+    return None
+
+
+def verdict(statements, files):
+    """(what came out, words for it): both take it (""), both refuse it, or what is wrong."""
+    text = PREFACE + "\n".join(statements) + "\n"
+    with tempfile.TemporaryDirectory() as folder:
+        for name, part in {**files, "program.scn": text}.items():
+            write(os.path.join(folder, name), part)
+        ours, wrong_too = check_debug.of_rtlang("program.scn", folder)
+        try:
+            theirs, wrong = check_debug.of_povray("program.scn", folder, SECONDS)
+        except subprocess.TimeoutExpired:
+            theirs, wrong = [], "POV-Ray ended with -"
+    if wrong_too and re.match(r"rtlang ended with -", wrong_too):
+        return "a signal", wrong_too
+    if wrong and re.match(r"POV-Ray ended with -", wrong):
+        return "no verdict", ""
+    if wrong and wrong_too:
+        return "both refuse", ""
+    if wrong_too:
+        number = decision(text + "".join(files.values()), wrong_too)
+        return ("refused", wrong_too) if number is None else ("decided", number)
+    if wrong:
+        return "taken", wrong
+    pair = next(((a, b) for a, b in zip(theirs + [None], ours + [None]) if a != b), None)
+    return ("differs", f"POV-Ray: {pair[0]!r}   rtlang: {pair[1]!r}") if pair else ("", "")
+
+
+def shrunk(statements, files, what):
+    """Statements without which it still comes out so are dropped."""
+    at = len(statements)
+    while at > 0:
+        at -= 1
+        fewer = statements[:at] + statements[at + 1:]
+        if verdict(fewer, files)[0] == what:
+            statements = fewer
+    return statements
+
+
+def odd(seed):
+    return verdict(*generate_odd_programs.generate(seed))
+
+
+def check_odd(seeds, pool, number):
+    """Prints the lines of the odd programs, of which the first has that number; how many failed."""
+    counts, used, failed, shown = collections.Counter(), collections.Counter(), 0, 0
+    answers = pool.map(odd, seeds)
+    for batch in (seeds[i:i + 5 * BATCH] for i in range(0, len(seeds), 5 * BATCH)):
+        faults = []
+        for seed, (what, words) in zip(batch, answers):
+            counts[what] += 1
+            if what == "decided":
+                used[words] += 1
+            elif what in ("a signal", "refused", "taken", "differs"):
+                faults.append((seed, what, words))
+        failed += bool(faults)
+        print(f"{'not ok' if faults else 'ok'} {number} - odd programs {batch[0]} to {batch[-1]}", flush=True)
+        number += 1
+        for seed, what, words in faults:
+            print(f"# generate_odd_programs.py {seed}: {what}: " + str(words).replace("\n", "\n#   "))
+            shown += 1
+            if shown <= SHOWN:
+                statements, files = generate_odd_programs.generate(seed)
+                for line in "\n".join(shrunk(statements, files, what)).splitlines():
+                    print("#   " + line)
+    total = len(seeds)
+    fine = (counts[""] >= AGREED_LEAST * total and counts["decided"] <= DECIDED_MOST * total and
+            counts["no verdict"] <= CRASHED_MOST * total)
+    print(f"{'ok' if fine else 'not ok'} {number} - {counts['']} of {total} taken by both, {counts['both refuse']} refused, "
+          f"{counts['decided']} as decided, {counts['no verdict']} in which POV-Ray ends by a signal or never")
+    for which, count in sorted(used.items()):
+        print(f"# decided {count} times: {DECISIONS[which][2]}")
+    return failed + (not fine)
+
+
+def undocumented():
+    """Words of DECISIONS that docs/language.md does not have."""
+    with open(os.path.join(os.environ.get("top_srcdir", "."), "docs/language.md"), encoding="utf-8") as document:
+        text = " ".join(document.read().split())
+    return [words for _, _, words in DECISIONS if words not in text]
+
+
 def coverage(seeds):
     """Words of the language's functions and constants that none of the programs has."""
     with open(os.path.join(os.environ.get("top_srcdir", "."), "src/ast/words.def"), encoding="utf-8") as table:
@@ -84,18 +197,21 @@ def main():
         return 0
     count, seed = (int(argument) for argument in (sys.argv[1:] + [COUNT, SEED][len(sys.argv) - 1:])[:2])
     seeds = list(range(seed * 1000000, seed * 1000000 + count))
+    odd_seeds = list(range(seed * 1000000, seed * 1000000 + (count if sys.argv[1:] else ODD)))
     batches = [seeds[i:i + BATCH] for i in range(0, count, BATCH)]
     failed = 0
-    print(f"1..{len(batches) + 1}\n# seed {seed}")
-    with concurrent.futures.ThreadPoolExecutor(2 * (os.cpu_count() or 1)) as pool:
+    print(f"1..{len(batches) + -(-len(odd_seeds) // (5 * BATCH)) + 3}\n# seed {seed}")
+    with concurrent.futures.ThreadPoolExecutor(WORKERS) as pool:
         for number, (batch, (faults, lines)) in enumerate(zip(batches, pool.map(compare, batches)), 1):
             failed += bool(faults)
             print(f"{'not ok' if faults else 'ok'} {number} - programs {batch[0]} to {batch[-1]}, {lines} lines", flush=True)
             for which, fault in faults:
                 print(f"# generate_programs.py {which}: " + fault.replace("\n", "\n#   "))
-    missing = coverage(seeds) if count >= COUNT else []
-    failed += bool(missing)
-    print(f"{'not ok' if missing else 'ok'} {len(batches) + 1} - every function and constant occurs {' '.join(missing)}")
+        failed += check_odd(odd_seeds, pool, len(batches) + 3)
+    for number, missing, words in ((1, coverage(seeds) if count >= COUNT else [], "every function and constant occurs"),
+                                   (2, undocumented(), "what is refused is in docs/language.md")):
+        failed += bool(missing)
+        print(f"{'not ok' if missing else 'ok'} {len(batches) + number} - {words} {', '.join(missing)}")
     return 1 if failed else 0
 
 
