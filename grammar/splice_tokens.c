@@ -167,6 +167,23 @@ static bool ends_outside(const GrammarState *state, const Token *token)
     return stream_is_head(state->fragment) && is_part && stream_open_directives(state->stream) <= state->open_before;
 }
 
+// Runs a directive or a call, if one may stand here.
+static void resolve(GrammarState *state, const Token *token)
+{
+    GrammarStream *stream = state->stream;
+    bool is_directive = grammar_is_directive(token->kind);
+    if (is_between_elements(state)) {
+        stream_fault(stream, DIAG_E0223, token->span,
+                     "no directive and no macro call can stand here, in the elements of an array");
+    } else if (is_directive && ends_outside(state, token)) {
+        stream_fault_stray(stream, token);
+    } else if (is_directive) {
+        stream_run_directive(stream, token);
+    } else {
+        stream_call_macro(stream, token);
+    }
+}
+
 void grammar_splice_token(GrammarState *state, Token *token)
 {
     GrammarStream *stream = state->stream;
@@ -216,16 +233,7 @@ void grammar_splice_token(GrammarState *state, Token *token)
             cut(stream, state, token);
             return;
         }
-        if (is_between_elements(state)) {
-            stream_fault(stream, DIAG_E0223, token->span,
-                         "no directive and no macro call can stand here, in the elements of an array");
-        } else if (is_directive && ends_outside(state, token)) {
-            stream_fault_stray(stream, token);
-        } else if (is_directive) {
-            stream_run_directive(stream, token);
-        } else {
-            stream_call_macro(stream, token);
-        }
+        resolve(state, token);
     }
     size_t from = stream_innermost_text(stream);
     if (from > 0 && stream->frames.items[from - 1].kind == FRAME_MACRO) {
