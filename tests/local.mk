@@ -69,6 +69,7 @@ unit_programs = \
   tests/unit/test_race \
   tests/sampling/test_sampling \
   tests/sampling/test_share \
+  tests/sampling/test_intervals \
   tests/sampling/test_small \
   tests/sampling/test_forward
 check_PROGRAMS += $(unit_programs) tests/lang/run_lang tests/unit/print_schema tests/unit/print_diagnostics
@@ -171,6 +172,8 @@ tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling
 tests_sampling_test_sampling_LDADD = libapi.la
 tests_sampling_test_share_SOURCES = %D%/sampling/test_share.c %D%/sampling/scenes.h $(unit_headers)
 tests_sampling_test_share_LDADD = libapi.la
+tests_sampling_test_intervals_SOURCES = %D%/sampling/test_intervals.c %D%/sampling/scenes.h $(unit_headers)
+tests_sampling_test_intervals_LDADD = libapi.la
 tests_sampling_test_small_SOURCES = %D%/sampling/test_small.c %D%/sampling/scenes.h $(unit_headers)
 tests_sampling_test_small_LDADD = libapi.la
 tests_sampling_test_forward_SOURCES = %D%/sampling/test_forward.c %D%/sampling/scenes.h
@@ -361,9 +364,10 @@ check-long: rtlang$(EXEEXT) rtcheck$(EXEEXT) tests/unit/test_trace_certified$(EX
 # Error against samples, with all seeds and scenes, and photons.
 .PHONY: check-sampling
 check-long: check-sampling
-check-sampling: tests/sampling/test_sampling$(EXEEXT) tests/sampling/test_small$(EXEEXT) \
-		tests/sampling/test_share$(EXEEXT) tests/sampling/test_forward$(EXEEXT)
+check-sampling: tests/sampling/test_sampling$(EXEEXT) tests/sampling/test_intervals$(EXEEXT) \
+		tests/sampling/test_small$(EXEEXT) tests/sampling/test_share$(EXEEXT) tests/sampling/test_forward$(EXEEXT)
 	tests/sampling/test_sampling$(EXEEXT) long
+	tests/sampling/test_intervals$(EXEEXT) long
 	tests/sampling/test_small$(EXEEXT) long
 	tests/sampling/test_share$(EXEEXT) long
 	tests/sampling/test_forward$(EXEEXT) long

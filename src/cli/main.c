@@ -60,6 +60,9 @@ static void on_progress(void *client, double done)
 {
     char note[160] = "";
     rt_error error;
+    if (!((const Progress *)client)->enabled) {
+        return;
+    }
     rt_get_error(interrupted_session, &error);
     if (error.known && error.bias > error.high) {
         snprintf(note, sizeof note, "error %.2g at %.3g rays a pixel; more will not help: %s cuts rays", error.rmse,

@@ -104,11 +104,11 @@ static void trace_tile(void *client, Tile tile, RenderScratch *scratch, RenderSt
     Sampling *s = client;
     bool stops = stop_has_choice(s->wanted);
     if (s->traces == TRACES_REPLICAS && stops) {
-        stop_trace_replicas(&s->round, &s->audit, tile, scratch, counted);
+        stop_trace_replicas(&s->round, &s->audit, tile.left, tile.right, scratch, counted);
     } else if (stops) {
         stop_trace(&s->round, tile, scratch, counted);
     } else if (s->traces == TRACES_REPLICAS) {
-        round_trace_replicas(&s->round, &s->audit, tile, scratch, counted);
+        round_trace_replicas(&s->round, &s->audit, tile.left, tile.right, scratch, counted);
     } else if (s->traces == TRACES_LOOKS) {
         look_trace(&s->round, &s->looks, tile, scratch, counted);
     } else if (s->round.is_corners) {
@@ -148,6 +148,13 @@ static bool trace_round(Sampling *s)
     return is_whole;
 }
 
+// Whether a round of all pixels is too early to be judged: halves of one sample say little, and no ratio goes by it.
+static bool is_early(const Sampling *s)
+{
+    bool is_last = !s->wanted->is_adaptive && s->round.count >= s->wanted->samples;
+    return s->round.count > 0 && s->round.count < START_SAMPLES && !is_last;
+}
+
 // One round; false when it was cancelled, which leaves pixels with and without it.
 static bool run_round(Sampling *s)
 {
@@ -161,7 +168,7 @@ static bool run_round(Sampling *s)
         estimate_now(&s->estimate, s->film, &s->round, s->error);
         s->error->is_known = s->error->is_known && !s->wanted->has_no_estimate;
         find_bias(s);
-    } else if (!s->wanted->has_no_estimate) {
+    } else if (!s->wanted->has_no_estimate && !(is_whole && is_early(s))) {
         estimate_update(&s->estimate, s->film, &s->round, is_whole, s->error);
         find_bias(s);
     } else {
@@ -175,6 +182,10 @@ static bool run_round(Sampling *s)
 static bool trace_beside(Sampling *s, Traces traces)
 {
     TileWork work = {s, s->prepared, s->film->width, s->film->height, trace_tile, NULL};
+    if (traces == TRACES_REPLICAS) { // a row of picks, which are anywhere
+        work.width = s->audit.count;
+        work.height = 1;
+    }
     s->traces = traces;
     bool is_whole = tiles_run(&work, s->options, &s->audited) == RENDER_OK;
     s->traces = TRACES_ROUND;

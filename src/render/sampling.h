@@ -49,7 +49,7 @@ static inline bool round_judges(const Round *round, int left, int top)
     uint32_t x = (uint32_t)(round->film->left + left) / JUDGED_BLOCK,
              y = (uint32_t)(round->film->top + top) / JUDGED_BLOCK;
     return !round->judges_some ||
-           sample_hash_add(sample_hash_add((uint32_t)round->sampling->seed, x), y) % JUDGED_SHARE == 0;
+           sample_hash_add((uint32_t)round->sampling->seed, y << 16 ^ x) % JUDGED_SHARE == 0;
 }
 
 // Where the picture's block ends, in the film, that holds a column or row of it.
@@ -214,7 +214,6 @@ typedef struct Audit {
     AuditPick picks[AUDIT_MOST];
     int count;
     double size;         // the sum of all pixels' shares
-    double whole;        // all of the mean square, over that of the pixels that are drawn from
     double own_variance; // of the picture's mean square error about its expectation, relative
 } Audit;
 
@@ -231,8 +230,8 @@ double error_relative(const SamplingError *error);
 // When round_trace_replicas has put in the squares: sets the error and its interval.
 void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *error);
 
-// sampling_round.c: traces the replicas of a tile's pixels, which changes no pixel.
-void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
+// sampling_round.c: traces the replicas of the picks from `begin` on, which changes no pixel.
+void round_trace_replicas(const Round *round, Audit *audit, int begin, int end, RenderScratch *scratch,
                           RenderStatistics *counted);
 
 // ---- sampling_look.c: what small shapes would bring that no sample has met
@@ -271,7 +270,7 @@ void look_tell(const Looks *looks, double pixels, SamplingError *error);
 void look_show(const Looks *looks, const Small *small, Film *film, const SamplingError *error);
 
 // sampling_stop.c: the same of pixels that end where they have enough, and so do their replicas.
-void stop_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
+void stop_trace_replicas(const Round *round, Audit *audit, int begin, int end, RenderScratch *scratch,
                          RenderStatistics *counted);
 
 // ---- sampling_near.c: means over a pixel and its neighbours

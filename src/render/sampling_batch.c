@@ -13,7 +13,7 @@ void batch_init(Batch *batch, const Round *round, RenderScratch *scratch)
     batch->scratch = scratch;
     batch->count = batch->run_count = 0;
     batch->is_box = round->filter.kind == FILTER_BOX;
-    batch->meets = false;
+    batch->meets = batch->avoids = false;
     batch->keeps_squares = round->sampling->is_adaptive || stop_has_choice(round->sampling);
     batch->places.lens = has_lens ? batch->lens : NULL;
     batch->draws = has_lens || (p->kernel->features & RENDER_LIGHTS);
@@ -74,12 +74,29 @@ static void batch_place(const Round *round, Batch *batch)
 // Tells small shapes which of them are met.
 static void batch_meet(const Round *round, const Batch *batch)
 {
+    for (int run = 0, i = 0; run < batch->run_count; run++) {
+        int end = batch->runs[run].end;
+        size_t pixel = (size_t)batch->y[i] * (size_t)round->film->width + (size_t)batch->x[i];
+        for (; i < end && small_open(round->small, pixel) > 0; i++) {
+            Ray ray;
+            if (camera_place_ray(&round->prepared->camera, &batch->places, i, &ray)) {
+                small_meet(round->small, pixel, ray);
+            }
+        }
+        i = end;
+    }
+}
+
+static void batch_avoid(const Round *round, Batch *batch)
+{
     for (int i = 0; i < batch->count; i++) {
         size_t pixel = (size_t)batch->y[i] * (size_t)round->film->width + (size_t)batch->x[i];
         Ray ray;
         if (small_open(round->small, pixel) > 0 &&
-            camera_place_ray(&round->prepared->camera, &batch->places, i, &ray)) {
-            small_meet(round->small, pixel, ray);
+            camera_place_ray(&round->prepared->camera, &batch->places, i, &ray) &&
+            small_count_open(round->small, pixel, ray) > 0) {
+            const float *value = &round->film->rgb[3 * pixel];
+            batch->light[i] = rgb(value[0], value[1], value[2]);
         }
     }
 }
@@ -102,6 +119,9 @@ void batch_flush(const Round *round, Batch *batch, RenderStatistics *counted)
     }
     uint64_t wanted = ~UINT64_C(0) >> (KERNEL_RAYS - batch->count);
     batch_trace(round, batch, wanted, counted);
+    if (batch->avoids) {
+        batch_avoid(round, batch);
+    }
     int begin = 0;
     for (int i = 0; i < batch->run_count; i++) {
         run_add(round, batch, &batch->runs[i], begin);

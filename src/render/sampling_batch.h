@@ -30,7 +30,8 @@ typedef struct Batch {
     int run_count;
     bool draws;   // whether anything but the place in the pixel is drawn from the streams
     bool is_box;  // all weights are 1
-    bool meets;   // samples count for small shapes
+    bool meets;   // some samples are of pixels with small shapes that have not been met yet
+    bool avoids;  // a sample that crosses a small shape which its pixel has not met counts as the pixel itself
     bool keeps_squares; // of samples
     RenderScratch *scratch;
 } Batch;

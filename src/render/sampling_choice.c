@@ -83,7 +83,9 @@ static void sorts_init(Constants *constants, const Film *film)
 // What a pixel's halves' halves would differ by, were its small shapes all that is in it.
 static double inner_of_small(const Small *small, size_t pixel, double count)
 {
-    return small ? small_variance(small, pixel, 0.25 * count) - small_variance(small, pixel, 0.5 * count) : 0.0;
+    return small_has(small, pixel)
+               ? small_variance(small, pixel, 0.25 * count) - small_variance(small, pixel, 0.5 * count)
+               : 0.0;
 }
 
 static double constant_of(const Constants *constants, const Round *round, size_t pixel)

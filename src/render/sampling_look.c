@@ -18,7 +18,7 @@
 #include "scene/opaque.h"
 
 // A pick for so many samples, within limits, so that its rays are few beside those of the picture.
-enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 16 };
+enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 8 };
 
 // What the squares of areas are known to.
 static const double AREA_ERROR = 0.0125;
@@ -39,8 +39,8 @@ static uint32_t place_of(const Small *small, const SmallEntry *entry)
 // Which shapes have been met, in whatever pixel.
 static void find_met(Small *small)
 {
-    size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
+    for (uint32_t k = 0; k < small->pixel_count; k++) {
+        uint32_t pixel = small->pixels[k];
         uint32_t begin = small->first[pixel], open = small->open[pixel];
         for (uint32_t i = begin; i < small->first[pixel + 1]; i++) {
             uint32_t place = place_of(small, &small->entries[i]);
@@ -65,9 +65,9 @@ static double open_error(const Small *small, size_t pixel)
 int look_draw(Looks *looks, const Round *round, double samples)
 {
     Small *small = round->small;
-    size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
     double count = 0.0, sum = 0.0, reached = 0.0, most = fmin(fmax(samples / LOOK_SAMPLES, LOOK_LEAST), LOOK_MOST);
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
+    for (uint32_t k = 0; k < small->pixel_count; k++) {
+        uint32_t pixel = small->pixels[k];
         double error = small->open[pixel] > 0 ? open_error(small, pixel) : 0.0;
         count += small->open[pixel] > 0;
         sum += error * error;
@@ -79,7 +79,8 @@ int look_draw(Looks *looks, const Round *round, double samples)
     find_met(small);
     double even = sum > 0.0 ? 0.5 / count : 1.0 / count, step = 1.0 / floor(most);
     double next = step * sample_unit(sampler_pixel_seed(~round->sampling->seed, LOOK_SEED, looks->pass));
-    for (size_t pixel = 0; count > 0.0 && pixel < pixels; pixel++) {
+    for (uint32_t k = 0; count > 0.0 && k < small->pixel_count; k++) {
+        uint32_t pixel = small->pixels[k];
         if (small->open[pixel] > 0) {
             double error = open_error(small, pixel), share = even + (sum > 0.0 ? 0.5 * error * error / sum : 0.0);
             reached += share;
@@ -141,7 +142,10 @@ static void batch_aim(LookBatch *batch, const Small *small, const Footprint *at,
     (void)camera_place_ray(camera, &batch->places, i, &ray);
     bool is_crossed = small_is_crossed(small, at->extent.shape, ray);
     int column = (int)(pixel % (size_t)film->width), row = (int)(pixel / (size_t)film->width);
-    batch->weights[i] = is_crossed ? at->area * small->norm * small_weight(small, x - column, y - row) : 0.0;
+    // Where shapes that were not met lie behind each other, each counts for its part.
+    batch->weights[i] = is_crossed ? at->area * small->norm * small_weight(small, x - column, y - row) /
+                                         small_count_open(small, pixel, ray)
+                                   : 0.0;
     batch->streams[i] = (SampleStream){.kind = SAMPLER_RANDOM, .seed = seed, .count = 1, .pair = 2};
     batch->count++;
 }
@@ -272,13 +276,13 @@ static void shown_parts(const Looks *looks, const Small *small, double part[SMAL
 // What no sample met and a look showed. Where not all were looked at, as much of the others as of those.
 static void count_unmet(Looks *looks, Small *small)
 {
-    size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
     double part[SMALL_KINDS];
     shown_parts(looks, small, part);
     for (int kind = 0; kind < SMALL_KINDS; kind++) {
         looks->unmet[kind] = (UnmetShapes){0.0, 0.0};
     }
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
+    for (uint32_t k = 0; k < small->pixel_count; k++) {
+        uint32_t pixel = small->pixels[k];
         for (uint32_t i = small->first[pixel]; i < small->first[pixel] + small->open[pixel]; i++) {
             uint32_t place = place_of(small, &small->entries[i]);
             UnmetShapes *unmet = &looks->unmet[is_spot(&small->entries[i])];
@@ -332,14 +336,15 @@ void look_tell(const Looks *looks, double pixels, SamplingError *error)
 
 void look_show(const Looks *looks, const Small *small, Film *film, const SamplingError *error)
 {
-    size_t pixels = (size_t)film->width * (size_t)film->height;
     double sum = 0.0, scale = (exp2(-2.0 * error->slope) - 1.0) / (error->pixel_scale * error->pixel_scale);
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
+    for (uint32_t k = 0; k < small->pixel_count; k++) {
+        uint32_t pixel = small->pixels[k];
         double own = small->open[pixel] > 0 ? open_error(small, pixel) : 0.0;
         sum += own * own;
     }
     scale *= sum > 0.0 ? looks->square / sum : 0.0; // all together as they were found
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
+    for (uint32_t k = 0; k < small->pixel_count; k++) {
+        uint32_t pixel = small->pixels[k];
         if (small->open[pixel] > 0) {
             double own = open_error(small, pixel);
             film->records[pixel].outer += (float)(scale * own * own);

@@ -191,7 +191,6 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
     Shares shares = {0};
     Batch batch;
     batch_init(&batch, round, scratch);
-    batch.meets = round->small != NULL;
     // Blocks of pixels, so that rays of one call stay near each other.
     for (int top = tile.top; top < tile.bottom; top += KERNEL_ROW) {
         for (int left = tile.left; left < tile.right; left += KERNEL_ROW) {
@@ -203,6 +202,9 @@ void round_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSt
         *sums = (SampleSums){.squares = rgb_grey(0.0),
                              .shares = share_begin(round->share, pixel->index, pixel->starts,
                                                    &scratch->round.shares[pixel - chosen])};
+        if (round->small) {
+            batch.meets = (batch.meets && batch.count > 0) || small_open(round->small, pixel->index) > 0;
+        }
         pixel_add(round, &batch, pixel, sums, counted);
     }
     batch_flush(round, &batch, counted);
@@ -238,38 +240,34 @@ static void replica_judge(const Round *round, AuditPick *pick, const SampleSums 
 }
 
 // The replicas go through batches together.
-void round_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
+void round_trace_replicas(const Round *round, Audit *audit, int begin, int end, RenderScratch *scratch,
                           RenderStatistics *counted)
 {
     const Film *film = round->film;
     _Static_assert(2 * AUDIT_MOST <= TILE_SIZE * TILE_SIZE, "a tile's sums hold two sets of each pick");
     SampleSums(*sets)[2] = (void *)scratch->round.sums;
-    int order[AUDIT_MOST], count = 0;
     Batch batch;
     batch_init(&batch, round, scratch);
-    for (int next = 0; next < audit->count; next++) {
+    batch.avoids = round->small != NULL;
+    for (int next = begin; next < end; next++) {
         const AuditPick *pick = &audit->picks[next];
         int x = (int)(pick->pixel % (size_t)film->width), y = (int)(pick->pixel / (size_t)film->width);
-        if (x < tile.left || x >= tile.right || y < tile.top || y >= tile.bottom) {
-            continue;
-        }
         uint32_t had = film->records[pick->pixel].count;
+        SampleSums *own = sets[next - begin];
         for (int i = 0; i < 2; i++) {
-            ShareSums *shares = &scratch->round.shares[2 * count + i];
-            sets[count][i] = (SampleSums){.squares = rgb_grey(0.0),
-                                          .shares = share_begin(round->share, pick->pixel, false, shares)};
+            ShareSums *shares = &scratch->round.shares[2 * (next - begin) + i];
+            own[i] = (SampleSums){.squares = rgb_grey(0.0),
+                                  .shares = share_begin(round->share, pick->pixel, false, shares)};
         }
         for (uint32_t i = 0; i < (round_is_like_replica(round, pick->pixel) ? 1u : 2u); i++) {
             ChosenPixel chosen = {.x = x, .y = y, .index = pick->pixel, .count = had > 1 ? had : AUDIT_SAMPLES,
                                   .replica = 2 * pick->replica + i};
-            pixel_add(round, &batch, &chosen, &sets[count][i], counted);
+            pixel_add(round, &batch, &chosen, &own[i], counted);
         }
-        order[count++] = next;
     }
     batch_flush(round, &batch, counted);
-    for (int i = 0; i < count; i++) {
-        AuditPick *pick = &audit->picks[order[i]];
-        replica_judge(round, pick, sets[i]);
+    for (int i = begin; i < end; i++) {
+        replica_judge(round, &audit->picks[i], sets[i - begin]);
     }
 }
 

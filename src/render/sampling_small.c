@@ -297,13 +297,14 @@ static bool lists_begin(Small *small)
     size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
     small->words = (extent_count(small->prepared->geometry) + (size_t)small->spot_count + 63) / 64;
     small->norm = filter_norm(small->filter);
-    small->first = calloc(pixels + 1, sizeof *small->first);
+    small->first = malloc((pixels + 1) * sizeof *small->first);
     small->open = calloc(pixels, sizeof *small->open);
-    small->law = calloc(pixels, sizeof *small->law);
+    small->pixels = malloc((pixels + 1) * sizeof *small->pixels);
+    small->law = malloc(pixels * sizeof *small->law);
     small->met = calloc(3 * small->words, sizeof *small->met);
     small->seen = small->met ? small->met + small->words : NULL;
     small->counted = small->met ? small->seen + small->words : NULL;
-    return small->first && small->open && small->law && small->met;
+    return small->first && small->open && small->pixels && small->law && small->met;
 }
 
 // False when out of memory; leaves first as NULL where nothing is small.
@@ -334,12 +335,17 @@ static bool lists_open(Small *small)
 {
     size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
     uint32_t sum = 0; // of a film's pixels, with SMALL_MOST entries each at most
-    for (size_t i = 0; i < pixels; i++) {
+    for (uint32_t i = 0; i < pixels; i++) {
         small->first[i] = sum;
         sum += small->open[i];
+        small->pixels[small->pixel_count] = i;
+        small->pixel_count += small->open[i] > 0;
     }
     small->first[pixels] = sum;
-    memset(small->open, 0, pixels * sizeof *small->open);
+    for (uint32_t k = 0; k < small->pixel_count; k++) {
+        small->open[small->pixels[k]] = 0;
+        small->law[small->pixels[k]][0] = small->law[small->pixels[k]][1] = 0.0f;
+    }
     small->entries = malloc((sum + (size_t)1) * sizeof *small->entries);
     return small->entries != NULL;
 }
@@ -349,6 +355,7 @@ void small_free(Small *small)
     if (small) {
         free(small->spots);
         free(small->first);
+        free(small->pixels);
         free(small->entries);
         free(small->open);
         free(small->law);
@@ -361,7 +368,7 @@ uint64_t small_bytes(int width, int height, uint64_t shapes)
 {
     enum { PIXELS_EACH = 8 }; // of a small shape, more than most have
     uint64_t pixels = (uint64_t)width * (uint64_t)height, most = shapes * PIXELS_EACH;
-    uint64_t pixel = sizeof(uint32_t) + sizeof(uint8_t) + 2 * sizeof(float);
+    uint64_t pixel = 2 * sizeof(uint32_t) + sizeof(uint8_t) + 2 * sizeof(float);
     return pixels * pixel + (most < pixels * SMALL_MOST ? most : pixels * SMALL_MOST) * sizeof(SmallEntry);
 }
 
@@ -405,6 +412,16 @@ void small_meet(Small *small, size_t pixel, Ray ray)
     }
 }
 
+int small_count_open(const Small *small, size_t pixel, Ray ray)
+{
+    const SmallEntry *entries = &small->entries[small->first[pixel]];
+    int count = 0;
+    for (int i = 0; i < small->open[pixel]; i++) {
+        count += small_is_crossed(small, entries[i].shape, ray);
+    }
+    return count;
+}
+
 // Of those that are not known, the mean of those that are.
 static double mean_contrast(const Small *small, uint32_t count)
 {
@@ -421,9 +438,10 @@ static double mean_contrast(const Small *small, uint32_t count)
 
 void small_set_law(Small *small)
 {
-    size_t pixels = (size_t)small->film->width * (size_t)small->film->height;
-    double mean = small->contrast = mean_contrast(small, small->first[pixels]);
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
+    size_t all = (size_t)small->film->width * (size_t)small->film->height;
+    double mean = small->contrast = mean_contrast(small, small->first[all]);
+    for (uint32_t k = 0; k < small->pixel_count; k++) {
+        uint32_t pixel = small->pixels[k];
         double few = 0.0, many = 0.0;
         for (uint32_t i = small->first[pixel]; i < small->first[pixel + 1]; i++) {
             const SmallEntry *entry = &small->entries[i];

@@ -40,9 +40,11 @@ typedef struct Small {
     SmallSpot *spots;
     uint32_t spot_count;
     uint32_t *first; // of each pixel's entries; one more for the end
+    uint32_t *pixels; // that have any, from the first on
+    uint32_t pixel_count;
     SmallEntry *entries;
     uint8_t *open;   // so many of a pixel's entries, its first ones, were met by none of its samples
-    float (*law)[2]; // of each pixel, see small_variance
+    float (*law)[2]; // of each pixel that has entries, see small_variance
     // A bit for each place of an extent, and for each spot after these: met by a sample; shown by a look; for counting.
     uint64_t *met, *seen, *counted;
     size_t words;    // of each set
@@ -68,11 +70,14 @@ static inline int small_open(const Small *small, size_t pixel)
 // A sample of the pixel is traced along the ray. By one thread at a time for each pixel.
 void small_meet(Small *small, size_t pixel, Ray ray);
 
+// How many of the pixel's shapes that none of its samples has met the ray crosses.
+int small_count_open(const Small *small, size_t pixel, Ray ray);
+
 // When contrasts have become known: what small_variance says.
 void small_set_law(Small *small);
 
-// The variance of the mean of so many samples that a pixel's small shapes bring: c² a (1 - a) / n as long as samples
-// come one by one, and that of an edge from where each may be expected to be met.
+// The variance of the mean of so many samples that a pixel's small shapes bring, if it has any: c² a (1 - a) / n as
+// long as samples come one by one, and that of an edge from where each may be expected to be met.
 static inline double small_variance(const Small *small, size_t pixel, double count)
 {
     double few = (double)small->law[pixel][0] / count, many = (double)small->law[pixel][1] / (count * sqrt(count));

@@ -167,27 +167,23 @@ void stop_trace(const Round *round, Tile tile, RenderScratch *scratch, RenderSta
     }
 }
 
-void stop_trace_replicas(const Round *round, Audit *audit, Tile tile, RenderScratch *scratch,
+void stop_trace_replicas(const Round *round, Audit *audit, int begin, int end, RenderScratch *scratch,
                          RenderStatistics *counted)
 {
     const Film *film = round->film;
     SampleSums(*sums)[2] = (void *)scratch->round.sums;
     StopPixel *pixels = scratch->round.stop;
-    int order[AUDIT_MOST], count = 0;
     _Static_assert((int)AUDIT_MOST <= (int)STOP_PIXELS, "there is room for all replicas");
-    for (int next = 0; next < audit->count; next++) {
-        const AuditPick *pick = &audit->picks[next];
+    for (int i = begin; i < end; i++) {
+        const AuditPick *pick = &audit->picks[i];
         int x = (int)(pick->pixel % (size_t)film->width), y = (int)(pick->pixel / (size_t)film->width);
-        if (x >= tile.left && x < tile.right && y >= tile.top && y < tile.bottom) {
-            pixels[count] = (StopPixel){.x = x, .y = y, .index = pick->pixel, .replica = pick->replica};
-            order[count++] = next;
-        }
+        pixels[i - begin] = (StopPixel){.x = x, .y = y, .index = pick->pixel, .replica = pick->replica};
     }
-    trace_pixels(round, pixels, count, sums, scratch, counted);
-    for (int i = 0; i < count; i++) {
+    trace_pixels(round, pixels, end - begin, sums, scratch, counted);
+    for (int i = 0; i < end - begin; i++) {
         const float *value = &film->rgb[3 * pixels[i].index];
         Rgb mean = rgb_scale(0.5, rgb_add(set_mean(&pixels[i], sums[i], 0), set_mean(&pixels[i], sums[i], 1))), place;
         Rgb apart = rgb_add_scaled(mean, -1.0, rgb(value[0], value[1], value[2]));
-        audit->picks[order[i]].square = square_apart(apart, slope_at(round, value, &place), 0.5 / 3.0);
+        audit->picks[begin + i].square = square_apart(apart, slope_at(round, value, &place), 0.5 / 3.0);
     }
 }

@@ -169,38 +169,6 @@ static void test_spark(void)
 
 // ---- other shapes, and highlights
 
-static const SamplingScene scene_crumbs = {
-    "crumbs", SCENE_HEAD SCENE_CAMERA SCENE_SUN "#declare S = seed(33);\n"
-    "#macro P() <rand(S)*8-4, rand(S)*6-3, rand(S)*4-2> #end #macro C() pigment { rgb <rand(S),rand(S),rand(S)> }\n"
-    "finish { ambient 0.5 diffuse 0.7 } #end\n"
-    "#for (I, 1, 100) box { -0.03, 0.03 rotate <rand(S)*90,rand(S)*90,0> translate P() C() }\n"
-    "sphere { 0, 0.03 scale <0.4,1.5,1> translate P() C() }\n"
-    "triangle { <-0.05,0,0>, <0.05,0,0>, <0,0.07,0> translate P() C() }\n"
-    "cone { 0, 0.05, <0,0.1,0>, 0.02 translate P() C() } disc { 0, <1,1,-2>, 0.05, 0.02 translate P() C() } #end\n"};
-
-static const SamplingScene scene_glint = {
-    "glint", SCENE_HEAD SCENE_CAMERA
-    "light_source { <-8,12,-10> rgb 200 } background { rgb 0.2 } sphere { 0, 2 pigment { rgb 0.001 }\n"
-    "finish { ambient 0.1 phong 1 phong_size 5000 diffuse 0.001 } }\n"};
-
-static const SamplingScene scene_floor_glint = {
-    "glint of a floor", SCENE_HEAD SCENE_CAMERA
-    "light_source { <-2,5,9> rgb 200 } background { rgb 0.2 } plane { y, -1 pigment { checker rgb 0.001 rgb 0.002 }\n"
-    "finish { ambient 0.1 specular 1 roughness 5e-6 diffuse 0.001 } }\n"};
-
-static const SamplingScene scene_blurred_dust = {
-    "dust before a lens", SCENE_HEAD
-    "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 aperture 0.1 blur_samples 50\n"
-    "focal_point <0,0,0> } " SCENE_SUN "#declare S = seed(5);\n"
-    "#for (I, 1, 150) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*10-5>, 0.005+0.03*rand(S)\n"
-    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 2 } } #end\n"};
-
-static const SamplingScene scene_flat_dust = {
-    "orthographic dust", SCENE_HEAD
-    "camera { orthographic location <1,3,-9> look_at 0 right 8*x up 6*y } " SCENE_SUN "#declare S = seed(6);\n"
-    "#for (I, 1, 150) sphere { <rand(S)*8-4, rand(S)*6-3, rand(S)*10-5>, 0.005+0.03*rand(S)\n"
-    "pigment { rgb <rand(S),rand(S),rand(S)> } finish { ambient 2 } } #end\n"};
-
 static void test_others(void)
 {
     static const SamplingScene *const scenes[] = {&scene_crumbs, &scene_glint, &scene_floor_glint, &scene_blurred_dust,
