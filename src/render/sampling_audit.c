@@ -22,7 +22,7 @@ enum { AUDIT_LEAST = 96, AUDIT_PIXELS = 256 };
 // pixel may look even only because no sample has met what is in it. Mostly it is beside pixels that have: where a
 // shadow is soft, all of 4 samples agree in some pixels. So there is a part of the mean of the pixels around, too. With
 // 0.7 of the mean of all alone, intervals of a soft shadow held in 68 % of runs of 4 samples.
-static const double MEAN_PART = 0.5, NEAR_PART = 0.7;
+static const double MEAN_PART = 0.7, NEAR_PART = 0.7;
 enum { AUDIT_CELL = 4 }; // pixels around: a square of so many by so many
 
 // Where pixels end when they seem to have enough, those that seemed so by chance are most of the error, and nothing has
@@ -170,7 +170,7 @@ int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
         draw.sum += gain * sums->outer_now;
         draw.own_squares += gain * gain * sums->outer_squares;
     }
-    if (round->small) {
+    if (round->small || round->share) {
         draw.sum = draw.own_squares = 0.0;
         each_block(&draw, total_block);
     }

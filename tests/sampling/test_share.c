@@ -113,7 +113,7 @@ int main(int argc, char **argv)
     Many *plain = malloc(sizeof *plain);
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         unsigned seed = random_below(&drawn_by, 1u << 29);
-        many_make(plain, &scenes[i], PLAIN, is_long ? 2000 : 200, seed);
+        many_make(plain, &scenes[i], PLAIN, is_long ? 2000 : 800, seed);
         test_mean(&scenes[i], 8, is_long ? 400 : 40, plain, seed + (1u << 29));
         test_mean(&scenes[i], 16, is_long ? 400 : 40, plain, seed + (1u << 29));
         test_mean(&scenes[i], 61, is_long ? 400 : 20, plain, seed + (1u << 29));
