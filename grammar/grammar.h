@@ -122,6 +122,7 @@ typedef struct GrammarContext {
     const Limits *limits;
     GrammarHooks *hooks; // NULL: text is parsed only, and what would need a splice is a fault
     bool token_by_token; // all tokens come from flex one by one, for comparison: the same comes of it
+    bool *has_mark;      // set where the text begins with a byte order mark; may be NULL
 } GrammarContext;
 
 // Called for each complete top-level item (a directive, a block, an expression, a word). The node is valid during the

@@ -33,7 +33,7 @@ static rt_status dump_syntax(rt_session *session, void *argument)
     MemoryBudget memory = {.limit = session->limits.memory_bytes};
     arena_init_shared(&arena, &memory);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
-                              session->no_literals};
+                              session->no_literals, NULL};
     AstDump dump = {session->names, &session->dump};
     bool fine = job->stage == RT_SYNTAX_TOKENS ? grammar_dump_tokens(&context, source, session->sources, &session->dump)
                                                : grammar_parse(&context, source, print_item, &dump);

@@ -28,7 +28,7 @@ static bool lay_out(rt_session *session, Source *source, const TextBuffer *text)
     Arena arena;
     arena_init(&arena, session->limits.memory_bytes);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
-                              session->no_literals};
+                              session->no_literals, NULL};
     bool fine = format_source(&context, source, text_get(text), text->length, &session->cancel,
                               &session->dump);
     arena_fini(&arena);

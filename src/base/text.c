@@ -315,6 +315,9 @@ size_t text_append_escape(TextBuffer *buffer, const char *text, size_t length)
         return 2;
     }
     if (length >= 6 && text[1] == 'u' && parse_hex4(text + 2, &point)) {
+        if (point >= 0x80) {
+            text_append_char(buffer, TEXT_MARK);
+        }
         append_utf8(buffer, point);
         return 6;
     }

@@ -10,6 +10,7 @@
 
 #include "base/number.h"
 #include "base/plain.h"
+#include "eval/characters.h"
 #include "eval/scope.h"
 
 enum {
@@ -236,6 +237,9 @@ static bool read_string(Eval *ev, DataFile *file, Value *value)
             break;
         }
         if (*file->at != '\\') {
+            if (*file->at == TEXT_MARK) {
+                text_append_char(&file->text, TEXT_MARK);
+            }
             text_append_char(&file->text, *file->at++);
         } else if (!read_escape(ev, file)) {
             return false;
@@ -248,8 +252,7 @@ static bool read_string(Eval *ev, DataFile *file, Value *value)
     if (file->text.failed) {
         return eval_no_memory(ev, begin);
     }
-    *value = (Value){.kind = VALUE_STRING, .text = text_get(&file->text), .length = file->text.length};
-    return true;
+    return characters_of_text(ev, text_get(&file->text), file->text.length, begin, value);
 }
 
 // The next value, VALUE_NONE at the end. False after a fault.

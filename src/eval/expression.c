@@ -7,6 +7,7 @@
 #include <limits.h>
 #include <string.h>
 
+#include "eval/characters.h"
 #include "eval/callable.h"
 #include "scene/blueprint.h"
 
@@ -57,10 +58,8 @@ bool eval_condition(Eval *ev, const AstNode *node, bool *holds)
 
 static bool eval_text_literal(Eval *ev, const AstNode *node, Value *value)
 {
-    *value = (Value){.kind = VALUE_STRING};
-    value->text = intern_get(ev->options.names, node->symbol);
-    value->length = intern_length(ev->options.names, node->symbol);
-    return true;
+    return characters_of_text(ev, intern_get(ev->options.names, node->symbol),
+                              intern_length(ev->options.names, node->symbol), node->span, value);
 }
 
 // Once for each name, and not where the true fault is an #include that was not found.

@@ -192,6 +192,8 @@ typedef struct Eval {
     ARRAY(struct Probe *) probes; // objects that were traced, see probe.c
     ARRAY(struct Painted *) painted; // functions of patterns and pigments, see painted.c
     size_t painted_bytes;         // of their pictures
+    enum { CHARSET_UNSAID, CHARSET_ASCII, CHARSET_UTF8, CHARSET_SYS } charset; // of strings in the text
+    bool has_mark;                // which is UTF-8 unless the scene says otherwise
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
     LiteralWatch literal;

@@ -128,7 +128,7 @@ const GrammarText *macro_text(Eval *ev, Macro *macro)
 {
     if (macro->text == NULL) {
         GrammarContext context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, NULL,
-                              ev->options.no_literals};
+                              ev->options.no_literals, NULL};
         GrammarText *text = grammar_text_body(&context, macro->span);
         macro->text = text != NULL ? grammar_text_copy(text, &ev->program) : NULL;
         free(text);

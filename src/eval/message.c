@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
+#include "eval/characters.h"
 #include "eval/internal.h"
 
 // Measured: a line of more than 80 bytes is broken before the last blank or tab at 61 to 80, which begins the next
@@ -59,17 +60,19 @@ static void fault_many(Eval *ev, uint64_t most, Span span)
 void message_write(Eval *ev, EvalStream stream, const char *text, size_t length, Span span)
 {
     uint64_t most = ev->options.limits->message_bytes;
-    for (size_t i = 0; i < length; i++) {
+    size_t bytes;
+    for (const char *at = text; at < text + length; at += bytes) {
         if (ev->message_bytes + ev->line.length >= most) {
             fault_many(ev, most, span);
             return;
         }
-        if (text[i] == '\n') {
+        unsigned code = character_at(at, text + length, &bytes);
+        if (code == '\n') {
             send_line(ev, stream, text_get(&ev->line), ev->line.length);
             text_clear(&ev->line);
         } else {
-            // The console shows other bytes than ASCII, and zeros, as blanks.
-            text_append_char(&ev->line, (unsigned char)text[i] >= 0x80 || text[i] == '\0' ? ' ' : text[i]);
+            // The console shows other characters than ASCII, and zeros, as blanks.
+            text_append_char(&ev->line, code >= 0x80 || code == 0 ? ' ' : (char)code);
         }
     }
     if (ev->line.failed) {

@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/painted.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "eval/blocks.h"
@@ -99,6 +100,10 @@ bool painted_at(Eval *ev, Painted *painted, const double point[3], Span span, do
     }
     if (painted->opened == NULL) {
         return false;
+    }
+    if (!vec3_is_finite(p)) {
+        v[0] = v[1] = v[2] = v[3] = v[4] = (double)NAN; // nothing lies there
+        return true;
     }
     NoiseGenerator generator = eval_noise_generator(ev);
     if (painted->is_pattern) {

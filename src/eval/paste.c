@@ -88,7 +88,7 @@ static const GrammarText *text_of(Eval *ev, Span span)
         return ev->pasted.items[at].text;
     }
     GrammarContext context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, NULL,
-                              ev->options.no_literals};
+                              ev->options.no_literals, NULL};
     GrammarText *read = grammar_text_again(&context, span);
     const GrammarText *kept = read != NULL ? grammar_text_copy(read, &ev->program) : NULL;
     free(read);

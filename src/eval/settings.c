@@ -60,8 +60,14 @@ bool settings_generator_action(Block *block, const SchemaProperty *property, con
 bool settings_charset_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     (void)property;
-    if (!cursor_at_word(&block->cursor, W_ascii) && !cursor_at_word(&block->cursor, W_utf8) &&
-        !cursor_at_word(&block->cursor, W_sys)) {
+    Eval *ev = block->ev;
+    if (cursor_at_word(&block->cursor, W_ascii)) {
+        ev->charset = CHARSET_ASCII;
+    } else if (cursor_at_word(&block->cursor, W_utf8)) {
+        ev->charset = CHARSET_UTF8;
+    } else if (cursor_at_word(&block->cursor, W_sys)) {
+        ev->charset = CHARSET_SYS;
+    } else {
         return block_fault(block, DIAG_E0253, item->span, "`charset` needs `ascii`, `utf8` or `sys` after it");
     }
     cursor_skip(&block->cursor);

@@ -228,7 +228,7 @@ void splice_init(Splice *splice, Eval *ev)
 {
     *splice = (Splice){
         .context = {ev->options.names, &ev->parse, ev->options.diags, ev->options.limits, &splice->hooks,
-                    ev->options.no_literals},
+                    ev->options.no_literals, &ev->has_mark},
         .cursor = {.ev = ev, .top = true},
         .hooks = {.client = splice,
                   .nesting = &ev->splice_nesting,

@@ -1,6 +1,6 @@
 // The built-in functions of strings.
 //
-// Strings are bytes with a length, made in the scratch arena. Numbers are written and read as in C, whatever the
+// Strings are characters with a length in bytes, made in the scratch arena. Numbers are written and read as in C, whatever the
 // locale. Knows nothing of names.
 //
 // SPDX-License-Identifier: MIT
@@ -12,6 +12,7 @@
 #include <time.h>
 
 #include "base/number.h"
+#include "eval/characters.h"
 #include "eval/internal.h"
 
 enum {
@@ -180,11 +181,15 @@ bool builtin_chr(Eval *ev, const AstNode *node, Value *value)
     if (!eval_number(ev, node->a, &code)) {
         return false;
     }
-    if (!(code > -1.0 && code < 256.0)) {
-        return eval_fault(ev, DIAG_E0304, node->a->span, "`chr` takes 0 to 255, not %g", code);
+    if (!(code > -1.0 && code < 65536.0)) {
+        return eval_fault(ev, DIAG_E0304, node->a->span, "`chr` takes 0 to 65535, not %g", code);
     }
-    char byte = (char)(unsigned char)fmax(code, 0.0);
-    return give_string(ev, node, value, &byte, byte != 0); // a 0 ends a string
+    TextBuffer out;
+    text_init(&out);
+    if (code >= 1.0) { // a 0 ends a string
+        character_append(&out, (unsigned)code);
+    }
+    return give_buffer(ev, node, value, &out);
 }
 
 bool builtin_asc(Eval *ev, const AstNode *node, Value *value)
@@ -193,7 +198,8 @@ bool builtin_asc(Eval *ev, const AstNode *node, Value *value)
     if (!eval_string(ev, node->a, &string)) {
         return false;
     }
-    *value = value_of_number(string.length > 0 ? (unsigned char)string.text[0] : 0);
+    size_t bytes;
+    *value = value_of_number(string.length > 0 ? character_at(string.text, string.text + string.length, &bytes) : 0);
     return true;
 }
 
@@ -246,7 +252,10 @@ bool builtin_strlen(Eval *ev, const AstNode *node, Value *value)
     if (!eval_string(ev, node->a, &string)) {
         return false;
     }
-    *value = value_of_number((double)string.length);
+    if (!eval_work(ev, string.length, node->span)) {
+        return false;
+    }
+    *value = value_of_number((double)characters_count(string.text, string.length));
     return true;
 }
 
@@ -257,15 +266,20 @@ bool builtin_strcmp(Eval *ev, const AstNode *node, Value *value)
     if (!eval_string(ev, node->a->next, &other) || !fine) {
         return false;
     }
-    size_t at = 0;
-    while (one.text[at] != '\0' && one.text[at] == other.text[at]) {
-        at++;
+    const char *a = one.text, *b = other.text, *a_end = a + one.length, *b_end = b + other.length;
+    unsigned first = 0, second = 0;
+    // As POV-Ray: how far the first characters that differ are apart.
+    while (first == second && (a < a_end || b < b_end)) {
+        size_t a_bytes = 0, b_bytes = 0;
+        first = a < a_end ? character_at(a, a_end, &a_bytes) : 0;
+        second = b < b_end ? character_at(b, b_end, &b_bytes) : 0;
+        a += a_bytes;
+        b += b_bytes;
     }
-    if (!eval_work(ev, at, node->span)) {
+    if (!eval_work(ev, (size_t)(a - one.text), node->span)) {
         return false;
     }
-    // As POV-Ray: how far the first bytes that differ are apart.
-    *value = value_of_number((unsigned char)one.text[at] - (unsigned char)other.text[at]);
+    *value = value_of_number((double)first - (double)second);
     return true;
 }
 
@@ -279,14 +293,20 @@ bool builtin_substr(Eval *ev, const AstNode *node, Value *value)
     }
     start = trunc(start) - 1.0;
     count = trunc(count);
-    if (!(start >= -1.0 && count >= 0.0 && start + count <= (double)string.length)) {
+    if (!eval_work(ev, string.length, node->span)) {
+        return false;
+    }
+    size_t length = characters_count(string.text, string.length);
+    if (!(start >= -1.0 && count >= 0.0 && start + count <= (double)length)) {
         return eval_fault(ev, DIAG_E0304, node->span, "%g characters from number %g on are not in a string of %zu",
-                          count, start + 1.0, string.length);
+                          count, start + 1.0, length);
     }
     if (start < 0.0) {
         return give_string(ev, node, value, "", 0); // as POV-Ray: from number 0 on there are none
     }
-    return give_string(ev, node, value, string.text + (size_t)start, (size_t)count);
+    size_t begin = characters_offset(string.text, string.length, (size_t)start);
+    size_t bytes = characters_offset(string.text + begin, string.length - begin, (size_t)count);
+    return give_string(ev, node, value, string.text + begin, bytes);
 }
 
 static bool change_case(Eval *ev, const AstNode *node, Value *value, char first, char last, int change)

@@ -335,7 +335,7 @@ static const SchemaProperty settings_properties[] = {
     {"number_of_waves", TYPE_INTEGER, AT(SettingsBlueprint, number_of_waves),
      .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of waves"},
     {"charset", TYPE_ACTION, ACTION_CHARSET,
-     .doc = "`ascii`, `utf8` or `sys`: accepted; what is no ASCII in strings stays as it is"},
+     .doc = "how the bytes of strings are read: `ascii`, `utf8` or `sys`"},
     {"max_intersections", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
     {"mm_per_unit", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
 };
