@@ -130,7 +130,7 @@ static void run_deep(void *client)
 rt_status session_run_deep(rt_session *session, rt_status (*work)(rt_session *session, void *argument), void *argument)
 {
     DeepWork deep = {session, work, argument, RT_OK};
-    if (!stack_run(run_deep, &deep)) {
+    if (!stack_run(STACK_BYTES_LEAST + scene_composite_stack(&session->scene), run_deep, &deep)) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory for a stack of %d MiB", STACK_BYTES >> 20);
         return session_status(session, false);
     }

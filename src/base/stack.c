@@ -64,11 +64,11 @@ bool stack_thread(pthread_t *thread, void *(*work)(void *argument), void *argume
     return is_started;
 }
 
-bool stack_run(void (*work)(void *client), void *client)
+bool stack_run(size_t least, void (*work)(void *client), void *client)
 {
     Errand errand = {work, client};
     pthread_t thread;
-    if (stack_left() >= STACK_BYTES_LEAST) {
+    if (stack_left() >= least) {
         work(client);
         return true;
     }

@@ -10,20 +10,21 @@
 
 #include <pthread.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/attributes.h"
 
 enum {
-    STACK_BYTES = 8 << 20,       // of a thread that is started; touched only as far as it is used
+    STACK_BYTES = 16 << 20,      // of a thread that is started; touched only as far as it is used
     STACK_BYTES_LEAST = 4 << 20, // what the work of a session needs of the thread that asks for it
 };
 
 // Starts a thread that calls work(argument), with a stack of STACK_BYTES; false when that cannot be done.
 bool stack_thread(pthread_t *thread, void *(*work)(void *argument), void *argument) RT_MUST_CHECK;
 
-// Calls work(client): on this thread, or, where its stack has less than STACK_BYTES_LEAST left, on one that is started for
-// that while this one waits; signals to the process are then taken there. False when that thread cannot be started:
+// Calls work(client): on this thread, or, where its stack has less than `least` bytes left, on one that is started for that
+// while this one waits; signals to the process are then taken there. False when that thread cannot be started:
 // nothing was called.
-bool stack_run(void (*work)(void *client), void *client) RT_MUST_CHECK;
+bool stack_run(size_t least, void (*work)(void *client), void *client) RT_MUST_CHECK;
 
 #endif

@@ -418,6 +418,18 @@ bool scene_add_leaf(Scene *scene, const Part *part)
     return true;
 }
 
+size_t scene_composite_stack(const Scene *scene)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < scene->composites.count; i++) {
+        const Composite *composite = &scene->composites.items[i];
+        size_t bytes = (size_t)composite->part_count * COMPOSITE_PART_STACK +
+                       (size_t)composite->node_count * COMPOSITE_NODE_STACK;
+        most = bytes > most ? bytes : most;
+    }
+    return most;
+}
+
 void scene_end_composite(Scene *scene)
 {
     Composite *composite = &scene->composites.items[scene->composites.count - 1];

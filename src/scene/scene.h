@@ -288,8 +288,8 @@ typedef struct Node {
     uint64_t source;
 } Node;
 
-// A ray keeps a few words for each leaf and node of a composite on its stack.
-enum { COMPOSITE_PARTS_MOST = 10000, COMPOSITE_NODES_MOST = 20000 };
+// A ray keeps a few words for each leaf and node of a composite on its stack, which these bytes are enough for.
+enum { COMPOSITE_PARTS_MOST = 100000, COMPOSITE_NODES_MOST = 200000, COMPOSITE_PART_STACK = 96, COMPOSITE_NODE_STACK = 8 };
 
 // A tree of nodes over parts. Nodes and parts stand in the order of the text, a node before what is in it.
 typedef struct Composite {
@@ -484,6 +484,8 @@ bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, u
                     uint32_t *index) RT_MUST_CHECK;
 bool scene_add_leaf(Scene *scene, const Part *part) RT_MUST_CHECK;
 void scene_end_composite(Scene *scene);
+// Bytes of stack that a ray takes in the largest of them.
+size_t scene_composite_stack(const Scene *scene);
 
 // A body within `around` (or RECORD_NONE) begins, then come its shapes and the bodies in it. It must be ended, and is
 // forgotten then if it is the last one and not to be kept.
