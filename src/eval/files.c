@@ -117,34 +117,71 @@ static bool lies_below(const char *path, const char *root)
     return strncmp(path, root, length) == 0 && (path[length] == '/' || path[length] == '\0');
 }
 
-// Where a path leads, whether a file is there or not: the real path of the longest beginning that is there, and the
-// rest as it is written. A link to nowhere is followed, too. The caller frees it; NULL: out of memory, or too long.
-static char *place_of(const char *path, unsigned links)
+// The length of a path without its last part and what stands before that: 0 for a path of one part.
+static size_t parent_length(const char *path, size_t length)
 {
-    char name[PATH_MAX], target[PATH_MAX], joined[2 * PATH_MAX];
-    char *real = realpath(path, NULL);
-    if (real != NULL || errno == ENOMEM || snprintf(name, sizeof name, "%s", path) >= (int)sizeof name) {
-        return real;
+    while (length > 0 && path[length - 1] != '/') {
+        length--;
     }
-    char *slash = strrchr(name, '/');
-    const char *last = slash != NULL ? slash + 1 : name;
-    ptrdiff_t length = links > 0 ? readlink(name, target, sizeof target - 1) : -1;
-    if (length > 0) {
-        target[length] = '\0';
-        snprintf(joined, sizeof joined, "%.*s%s", target[0] == '/' ? 0 : (int)(last - name), name, target);
-        return place_of(joined, links - 1);
+    while (length > 0 && path[length - 1] == '/') {
+        length--;
     }
-    if (slash == NULL) {
-        real = realpath(".", NULL);
-    } else if (slash == name) {
-        real = strdup("");
-    } else {
-        *slash = '\0';
-        real = place_of(name, links);
+    return length;
+}
+
+// The longest beginning of a path that is there, resolved, or else, as *is_link, what the link says that leads to
+// nowhere. *length is that of the beginning. The caller frees it.
+static char *beginning_of(char *path, size_t *length, bool *is_link)
+{
+    char target[PATH_MAX];
+    for (*length = strlen(path);; *length = parent_length(path, *length)) {
+        char after = path[*length];
+        path[*length] = '\0';
+        char *real = realpath(*length > 0 ? path : path[0] == '\0' && after == '/' ? "/" : ".", NULL);
+        ptrdiff_t linked = real == NULL && *length > 0 ? readlink(path, target, sizeof target - 1) : -1;
+        path[*length] = after;
+        *is_link = linked > 0;
+        if (real != NULL || linked > 0) {
+            return real != NULL ? real : strndup(target, (size_t)linked);
+        }
+        if (*length == 0) {
+            return NULL;
+        }
     }
-    bool is_joined = real != NULL && snprintf(joined, sizeof joined, "%s/%s", real, last) < (int)sizeof joined;
-    free(real);
-    return is_joined ? strdup(joined) : NULL;
+}
+
+// Where a path leads, whether a file is there or not: the real path of the longest beginning that is there, and the
+// rest as it is written. Links to nowhere are followed, too. The caller frees it; NULL: out of memory, or no end of links.
+static char *place_of(const char *path)
+{
+    char *name = strdup(path);
+    for (unsigned links = 0; name != NULL && links <= LINKS_MOST; links++) {
+        size_t length;
+        bool is_link;
+        TextBuffer joined;
+        char *beginning = beginning_of(name, &length, &is_link);
+        const char *rest = name + length;
+        size_t folder = length; // of the link
+        while (folder > 0 && name[folder - 1] != '/') {
+            folder--;
+        }
+        text_init(&joined);
+        if (beginning != NULL) {
+            bool is_top = strcmp(beginning, "/") == 0;
+            text_append_n(&joined, name, is_link && beginning[0] != '/' ? folder : 0);
+            text_append(&joined, is_top ? "" : beginning);
+            text_printf(&joined, "%s%s", rest[0] == '\0' || rest[0] == '/' ? "" : "/", rest);
+        }
+        free(name);
+        free(beginning);
+        name = beginning != NULL && !joined.failed ? strdup(text_get(&joined)) : NULL;
+        text_fini(&joined);
+        if (name != NULL && !is_link) {
+            return name;
+        }
+    }
+    free(name);
+    return NULL;
 }
 
 // The folder of a path as it is written, or the one that it leads to when it is a link.
@@ -154,7 +191,7 @@ static void folder_to_allow(const char *path, const char *real, char *folder, si
     size_t real_length = real_slash > real ? (size_t)(real_slash - real) : 1;
     int length = slash == NULL || slash == path ? 1 : (int)(slash - path);
     snprintf(folder, size, "%.*s", length, slash == NULL ? "." : path);
-    char *place = place_of(folder, LINKS_MOST);
+    char *place = place_of(folder);
     if (place == NULL || strlen(place) != real_length || strncmp(place, real, real_length) != 0) {
         snprintf(folder, size, "%.*s", (int)real_length, real);
     }
@@ -195,7 +232,7 @@ static bool fault_outside(Eval *ev, const char *path, const char *real, Span spa
 // is more likely mistyped.
 static bool is_outside(Eval *ev, const char *name, Span span)
 {
-    char *place = place_of(name, LINKS_MOST), *current = realpath(".", NULL);
+    char *place = place_of(name), *current = realpath(".", NULL);
     bool is_out = place != NULL && current != NULL && !lies_below(place, current) && !is_allowed(ev, place) &&
                   !fault_outside(ev, name, place, span);
     free(place);
