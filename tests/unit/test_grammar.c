@@ -51,7 +51,7 @@ static void parse_init(Parse *parse, const char *text, size_t length)
     text_init(&parse->printed);
     text_init(&parse->faults);
     Limits limits = LIMITS_DEFAULT;
-    GrammarContext context = {parse->names, &parse->arena, &parse->diags, &limits, NULL, false};
+    GrammarContext context = {parse->names, &parse->arena, &parse->diags, &limits, NULL, false, NULL};
     Source *source = source_open_text(parse->sources, "test", text, length);
     bool torn;
     parse->clean = grammar_parse_all(&context, source, &parse->items, &torn);
@@ -311,7 +311,7 @@ static void test_streaming(void)
     Parse parse;
     parse_init(&parse, "", 0);
     Limits limits = LIMITS_DEFAULT;
-    GrammarContext context = {parse.names, &parse.arena, &parse.diags, &limits, NULL, false};
+    GrammarContext context = {parse.names, &parse.arena, &parse.diags, &limits, NULL, false, NULL};
     char *text = nested("sphere { <1,2,3>, 4 pigment { rgb <1,2,3> } }\n", "", "#include \"x\"", 2000);
     static const size_t stops[] = {0, 1, 100};
     for (size_t i = 0; i < RT_COUNT_OF(stops); i++) {
@@ -332,7 +332,7 @@ static void test_tokens(void)
     Parse parse;
     parse_init(&parse, "", 0);
     Limits limits = LIMITS_DEFAULT;
-    GrammarContext context = {parse.names, &parse.arena, &parse.diags, &limits, NULL, false};
+    GrammarContext context = {parse.names, &parse.arena, &parse.diags, &limits, NULL, false, NULL};
     static const char text[] = "#declare A=.5;\nsphere \"x\" <= // end";
     Source *source = source_open_text(parse.sources, "test", text, sizeof text - 1);
     TextBuffer out;

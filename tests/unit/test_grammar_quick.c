@@ -57,7 +57,7 @@ static void read_text(const char *text, size_t length, bool token_by_token, Outc
     }
     diag_init(&diags, sources);
     arena_init(&arena, (size_t)1 << 30);
-    GrammarContext context = {outcome->names, &arena, &diags, &limits, NULL, token_by_token};
+    GrammarContext context = {outcome->names, &arena, &diags, &limits, NULL, token_by_token, NULL};
     Source *source = source_open_text(sources, "test", text, length);
     if (source == NULL) {
         abort();

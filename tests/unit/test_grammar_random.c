@@ -43,7 +43,7 @@ static void bench_fini(Bench *bench)
 static bool parse_text(Bench *bench, const char *text, size_t length, AstList *items)
 {
     Limits limits = LIMITS_DEFAULT;
-    GrammarContext context = {bench->names, &bench->arena, &bench->diags, &limits, NULL, false};
+    GrammarContext context = {bench->names, &bench->arena, &bench->diags, &limits, NULL, false, NULL};
     Source *source = source_open_text(bench->sources, "test", text, length);
     if (source == NULL) {
         abort();
