@@ -24,6 +24,21 @@ static int precedence_of(const AstNode *node)
     }
 }
 
+// What stands behind a mark, `length` bytes of it at most: an escape's character in UTF-8, or the mark itself. Returns its
+// length.
+static size_t print_marked(Printer *printer, const char *text, size_t length)
+{
+    const unsigned char *at = (const unsigned char *)text;
+    size_t bytes = at[0] < 0xE0 ? 2 : 3;
+    if (length < bytes || text[0] == TEXT_MARK) {
+        text_append_char(printer->out, TEXT_MARK);
+        return 1;
+    }
+    unsigned lead = bytes == 2 ? at[0] & 0x1Fu : (at[0] & 0x0Fu) << 6 | (at[1] & 0x3Fu);
+    text_printf(printer->out, "\\u%04x", lead << 6 | (at[bytes - 1] & 0x3Fu));
+    return bytes;
+}
+
 static void print_string(Printer *printer, Symbol symbol)
 {
     static const char controls[] = "\a\b\f\n\r\t\v\\\"", letters[] = "abfnrtv\\\"";
@@ -32,6 +47,10 @@ static void print_string(Printer *printer, Symbol symbol)
     text_append_char(printer->out, '"');
     for (size_t i = 0; i < length; i++) {
         unsigned letter = 0;
+        if (text[i] == TEXT_MARK && i + 1 < length) {
+            i += print_marked(printer, text + i + 1, length - i - 1);
+            continue;
+        }
         while (controls[letter] != '\0' && controls[letter] != text[i]) {
             letter++;
         }

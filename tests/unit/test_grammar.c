@@ -85,7 +85,7 @@ static const struct {
      "finish {\n  ambient 0.1\n  phong 1 - 2\n  phong_size 18\n  angle 1 1 2 x\n}\n"},
     {"camera { location A (1) look_at B[1][C].x*2 }", "camera {\n  location A(1)\n  look_at B[1][C].x*2\n}\n"},
     {"#declare A = 1; #local B=A+1;; # declare C = \"a\\u00e9\\n\" #/**/declare D = rgb 1 filter 2;",
-     "#declare A = 1;\n#local B = A + 1;\n#declare C = \"a\xc3\xa9\\n\";\n#declare D = rgb 1 filter 2;\n"},
+     "#declare A = 1;\n#local B = A + 1;\n#declare C = \"a\\u00e9\\n\";\n#declare D = rgb 1 filter 2;\n"},
     {"#declare T = texture{P} texture{Q} #declare A=array[2][2]{{1,2}{3,4,}} #undef A",
      "#declare T = texture {\n  P\n} texture {\n  Q\n};\n#declare A = array[2][2] { { 1, 2 }, { 3, 4 } };\n#undef A\n"},
     {"#declare F=function(x,a){x>a&1}; #declare G = function { pattern { bozo } }",

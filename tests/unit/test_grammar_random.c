@@ -2,6 +2,7 @@
 // does harm, and a parse is clean exactly when nothing was reported.
 //
 // SPDX-License-Identifier: MIT
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -94,14 +95,24 @@ static AstNode *make_word(Bench *bench)
     return make(bench, AST_WORD, AST_OP_NONE, words[random_below(&bench->random, RT_COUNT_OF(words))], NULL, NULL, NULL);
 }
 
+// As the lexer makes them: bytes, of which a mark is doubled, and characters of escapes behind a mark.
 static AstNode *make_string(Bench *bench)
 {
-    char text[8];
-    size_t length = random_below(&bench->random, sizeof text);
-    for (size_t i = 0; i < length; i++) {
-        text[i] = (char)(1 + random_below(&bench->random, 255)); // a character 0 would end it
+    TextBuffer text;
+    text_init(&text);
+    for (unsigned left = random_below(&bench->random, 8); left > 0; left--) {
+        char escape[7], byte = (char)(1 + random_below(&bench->random, 255)); // a character 0 would end it
+        if (random_below(&bench->random, 4) == 0) {
+            snprintf(escape, sizeof escape, "\\u%04x", 1 + random_below(&bench->random, 0xffff));
+            text_append_escape(&text, escape, 6);
+        } else {
+            text_append_n(&text, (char[]){byte, byte}, byte == TEXT_MARK ? 2 : 1);
+        }
     }
-    return make(bench, AST_STRING, AST_OP_NONE, intern_text(bench->names, text, length), NULL, NULL, NULL);
+    AstNode *node = make(bench, AST_STRING, AST_OP_NONE, intern_text(bench->names, text_get(&text), text.length), NULL,
+                         NULL, NULL);
+    text_fini(&text);
+    return node;
 }
 
 static AstNode *make_number(Bench *bench)
