@@ -155,7 +155,7 @@ static void test_escapes(void)
         size_t used; // 0: means nothing
     } cases[] = {
         {"\\n", "\n", 2},       {"\\\\", "\\", 2},         {"\\\"x", "\"", 2},           {"\\u0041", "A", 6},
-        {"\\u00e9z", "\xc3\xa9", 6}, {"\\u20AC", "\xe2\x82\xac", 6}, {"\\u00g1", "", 0}, {"\\u12", "", 0},
+        {"\\u00e9z", "\xff\xc3\xa9", 6}, {"\\u20AC", "\xff\xe2\x82\xac", 6}, {"\\u00g1", "", 0}, {"\\u12", "", 0},
         {"\\q", "", 0},        {"\\", "", 0},
     };
     for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
