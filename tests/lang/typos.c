@@ -192,11 +192,10 @@ static void try_properties(const InternTable *names, Tally *sums)
     for (int kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
         const SchemaBlock *schema = schema_kind((SchemaKind)kind);
         const SchemaProperty *property;
-        bool is_inner = kind == KIND_REFLECTION;
+        const char *around = kind == KIND_REFLECTION ? "finish {" : kind == KIND_PATTERN ? "function {" : "";
+        bool is_inner = around[0] != '\0';
         char before[128];
-        snprintf(before, sizeof before, "%s%s { %s ", is_inner                ? "#declare A = finish { "
-                                                      : schema->is_declarable ? "#declare A = "
-                                                                              : "",
+        snprintf(before, sizeof before, "%s%s %s { %s ", is_inner || schema->is_declarable ? "#declare A = " : "", around,
                  schema->word, arguments[kind] != NULL ? arguments[kind] : "");
         for (size_t i = 0; (property = schema_property((SchemaKind)kind, i)) != NULL; i++) {
             Place place = {before, "", property->type == TYPE_BLOCK ? " { } }" : is_inner ? " 1 } }" : " 1 }"};
