@@ -111,11 +111,11 @@ def tests(tap, program):
 
     def test_signals():
         write("endless.scn", b"#while (1) #end\n")
-        write("long.scn", b"sphere { 0, 1 }\n" * 8000000)
+        write("long.scn", b"sphere { 0, 1 }\n" * 4000000)
         write("block.scn", b"union {\n" + b"sphere { 0, 1 }\n" * 2000000 + b"}\n")
         os.mkfifo("waits.scn")
         write("lit.scn", QUICK + b"light_source { <1, 20, -3>, 1 area_light x*3, z*3, 1024, 1024 }\n" * 200)
-        cases = [["--check", "--max-steps=1000000000000", "endless.scn"], ["--check", "long.scn"],
+        cases = [["--check", "--max-steps=1000000000000", "endless.scn"], ["--check", "--no-literals", "long.scn"],
                  ["--check", "block.scn"], ["--dump=ast", "long.scn"], ["--check", "-"], ["--check", "waits.scn"],
                  ["--format", "long.scn"], ["-q", "-o", "lit.png", "lit.scn"]]
         for arguments in cases:
