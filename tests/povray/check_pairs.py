@@ -29,7 +29,8 @@ FORGIVEN_CODES, FORGIVEN_SHARE = 0.004 * 65535, 0.02
 # Words of the schema that no generated scene has, and why.
 LEFT_OUT = {
     "max_intersections mm_per_unit quick_color quick_colour media_interaction media_attenuation": "they change no picture",
-    "charset": "likewise",
+    "charset": "of strings; tests/lang/strings.test asks POV-Ray",
+    "pattern": "a value; tests/lang/functions.test asks POV-Ray",
     "colour_map fade_colour": "other spellings",
     "jitter aperture blur_samples confidence focal_point variance": "random in both",
     "image_map exr hdr jpeg map_type once interpolate pgm png ppm premultiplied tga tiff use_color use_colour": "need a file;"

@@ -207,11 +207,11 @@ def main():
             print(f"{'not ok' if faults else 'ok'} {number} - programs {batch[0]} to {batch[-1]}, {lines} lines", flush=True)
             for which, fault in faults:
                 print(f"# generate_programs.py {which}: " + fault.replace("\n", "\n#   "))
+        for number, missing, words in ((1, coverage(seeds) if count >= COUNT else [], "every function and constant occurs"),
+                                       (2, undocumented(), "what is refused is in docs/language.md")):
+            failed += bool(missing)
+            print(f"{'not ok' if missing else 'ok'} {len(batches) + number} - {words} {', '.join(missing)}", flush=True)
         failed += check_odd(odd_seeds, pool, len(batches) + 3)
-    for number, missing, words in ((1, coverage(seeds) if count >= COUNT else [], "every function and constant occurs"),
-                                   (2, undocumented(), "what is refused is in docs/language.md")):
-        failed += bool(missing)
-        print(f"{'not ok' if missing else 'ok'} {len(batches) + number} - {words} {', '.join(missing)}")
     return 1 if failed else 0
 
 
