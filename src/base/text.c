@@ -276,17 +276,17 @@ void text_append_double(TextBuffer *buffer, double value)
     }
 }
 
-static void append_utf8(TextBuffer *out, unsigned point)
+void text_append_utf8(TextBuffer *buffer, unsigned point)
 {
     if (point < 0x80) {
-        text_append_char(out, (char)point);
+        text_append_char(buffer, (char)point);
     } else if (point < 0x800) {
-        text_append_char(out, (char)(0xc0 | point >> 6));
-        text_append_char(out, (char)(0x80 | (point & 0x3f)));
+        text_append_char(buffer, (char)(0xc0 | point >> 6));
+        text_append_char(buffer, (char)(0x80 | (point & 0x3f)));
     } else {
-        text_append_char(out, (char)(0xe0 | point >> 12));
-        text_append_char(out, (char)(0x80 | (point >> 6 & 0x3f)));
-        text_append_char(out, (char)(0x80 | (point & 0x3f)));
+        text_append_char(buffer, (char)(0xe0 | point >> 12));
+        text_append_char(buffer, (char)(0x80 | (point >> 6 & 0x3f)));
+        text_append_char(buffer, (char)(0x80 | (point & 0x3f)));
     }
 }
 
@@ -318,7 +318,7 @@ size_t text_append_escape(TextBuffer *buffer, const char *text, size_t length)
         if (point >= 0x80) {
             text_append_char(buffer, TEXT_MARK);
         }
-        append_utf8(buffer, point);
+        text_append_utf8(buffer, point);
         return 6;
     }
     return 0;

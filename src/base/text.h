@@ -28,6 +28,9 @@ void text_append_char(TextBuffer *buffer, char c);
 void text_printf(TextBuffer *buffer, const char *format, ...) RT_PRINTF(2, 3);
 void text_vprintf(TextBuffer *buffer, const char *format, va_list arguments) RT_PRINTF(2, 0);
 
+// A character up to U+FFFF, surrogates too, in UTF-8.
+void text_append_utf8(TextBuffer *buffer, unsigned point);
+
 // What the escape at the beginning of the text stands for: `\n` and the like, `\uNNNN` in UTF-8, with a mark before it
 // where it is no ASCII. Returns the length of the escape, 0 when it means nothing (then nothing is appended).
 #define TEXT_MARK ((char)0xFF)

@@ -53,20 +53,6 @@ size_t characters_count(const char *text, size_t length)
     return count;
 }
 
-void character_append(TextBuffer *out, unsigned code)
-{
-    if (code < 0x80) {
-        text_append_char(out, (char)code);
-    } else if (code < 0x800) {
-        text_append_char(out, (char)(0xC0 | code >> 6));
-        text_append_char(out, (char)(0x80 | (code & 0x3F)));
-    } else {
-        text_append_char(out, (char)(0xE0 | code >> 12));
-        text_append_char(out, (char)(0x80 | (code >> 6 & 0x3F)));
-        text_append_char(out, (char)(0x80 | (code & 0x3F)));
-    }
-}
-
 // ---- text of a scene
 
 typedef struct Decoder {
@@ -84,7 +70,7 @@ static size_t decode_utf8(Decoder *decoder, const char *at, const char *end)
         eval_fault(decoder->ev, DIAG_E0304, decoder->span,
                    "with `charset utf8` a string is UTF-8, and the byte 0x%02X is not", (unsigned)(unsigned char)*at);
     } else {
-        character_append(&decoder->out, length == 4 ? CODE_UNKNOWN : character_at(at, end, &bytes));
+        text_append_utf8(&decoder->out, length == 4 ? CODE_UNKNOWN : character_at(at, end, &bytes));
     }
     return length;
 }
@@ -107,7 +93,7 @@ static size_t decode_raw(Decoder *decoder, const char *at, const char *end)
     case CHARSET_ASCII: break;
     }
     decoder->has_blanks = decoder->has_blanks || ev->version >= 3.5;
-    character_append(&decoder->out, ev->version < 3.5 ? byte : ' ');
+    text_append_utf8(&decoder->out, ev->version < 3.5 ? byte : ' ');
     return 1;
 }
 
@@ -121,7 +107,7 @@ static bool decode(Decoder *decoder, const char *at, const char *end)
             bytes = decode_raw(decoder, at, end);
             bytes += bytes > 0 ? 1 : 0;
         } else {
-            character_append(&decoder->out, character_at(at + 1, end, &bytes));
+            text_append_utf8(&decoder->out, character_at(at + 1, end, &bytes));
             bytes++;
         }
         if (bytes == 0) {

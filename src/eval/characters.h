@@ -14,7 +14,6 @@ unsigned character_at(const char *text, const char *end, size_t *bytes);
 size_t characters_count(const char *text, size_t length);
 // Where character number `index` begins; `length` for the one behind the last.
 size_t characters_offset(const char *text, size_t length, size_t index);
-void character_append(TextBuffer *out, unsigned code);
 
 // The string that text of a scene or of a data file stands for. False when a fault was reported.
 bool characters_of_text(Eval *ev, const char *text, size_t length, Span span, Value *value) RT_MUST_CHECK;

@@ -187,7 +187,7 @@ bool builtin_chr(Eval *ev, const AstNode *node, Value *value)
     TextBuffer out;
     text_init(&out);
     if (code >= 1.0) { // a 0 ends a string
-        character_append(&out, (unsigned)code);
+        text_append_utf8(&out, (unsigned)code);
     }
     return give_buffer(ev, node, value, &out);
 }
