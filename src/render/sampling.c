@@ -604,7 +604,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     bool has_memory = s != NULL;
     // A pixel that ends where it has enough says by its replicas what it may have missed.
     if (has_memory && !wanted->has_no_estimate && !stop_has_choice(wanted)) {
-        s->round.small = small_new(prepared, film, wanted->filter, &has_memory);
+        s->round.small = small_new(prepared, options, film, &has_memory);
     }
     // Of fewer samples strata are hardly ever weighted; of a run to a goal, which may be made again by its number of
     // samples, all pixels are.

@@ -18,6 +18,10 @@
 // How many replicas are drawn: one for so many pixels, within these.
 enum { AUDIT_LEAST = 96, AUDIT_PIXELS = 256 };
 
+// How many more for each narrow highlight of a bumpy surface, and at the most: what these bring is much, and few samples
+// meet it. Of 96 replicas alone intervals held in 86 to 92 % of runs. Measured.
+enum { AUDIT_GLINT = 8, AUDIT_GLINTS = 256 };
+
 // A pixel's share of the draw is what its halves say of it, and so much of the mean for what nothing has shown yet: a
 // pixel may look even only because no sample has met what is in it. Mostly it is beside pixels that have: where a
 // shadow is soft, all of 4 samples agree in some pixels. So there is a part of the mean of the pixels around, too. With
@@ -179,7 +183,8 @@ int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
     if (!(sum > 0.0)) {
         return 0;
     }
-    draw.most = picks < AUDIT_LEAST ? AUDIT_LEAST : picks > AUDIT_MOST ? AUDIT_MOST : (int)picks;
+    double glints = round->small ? fmin(AUDIT_GLINT * (double)round->small->glint_count, AUDIT_GLINTS) : 0.0;
+    draw.most = (int)fmin(fmax(picks, AUDIT_LEAST) + glints, AUDIT_MOST);
     draw.floor = mean_part * sum / estimate->judged;
     audit->size = (1.0 + draw.near_part + mean_part) * sum;
     draw.sum = 0.0;

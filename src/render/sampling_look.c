@@ -18,7 +18,7 @@
 #include "scene/opaque.h"
 
 // A pick for so many samples, within limits, so that its rays are few beside those of the picture.
-enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 8 };
+enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 32 };
 
 // What the squares of areas are known to.
 static const double AREA_ERROR = 0.0125;

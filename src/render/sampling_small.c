@@ -16,8 +16,9 @@
 // cap over a side of a pixel: 1 / (12 r) of a pixel for the radius r, 0.06; and the next pixel's corners see it.
 static const double SMALL_WIDTH = 3.0;
 
-// The same of highlights, which have no edge: a wider one is met by a corner at least.
-static const double SPOT_WIDTH = 1.5;
+// The same of highlights, which have no edge: a wider one is met by a corner at least. One that is longer than wide is
+// small if its area is no more than that of a round one, up to a length along which it may bend.
+static const double SPOT_WIDTH = 1.5, SPOT_LENGTH = 4.0;
 
 enum { STRIPS = 16, FILL_ROOT = 4, FILTER_SUM = 512 };
 
@@ -97,7 +98,9 @@ static bool footprint_make(const View *view, Footprint *at)
     bool is_flat = camera->type == CAMERA_ORTHOGRAPHIC;
     Vec3 offset = vec3_sub(at->extent.centre, camera->location);
     double ahead = vec3_dot(view->ahead, offset), depth = is_flat ? 1.0 : ahead;
-    double size = shape_kind(at->extent.shape) == SMALL_IS_SPOT ? SPOT_WIDTH : SMALL_WIDTH, most = 0.5 * size * depth;
+    const double pi = 3.14159265358979323846;
+    bool is_spot = shape_kind(at->extent.shape) == SMALL_IS_SPOT;
+    double size = is_spot ? SPOT_LENGTH : SMALL_WIDTH, most = 0.5 * size * depth;
     bool is_sphere = at->extent.is_ball && shape_kind(at->extent.shape) == SHAPE_SPHERE;
     if (!(ahead > 0.0) || (is_sphere && at->extent.axes[0].x * view->least_slope * film->whole_width > most)) {
         return false; // that most are not small costs little
@@ -124,7 +127,8 @@ static bool footprint_make(const View *view, Footprint *at)
     }
     most = 0.25 * size * size;
     at->area = ellipse_area(at->xx, at->xy, at->yy);
-    return at->wide_xx <= most && at->wide_yy <= most && at->area > 0.0;
+    double round = 0.25 * pi * (is_spot ? SPOT_WIDTH * SPOT_WIDTH : size * size);
+    return at->wide_xx <= most && at->wide_yy <= most && at->area > 0.0 && at->area <= round;
 }
 
 static void small_extent(const Small *small, ShapeId shape, Extent *extent)
@@ -372,7 +376,7 @@ uint64_t small_bytes(int width, int height, uint64_t shapes)
     return pixels * pixel + (most < pixels * SMALL_MOST ? most : pixels * SMALL_MOST) * sizeof(SmallEntry);
 }
 
-Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, bool *has_memory)
+Small *small_new(const Prepared *prepared, const RenderOptions *options, const Film *film, bool *has_memory)
 {
     View view;
     Small *small = calloc(1, sizeof *small);
@@ -382,11 +386,11 @@ Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, 
     }
     small->prepared = prepared;
     small->film = film;
-    small->filter = filter;
+    small->filter = options->sampling->filter;
     bool is_known = view_init(&view, small) && (uint64_t)film->width * (uint64_t)film->height < UINT32_MAX / SMALL_MOST;
     view_set_strips(&view);
-    *has_memory =
-        !is_known || (spots_find(small, spot_is_candidate, spot_is_narrow, &view) && lists_pass(&view, small));
+    *has_memory = !is_known || (spots_find(small, spot_is_candidate, spot_is_narrow, &view) &&
+                                glints_find(small, options, spot_is_narrow, &view) && lists_pass(&view, small));
     if (*has_memory && small->first) {
         *has_memory = lists_open(small) && lists_pass(&view, small);
         if (*has_memory && small->first[(size_t)film->width * (size_t)film->height] > 0) {

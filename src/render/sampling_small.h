@@ -38,7 +38,7 @@ typedef struct Small {
     const Film *film;
     FilterKind filter;
     SmallSpot *spots;
-    uint32_t spot_count;
+    uint32_t spot_count, glint_count; // of the first, those of glints_find
     uint32_t *first; // of each pixel's entries; one more for the end
     uint32_t *pixels; // that have any, from the first on
     uint32_t pixel_count;
@@ -54,7 +54,7 @@ typedef struct Small {
 
 // What small shapes are in a film. NULL when there are none; sets *has_memory to false when out of memory. Nothing is
 // known of wide cameras.
-Small *small_new(const Prepared *prepared, const Film *film, FilterKind filter, bool *has_memory);
+Small *small_new(const Prepared *prepared, const RenderOptions *options, const Film *film, bool *has_memory);
 void small_free(Small *small);
 
 static inline bool small_has(const Small *small, size_t pixel)
@@ -100,10 +100,31 @@ bool small_is_crossed(const Small *small, ShapeId shape, Ray ray);
 ExtentSight small_sight(const Small *small, ShapeId shape, Ray ray, MaterialIndex *before);
 uint32_t small_place(const Small *small, ShapeId shape);
 
+// Whether a spot is narrow enough to be listed.
+typedef bool SpotIsNarrow(const void *view, const SmallSpot *spot);
+
 // sampling_spot.c: lists the highlights that is_narrow; `is_candidate` says of a sphere whether one that falls off when
 // the mirrored way is so `turned` may be. False when out of memory.
 bool spots_find(Small *small, bool (*is_candidate)(const void *view, const Extent *extent, double turned),
-                bool (*is_narrow)(const void *view, const SmallSpot *spot), const void *view);
+                SpotIsNarrow *is_narrow, const void *view);
+
+// The finish of a surface that shines alike at all its points; NULL for others, and where it is bumpy.
+const PreparedFinish *spot_finish(const Prepared *p, MaterialIndex material);
+
+// Whether a light has highlights that may be narrow; the direction to it, of unit length, and how far it is; and whether
+// it reaches a point of a surface, as far as opaque shapes decide. `plane`: the normal of the surface if it is a plane,
+// else NULL.
+bool spot_has_light(const PreparedLight *light);
+Vec3 spot_to_light(const PreparedLight *light, Vec3 point, double *distance);
+bool spot_is_lit(const Prepared *p, const PreparedLight *light, ShapeId shape, const Vec3 *plane, Vec3 point,
+                 Vec3 normal);
+
+// False when out of memory.
+bool spot_add(Small *small, const SmallSpot *spot);
+
+// sampling_glint.c: lists narrow highlights of other surfaces, as far as they are found from the pixels. False when out
+// of memory.
+bool glints_find(Small *small, const RenderOptions *options, SpotIsNarrow *is_narrow, const void *view);
 
 // The footprint of an entry's shape.
 Footprint small_footprint(const Small *small, ShapeId shape);

@@ -126,15 +126,22 @@ static bool is_same(ShapeId a, ShapeId b)
     return shape_kind(a) == shape_kind(b) && (shape_kind(a) == SHAPE_PART ? part_index(a) == part_index(b) : a == b);
 }
 
+bool extent_first(const Geometry *g, Ray ray, Hit *hit, Surface *surface)
+{
+    if (!geometry_closest(g, TRACE_ALL_FEATURES, ray, RAY_START_CAMERA, (double)INFINITY, hit)) {
+        return false;
+    }
+    *surface = geometry_surface(g, TRACE_ALL_FEATURES, ray, *hit);
+    return true;
+}
+
 ExtentSight extent_sight(const Geometry *g, ShapeId shape, Ray ray, MaterialIndex *before)
 {
     Hit hit;
-    if (!geometry_closest(g, TRACE_ALL_FEATURES, ray, RAY_START_CAMERA, (double)INFINITY, &hit)) {
+    Surface surface;
+    if (!extent_first(g, ray, &hit, &surface)) {
         return EXTENT_MISSED;
     }
-    if (is_same(hit.shape, shape)) {
-        return EXTENT_SEEN;
-    }
-    *before = geometry_surface(g, TRACE_ALL_FEATURES, ray, hit).material;
-    return EXTENT_BEHIND;
+    *before = surface.material;
+    return is_same(hit.shape, shape) ? EXTENT_SEEN : EXTENT_BEHIND;
 }

@@ -38,6 +38,9 @@ bool extent_plane(const Geometry *geometry, uint32_t number, ShapeId *shape, Vec
 // Whether anything is before `distance` on a shadow ray that leaves a sphere's outside, or the plane of that normal.
 bool extent_is_dark(const Geometry *geometry, ShapeId shape, const Vec3 *normal, Ray ray, double distance);
 
+// What a camera ray meets first; false when it meets nothing.
+bool extent_first(const Geometry *geometry, Ray ray, Hit *hit, Surface *surface);
+
 typedef enum ExtentSight {
     EXTENT_SEEN,   // it is what the camera ray meets first
     EXTENT_BEHIND, // another shape is, of the material *before
