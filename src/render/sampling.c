@@ -24,7 +24,9 @@ typedef struct Cost {
 } Cost;
 
 static const double AUDIT_FACTOR = 1.25; // the width of an audit's interval, as a factor, before one was made
-static const double AUDIT_CHANCE = 1.1;  // how much less the error must be, since audits fail by chance; measured
+static const double AUDIT_WIDTH = 1.15;  // the same of a narrow one
+static const double AUDIT_COST = 1.0;    // samples between audits, for each that an audit took
+static const double AUDIT_CHANCE = 1.05; // how much less the error must be, since audits fail by chance; measured
 static const double COST_FADE = 0.8; // of what is known from earlier rounds
 
 // What a tile's work is.
@@ -44,7 +46,9 @@ typedef struct Sampling {
     Looks looks;
     Traces traces;
     RenderStatistics audited; // their rays: no part of what the picture's own say
-    double audit_scale;    // the upper end of an audit's interval, over what the rounds say of the error
+    double audit_scale;    // the upper end of an audit's interval, over what the rounds say of the error: expected,
+    double audit_least;    // and as low as may be; below it no audit finds the goal reached
+    double audit_next;     // samples before which another one would cost too much
     Predictor *predictor;  // NULL: nobody asks
     Cost cost;
     float *corners;        // owned by the caller; NULL: there is no such pilot
@@ -264,14 +268,24 @@ static void predict(Sampling *s)
     s->all_samples = isfinite(all) ? all : 0.0;
 }
 
-// Whether an audit finds the goal reached. The next one is made when the rounds let expect that it does.
+// Whether an audit finds the goal reached. What one says is as wide as its heaviest replicas make it, so when the next
+// is made goes by its lower end: that rounds fall by as much as one failed would take several times the samples where
+// a heavy replica made it fail.
 static bool is_on_target(Sampling *s)
 {
-    double by_rounds = s->error->rmse, target = s->wanted->target_error;
-    if (!(target > 0.0) || s->choice.power <= 0.0 || by_rounds * s->audit_scale > target || !run_audit(s)) {
+    double by_rounds = s->error->rmse, target = s->wanted->target_error, samples = (double)s->estimate.samples;
+    if (!(target > 0.0) || s->choice.power <= 0.0 || by_rounds * s->audit_least > target || samples < s->audit_next) {
         return false;
     }
-    s->audit_scale = by_rounds > 0.0 ? s->error->high / by_rounds : s->audit_scale;
+    uint64_t before = s->audited.camera_rays;
+    if (!run_audit(s)) {
+        return false;
+    }
+    s->audit_next = samples + AUDIT_COST * (double)(s->audited.camera_rays - before);
+    if (by_rounds > 0.0) {
+        s->audit_scale = sqrt(s->audit_scale * s->error->high / by_rounds);
+        s->audit_least = AUDIT_WIDTH * s->error->low / by_rounds;
+    }
     return s->error->high <= target;
 }
 
@@ -624,6 +638,7 @@ RenderResult sampling_run(const Prepared *prepared, const RenderOptions *options
     s->error = error;
     s->start = s->round_end = clock_seconds();
     s->audit_scale = AUDIT_FACTOR;
+    s->audit_least = AUDIT_WIDTH;
     s->round.prepared = prepared;
     s->round.sampling = wanted;
     s->round.film = film;
