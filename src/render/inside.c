@@ -76,8 +76,8 @@ static void walk(const Prepared *prepared, Ray ray, MediumList *list)
             entered.regions[entered.count++] = region;
         } else if (hit.inside && place < entered.count) {
             list_remove(&entered, place);
-        } else if (hit.inside && (interior != RECORD_NONE || is_solid) && place_of(list, body) == list->count) {
-            // Other shapes change nothing here: rays that start inside of them are in empty space.
+        } else if (hit.inside && place_of(list, body) == list->count) {
+            // Without an interior, too: such a shape is left on the way out, and not entered. Measured.
             put_below(list, region);
         }
     }
