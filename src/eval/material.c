@@ -132,8 +132,8 @@ static bool add_one_normal(const Builder *builder, const NormalBlueprint *normal
     Normal record = {
         .to_world = transform_identity(),
         .pattern = normal->part.pattern,
-        .amount = normal->amount,
-        .accuracy = normal->accuracy,
+        .amount = number_single(normal->amount),
+        .accuracy = number_single(normal->accuracy),
         .slopes = RECORD_NONE,
         .entries = RECORD_NONE,
         .flags = keeps_length || normal->keeps_length ? NORMAL_KEEPS_LENGTH : 0,
