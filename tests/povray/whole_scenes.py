@@ -46,7 +46,9 @@ def text_of(scene):
 class Writer:
     """Writes one scene. `names` hold what is declared, by kind: (name, value where it is a number)."""
 
-    def __init__(self, seed, number):
+    def __init__(self, seed, number, size=1):
+        """`size`: how many times as large all lengths are. The picture is the same."""
+        self.size = size
         self.dice = random.Random(f"{seed} {number}")
         self.number_ = number
         self.count = 0
@@ -84,6 +86,14 @@ class Writer:
         if (self.is_solid or self.version in ("3.0", "3.1")) and kind in ("pigment", "texture", "map"):
             return None
         return self.dice.choice(self.names[kind])[0] if self.names[kind] and self.chance(0.4) else None
+
+    def enlarged(self, length):
+        """The text of a length that no transform changes."""
+        return length if self.size == 1 else f"{length} * {self.size}"
+
+    def growth(self):
+        """The last item of what transforms make larger."""
+        return [] if self.size == 1 else [f"scale {self.size}"]
 
     # ---- values
 
@@ -419,7 +429,7 @@ class Writer:
     def interior(self):
         items = [f"ior {self.number(1, 1.6)}"] * self.chance(0.8) + [f"caustics {self.number(0.1, 0.5)}"] * self.chance(0.2)
         if self.chance(0.4):
-            items += [f"fade_distance {self.number(0.3, 2)}", f"fade_power {self.number(0.5, 3)}"]
+            items += [f"fade_distance {self.enlarged(self.number(0.3, 2))}", f"fade_power {self.number(0.5, 3)}"]
             items += [f"fade_color {self.colour()}"] * self.chance(0.3)
         return Block("interior {", self.shuffled(items))
 
@@ -440,7 +450,8 @@ class Writer:
         if head.startswith("Object_"):
             head, first = "object {", [head]
         items = first + early + self.shuffled_in([f"translate <{place[0]}, {place[1]}, {place[2]}>"] + flags, items)
-        return Block(head, items if is_flat else self.torn(items[:len(first)], 0) + self.torn(items[len(first):]), tail)
+        items = items if is_flat else self.torn(items[:len(first)], 0) + self.torn(items[len(first):])
+        return Block(head, items + self.growth(), tail)
 
     # ---- the rest of a scene
 
@@ -473,8 +484,8 @@ class Writer:
         if self.chance(0.2):
             camera = self.name("Camera")
             return [Block(f"#declare {camera} = camera {{", items), Block("camera {", [camera] +
-                                                                          [move for move in moves if self.chance(0.1)])]
-        return [Block("camera {", items)]
+                                                                          [move for move in moves if self.chance(0.1)] + self.growth())]
+        return [Block("camera {", items + self.growth())]
 
     def light(self):
         place = f"<{self.number(3, 6) if self.chance(0.5) else self.number(-6, -3)}, {self.number(3, 7)}, {self.number(-7, -2)}>"
@@ -483,13 +494,15 @@ class Writer:
             lambda: ["spotlight"] + self.shuffled([f"radius {self.number(10, 25)}", f"falloff {self.number(30, 45)}",
                                                    f"tightness {self.number(0, 10)}",
                                                    f"point_at {self.vector(-1, 1)}"]),
-            lambda: ["cylinder"] + self.shuffled([f"radius {self.number(1, 3)}", f"falloff {self.number(3, 5)}",
+            lambda: ["cylinder"] + self.shuffled([f"radius {self.enlarged(self.number(1, 3))}",
+                                                  f"falloff {self.enlarged(self.number(3, 5))}",
                                                   "point_at 0"]),
             lambda: ["parallel", f"point_at {self.vector(-1, 1)}"],
-            lambda: self.shuffled([f"fade_distance {self.number(3, 8)}", f"fade_power {self.number(1, 2)}"]))
+            lambda: self.shuffled([f"fade_distance {self.enlarged(self.number(3, 8))}", f"fade_power {self.number(1, 2)}"]))
         moves = [f"rotate {self.vector(-30, 30)}", f"translate {self.vector(-0.5, 0.5)}"]
         items = words[:1] + self.torn(words[1:], 0.1) + [move for move in moves if self.chance(0.15)]
-        return Block(f"light_source {{ {place}{self.dice.choice([',', ''])} {self.dice.choice(['color ', ''])}rgb {self.number(0.5, 1)}", items)
+        colour = f"{self.dice.choice([',', ''])} {self.dice.choice(['color ', ''])}rgb {self.number(0.5, 1)}"
+        return Block(f"light_source {{ {place}{colour}", items + self.growth())
 
     def sky(self):
         colours = [f"[{at} {self.colour()}]" for at in self.positions()]
@@ -504,7 +517,7 @@ class Writer:
             return self.one_of(lambda: [Block("sky_sphere {", layers + [self.transform(1) for _ in self.some(1)])],
                                lambda: [sphere], lambda: [f"background {{ {self.colour()} }}"])
         return [sphere, Block("fog {", self.shuffled([
-                f"distance {self.number(10, 30)}", self.dice.choice(["", "color "]) + f"rgb {self.number(0, 1)}"]))]
+                f"distance {self.enlarged(self.number(10, 30))}", self.dice.choice(["", "color "]) + f"rgb {self.number(0, 1)}"]))]
 
     def floor(self):
         is_whole = self.chance(0.4)
@@ -515,7 +528,7 @@ class Writer:
                                  f"plane {{ -x, {at}"])
         if is_whole:
             return self.whole_floor()
-        return Block(head, self.surface() + ["hollow"] * self.chance(0.3))
+        return Block(head, self.surface() + ["hollow"] * self.chance(0.3) + self.growth())
 
     def whole_floor(self):
         """Blocks on a floor in whole numbers, where other patterns jump as the last bits fall, but blocks end before."""
@@ -523,13 +536,15 @@ class Writer:
         blocks = Block("pigment {", [word] + self.list_of(lambda: self.colour(True), count) +
                        ["brick_size <1, 1, 0.5> mortar 0.1"] * (word == "brick") + ["scale 0.5"] * self.chance(0.3))
         down = self.dice.randint(2, 4)
-        return self.one_of(
+        floor = self.one_of(
             lambda: Block(f"plane {{ y, -{down}", [blocks]),
             lambda: Block("plane { y, 0", [blocks, f"translate -{down} * y"]),
             lambda: Block(f"box {{ <-9, -{down} - 1, -9>, <9, -{down}, 9>", [blocks,
                                                                              f"rotate {self.number(-180, 180)} * y"]),
             lambda: Block(f"plane {{ z, {down}", [blocks, "rotate 90 * x"]),
             lambda: Block("plane { y, 0", [f"rotate {self.number(-180, 180)} * y", f"translate -{down} * y", blocks]))
+        floor.items += self.growth()
+        return floor
 
     def declaration(self):
         """Something with a name, of which the rest may be made."""
@@ -610,5 +625,5 @@ class Writer:
         return Block("", begin + statements, "")
 
 
-def scene_of(seed, number):
-    return Writer(seed, number).scene()
+def scene_of(seed, number, size=1):
+    return Writer(seed, number, size).scene()
