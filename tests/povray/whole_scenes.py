@@ -312,8 +312,7 @@ class Writer:
         if choice < 0.12 and depth < 1:
             return self.list_pattern(plain)
         if choice < 0.25 and depth < 1:
-            return self.solid_of(lambda: self.value_pattern(
-                [Block("texture_map {", self.entries(lambda: self.texture_items(1, mirrors)))]))
+            return self.value_pattern([Block("texture_map {", self.entries(lambda: self.texture_items(1, mirrors)))])
         return self.torn(self.texture_parts(mirrors))
 
     def texture(self, mirrors=True):
@@ -436,14 +435,12 @@ class Writer:
     def object(self, place):
         head, first, tail, is_simple, is_flat = self.shape()
         # Along the seams and edges of glass rays meet two surfaces within POV-Ray's 1e-3.
-        items = self.surface() if is_simple else self.solid_of(self.surface)
-        if is_simple and self.chance(0.2):
+        items = self.surface()
+        if self.chance(0.2):
             items = self.shuffled_in([self.interior()], items)
         items = self.shuffled_in([self.transform(0.2) for _ in self.some(2)], items)
         early = []
-        if is_simple and self.chance(0.15) and not self.has_fog and not any(
-                isinstance(item, Block) and item.head.startswith("interior")
-                                                                            for item in items):  # which POV-Ray leaves out of what is clipped away
+        if is_simple and self.chance(0.15) and not self.has_fog:  # language.md: what POV-Ray takes the eye to be inside of
             early = [Block("clipped_by {", [f"plane {{ {self.vector(0.1, 1)}, {self.number(0.1, 0.3)} }}"])]
         flags = [word for word in ("no_shadow", "no_reflection", "hollow", "bounded_by { sphere { 0, 9 } }")
                  if self.chance(0.05)]
