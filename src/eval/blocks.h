@@ -7,6 +7,7 @@
 
 #include "eval/internal.h"
 #include "scene/blueprint.h"
+#include "scene/form.h"
 
 // The last finish of nothing but words and numbers: what was said, and what it made of the finish before it.
 typedef struct FinishWord {
@@ -134,10 +135,6 @@ bool transform_action(Block *block, const SchemaProperty *property, const AstNod
 bool transform_close(Block *block) RT_MUST_CHECK;
 // That of a word and the numbers after it: 1 or 3, of a matrix 12. False: it is none, or more is to be said of it.
 bool transform_of_numbers(Symbol word, const double *numbers, unsigned count, Transform *transform) RT_MUST_CHECK;
-// A vector's length and the vector of length 1 along it (zero for zero), without overflow; one whose length is 1
-// to rounding stays as it is.
-double vector_length(Vec3 vector);
-Vec3 vector_unit(Vec3 vector);
 
 // Reads all that stands in a block whose cursor is open, and closes it; as block_read.
 bool block_read_items(Block *block, SchemaKind *is) RT_MUST_CHECK;

@@ -4,33 +4,10 @@
 // is said after a transform is not moved by it, and so is a camera of old versions. Knows nothing of shapes.
 //
 // SPDX-License-Identifier: MIT
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "eval/blocks.h"
-
-double vector_length(Vec3 vector)
-{
-    int exponent;
-    frexp(vec3_max_abs(vector), &exponent);
-    Vec3 scaled = vec3(ldexp(vector.x, -exponent), ldexp(vector.y, -exponent), ldexp(vector.z, -exponent));
-    return ldexp(vec3_length(scaled), exponent);
-}
-
-// A vector that was divided by its length once has a square that is off by at most 6 u for the three divisions by a
-// length that is itself off by 2 u, and 3 u for the sum: such a vector must not change when it is read again.
-Vec3 vector_unit(Vec3 vector)
-{
-    if (vec3_equal(vector, vec3(0.0, 0.0, 0.0)) || fabs(vec3_length_squared(vector) - 1.0) <= 5.0 * DBL_EPSILON) {
-        return vector;
-    }
-    int exponent;
-    frexp(vec3_max_abs(vector), &exponent);
-    Vec3 scaled = vec3(ldexp(vector.x, -exponent), ldexp(vector.y, -exponent), ldexp(vector.z, -exponent));
-    double length = vec3_length(scaled);
-    return vec3(scaled.x / length, scaled.y / length, scaled.z / length);
-}
 
 // An object's texture moves with it, and so do its clips.
 bool block_transform(Block *block, const Transform *transform)
