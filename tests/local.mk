@@ -43,6 +43,7 @@ unit_programs = \
   tests/unit/test_literal_many \
   tests/unit/test_range \
   tests/unit/test_invariance \
+  tests/unit/test_build \
   tests/unit/test_stack \
   tests/unit/test_study \
   tests/unit/test_trace_pixel \
@@ -147,6 +148,8 @@ tests_unit_test_outline_SOURCES = %D%/unit/test_outline.c $(unit_headers)
 tests_unit_test_outline_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_build_SOURCES = %D%/unit/test_build.c $(unit_headers)
+tests_unit_test_build_LDADD = libapi.la
 tests_unit_test_stack_SOURCES = %D%/unit/test_stack.c $(unit_headers)
 tests_unit_test_stack_LDADD = libapi.la
 tests_unit_test_coincident_SOURCES = %D%/unit/test_coincident.c $(unit_headers)

@@ -123,9 +123,112 @@ RT_API rt_status rt_set_size(rt_session *session, int width, int height);
  * part does not lie in the picture; rt_set_size takes the whole again. */
 RT_API rt_status rt_set_crop(rt_session *session, int left, int top, int width, int height);
 
-/* Read and evaluate a scene: the first step. A session loads one scene. The path "-" is standard input. */
+/* Read and evaluate a scene: the first step. A session loads one scene, or after rt_begin_scene its parts. The path "-"
+ * is standard input. */
 RT_API rt_status rt_load_file(rt_session *session, const char *path);
 RT_API rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length);
+
+/* ---- a scene without text: arrays of numbers become its shapes
+ *
+ *     rt_begin_scene(session);
+ *     rt_add_spheres(session, &spheres, NULL);    any number of times, with rt_load_text before, between and behind
+ *     rt_add_light(session, &light);
+ *     rt_set_camera(session, &camera);
+ *     rt_render(session, 0);                      any number of times: what changed between is built again
+ *
+ * The scene begins as the text "#version 3.7; global_settings { assumed_gamma 1 }" does: colours are linear light,
+ * lengths have the scene's own unit, angles are in degrees. The same numbers as text give the same picture, byte for
+ * byte. Arrays are read where they are, during the call only, and stay the caller's; of each sphere the scene keeps 40 bytes,
+ * and 24 of a colour that differs. Numbers are checked before any is taken: after a fault of
+ * rt_add_*, rt_set_* or rt_update_spheres the scene is as it was, and the message says "spheres[17]" where element 17,
+ * from 0, is wrong; after one of rt_load_* it is lost, and all that needs it returns RT_FAULT_USAGE. What can only be
+ * told of the whole scene, rt_render tells. */
+
+/* `count` is not here: element i stands at (const char *)data + i * stride, and its numbers follow each other `step`
+ * bytes apart. */
+typedef enum rt_number { RT_FLOAT64, RT_FLOAT32 } rt_number;
+typedef struct rt_array {
+    const void *data; /* NULL: not given */
+    rt_number number;
+    ptrdiff_t stride; /* 0: one element for all; may be negative */
+    ptrdiff_t step;   /* of arrays with several numbers an element */
+} rt_array;
+
+/* What shapes look like. */
+typedef struct rt_look {
+    rt_array colors;     /* not given: white */
+    int color_numbers;   /* 3: red, green, blue; 4: and transmit; 5: red, green, blue, filter, transmit */
+    const char *finish;  /* what stands in finish { } of the language, "phong 0.5 ambient 0.2"; NULL: the default */
+} rt_look;
+
+typedef struct rt_spheres {
+    const char *name; /* for messages; NULL: "spheres" */
+    size_t count;
+    rt_array centers; /* 3 numbers */
+    rt_array radii;   /* 1, at least 0; spheres of radius 0 are not drawn, with a warning */
+    rt_look look;
+} rt_spheres;
+
+/* Round rods between two points: cylinders, or cones where the ends have radii of their own. */
+typedef struct rt_rods {
+    const char *name; /* NULL: "rods" */
+    size_t count;
+    rt_array bases, caps;           /* 3 numbers each: the middles of the ends, which may not be one point */
+    rt_array base_radii, cap_radii; /* 1, at least 0; cap_radii not given: those of the bases */
+    int open;                       /* without the discs at the ends */
+    rt_look look;
+} rt_rods;
+
+typedef struct rt_triangles {
+    const char *name; /* NULL: "triangles" */
+    size_t count;
+    rt_array corners; /* 9 numbers: three points. Those on one line are not drawn, with a warning */
+    rt_array normals; /* 9: of the corners, all on one side; not given: the triangles are flat */
+    rt_look look;
+} rt_triangles;
+
+/* The scene of this session is built by calls. Before rt_load_*, which then may be called any number of times, for a
+ * further part of the scene; what a part declares ends with it. Not together with rt_set_world. */
+RT_API rt_status rt_begin_scene(rt_session *session);
+/* Adds shapes. *group, unless NULL, names them for rt_update_spheres. */
+RT_API rt_status rt_add_spheres(rt_session *session, const rt_spheres *spheres, size_t *group);
+RT_API rt_status rt_add_rods(rt_session *session, const rt_rods *rods);
+RT_API rt_status rt_add_triangles(rt_session *session, const rt_triangles *triangles);
+/* Other numbers for spheres first to first + count - 1 of a group: those arrays that are given. Finish and name are not
+ * looked at. RT_FAULT_USAGE for a group of which spheres of radius 0 were left out. With colours alone no tree is built
+ * again from the second time on. */
+RT_API rt_status rt_update_spheres(rt_session *session, size_t group, size_t first, const rt_spheres *spheres);
+
+/* A camera; the same as the text that stands at the right, with 0 for what is left at 0. */
+typedef struct rt_camera {
+    double location[3], look_at[3];
+    double up[3];        /* sky; all 0: y */
+    double angle;        /* across the picture, degrees, less than 180; 0: as of direction 1 */
+    double width;        /* above 0: orthographic, and so many units wide */
+    double aspect;       /* width / height of the picture; 0: that of rt_set_size as it is now */
+    int right_handed;    /* coordinates are right-handed: right -aspect*x; 0: left-handed, as the language's */
+    double aperture;     /* above 0: a lens of this `aperture`, in focus at look_at */
+} rt_camera;
+/* Instead of the one that there is, of whatever kind. After rt_load_* of any session, too. It costs no tree,
+ * unless the range of numbers that the scene is traced in changes by it. */
+RT_API rt_status rt_set_camera(rt_session *session, const rt_camera *camera);
+
+typedef struct rt_light {
+    double position[3];
+    double color[3];
+    double point_at[3]; /* parallel only */
+    int parallel;       /* rays are parallel, from position to point_at */
+    int shadowless;
+    double radius;      /* above 0: a round area light of `size` by `size` lights that faces what it lights */
+    int size;           /* 2 to 64; 0: 4 */
+} rt_light;
+RT_API rt_status rt_add_light(rt_session *session, const rt_light *light);
+RT_API rt_status rt_clear_lights(rt_session *session);
+/* Red, green, blue, and how much of it is clear where pictures have alpha (rt_set_alpha): `rgbt`. */
+RT_API rt_status rt_set_background(rt_session *session, const double color[4]);
+
+/* The box around all shapes of the scene but planes. RT_FAULT_USAGE when there are none. */
+RT_API rt_status rt_get_box(const rt_session *session, double low[3], double high[3]);
 
 /* For study: the camera of the loaded scene goes away from the middle of its shapes, to `factor` times their distance,
  * and zooms along, so that what stands there has the same size in the picture. factor > 0. */
@@ -224,7 +327,9 @@ RT_API void rt_set_alpha(rt_session *session, int on);
  * it takes a tenth less memory. From then on no scene is loaded, and the session does not load another. */
 RT_API void rt_spend_scene(rt_session *session);
 
-/* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. */
+/* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. May be repeated,
+ * with other settings of size, crop, sampling and the like: what was built for shapes that did not change serves again, and
+ * the new picture takes the place of the old one. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets,
  * the quadratic of each sphere and the root that is used, the hit and its light, and the same for the rays that go on.
@@ -266,6 +371,8 @@ RT_API rt_status rt_write_error(rt_session *session, const char *path);
 /* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread
  * or a signal handler. */
 RT_API void rt_cancel(rt_session *session);
+/* Takes that back, so that the session may go on. */
+RT_API void rt_resume(rt_session *session);
 
 /* How the picture is written. */
 typedef enum rt_depth {
@@ -290,12 +397,22 @@ RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output
 
 /* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red,
  * green, blue) from the top row, in linear light, not clamped; of a scene that says nothing of gamma (docs/language.md,
- * "Gamma"), the values as they are stored in the file. Valid until the session is freed; NULL before rt_render. */
+ * "Gamma"), the values as they are stored in the file. Valid until the next rt_render and the session's end; NULL
+ * before rt_render. */
 RT_API const float *rt_pixels(const rt_session *session, int *width, int *height);
 
 /* With rt_set_alpha: width * height numbers, the share of what is behind the scene: 1 - alpha. It is not in the light of
  * rt_pixels, which so is multiplied with alpha. NULL otherwise and before rt_render. */
 RT_API const float *rt_transparency(const rt_session *session);
+
+/* The picture's numbers, encoded as output says (RT_DEPTH_AUTO: 8 bits; floats are linear): rows from the top, red,
+ * green, blue and with rt_set_alpha alpha each, in the machine's byte order, of uint8_t, uint16_t or float. Colours are
+ * not multiplied with alpha. `bytes` is the room at `pixels`; RT_FAULT_USAGE unless it is what the picture takes, and
+ * before rt_render. */
+RT_API rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixels, size_t bytes);
+/* The PNG file that rt_write would write, 8 or 16 bits. *bytes is valid until the next call of it and until the session
+ * is freed. */
+RT_API rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigned char **bytes, size_t *size);
 
 /* The memory of a scene that is loaded, in bytes. */
 typedef struct rt_budget {

@@ -63,7 +63,7 @@ rt_status rt_dump_scene(rt_session *session, const char **text)
 {
     text_clear(&session->dump);
     *text = text_get(&session->dump);
-    if (!session->loaded) {
+    if (!session->loaded || !session_is_whole(session)) {
         return RT_FAULT_USAGE;
     }
     rt_status status = session_run_deep(session, dump_scene, NULL);

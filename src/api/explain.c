@@ -291,7 +291,7 @@ rt_status rt_explain_scene(rt_session *session, int threads, const char **text)
 {
     text_clear(&session->dump);
     *text = text_get(&session->dump);
-    if (!session->loaded || threads < 0) {
+    if (!session->loaded || !session_is_whole(session) || threads < 0) {
         return RT_FAULT_USAGE;
     }
     if (!session_memory_suffices(session)) {

@@ -471,7 +471,8 @@ rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)
 {
     text_clear(&session->dump);
     *text = text_get(&session->dump);
-    if (!session->loaded || x < 0 || y < 0 || x >= session->width || y >= session->height) {
+    if (!session->loaded || x < 0 || y < 0 || x >= session->width || y >= session->height ||
+        !session_is_whole(session)) {
         return RT_FAULT_USAGE;
     }
     if (!session_memory_suffices(session)) {

@@ -289,7 +289,7 @@ bool session_load_pictures(rt_session *session, Scene *scene)
 {
     bool fine = true;
     for (size_t i = 0; fine && i < scene->pictures.count; i++) {
-        fine = picture_load(session, scene, i) && !atomic_load(&session->cancel);
+        fine = (scene->pictures.items[i].samples || picture_load(session, scene, i)) && !atomic_load(&session->cancel);
     }
     for (size_t i = 0; fine && i < scene->image_maps.count; i++) {
         fine = check_shades(session, scene, &scene->image_maps.items[i]);

@@ -42,7 +42,7 @@ void rt_get_photons(const rt_session *session, rt_photons *photons)
 
 bool session_has_pixel_errors(const rt_session *session)
 {
-    return session->error.is_known && !session->sampling.no_pixel_errors;
+    return session->error.is_known && !session->drawn.sampling.no_pixel_errors;
 }
 
 rt_status rt_write_error(rt_session *session, const char *path)
@@ -152,16 +152,16 @@ static void note_error(SessionNotes *notes, const SamplingError *error)
 // Everything that the picture follows from, and its error; no times, so that the same run makes the same file.
 void session_make_notes(const rt_session *session, SessionNotes *notes)
 {
-    const SamplingOptions *sampling = &session->sampling;
+    const SamplingOptions *sampling = &session->drawn.sampling;
     const SamplingError *error = &session->error;
     notes->count = 0;
-    if (session->method != RT_METHOD_BACKWARD) {
-        note(notes, "rtlang:method", session->method == RT_METHOD_FORWARD ? "forward" : "forward-connect");
-        note(notes, "rtlang:photons", "%llu", (unsigned long long)session->photons);
+    if (session->drawn.method != RT_METHOD_BACKWARD) {
+        note(notes, "rtlang:method", session->drawn.method == RT_METHOD_FORWARD ? "forward" : "forward-connect");
+        note(notes, "rtlang:photons", "%llu", (unsigned long long)session->drawn.photons);
         note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
-    } else if (session_is_sampled(session)) {
+    } else if (session->drawn.is_sampled) {
         note_sampling(notes, sampling, error);
-        if (session->precision != RT_PRECISION_DOUBLE) {
+        if (session->drawn.precision != RT_PRECISION_DOUBLE) {
             note(notes, "rtlang:precision", "%s", session->kernel);
         }
     }

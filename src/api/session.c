@@ -9,7 +9,6 @@
 #include "scene/view.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +21,6 @@
 #include "ast/words.h"
 #include "base/machine.h"
 #include "base/stack.h"
-#include "image/image.h"
 #include "render/linear.h"
 #include "render/study.h"
 #include "scene/near.h"
@@ -98,6 +96,9 @@ void rt_session_free(rt_session *session)
     for (size_t i = 0; i < session->declarations.count; i++) {
         free((char *)session->declarations.items[i].name);
     }
+    geometry_free(session->kept.geometry);
+    free(session->png);
+    ARRAY_FREE(&session->groups);
     ARRAY_FREE(&session->include_paths);
     library_fini(&session->library);
     ARRAY_FREE(&session->read_folders);
@@ -202,9 +203,13 @@ static bool load_pictures(void *client, Scene *scene)
     return session_load_pictures(client, scene);
 }
 
-static rt_status load(rt_session *session, void *argument)
+static int load_threads(const rt_session *session)
 {
-    Source *source = argument;
+    return session->load_threads > 0 ? session->load_threads : render_default_threads();
+}
+
+bool session_evaluate(rt_session *session, Source *source, Scene *scene, double version)
+{
     EvalOptions options = {
         .sources = session->sources,
         .names = session->names,
@@ -223,7 +228,8 @@ static rt_status load(rt_session *session, void *argument)
         .clock_on = session->clock_on,
         .world = session->world.scale > 0.0 ? &session->world : NULL,
         .no_literals = session->no_literals,
-        .threads = session->load_threads > 0 ? session->load_threads : render_default_threads(),
+        .version = version,
+        .threads = load_threads(session),
         .tracer = &probe_tracer,
         .painter = &painter,
         .load_pictures = load_pictures,
@@ -232,17 +238,60 @@ static rt_status load(rt_session *session, void *argument)
         .message = forward_message,
         .client = session,
     };
-    session->scene.whole = SPAN_WHOLE(source_base(source));
-    bool fine = eval_source(&options, source, &session->scene) &&
-                scene_validate(&session->scene, &session->diags, options.threads) &&
+    return eval_source(&options, source, scene);
+}
+
+// What only the whole scene can tell. Where nothing but camera and lights changed, the shapes are not compared again.
+static bool check_whole(rt_session *session, bool has_new_shapes)
+{
+    const Scene *scene = &session->scene;
+    bool fine = (has_new_shapes ? scene_validate(scene, &session->diags, load_threads(session))
+                                : scene_validate_view(scene, &session->diags, load_threads(session))) &&
                 session->diags.error_count == 0;
     if (fine) {
-        scene_hint_of_view(&session->scene, session->width, session->height, &session->diags);
+        scene_hint_of_view(scene, session->width, session->height, &session->diags);
     }
-    fine = fine && session->diags.error_count == 0 && session_load_pictures(session, &session->scene);
+    return fine && session->diags.error_count == 0;
+}
+
+static rt_status load(rt_session *session, void *argument)
+{
+    Source *source = argument;
+    Scene *scene = &session->scene;
+    scene->whole = SPAN_WHOLE(source_base(source));
+    bool fine = session_evaluate(session, source, scene, session->is_built ? scene->settings.version : 0.0) &&
+                (session->is_built || check_whole(session, true)) && session_load_pictures(session, scene);
     diag_finish(&session->diags);
     session->loaded = fine;
+    session->is_broken = session->is_built && !fine;
     return session_status(session, fine);
+}
+
+// ---- a scene that is built by calls
+
+bool session_is_whole(rt_session *session)
+{
+    Settings *settings = &session->scene.settings;
+    if (!session->is_built || (session->is_checked && session->is_viewed)) {
+        return true;
+    }
+    if (settings->gamma_model == GAMMA_NONE && settings->version >= 3.7) {
+        settings->gamma_model = GAMMA_LINEAR; // no part said anything
+    }
+    session->is_checked = session->is_viewed = check_whole(session, !session->is_checked);
+    diag_finish(&session->diags);
+    session_deliver(session);
+    return session->is_checked;
+}
+
+// Whether a text may be loaded: the whole of a scene once, the parts of one that is built by calls.
+static bool may_load(rt_session *session)
+{
+    if (!session->is_built) {
+        return !session->loaded && !session->is_spent;
+    }
+    session_shapes_change(session);
+    return session_begin(session);
 }
 
 // The time from `start` is that of parsing.
@@ -258,7 +307,7 @@ rt_status rt_load_file(rt_session *session, const char *path)
 {
     double start = session_clock();
     Source *source;
-    if (session->loaded || session->is_spent) {
+    if (!may_load(session)) {
         return RT_FAULT_USAGE;
     }
     if (!session_open(session, path, &source)) {
@@ -270,7 +319,7 @@ rt_status rt_load_file(rt_session *session, const char *path)
 rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length)
 {
     double start = session_clock();
-    if (session->loaded || session->is_spent) {
+    if (!may_load(session)) {
         return RT_FAULT_USAGE;
     }
     Source *source = source_open_text(session->sources, name, text, length);
@@ -360,10 +409,8 @@ static rt_status render_scene(rt_session *session, void *argument)
     session->threads = threads;
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
                     session->precision == RT_PRECISION_DOUBLE;
-    GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL};
-    if (session->max_trace_level > 0) {
-        session->scene.settings.max_trace_level = session->max_trace_level;
-    }
+    GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL,
+                                .kept = is_spent ? NULL : &session->kept};
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     Film *film = &session->film;
     if (!prepared || !film_init(film, session_film_width(session), session_film_height(session)) ||
@@ -444,8 +491,11 @@ static rt_status session_ways_fit(rt_session *session)
 
 rt_status rt_render(rt_session *session, int threads)
 {
-    if (!session->loaded || session->rendered || threads < 0) {
+    if (!session->loaded || threads < 0 || (session->is_built && !session_begin(session))) {
         return RT_FAULT_USAGE;
+    }
+    if (!session_is_whole(session)) {
+        return session_status(session, false);
     }
     rt_status status = session_ways_fit(session);
     if (status) {
@@ -454,8 +504,25 @@ rt_status rt_render(rt_session *session, int threads)
     if (!session_memory_suffices(session)) {
         return session_status(session, false);
     }
+    film_fini(&session->film);
+    session->rendered = false;
+    session->error = (SamplingError){0};
+    session->drawn.sampling = session->sampling;
+    session->drawn.method = session->method;
+    session->drawn.photons = session->photons;
+    session->drawn.precision = session->precision;
+    session->drawn.is_sampled = session_is_sampled(session);
+    Settings *settings = &session->scene.settings;
+    int max_trace_level = settings->max_trace_level;
+    settings->max_trace_level = session->max_trace_level > 0 ? session->max_trace_level : max_trace_level;
     Vec3 origin = scene_move_near(&session->scene);
+    if (!vec3_equal(origin, session->kept_origin)) {
+        geometry_free(session->kept.geometry);
+        session->kept.geometry = NULL;
+        session->kept_origin = origin;
+    }
     status = session_run_deep(session, render_scene, &threads);
+    settings->max_trace_level = max_trace_level;
     session->is_spent = session->is_last;
     session->loaded = !session->is_spent;
     scene_move_back(&session->scene, origin);
@@ -467,124 +534,14 @@ void rt_spend_scene(rt_session *session)
     session->is_last = true;
 }
 
+void rt_resume(rt_session *session)
+{
+    atomic_store(&session->cancel, false);
+}
+
 void rt_cancel(rt_session *session)
 {
     atomic_store(&session->cancel, true);
-}
-
-rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
-{
-    static const struct {
-        DiagCode code;
-        const char *format; // of path and detail
-    } faults[] = {
-        [IMAGE_NO_MEMORY] = {DIAG_E0602, "out of memory writing %s%s"},
-        [IMAGE_UNKNOWN_FORMAT] = {DIAG_E0701, "the ending of %s is that of no picture format%s"},
-        [IMAGE_BAD_DEPTH] = {DIAG_E0702, "%s cannot have the wanted depth%s"},
-        [IMAGE_NO_MODULE] = {DIAG_E0507, "%s needs OpenImageIO, which cannot be loaded%s"},
-        [IMAGE_IO] = {DIAG_E0505, "cannot write %s%s"},
-        [IMAGE_NOT_A_PICTURE] = {DIAG_E0505, "cannot write %s%s"},
-        [IMAGE_TOO_LARGE] = {DIAG_E0505, "cannot write %s%s"},
-    };
-    if (status == IMAGE_OK) {
-        return session_status(session, true);
-    }
-    // The system's words begin with the path where the system was asked; again it would say nothing new.
-    bool is_stream = strcmp(path, "-") == 0;
-    const char *detail = error->detail, *said = is_stream ? "standard output" : path;
-    size_t length = strlen(said);
-    if (strncmp(detail, said, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
-        detail += length + 2;
-    }
-    char more[sizeof error->detail + 2], name[PATH_MAX];
-    snprintf(more, sizeof more, "%s%s", detail[0] ? ": " : "", detail);
-    snprintf(name, sizeof name, is_stream ? "%s" : "`%s`", is_stream ? "standard output" : path);
-    diag_report(&session->diags, faults[status].code, SPAN_NONE, faults[status].format, name, more);
-    return session_status(session, false);
-}
-
-static bool is_output(const rt_session *session, const char *path, const rt_output *output)
-{
-    return (!output->error_channel || image_path_names_channels(path)) &&
-           (!session->has_alpha || (image_path_has_alpha(path) && !output->error_channel)) &&
-           (output->depth == RT_DEPTH_AUTO || output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 ||
-            output->depth == RT_DEPTH_FLOAT) &&
-           output->file_gamma >= 0.0 && isfinite(output->file_gamma);
-}
-
-static ImageDepth output_depth(const rt_output *output, const char *path)
-{
-    if (output->depth == RT_DEPTH_AUTO) {
-        return image_path_depth(path);
-    }
-    return output->depth == RT_DEPTH_8    ? IMAGE_DEPTH_8
-           : output->depth == RT_DEPTH_16 ? IMAGE_DEPTH_16
-                                          : IMAGE_DEPTH_FLOAT;
-}
-
-rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
-{
-    ImageError error = {""};
-    if (!is_output(session, path, output)) {
-        return RT_FAULT_USAGE;
-    }
-    if (!session_memory_suffices(session)) {
-        return session_status(session, false);
-    }
-    return session_image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
-}
-
-rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
-{
-    if (!session->rendered || !is_output(session, path, output) ||
-        (output->error_channel && !session_has_pixel_errors(session))) {
-        return RT_FAULT_USAGE;
-    }
-    double start = session_clock();
-    ImageError error = {""};
-    Image with_fourth = {0}, image = {session->film.width, session->film.height, 3, session->film.rgb};
-    if (output->error_channel) {
-        if (!session_picture_with_error(session, &with_fourth)) {
-            return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
-        }
-        image = with_fourth;
-    } else if (session->has_alpha) {
-        if (!session_picture_with_alpha(session, image_path_names_channels(path), &with_fourth)) {
-            return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
-        }
-        image = with_fourth;
-    }
-    SessionNotes notes;
-    session_make_notes(session, &notes);
-    ImageEncoding encoding = {
-        .notes = notes.items,
-        .note_count = notes.count,
-        .depth = output_depth(output, path),
-        .transfer = output->file_gamma > 0.0 ? IMAGE_TRANSFER_POWER : IMAGE_TRANSFER_SRGB,
-        .gamma = output->file_gamma,
-        .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,
-        .threads = session->threads,
-        .fourth = output->error_channel ? "error" : NULL,
-    };
-    ImageStatus status = image_write(&image, &encoding, path, &error);
-    image_fini(&with_fourth);
-    session->write_seconds = session_clock() - start;
-    return session_image_fault(session, status, path, &error);
-}
-
-const float *rt_transparency(const rt_session *session)
-{
-    return session->rendered ? session->film.clear : NULL;
-}
-
-const float *rt_pixels(const rt_session *session, int *width, int *height)
-{
-    if (!session->rendered) {
-        return NULL;
-    }
-    *width = session->film.width;
-    *height = session->film.height;
-    return session->film.rgb;
 }
 
 // Told as warnings, or as errors by -Werror.
@@ -609,8 +566,8 @@ void rt_get_summary(const rt_session *session, rt_summary *summary)
         .prepare_seconds = session->prepare_seconds,
         .trace_seconds = session->trace_seconds,
         .write_seconds = session->write_seconds,
-        .errors = session->diags.error_count,
-        .warnings = session->diags.warning_count,
+        .errors = session->past_errors + session->diags.error_count,
+        .warnings = session->past_warnings + session->diags.warning_count,
         .kernel = session->kernel,
         .out_of_range = out_of_range(&session->diags),
     };
@@ -634,6 +591,7 @@ rt_status rt_move_camera(rt_session *session, double factor)
     if (!session->loaded || !(factor > 0.0) || !isfinite(factor)) {
         return RT_FAULT_USAGE;
     }
+    session->is_checked = false;
     scene_move_camera(&session->scene, factor);
     return RT_OK;
 }

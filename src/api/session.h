@@ -21,6 +21,15 @@
 #include "rtlang/rtlang.h"
 #include "scene/scene.h"
 
+// Spheres of one array.
+typedef struct SessionGroup {
+    const char *name; // the source's
+    size_t first, count; // Scene.spheres
+    uint64_t base;     // of the source
+    bool has_gaps;     // there are fewer spheres than elements
+    MaterialIndex own; // the first of as many materials, RECORD_NONE: they share
+} SessionGroup;
+
 struct rt_session {
     rt_callbacks callbacks;
     Limits limits;
@@ -48,8 +57,23 @@ struct rt_session {
     const char *isa; // of geometry_isa; NULL for the best
     Scene scene;
     bool loaded; // the scene is complete and valid
+    bool is_built;  // by calls: rt_begin_scene
+    bool is_broken; // a part of it could not be loaded
+    bool is_checked, is_viewed; // as a whole since its shapes, since its camera or lights changed
+    ARRAY(SessionGroup) groups;
+    GeometryKept kept;  // of the shapes as they are, moved by …
+    Vec3 kept_origin;
+    size_t past_errors, past_warnings; // of calls before the present one
+    unsigned char *png;                // that was asked for last
     bool is_last, is_spent; // it is rendered once, and nothing else is asked of it; this is done
     Film film;
+    struct {
+        SamplingOptions sampling;
+        rt_method method;
+        uint64_t photons;
+        rt_precision precision;
+        bool is_sampled;
+    } drawn;       // with which settings
     bool rendered; // the film holds a picture in linear light
     int threads;   // that rendered it
     SamplingOptions sampling;
@@ -143,6 +167,16 @@ static inline int session_film_height(const rt_session *session)
 
 // Reads the pictures that a scene uses; reports the first that cannot be.
 bool session_load_pictures(rt_session *session, Scene *scene);
+
+// Evaluates a source and adds what it gives to the scene. `version` is that of the language at its beginning, 0: none.
+bool session_evaluate(rt_session *session, Source *source, Scene *scene, double version);
+
+// A call begins on a session that is built by calls: what was told before is forgotten. False when it may not be made.
+bool session_begin(rt_session *session) RT_MUST_CHECK;
+// Its shapes change: what was built for them is given back.
+void session_shapes_change(rt_session *session);
+// Whether a scene that is built by calls is one that may be traced; looks through it when it has changed.
+bool session_is_whole(rt_session *session) RT_MUST_CHECK;
 
 // Opens a scene file; reports why not.
 bool session_open(rt_session *session, const char *path, Source **source);

@@ -237,7 +237,7 @@ void rt_set_alpha(rt_session *session, int on)
 rt_status rt_set_world(rt_session *session, double scale, const double shift[3])
 {
     Vec3 by = vec3(shift[0], shift[1], shift[2]);
-    if (!(scale > 0.0) || !isfinite(scale) || !vec3_is_finite(by)) {
+    if (session->is_built || !(scale > 0.0) || !isfinite(scale) || !vec3_is_finite(by)) {
         return RT_FAULT_USAGE;
     }
     session->world = (EvalWorld){scale, by};

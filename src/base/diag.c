@@ -65,7 +65,7 @@ void diag_init(DiagSink *sink, SourceMap *sources)
     }
 }
 
-void diag_fini(DiagSink *sink)
+static void records_free(DiagSink *sink)
 {
     for (size_t i = 0; i < sink->count; i++) {
         Diag *diag = &sink->items[i];
@@ -79,7 +79,21 @@ void diag_fini(DiagSink *sink)
         free(diag->replacement);
     }
     ARRAY_FREE(sink);
+}
+
+void diag_fini(DiagSink *sink)
+{
+    records_free(sink);
     diag_init(sink, sink->sources);
+}
+
+void diag_restart(DiagSink *sink)
+{
+    records_free(sink);
+    sink->error_count = sink->warning_count = sink->kept_warnings = 0;
+    sink->class = CLASS_NONE;
+    sink->out_of_memory = false;
+    memset(sink->dropped, 0, sizeof sink->dropped);
 }
 
 // A text of its own, or NULL and out_of_memory.

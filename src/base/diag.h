@@ -86,6 +86,10 @@ enum { DIAG_ON = 1, DIAG_FATAL = 2 };
 void diag_init(DiagSink *sink, SourceMap *sources);
 void diag_fini(DiagSink *sink);
 
+// Forgets the records and what was counted towards the limits above, for a new task of one run; totals by code, levels
+// and limits stay.
+void diag_restart(DiagSink *sink);
+
 // What warnings are reported, in the words of a command line: "all" adds the extra ones, "error" makes errors of all,
 // "W0201" and "error=W0201" say the same of one, each with "no-" before it takes that back. False when it is none of
 // these.

@@ -13,6 +13,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -48,6 +49,7 @@ struct Source {
     const char *name;
     char *kept;        // the text, if it cannot be read twice
     uint64_t position; // of source_read
+    bool is_list;      // without text
     LineIndex *lines;  // checkpoint k stands at k * BLOCK; NULL until a message asks
     int file;          // NO_FILE when closed or kept
     dev_t device;      // of the file, with its number: another one of this name is not read in its place
@@ -96,6 +98,8 @@ void source_map_set_memory(SourceMap *map, size_t bytes)
     map->memory_bytes = bytes;
 }
 
+static void source_fini(Source *source);
+
 static void file_close(int *file)
 {
     if (*file != NO_FILE) {
@@ -110,13 +114,7 @@ void source_map_free(SourceMap *map)
         return;
     }
     for (size_t i = 0; i < map->sources.count; i++) {
-        Source *source = map->sources.items[i];
-        source_close(source);
-        free(source->kept);
-        if (source->lines) {
-            ARRAY_FREE(source->lines);
-            free(source->lines);
-        }
+        source_fini(map->sources.items[i]);
     }
     file_close(&map->again_file);
     ARRAY_FREE(&map->sources);
@@ -342,6 +340,35 @@ Source *source_open_text(SourceMap *map, const char *name, const char *text, siz
         free(kept);
     }
     return source;
+}
+
+Source *source_open_list(SourceMap *map, const char *name, uint64_t count)
+{
+    Source *source = source_add(map, name, NO_FILE, NULL, count);
+    if (source) {
+        source->is_list = true;
+    }
+    return source;
+}
+
+static void source_fini(Source *source)
+{
+    source_close(source);
+    free(source->kept);
+    if (source->lines) {
+        ARRAY_FREE(source->lines);
+        free(source->lines);
+    }
+}
+
+void source_drop(Source *source)
+{
+    SourceMap *map = source->map;
+    if (map->sources.count > 0 && map->sources.items[map->sources.count - 1] == source && map->again != source) {
+        map->sources.count--;
+        map->next_base = source->base;
+        source_fini(source);
+    }
 }
 
 // A file is never read beyond the size it had when it was opened, since the numbers after that belong to other texts.
@@ -618,6 +645,15 @@ static bool source_read_line(SourceMap *map, const Source *source, uint64_t line
     return true;
 }
 
+// What messages call a thing of a list. Kept by the map, as all names are: messages are few.
+static const char *list_name(SourceMap *map, const Source *source, uint64_t number)
+{
+    char name[WINDOW];
+    int length = snprintf(name, sizeof name, "%.150s[%llu]", source->name, (unsigned long long)number);
+    Symbol symbol = intern_text(map->names, name, (size_t)length);
+    return symbol != SYMBOL_NONE ? intern_get(map->names, symbol) : source->name;
+}
+
 bool source_locate(SourceMap *map, Span span, SourceLocation *location)
 {
     *location = (SourceLocation){.text = ""};
@@ -630,6 +666,10 @@ bool source_locate(SourceMap *map, Span span, SourceLocation *location)
         return false;
     }
     uint64_t offset = span.begin - source->base;
+    if (source->is_list) {
+        location->name = list_name(map, source, offset);
+        return false;
+    }
     location->offset = offset;
     if (!source_index(map, source, offset)) {
         return false;

@@ -89,6 +89,13 @@ SourceResult source_open_stream(SourceMap *map, const char *name, int file, uint
 // Makes a source of a text in memory, which is copied. NULL when out of memory.
 Source *source_open_text(SourceMap *map, const char *name, const char *text, size_t length) RT_MUST_CHECK;
 
+// Makes a source of things that have numbers and no text: byte i stands for the i-th, from 0, of `count`, and messages
+// name it "name[i]". NULL when out of memory.
+Source *source_open_list(SourceMap *map, const char *name, uint64_t count) RT_MUST_CHECK;
+
+// Forgets the source that was opened last, of which nothing is kept: what it numbered is numbered anew.
+void source_drop(Source *source);
+
 // Reads the next bytes: their number, 0 at the end, -1 on an error (errno is set; ECANCELED: cancelled).
 ptrdiff_t source_read(Source *source, char *buffer, size_t size) RT_MUST_CHECK;
 

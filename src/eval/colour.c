@@ -170,16 +170,6 @@ static bool read_parts(Cursor *cursor, double v[COMPONENTS], Span *span)
     }
 }
 
-// Whole numbers up to 255, as picture programs have them; equal ones are more likely a bright light.
-static bool is_like_bytes(const double v[COMPONENTS])
-{
-    bool is_usual = v[RED] <= COLOUR_USUAL && v[GREEN] <= COLOUR_USUAL && v[BLUE] <= COLOUR_USUAL;
-    for (unsigned i = RED; i <= BLUE && !is_usual; i++) {
-        is_usual = !(v[i] >= 0.0 && v[i] <= 255.0 && v[i] == floor(v[i]));
-    }
-    return !is_usual && (v[RED] == 255.0 || v[RED] != v[GREEN] || v[GREEN] != v[BLUE]);
-}
-
 // What stands behind `color` when that is all of a colour.
 static bool is_no_colour(Cursor *cursor, const AstNode *item)
 {
@@ -219,7 +209,8 @@ bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span)
     if (!fine || !read_parts(cursor, v, span)) {
         return false;
     }
-    if (RT_UNLIKELY(is_like_bytes(v)) && eval_report(cursor->ev, DIAG_W0211, *span, "this colour looks like bytes")) {
+    if (RT_UNLIKELY(rgb_is_like_bytes(v[RED], v[GREEN], v[BLUE])) &&
+        eval_report(cursor->ev, DIAG_W0211, *span, "this colour looks like bytes")) {
         diag_suggest(cursor->ev->options.diags, "components go from 0 to 1: divide by 255");
     }
     *colour = (Rgbft){(float)v[RED], (float)v[GREEN], (float)v[BLUE], (float)v[FILTER], (float)v[TRANSMIT]};

@@ -141,6 +141,10 @@ static bool declare_all(Eval *ev, const Source *source)
 static void init(Eval *ev, const EvalOptions *options, Scene *scene)
 {
     *ev = (Eval){.options = *options, .scene = scene, .version = 3.7, .inner = 1};
+    if (options->version > 0.0) {
+        ev->version = options->version;
+        ev->version_given = true;
+    }
     ev->expression_depth_limit = options->limits->ast_depth * DEEPENING_PER_AST_LEVEL;
     ev->memory.limit = options->limits->memory_bytes;
     arena_init_shared(&ev->parse, &ev->memory);
@@ -197,8 +201,10 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
     const DiagFrame *frame = options->diags->frame;
     init(&ev, options, scene);
     options->diags->frame = NULL;
-    Transform world = world_transform(&ev);
-    scene->camera.location = transform_point(&world, scene->camera.location); // of a scene without one
+    if (!scene->has_camera && options->world) {
+        Transform world = world_transform(&ev);
+        scene->camera.location = transform_point(&world, scene->camera.location);
+    }
     if (!scope_init(&ev) || !objects_init(&ev) || !files_init(&ev, source) || !lint_init(&ev) ||
         !declare_all(&ev, source)) {
         eval_no_memory(&ev, SPAN_NONE);

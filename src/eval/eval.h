@@ -91,6 +91,7 @@ typedef struct EvalOptions {
     double clock;
     bool clock_on;             // a clock was given
     const EvalWorld *world;    // NULL: where it says
+    double version;            // of the language, in force at the beginning; 0: the source says it
     bool no_literals;          // nothing is read or evaluated by a faster way than all else is
     int threads;               // for long runs of such statements; 0 and 1: the caller's alone
     size_t literal_piece;      // bytes of text that each of these takes at a time; 0: as is best
@@ -105,7 +106,7 @@ typedef struct EvalOptions {
     void *client;
 } EvalOptions;
 
-// Evaluates the source into the scene (initialised, empty). False when a fault was reported; the scene then holds what
+// Evaluates the source into the scene, which is initialised; what it holds already stays. False when a fault was reported; the scene then holds what
 // could be made of it.
 bool eval_source(const EvalOptions *options, Source *source, Scene *scene) RT_MUST_CHECK;
 

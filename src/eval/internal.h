@@ -94,9 +94,6 @@ typedef struct Value {
     };
 } Value;
 
-// A plain colour beyond this is left to the statements that may have something to say about it.
-enum { COLOUR_USUAL = 63 };
-
 enum { ARRAY_DIMENSIONS_MAX = 5, ARRAY_ELEMENTS_MAX = 1 << 28 };
 
 // All elements are of one kind, that of the first one that was set.

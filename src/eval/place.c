@@ -10,6 +10,7 @@
 
 #include "eval/blocks.h"
 #include "scene/part.h"
+#include "scene/room.h"
 
 // The clips of the unions around an object, the innermost first.
 typedef struct ClipChain ClipChain;
@@ -47,8 +48,7 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *br
 
 bool memory_has(const Eval *ev, size_t bytes)
 {
-    size_t taken = ev->memory.used + ev->painted_bytes + scene_bytes(ev->scene);
-    return taken <= ev->memory.limit && bytes <= ev->memory.limit - taken;
+    return scene_memory_has(ev->scene, ev->memory.used + ev->painted_bytes, bytes, ev->memory.limit);
 }
 
 static bool memory_suffices(Eval *ev, Span span)
@@ -65,11 +65,7 @@ static bool may_add_one(Eval *ev, Span span)
     if (eval_cancelled(ev)) {
         return false;
     }
-    if (scene_shapes_in_all(ev->scene) >= ev->options.limits->objects) {
-        if (eval_report(ev, DIAG_E0490, span, "more than %llu shapes in the scene",
-                        (unsigned long long)ev->options.limits->objects)) {
-            diag_suggest(ev->options.diags, "`--max-objects` allows more");
-        }
+    if (!scene_has_room(ev->scene, 1, ev->options.limits, ev->options.diags, span)) {
         ev->stop = true; // only now: nothing is reported after it
         return false;
     }

@@ -5,9 +5,11 @@
 // SPDX-License-Identifier: MIT
 #include "image/image.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "image/atomic_file.h"
 #include "image/encode.h"
 #include "image/image_error.h"
@@ -143,6 +145,60 @@ static ImageStatus bytes_put(const void *client, const void *bytes, size_t lengt
     return atomic_file_write(client, bytes, length, error) ? IMAGE_OK : IMAGE_IO;
 }
 
+// Bytes that are written to memory.
+typedef ARRAY(unsigned char) ByteArray;
+
+static bool file_put(void *client, const void *bytes, size_t length, ImageError *error)
+{
+    return atomic_file_write(client, bytes, length, error);
+}
+
+static bool memory_put(void *client, const void *bytes, size_t length, ImageError *error)
+{
+    ByteArray *out = client;
+
+    if (!ARRAY_RESERVE(out, out->count + length)) {
+        snprintf(error->detail, sizeof error->detail, "out of memory");
+        return false;
+    }
+    memcpy(out->items + out->count, bytes, length);
+    out->count += length;
+    return true;
+}
+
+ImageStatus image_encode_png(const Image *image, const ImageEncoding *encoding, unsigned char **bytes, size_t *size,
+                             ImageError *error)
+{
+    ByteArray out = {0};
+    Encoder *encoder = malloc(sizeof *encoder);
+    ImageStatus status = IMAGE_NO_MEMORY;
+
+    if (encoder != NULL) {
+        encoder_init(encoder, encoding, image->channels);
+        status = png_write(image, encoder, (PngSink){&out, memory_put}, error);
+        free(encoder);
+    }
+    if (status != IMAGE_OK) {
+        ARRAY_FREE(&out);
+        return status == IMAGE_IO ? IMAGE_NO_MEMORY : status;
+    }
+    *bytes = out.items;
+    *size = out.count;
+    return IMAGE_OK;
+}
+
+bool image_samples(const Image *image, const ImageEncoding *encoding, void *samples)
+{
+    Encoder *encoder = malloc(sizeof *encoder);
+
+    if (encoder != NULL) {
+        encoder_init(encoder, encoding, image->channels);
+        encoder_run(encoder, image->values, (size_t)image->width * (size_t)image->height, samples);
+        free(encoder);
+    }
+    return encoder != NULL;
+}
+
 static ImageStatus write_by_module(const OiioModule *module, const char *ending, const RowSource *source,
                                    const AtomicFile *file, ImageError *error)
 {
@@ -184,7 +240,7 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
     if (!atomic_file_open(&file, path, error)) {
         status = IMAGE_IO;
     } else {
-        status = module == NULL ? png_write(image, &source->encoder, &file, error)
+        status = module == NULL ? png_write(image, &source->encoder, (PngSink){&file, file_put}, error)
                                 : write_by_module(module, ending, source, &file, error);
         if (status != IMAGE_OK) {
             atomic_file_abandon(&file);

@@ -81,6 +81,14 @@ bool image_path_has_alpha(const char *path);
 ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path,
                         ImageError *error) RT_MUST_CHECK;
 
+// The bytes of the PNG file that image_write would write, 8 or 16 bit; *bytes is the caller's to free.
+ImageStatus image_encode_png(const Image *image, const ImageEncoding *encoding, unsigned char **bytes, size_t *size,
+                             ImageError *error) RT_MUST_CHECK;
+
+// Its samples without a file: width * height * channels numbers of 8, 16 or 32 bits, in the machine's byte order. False
+// when out of memory.
+bool image_samples(const Image *image, const ImageEncoding *encoding, void *samples) RT_MUST_CHECK;
+
 // Reads a picture to values as they are stored, 0..1 for integer formats; no transfer is undone. What begins as PNG
 // does is read as PNG, whatever the path's ending.
 ImageStatus image_read(const char *path, uint64_t pixel_limit, Image *image, ImageError *error) RT_MUST_CHECK;

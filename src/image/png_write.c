@@ -20,7 +20,7 @@ enum { SRGB_GAMMA = 45455, IDAT_MOST = 1 << 30, BUFFER_BYTES = 32768 };
 typedef struct PngWriter {
     const Image *image;
     const Encoder *encoder;
-    const AtomicFile *file;
+    PngSink sink;
     ImageError *error;
     png_structp png;
     png_infop info;
@@ -32,7 +32,7 @@ typedef struct PngWriter {
 
 static void bytes_write(const PngWriter *writer, const void *bytes, size_t length)
 {
-    if (!atomic_file_write(writer->file, bytes, length, writer->error)) {
+    if (!writer->sink.put(writer->sink.client, bytes, length, writer->error)) {
         png_error(writer->png, "write error");
     }
 }
@@ -137,7 +137,7 @@ static void thread_run(void *client, int number)
     }
 }
 
-ImageStatus png_write(const Image *image, const Encoder *encoder, const AtomicFile *file, ImageError *error)
+ImageStatus png_write(const Image *image, const Encoder *encoder, PngSink sink, ImageError *error)
 {
     PngWriter *writer = calloc(1, sizeof *writer);
     ImageStatus status = IMAGE_NO_MEMORY;
@@ -147,7 +147,7 @@ ImageStatus png_write(const Image *image, const Encoder *encoder, const AtomicFi
     }
     writer->image = image;
     writer->encoder = encoder;
-    writer->file = file;
+    writer->sink = sink;
     writer->error = error;
     writer->strips = png_strips_new(image, encoder);
     writer->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning);

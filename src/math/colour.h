@@ -18,6 +18,20 @@ typedef struct Rgbft {
     double red, green, blue, filter, transmit;
 } Rgbft;
 
+// A plain colour beyond this may be one that is like bytes.
+enum { COLOUR_USUAL = 63 };
+
+// Whole numbers up to 255, as picture programs have them; equal ones are more likely a bright light.
+static inline bool rgb_is_like_bytes(double red, double green, double blue)
+{
+    const double v[] = {red, green, blue};
+    bool is_usual = red <= COLOUR_USUAL && green <= COLOUR_USUAL && blue <= COLOUR_USUAL;
+    for (int i = 0; i < 3 && !is_usual; i++) {
+        is_usual = !(v[i] >= 0.0 && v[i] <= 255.0 && v[i] == floor(v[i]));
+    }
+    return !is_usual && (red == 255.0 || red != green || green != blue);
+}
+
 static inline Rgb rgb(double red, double green, double blue)
 {
     return (Rgb){red, green, blue};

@@ -249,6 +249,23 @@ void prepared_seed(Prepared *prepared, uint64_t seed)
     }
 }
 
+// The geometry that was kept, if it is what a new one would be; else a new one.
+static Geometry *take_geometry(const Scene *scene, int exponent, const GeometryOptions *options)
+{
+    GeometryKept *kept = options->kept;
+    if (!kept) {
+        return geometry_new_with(scene, exponent, options);
+    }
+    if (kept->geometry && (kept->exponent != exponent || kept->isa != options->isa)) {
+        geometry_free(kept->geometry);
+        kept->geometry = NULL;
+    }
+    if (!kept->geometry) {
+        *kept = (GeometryKept){geometry_new_with(scene, exponent, options), exponent, options->isa};
+    }
+    return kept->geometry;
+}
+
 Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
 {
     Prepared *p = calloc(1, sizeof *p);
@@ -258,7 +275,8 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     SceneScale scale = scene_scale(scene, options->threads);
     int exponent = scale.exponent;
     p->abandon = calloc(1, sizeof *p->abandon);
-    p->geometry = geometry_new_with(scene, exponent, options);
+    p->is_kept = options->kept != NULL;
+    p->geometry = take_geometry(scene, exponent, options);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
     if (!p->abandon || !p->geometry || !p->lights || !p->finishes ||
@@ -293,7 +311,9 @@ void prepared_free(Prepared *prepared)
     if (!prepared) {
         return;
     }
-    geometry_free(prepared->geometry);
+    if (!prepared->is_kept) {
+        geometry_free(prepared->geometry);
+    }
     free(prepared->abandon);
     free(prepared->lights);
     free(prepared->finishes);

@@ -74,6 +74,7 @@ typedef struct Abandon {
 struct Prepared {
     Abandon *abandon; // its own; a copy of this record shares it
     Geometry *geometry;
+    bool is_kept; // it lives on
     PreparedCamera camera;
     Rgb background; // with has_alpha as mirrors see it
     bool has_alpha; // pictures tell what is behind the scene (render/alpha.h)

@@ -346,6 +346,18 @@ void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials, uint64
     }
 }
 
+bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first)
+{
+    *first = (MaterialIndex)scene->materials.count;
+    if (count >= MATERIAL_COMPOUND - scene->materials.count ||
+        !ARRAY_RESERVE(&scene->materials, scene->materials.count + count)) {
+        return false;
+    }
+    scene->materials.count += count;
+    unique_give_up(&scene->material_index);
+    return true;
+}
+
 const Material *scene_last_material(const Scene *scene, MaterialIndex *index)
 {
     *index = scene->material_index.last;

@@ -468,6 +468,9 @@ uint32_t scene_sphere_at(const Scene *scene, uint32_t order);
 bool scene_materials_add_up(const Scene *scene);
 bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials) RT_MUST_CHECK;
 void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials, uint64_t source);
+// Room for materials of one's own, one after the other, from *first on: they may change later, so no other shape shares
+// them, and from now on equal materials are looked for next to each other only. False when out of memory.
+bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first) RT_MUST_CHECK;
 // The one that the next material is compared with, and where it stands; NULL: none.
 const Material *scene_last_material(const Scene *scene, MaterialIndex *index);
 
@@ -505,6 +508,9 @@ bool scene_shape_is_key(uint64_t key);
 // Checks what only the whole scene can tell (a camera is missing, …) and what the renderer relies on. False when a
 // fault was reported; the renderer may then not be called. Many spheres are looked through on several threads.
 bool scene_validate(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
+
+// The same of a scene that was found valid, of which only camera and lights are others now.
+bool scene_validate_view(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
 
 // The scene as `.scn` text that evaluates to the same records, bit for bit, in the same order.
 void scene_dump(const Scene *scene, TextBuffer *out);

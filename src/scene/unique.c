@@ -94,6 +94,13 @@ bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t 
     return true;
 }
 
+void unique_give_up(UniqueIndex *index)
+{
+    ARRAY_FREE(&index->slots);
+    index->is_given_up = true;
+    index->last = UINT32_MAX;
+}
+
 bool unique_place_if_worth(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
                            uint32_t *place)
 {

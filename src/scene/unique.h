@@ -32,6 +32,9 @@ bool unique_place(UniqueIndex *index, const void *records, size_t count, size_t 
 bool unique_place_if_worth(UniqueIndex *index, const void *records, size_t count, size_t size, const void *record,
                            uint32_t *place) RT_MUST_CHECK;
 
+// From now on only a record that equals the one told last is not kept again, and there is none such yet.
+void unique_give_up(UniqueIndex *index);
+
 void unique_fini(UniqueIndex *index);
 
 #endif

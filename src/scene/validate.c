@@ -159,6 +159,19 @@ static void warn_of_what_is_missing(const Scene *scene, DiagSink *diags)
     }
 }
 
+bool scene_validate_view(const Scene *scene, DiagSink *diags, int threads)
+{
+    SphereSurvey survey;
+    warn_of_what_is_missing(scene, diags);
+    bool valid = camera_is_valid(&scene->camera, diags);
+    valid = lights_are_valid(scene, diags) && valid;
+    if (valid) {
+        scene_survey_spheres(scene, threads, &survey);
+        scene_warn_of_range(scene, &survey, diags);
+    }
+    return valid;
+}
+
 bool scene_validate(const Scene *scene, DiagSink *diags, int threads)
 {
     SphereSurvey survey;

@@ -80,11 +80,19 @@ typedef struct Surface {
 
 typedef struct Geometry Geometry;
 
+// A geometry that serves several pictures of the same shapes, as long as these have one exponent.
+typedef struct GeometryKept {
+    Geometry *geometry; // NULL: none yet
+    int exponent;
+    const char *isa;
+} GeometryKept;
+
 typedef struct GeometryOptions {
     int threads;     // >= 1, for building; the result does not depend on it
     const char *isa; // name of the instruction set to use; NULL for the best that this processor has
     Scene *spent;    // the scene itself, when nobody asks for its spheres later: they are freed as soon as the geometry
                      // has what it needs, and their list is empty then; NULL: they stay
+    GeometryKept *kept; // for prepared_new: what is taken from there, or put there and lives on; NULL: nothing
 } GeometryOptions;
 
 // Names of the instruction sets that this processor has and that were built, from plain to best; NULL past the end.

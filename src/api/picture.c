@@ -1,0 +1,178 @@
+// The rendered picture: written as a file, or handed over in memory as numbers or as the bytes of a PNG file.
+//
+// Owns nothing but the bytes that were asked for last, which the session keeps. Knows nothing of rendering.
+//
+// SPDX-License-Identifier: MIT
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/session.h"
+#include "image/encode.h"
+
+rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
+{
+    static const struct {
+        DiagCode code;
+        const char *format; // of path and detail
+    } faults[] = {
+        [IMAGE_NO_MEMORY] = {DIAG_E0602, "out of memory writing %s%s"},
+        [IMAGE_UNKNOWN_FORMAT] = {DIAG_E0701, "the ending of %s is that of no picture format%s"},
+        [IMAGE_BAD_DEPTH] = {DIAG_E0702, "%s cannot have the wanted depth%s"},
+        [IMAGE_NO_MODULE] = {DIAG_E0507, "%s needs OpenImageIO, which cannot be loaded%s"},
+        [IMAGE_IO] = {DIAG_E0505, "cannot write %s%s"},
+        [IMAGE_NOT_A_PICTURE] = {DIAG_E0505, "cannot write %s%s"},
+        [IMAGE_TOO_LARGE] = {DIAG_E0505, "cannot write %s%s"},
+    };
+    if (status == IMAGE_OK) {
+        return session_status(session, true);
+    }
+    // The system's words begin with the path where the system was asked; again it would say nothing new.
+    bool is_stream = strcmp(path, "-") == 0;
+    const char *detail = error->detail, *said = is_stream ? "standard output" : path;
+    size_t length = strlen(said);
+    if (strncmp(detail, said, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
+        detail += length + 2;
+    }
+    char more[sizeof error->detail + 2], name[PATH_MAX];
+    snprintf(more, sizeof more, "%s%s", detail[0] ? ": " : "", detail);
+    snprintf(name, sizeof name, is_stream ? "%s" : "`%s`", is_stream ? "standard output" : path);
+    diag_report(&session->diags, faults[status].code, SPAN_NONE, faults[status].format, name, more);
+    return session_status(session, false);
+}
+
+static bool is_output(const rt_output *output, const char *path, bool has_alpha)
+{
+    return (!output->error_channel || image_path_names_channels(path)) &&
+           (!has_alpha || (image_path_has_alpha(path) && !output->error_channel)) &&
+           (output->depth == RT_DEPTH_AUTO || output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 ||
+            output->depth == RT_DEPTH_FLOAT) &&
+           output->file_gamma >= 0.0 && isfinite(output->file_gamma);
+}
+
+static ImageDepth output_depth(const rt_output *output, const char *path)
+{
+    if (output->depth == RT_DEPTH_AUTO) {
+        return image_path_depth(path);
+    }
+    return output->depth == RT_DEPTH_8    ? IMAGE_DEPTH_8
+           : output->depth == RT_DEPTH_16 ? IMAGE_DEPTH_16
+                                          : IMAGE_DEPTH_FLOAT;
+}
+
+rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
+{
+    ImageError error = {""};
+    if (!is_output(output, path, session->has_alpha)) {
+        return RT_FAULT_USAGE;
+    }
+    if (!session_memory_suffices(session)) {
+        return session_status(session, false);
+    }
+    return session_image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
+}
+
+// The picture with what belongs into a file beside its light, if anything (*own, to be released).
+static bool picture_of(const rt_session *session, bool has_error, bool is_multiplied, Image *own, Image *image)
+{
+    *own = (Image){0};
+    *image = (Image){session->film.width, session->film.height, 3, session->film.rgb};
+    if (!has_error && !session->film.clear) {
+        return true;
+    }
+    bool is_made = has_error ? session_picture_with_error(session, own)
+                             : session_picture_with_alpha(session, is_multiplied, own);
+    *image = *own;
+    return is_made;
+}
+
+static ImageEncoding encoding_of(const rt_session *session, const rt_output *output, ImageDepth depth,
+                                 const SessionNotes *notes)
+{
+    return (ImageEncoding){
+        .notes = notes->items,
+        .note_count = notes->count,
+        .depth = depth,
+        .transfer = output->file_gamma > 0.0 ? IMAGE_TRANSFER_POWER : IMAGE_TRANSFER_SRGB,
+        .gamma = output->file_gamma,
+        .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,
+        .threads = session->threads,
+        .fourth = output->error_channel ? "error" : NULL,
+    };
+}
+
+rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
+{
+    if (!session->rendered || !is_output(output, path, session->film.clear) ||
+        (output->error_channel && !session_has_pixel_errors(session))) {
+        return RT_FAULT_USAGE;
+    }
+    double start = session_clock();
+    ImageError error = {""};
+    Image own, image;
+    if (!picture_of(session, output->error_channel, image_path_names_channels(path), &own, &image)) {
+        return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
+    }
+    SessionNotes notes;
+    session_make_notes(session, &notes);
+    ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
+    ImageStatus status = image_write(&image, &encoding, path, &error);
+    image_fini(&own);
+    session->write_seconds = session_clock() - start;
+    return session_image_fault(session, status, path, &error);
+}
+
+rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixels, size_t bytes)
+{
+    static const char path[] = "picture.png";
+    ImageError error = {""};
+    Image own, image;
+    SessionNotes notes = {.count = 0};
+    ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
+    size_t count = (size_t)session->film.width * (size_t)session->film.height * (session->film.clear ? 4 : 3);
+    if (!session->rendered || !is_output(output, path, session->film.clear) ||
+        bytes != count * encode_sample_bytes(encoding.depth)) {
+        return RT_FAULT_USAGE;
+    }
+    bool is_made = picture_of(session, false, false, &own, &image) && image_samples(&image, &encoding, pixels);
+    image_fini(&own);
+    return session_image_fault(session, is_made ? IMAGE_OK : IMAGE_NO_MEMORY, "memory", &error);
+}
+
+rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigned char **bytes, size_t *size)
+{
+    static const char path[] = "picture.png";
+    ImageError error = {""};
+    Image own, image;
+    SessionNotes notes;
+    if (!session->rendered || !is_output(output, path, session->film.clear) || output->depth == RT_DEPTH_FLOAT) {
+        return RT_FAULT_USAGE;
+    }
+    free(session->png);
+    session->png = NULL;
+    session_make_notes(session, &notes);
+    ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
+    ImageStatus status = picture_of(session, false, false, &own, &image)
+                             ? image_encode_png(&image, &encoding, &session->png, size, &error)
+                             : IMAGE_NO_MEMORY;
+    image_fini(&own);
+    *bytes = session->png;
+    return session_image_fault(session, status, "memory", &error);
+}
+
+const float *rt_transparency(const rt_session *session)
+{
+    return session->rendered ? session->film.clear : NULL;
+}
+
+const float *rt_pixels(const rt_session *session, int *width, int *height)
+{
+    if (!session->rendered) {
+        return NULL;
+    }
+    *width = session->film.width;
+    *height = session->film.height;
+    return session->film.rgb;
+}

@@ -1,0 +1,570 @@
+// Scenes that are built by calls: their pictures are those of text of the same numbers, byte for byte, whatever else
+// the session has drawn before; and what is wrong with arrays and the order of calls is told.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rtlang/rtlang.h"
+#include "unit/random.h"
+#include "unit/tap.h"
+
+enum { WIDTH = 64, HEIGHT = 48, SHAPES_MOST = 60, TEXT_BYTES = 1 << 18, SCENES = 24 };
+
+// ---- messages
+
+typedef struct Told {
+    char texts[4096];
+} Told;
+
+static void keep_diagnostic(void *client, const rt_diagnostic *diagnostic)
+{
+    Told *told = client;
+    size_t length = strlen(told->texts);
+    snprintf(told->texts + length, sizeof told->texts - length, "%s", diagnostic->text);
+}
+
+static rt_session *session_open(Told *told)
+{
+    rt_callbacks callbacks = {.client = told, .diagnostic = keep_diagnostic};
+    rt_session *session = rt_session_new(told ? &callbacks : NULL);
+    if (told) {
+        told->texts[0] = '\0';
+    }
+    if (!session || rt_set_size(session, WIDTH, HEIGHT)) {
+        abort();
+    }
+    return session;
+}
+
+static bool says(Told *told, const char *text)
+{
+    bool is_said = strcmp(told->texts, text) == 0;
+    if (!is_said) {
+        printf("# said: %s# not:  %s", told->texts, text);
+    }
+    told->texts[0] = '\0';
+    return is_said;
+}
+
+// ---- a random scene, as numbers and as text
+
+typedef struct Numbers {
+    size_t spheres, rods, triangles;
+    int color_numbers;
+    bool has_cones, is_smooth, is_single, is_packed;
+    double centers[SHAPES_MOST][3], radii[SHAPES_MOST], colors[SHAPES_MOST][5];
+    double rods_at[SHAPES_MOST][8]; // base, cap, radii
+    double corners[SHAPES_MOST][9], normals[SHAPES_MOST][9];
+    rt_camera camera;
+    rt_light lights[2];
+    double background[4];
+    const char *finish;
+} Numbers;
+
+static double among(Random *random, double low, double high, bool is_single)
+{
+    double number = random_between(random, low, high);
+    return is_single ? (double)(float)number : number;
+}
+
+static void fill(Random *random, double *numbers, size_t count, double low, double high, bool is_single)
+{
+    for (size_t i = 0; i < count; i++) {
+        numbers[i] = among(random, low, high, is_single);
+    }
+}
+
+static void numbers_make(Numbers *n, Random *random)
+{
+    static const char *const finishes[] = {NULL, "phong 0.7 ambient 0.2", "reflection 0.3 specular 0.4 roughness 0.02",
+                                           "diffuse 0.8 brilliance 1.5"};
+    static const int color_numbers[] = {3, 3, 4, 5};
+    *n = (Numbers){.spheres = random_below(random, SHAPES_MOST + 1)};
+    n->rods = random_below(random, 8);
+    n->triangles = random_below(random, 8);
+    n->color_numbers = color_numbers[random_below(random, 4)];
+    n->has_cones = random_below(random, 2);
+    n->is_smooth = random_below(random, 2);
+    n->is_single = random_below(random, 2);
+    n->finish = finishes[random_below(random, 4)];
+    bool s = n->is_single;
+    fill(random, n->centers[0], 3 * SHAPES_MOST, -3.0, 3.0, s);
+    fill(random, n->radii, SHAPES_MOST, 0.05, 0.6, s);
+    fill(random, n->colors[0], 5 * SHAPES_MOST, 0.0, 0.5, s);
+    fill(random, n->rods_at[0], 8 * SHAPES_MOST, 0.1, 2.0, s);
+    fill(random, n->corners[0], 9 * SHAPES_MOST, -2.0, 2.0, s);
+    fill(random, n->normals[0], 9 * SHAPES_MOST, -0.2, 0.2, s);
+    for (size_t i = 0; i < SHAPES_MOST; i++) { // normals near that of the triangle, all on one side
+        const double *c = n->corners[i];
+        double a[3], b[3];
+        for (int k = 0; k < 3; k++) {
+            a[k] = c[3 + k] - c[k];
+            b[k] = c[6 + k] - c[k];
+        }
+        for (int k = 0; k < 9; k++) {
+            int x = (k + 1) % 3, y = (k + 2) % 3;
+            double normal = a[x] * b[y] - a[y] * b[x];
+            n->normals[i][k] = s ? (double)(float)(normal + 0.01 * n->normals[i][k]) : normal + 0.01 * n->normals[i][k];
+        }
+    }
+    n->camera = (rt_camera){.location = {0.0, 1.5, -9.0}, .look_at = {0.1, 0.2, 0.3}, .angle = 45.0};
+    n->camera.location[0] = among(random, -2.0, 2.0, s);
+    n->camera.right_handed = (int)random_below(random, 2);
+    n->lights[0] = (rt_light){.position = {-4.0, 6.0, -7.0}, .color = {0.9, 0.8, 0.7}};
+    n->lights[1] = (rt_light){.position = {5.0, 3.0, -6.0}, .color = {0.3, 0.4, 0.5}, .parallel = 1,
+                              .point_at = {0.0, 0.5, 0.0}, .shadowless = (int)random_below(random, 2)};
+    fill(random, n->background, 3, 0.0, 0.4, s);
+}
+
+static char *write_look(char *at, const Numbers *n, size_t i)
+{
+    static const char *const words[] = {"rgb", "rgbt", "rgbft"};
+    at += sprintf(at, " pigment { %s <", words[n->color_numbers - 3]);
+    for (int k = 0; k < n->color_numbers; k++) {
+        at += sprintf(at, "%s%.17g", k > 0 ? ", " : "", n->colors[i][k]);
+    }
+    return at + sprintf(at, "> } finish { %s } }\n", n->finish ? n->finish : "");
+}
+
+static char *write_vector(char *at, const char *before, const double *v)
+{
+    return at + sprintf(at, "%s<%.17g, %.17g, %.17g>", before, v[0], v[1], v[2]);
+}
+
+static char *write_triangle(char *at, const Numbers *n, size_t i)
+{
+    at += sprintf(at, n->is_smooth ? "smooth_triangle {" : "triangle {");
+    for (int k = 0; k < 3; k++) {
+        at = write_vector(at, k > 0 ? ", " : " ", &n->corners[i][3 * k]);
+        at = n->is_smooth ? write_vector(at, ", ", &n->normals[i][3 * k]) : at;
+    }
+    return write_look(at, n, i);
+}
+
+static char *write_view(char *at, const Numbers *n)
+{
+    const rt_camera *c = &n->camera;
+    at = write_vector(at, "camera { location ", c->location);
+    at += sprintf(at, " right %.17g*x up y angle %.17g", (c->right_handed ? -1.0 : 1.0) * WIDTH / HEIGHT, c->angle);
+    at = write_vector(at, " look_at ", c->look_at);
+    at = write_vector(at, " }\nlight_source { ", n->lights[0].position);
+    at = write_vector(at, ", rgb ", n->lights[0].color);
+    at = write_vector(at, " }\nlight_source { ", n->lights[1].position);
+    at = write_vector(at, ", rgb ", n->lights[1].color);
+    at = write_vector(at, " parallel point_at ", n->lights[1].point_at);
+    at = write_vector(at + sprintf(at, "%s }\n", n->lights[1].shadowless ? " shadowless" : ""), "background { rgb ",
+                      n->background);
+    return at + sprintf(at, " }\n");
+}
+
+static void write_text(const Numbers *n, char *at)
+{
+    at += sprintf(at, "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n");
+    at = write_view(at, n);
+    for (size_t i = 0; i < n->spheres; i++) {
+        at = write_vector(at, "sphere { ", n->centers[i]);
+        at = write_look(at + sprintf(at, ", %.17g", n->radii[i]), n, i);
+    }
+    for (size_t i = 0; i < n->rods; i++) {
+        const double *rod = n->rods_at[i];
+        at = write_vector(at, n->has_cones ? "cone { " : "cylinder { ", rod);
+        at += n->has_cones ? sprintf(at, ", %.17g", rod[6] / 4) : 0;
+        at = write_vector(at, ", ", rod + 3);
+        at = write_look(at + sprintf(at, ", %.17g", rod[n->has_cones ? 7 : 6] / 4), n, i);
+    }
+    for (size_t i = 0; i < n->triangles; i++) {
+        at = write_triangle(at, n, i);
+    }
+}
+
+// ---- the same as arrays: double or float, one array a thing or all in one, forwards or backwards
+
+typedef struct Arrays {
+    void *blocks[16];
+    size_t count;
+} Arrays;
+
+static rt_array array_of(Arrays *made, Random *random, const Numbers *n, const double *numbers, size_t each,
+                         size_t from_each, size_t count)
+{
+    size_t gap = random_below(random, 3), size = n->is_single ? sizeof(float) : sizeof(double), step = 1 + gap;
+    bool is_backward = random_below(random, 2);
+    char *block = calloc(count * from_each * step + 1, size);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t k = 0; k < from_each; k++) {
+            size_t row = is_backward ? count - 1 - i : i;
+            double number = numbers[i * each + k];
+            float narrow = (float)number;
+            memcpy(block + (row * from_each + k) * step * size, n->is_single ? (void *)&narrow : (void *)&number, size);
+        }
+    }
+    made->blocks[made->count++] = block;
+    ptrdiff_t stride = (ptrdiff_t)(from_each * step * size);
+    return (rt_array){block + (is_backward && count > 0 ? (ptrdiff_t)(count - 1) * stride : 0),
+                      n->is_single ? RT_FLOAT32 : RT_FLOAT64, is_backward ? -stride : stride, (ptrdiff_t)(step * size)};
+}
+
+static rt_look look_of(Arrays *made, Random *random, const Numbers *n, size_t count)
+{
+    return (rt_look){array_of(made, random, n, n->colors[0], 5, (size_t)n->color_numbers, count), n->color_numbers,
+                     n->finish};
+}
+
+static rt_status add_view(rt_session *session, const Numbers *n)
+{
+    rt_status status = rt_set_camera(session, &n->camera);
+    status = status ? status : rt_add_light(session, &n->lights[0]);
+    status = status ? status : rt_add_light(session, &n->lights[1]);
+    return status ? status : rt_set_background(session, n->background);
+}
+
+static rt_status add_spheres(rt_session *session, Random *random, const Numbers *n, size_t *group)
+{
+    Arrays made = {.count = 0};
+    rt_spheres spheres = {.count = n->spheres,
+                          .centers = array_of(&made, random, n, n->centers[0], 3, 3, n->spheres),
+                          .radii = array_of(&made, random, n, n->radii, 1, 1, n->spheres),
+                          .look = look_of(&made, random, n, n->spheres)};
+    rt_status status = rt_add_spheres(session, &spheres, group);
+    for (size_t i = 0; i < made.count; i++) {
+        free(made.blocks[i]);
+    }
+    return status;
+}
+
+static rt_status add_others(rt_session *session, Random *random, const Numbers *n)
+{
+    Arrays made = {.count = 0};
+    double quarters[SHAPES_MOST][2];
+    for (size_t i = 0; i < n->rods; i++) {
+        quarters[i][0] = n->rods_at[i][6] / 4;
+        quarters[i][1] = n->rods_at[i][7] / 4;
+    }
+    rt_rods rods = {.count = n->rods,
+                    .bases = array_of(&made, random, n, n->rods_at[0], 8, 3, n->rods),
+                    .caps = array_of(&made, random, n, n->rods_at[0] + 3, 8, 3, n->rods),
+                    .base_radii = array_of(&made, random, n, quarters[0], 2, 1, n->rods),
+                    .look = look_of(&made, random, n, n->rods)};
+    rt_triangles triangles = {.count = n->triangles,
+                              .corners = array_of(&made, random, n, n->corners[0], 9, 9, n->triangles),
+                              .look = look_of(&made, random, n, n->triangles)};
+    if (n->has_cones) {
+        rods.cap_radii = array_of(&made, random, n, quarters[0] + 1, 2, 1, n->rods);
+    }
+    if (n->is_smooth) {
+        triangles.normals = array_of(&made, random, n, n->normals[0], 9, 9, n->triangles);
+    }
+    rt_status status = rt_add_rods(session, &rods);
+    status = status ? status : rt_add_triangles(session, &triangles);
+    for (size_t i = 0; i < made.count; i++) {
+        free(made.blocks[i]);
+    }
+    return status;
+}
+
+static rt_status add_shapes(rt_session *session, Random *random, const Numbers *n, size_t *group)
+{
+    rt_status status = add_spheres(session, random, n, group);
+    return status ? status : add_others(session, random, n);
+}
+
+// ---- pictures
+
+static bool pictures_equal(rt_session *a, rt_session *b)
+{
+    int width, height;
+    const float *one = rt_pixels(a, &width, &height), *other = rt_pixels(b, &width, &height);
+    bool is_equal = one && other && memcmp(one, other, (size_t)width * (size_t)height * 3 * sizeof *one) == 0;
+    rt_output output = {0};
+    const unsigned char *bytes[2] = {NULL, NULL};
+    size_t sizes[2];
+    is_equal = is_equal && rt_get_png(a, &output, &bytes[0], &sizes[0]) == RT_OK &&
+               rt_get_png(b, &output, &bytes[1], &sizes[1]) == RT_OK;
+    return is_equal && sizes[0] == sizes[1] && memcmp(bytes[0], bytes[1], sizes[0]) == 0;
+}
+
+static rt_session *draw_text(const char *text)
+{
+    rt_session *session = session_open(NULL);
+    rt_status status = rt_load_text(session, "text.scn", text, strlen(text));
+    if (status || rt_render(session, 2)) {
+        printf("# status %d of\n%s", status, text);
+    }
+    return session;
+}
+
+static void check_equal_to_text(Random *random, char *text)
+{
+    int equal = 0, equal_again = 0, equal_moved = 0;
+    for (int i = 0; i < SCENES; i++) {
+        Numbers n, other;
+        size_t group;
+        numbers_make(&n, random);
+        rt_session *built = session_open(NULL);
+        bool is_made = rt_begin_scene(built) == RT_OK && add_view(built, &n) == RT_OK &&
+                       add_shapes(built, random, &n, &group) == RT_OK && rt_render(built, 2) == RT_OK;
+        write_text(&n, text);
+        rt_session *written = draw_text(text);
+        equal += is_made && pictures_equal(built, written);
+        rt_session_free(written);
+        // Another camera, then other places, sizes and colours, twice.
+        n.camera.location[0] += 1.0;
+        write_text(&n, text);
+        written = draw_text(text);
+        equal_again += rt_set_camera(built, &n.camera) == RT_OK && rt_render(built, 1) == RT_OK &&
+                       pictures_equal(built, written);
+        rt_session_free(written);
+        bool is_moved = true;
+        for (int turn = 0; turn < 2; turn++) {
+            numbers_make(&other, random);
+            memcpy(n.centers, turn == 0 ? other.centers : n.centers, sizeof n.centers);
+            memcpy(n.colors, other.colors, sizeof n.colors);
+            Numbers kept = n;
+            // Rods and triangles keep their first colours, so that only spheres are compared.
+            kept.rods = kept.triangles = 0;
+            rt_session *spheres = session_open(NULL);
+            Numbers before = kept;
+            memcpy(before.colors, kept.radii, sizeof kept.radii);
+            rt_spheres changed = {.count = n.spheres,
+                                  .centers = {n.centers, RT_FLOAT64, sizeof n.centers[0], sizeof(double)},
+                                  .look = {{n.colors, RT_FLOAT64, sizeof n.colors[0], sizeof(double)}, n.color_numbers,
+                                           NULL}};
+            is_moved = is_moved && rt_begin_scene(spheres) == RT_OK && add_view(spheres, &kept) == RT_OK &&
+                       add_spheres(spheres, random, &before, &group) == RT_OK && rt_render(spheres, 1) == RT_OK &&
+                       rt_update_spheres(spheres, group, 0, &changed) == RT_OK && rt_render(spheres, 1) == RT_OK;
+            changed.centers.data = NULL;
+            is_moved = is_moved && rt_update_spheres(spheres, group, 0, &changed) == RT_OK &&
+                       rt_render(spheres, 2) == RT_OK;
+            write_text(&kept, text);
+            written = draw_text(text);
+            is_moved = is_moved && pictures_equal(spheres, written);
+            rt_session_free(written);
+            rt_session_free(spheres);
+        }
+        equal_moved += is_moved;
+        rt_session_free(built);
+    }
+    tap_ok(equal == SCENES, "%d of %d scenes: from arrays as from text, byte for byte", equal, SCENES);
+    tap_ok(equal_again == SCENES, "%d of %d: with another camera, too", equal_again, SCENES);
+    tap_ok(equal_moved == SCENES, "%d of %d: with other places and colours", equal_moved, SCENES);
+}
+
+// ---- what is told
+
+static rt_spheres three_spheres(double centers[3][3], double radii[3])
+{
+    for (int i = 0; i < 3; i++) {
+        centers[i][0] = 2.0 * i;
+        centers[i][1] = centers[i][2] = 0.0;
+        radii[i] = 0.5;
+    }
+    return (rt_spheres){.count = 3,
+                        .centers = {centers, RT_FLOAT64, 3 * sizeof(double), sizeof(double)},
+                        .radii = {radii, RT_FLOAT64, sizeof(double), 0}};
+}
+
+static void check_faults(void)
+{
+    Told told;
+    double centers[3][3], radii[3], colors[3][3] = {{1, 0, 0}, {0, 255, 255}, {0, 0, 1}};
+    rt_spheres spheres = three_spheres(centers, radii);
+    rt_session *session = session_open(&told);
+    tap_ok(rt_add_spheres(session, &spheres, NULL) == RT_FAULT_USAGE &&
+               says(&told, "rtlang: error[E0704]: rt_add_spheres is for a scene that was begun and is whole\n"
+                           "     = help: rt_begin_scene\n"),
+           "arrays before rt_begin_scene");
+    (void)rt_begin_scene(session);
+    (void)rt_set_warning(session, "W0211");
+    radii[1] = -1.0;
+    tap_ok(rt_add_spheres(session, &spheres, NULL) == RT_FAULT_SCENE &&
+               says(&told, "spheres[1]: error[E0460]: the radius must be 0 or more, and finite, not -1\n"),
+           "a negative radius");
+    radii[1] = 0.5;
+    centers[2][1] = (double)NAN;
+    spheres.name = "atoms";
+    tap_ok(rt_add_spheres(session, &spheres, NULL) == RT_FAULT_SCENE &&
+               says(&told, "atoms[2]: error[E0460]: number 1 of the center must be finite, not nan\n"),
+           "a coordinate that is no number");
+    centers[2][1] = 0.0;
+    spheres.look = (rt_look){{colors, RT_FLOAT64, sizeof colors[0], sizeof(double)}, 3, NULL};
+    radii[0] = 0.0;
+    tap_ok(rt_add_spheres(session, &spheres, NULL) == RT_OK &&
+               says(&told, "atoms[1]: warning[W0211]: this colour looks like bytes\n"
+                           "     = help: components go from 0 to 1: divide by 255\n"
+                           "atoms[0]: warning[W0348]: a sphere of radius 0 is not drawn\n"),
+           "a colour like bytes, and a radius of 0");
+    size_t group;
+    spheres = three_spheres(centers, radii);
+    spheres.look.finish = "phong 1 rouhness 2";
+    tap_ok(rt_add_spheres(session, &spheres, &group) == RT_FAULT_SCENE &&
+               says(&told, "finish:2:9: error[E0250]: unknown property `rouhness` in finish\n"
+                           "   2 | phong 1 rouhness 2\n     |         ^~~~~~~~\n"
+                           "     = help: did you mean `roughness`?\n"),
+           "a finish that is mistyped");
+    rt_camera camera = {.location = {0, 0, -5}, .look_at = {0, 0, -5}};
+    tap_ok(rt_set_camera(session, &camera) == RT_FAULT_SCENE && strstr(told.texts, "error[E0346]"),
+           "a camera that looks at itself");
+    told.texts[0] = '\0';
+    camera = (rt_camera){.location = {0, (double)INFINITY, -5}};
+    tap_ok(rt_set_camera(session, &camera) == RT_FAULT_SCENE &&
+               says(&told, "rtlang: error[E0460]: all numbers of a camera must be finite\n"),
+           "a camera at infinity");
+    camera = (rt_camera){.location = {2, 0, -10}, .look_at = {2, 0, 0}};
+    rt_light light = {.position = {0, 5, -5}, .color = {1, 1, 1}};
+    tap_ok(rt_set_camera(session, &camera) == RT_OK && rt_add_light(session, &light) == RT_OK &&
+               rt_render(session, 1) == RT_OK && says(&told, ""),
+           "after all this the scene can be drawn");
+    rt_set_limit(session, RT_LIMIT_OBJECTS, 4);
+    spheres = three_spheres(centers, radii);
+    tap_ok(rt_add_spheres(session, &spheres, NULL) == RT_FAULT_LIMIT && strstr(told.texts, "error[E0490]"),
+           "more spheres than the limit");
+    rt_session_free(session);
+}
+
+static void check_places(void)
+{
+    Told told;
+    double centers[3][3], radii[3];
+    rt_spheres spheres = three_spheres(centers, radii);
+    rt_session *session = session_open(&told);
+    rt_camera camera = {.location = {2, 0, -10}, .look_at = {2, 0, 0}};
+    rt_light light = {.position = {0, 5, -5}, .color = {1, 1, 1}};
+    const char stage[] = "plane { y, -1 pigment { rgb 0.7 } }";
+    (void)rt_begin_scene(session);
+    memcpy(centers[2], centers[1], sizeof centers[1]);
+    double colors[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    spheres.look = (rt_look){{colors, RT_FLOAT64, sizeof colors[0], sizeof(double)}, 3, NULL};
+    bool is_made = rt_load_text(session, "stage.scn", stage, strlen(stage)) == RT_OK &&
+                   rt_add_spheres(session, &spheres, NULL) == RT_OK && rt_set_camera(session, &camera) == RT_OK &&
+                   rt_add_light(session, &light) == RT_OK;
+    tap_ok(is_made && rt_render(session, 1) == RT_OK &&
+               strncmp(told.texts, "spheres[2]: warning[W0", 22) == 0,
+           "what only the whole scene tells names the element: %.60s", told.texts);
+    told.texts[0] = '\0';
+    tap_ok(rt_load_text(session, "more.scn", "sphere {", 8) == RT_FAULT_SCENE &&
+               rt_render(session, 1) == RT_FAULT_USAGE,
+           "after a part that could not be loaded the scene is lost");
+    rt_session_free(session);
+}
+
+static void check_pixels(void)
+{
+    double centers[3][3], radii[3], low[3], high[3];
+    rt_spheres spheres = three_spheres(centers, radii);
+    rt_session *session = session_open(NULL);
+    rt_camera camera = {.location = {2, 0, -10}, .look_at = {2, 0, 0}};
+    static uint8_t bytes[WIDTH * HEIGHT * 4];
+    static uint16_t words[WIDTH * HEIGHT * 3];
+    static float floats[WIDTH * HEIGHT * 3];
+    rt_output eight = {.depth = RT_DEPTH_8}, sixteen = {.depth = RT_DEPTH_16}, wide = {.depth = RT_DEPTH_FLOAT};
+    int width, height;
+    (void)rt_begin_scene(session);
+    tap_ok(rt_get_pixels(session, &eight, bytes, sizeof bytes) == RT_FAULT_USAGE &&
+               rt_get_box(session, low, high) == RT_FAULT_USAGE,
+           "pixels of no picture, the box around nothing");
+    spheres.look.finish = "ambient 1 diffuse 0";
+    (void)rt_add_spheres(session, &spheres, NULL);
+    (void)rt_set_camera(session, &camera);
+    tap_ok(rt_get_box(session, low, high) == RT_OK && low[0] == -0.5 && high[0] == 4.5 && low[1] == -0.5 &&
+               high[2] == 0.5,
+           "the box around the shapes");
+    tap_ok(rt_render(session, 1) == RT_OK && rt_get_pixels(session, &eight, bytes, WIDTH * HEIGHT * 3) == RT_OK &&
+               rt_get_pixels(session, &sixteen, words, sizeof words) == RT_OK &&
+               rt_get_pixels(session, &wide, floats, sizeof floats) == RT_OK &&
+               rt_get_pixels(session, &eight, bytes, sizeof bytes) == RT_FAULT_USAGE &&
+               memcmp(floats, rt_pixels(session, &width, &height), sizeof floats) == 0,
+           "pixels of 8, 16 and 32 bits");
+    size_t middle = 3 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    tap_ok(floats[middle] == 1.0F && bytes[middle] == 255 && words[middle] == 65535 && bytes[0] == 0,
+           "a white sphere in the middle: %g %d %d", (double)floats[middle], bytes[middle], words[middle]);
+    rt_set_alpha(session, 1);
+    tap_ok(rt_render(session, 1) == RT_OK && rt_get_pixels(session, &eight, bytes, sizeof bytes) == RT_OK &&
+               bytes[3] == 0 && bytes[4 * (HEIGHT / 2 * WIDTH + WIDTH / 2) + 3] == 255,
+           "alpha");
+    rt_cancel(session);
+    rt_status cancelled = rt_render(session, 1);
+    rt_resume(session);
+    tap_ok(cancelled == RT_CANCELLED && rt_render(session, 1) == RT_OK, "cancelled, and on again");
+    rt_session_free(session);
+}
+
+// ---- any order of calls
+
+static void call_one(rt_session *session, Random *random, Numbers *n)
+{
+    static const char *const texts[] = {"sphere { 0, 1 }", "#declare A = 1;", "light_source { 9, 1 }", "sphere {",
+                                        "plane { y, -2 pigment { checker rgb 1, rgb 0 } }"};
+    bool may_fail = random_below(random, 8) == 0;
+    const char *text = texts[random_below(random, may_fail ? 5 : 3)];
+    static uint8_t bytes[16 * 12 * 3];
+    const unsigned char *png;
+    size_t size;
+    rt_output output = {0};
+    rt_spheres spheres = {.count = random_below(random, 4),
+                          .centers = {n->centers, RT_FLOAT64, sizeof n->centers[0], sizeof(double)},
+                          .radii = {n->radii, RT_FLOAT64, sizeof(double), 0},
+                          .look = {{n->colors, RT_FLOAT64, sizeof n->colors[0], sizeof(double)}, 3, NULL}};
+    spheres.radii.data = random_below(random, 2) ? n->radii : NULL;
+    spheres.look.color_numbers = 2 + (int)random_below(random, 5);
+    unsigned a = random_below(random, 3), b = 0;
+    b = random_below(random, 3);
+    rt_sampling sampling = {.samples = random_below(random, 3)};
+    double box[3];
+    switch (random_below(random, 18)) {
+    case 0: (void)rt_begin_scene(session); break;
+    case 1: (void)rt_load_text(session, "part", text, strlen(text)); break;
+    case 2: (void)add_view(session, n); break;
+    case 3: (void)add_shapes(session, random, n, NULL); break;
+    case 4: (void)rt_add_spheres(session, &spheres, NULL); break;
+    case 5:
+    case 6: (void)rt_update_spheres(session, a, b, &spheres); break;
+    case 7:
+    case 8: (void)rt_render(session, (int)a); break;
+    case 9: (void)rt_get_pixels(session, &output, bytes, sizeof bytes); break;
+    case 10: (void)rt_get_png(session, &output, &png, &size); break;
+    case 11: (void)rt_set_size(session, 16, 12 - 4 * (int)random_below(random, 2)); break;
+    case 12: (void)rt_clear_lights(session); break;
+    case 13: (void)rt_get_box(session, box, n->background); break;
+    case 14: rt_set_alpha(session, (int)random_below(random, 2)); break;
+    case 15: (void)rt_set_sampling(session, &sampling); break;
+    case 16: (void)rt_set_limit(session, RT_LIMIT_OBJECTS, 1 + random_below(random, 200)); break;
+    default: random_below(random, 20) ? rt_resume(session) : rt_spend_scene(session); break;
+    }
+}
+
+// Under a sanitizer nothing else needs to be looked at. RTLANG_ORDERS: how many.
+static void check_orders(Random *random)
+{
+    const char *wanted = getenv("RTLANG_ORDERS");
+    int orders = wanted ? atoi(wanted) : 300;
+    for (int i = 0; i < orders; i++) {
+        Numbers n;
+        rt_session *session = session_open(NULL);
+        numbers_make(&n, random);
+        n.spheres %= 6;
+        (void)rt_set_size(session, 16, 12);
+        if (random_below(random, 4)) {
+            (void)rt_begin_scene(session);
+        }
+        for (unsigned calls = 1 + random_below(random, 20); calls > 0; calls--) {
+            call_one(session, random, &n);
+        }
+        rt_session_free(session);
+    }
+    tap_ok(true, "%d orders of calls", orders);
+}
+
+int main(int argc, char **argv)
+{
+    static char text[TEXT_BYTES];
+    uint64_t seed = random_seed(argc > 1 ? argv[1] : NULL);
+    Random random = {seed};
+    check_equal_to_text(&random, text);
+    check_faults();
+    check_places();
+    check_pixels();
+    check_orders(&random);
+    return tap_done();
+}
