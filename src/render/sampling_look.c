@@ -17,8 +17,9 @@
 #include "render/scratch.h"
 #include "scene/opaque.h"
 
-// A pick for so many samples, within limits, so that its rays are few beside those of the picture.
-enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 32 };
+// A pick for so many samples, within limits, so that its rays are few beside those of the picture; no more than so many
+// of each pixel, and where pixels are few more, up to LOOK_LEAST: of one highlight 8 tell its light to a third only.
+enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 8, LOOK_EACH_OF_FEW = 32 };
 
 // What the squares of areas are known to.
 static const double AREA_ERROR = 0.0125;
@@ -74,7 +75,7 @@ int look_draw(Looks *looks, const Round *round, double samples)
     }
     looks->count = 0;
     looks->pass++;
-    most = fmin(most, LOOK_EACH * count); // of few pixels each so often
+    most = fmin(most, fmax(LOOK_EACH * count, fmin(LOOK_EACH_OF_FEW * count, LOOK_LEAST)));
     looks->sees_all = 2.0 * count <= floor(most);
     find_met(small);
     double even = sum > 0.0 ? 0.5 / count : 1.0 / count, step = 1.0 / floor(most);
