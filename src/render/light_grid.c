@@ -54,9 +54,8 @@ static bool is_divided(const LightArea *area, const LightPart *part, Rgb arrivin
         return false;
     }
     bool is_even = part->level >= area->adaptive;
-    for (int i = 0; is_even && i < 4; i++) {
-        is_even = !differs(arriving, part->corners[i], part->corners[(i + 1) % 4]) &&
-                  !differs(arriving, part->corners[i], part->corners[(i + 2) % 4]);
+    for (int side = 0; is_even && side < 4; side++) { // not across: light may change slowly from corner to corner
+        is_even = !differs(arriving, part->corners[side & 1 ? 3 : 0], part->corners[side & 2 ? 2 : 1]);
     }
     return !is_even;
 }
