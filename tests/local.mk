@@ -236,6 +236,7 @@ test_scripts = \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
   %D%/system/check_install.py \
+  %D%/system/check_python.py \
   %D%/system/check_strip.py \
   %D%/system/check_library_path.py \
   %D%/system/check_instructions.py \

@@ -410,6 +410,9 @@ RT_API const float *rt_transparency(const rt_session *session);
  * not multiplied with alpha. `bytes` is the room at `pixels`; RT_FAULT_USAGE unless it is what the picture takes, and
  * before rt_render. */
 RT_API rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixels, size_t bytes);
+/* A picture from elsewhere, as if it had been rendered: width * height * 3 floats of linear light, and transparency (as
+ * of rt_transparency) or NULL. They are copied. What is known of errors is forgotten. */
+RT_API rt_status rt_set_pixels(rt_session *session, int width, int height, const float *rgb, const float *transparency);
 /* The PNG file that rt_write would write, 8 or 16 bits. *bytes is valid until the next call of it and until the session
  * is freed. */
 RT_API rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigned char **bytes, size_t *size);

@@ -141,6 +141,31 @@ rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixe
     return session_image_fault(session, is_made ? IMAGE_OK : IMAGE_NO_MEMORY, "memory", &error);
 }
 
+rt_status rt_set_pixels(rt_session *session, int width, int height, const float *rgb, const float *transparency)
+{
+    Film *film = &session->film;
+    rt_status status = session->loaded && !session->is_built ? RT_FAULT_USAGE : rt_set_size(session, width, height);
+    if (status) {
+        return status;
+    }
+    film_fini(film);
+    session->rendered = false;
+    session->error = (SamplingError){0};
+    session->threads = render_default_threads();
+    session->scene.settings.gamma_model = GAMMA_LINEAR;
+    if (!film_init(film, width, height) || (transparency && !film_want_clear(film))) {
+        film_fini(film);
+        return session_image_fault(session, IMAGE_NO_MEMORY, "memory", &(ImageError){""});
+    }
+    size_t count = (size_t)width * (size_t)height;
+    memcpy(film->rgb, rgb, 3 * count * sizeof *rgb);
+    if (transparency) {
+        memcpy(film->clear, transparency, count * sizeof *transparency);
+    }
+    session->rendered = true;
+    return RT_OK;
+}
+
 rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigned char **bytes, size_t *size)
 {
     static const char path[] = "picture.png";

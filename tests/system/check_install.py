@@ -117,6 +117,14 @@ def check_client(folder, moved):
                folder=folder)
     if tap.ok(made.returncode == 0, "a client in C", said(made)):
         check_drawn("client", folder, moved, "./client", "scene.scn")
+    example = os.path.abspath(os.path.join(os.environ.get("top_srcdir", "."), "examples", "particles.c"))
+    made = run(*shlex.split(os.environ.get("CC", "cc")), "-std=c99", "-Wall", "-Wextra", "-Werror", example, "-o",
+               "particles", *flags, "-lm", f"-Wl,-rpath,{libdir}", folder=folder)
+    done = run("./particles", folder=folder) if made.returncode == 0 else made
+    sizes = [os.path.getsize(os.path.join(folder, name)) for name in ("front.png", "back.png")
+             if os.path.exists(os.path.join(folder, name))]
+    tap.ok(done.returncode == 0 and len(sizes) == 2 and min(sizes) > 5000,
+           "examples/particles.c draws both its pictures", said(done))
 
 
 def check_includes(folder, moved):
