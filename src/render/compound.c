@@ -10,6 +10,15 @@
 
 enum { ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES, FLAT_FEATURES = ALL_FEATURES & ~RENDER_NORMALS };
 
+// The point for all layers together: what reaches it of a light is asked for once.
+static ShadePoint for_layers(const ShadePoint *at, ShadeArrived *arrived)
+{
+    ShadePoint shared = *at;
+    arrived->known = 0;
+    shared.arrived = arrived;
+    return shared;
+}
+
 typedef struct LayerSum {
     const Prepared *p;
     const ShadePoint *at;
@@ -57,7 +66,9 @@ Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, Shade
                    RenderStatistics *statistics)
 {
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
-    LayerSum sum = {p, at, weight, onward, statistics, HUGE_VAL, rgb_grey(0.0)};
+    ShadeArrived arrived;
+    ShadePoint shared = for_layers(at, &arrived);
+    LayerSum sum = {p, &shared, weight, onward, statistics, HUGE_VAL, rgb_grey(0.0)};
     *onward = (ShadeOnward){.reflection_exponent = 1.0, .part = 1.0};
     TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
     onward->through = rgb_scale(sum.refraction, through.light);
@@ -145,7 +156,9 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
 Rgb shade_bumpy(const Prepared *p, const ShadePoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics)
 {
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
-    BumpSum bumps = {.sum = {p, at, weight, NULL, statistics, HUGE_VAL, rgb_grey(0.0)}, .ways = ways};
+    ShadeArrived arrived;
+    ShadePoint shared = for_layers(at, &arrived);
+    BumpSum bumps = {.sum = {p, &shared, weight, NULL, statistics, HUGE_VAL, rgb_grey(0.0)}, .ways = ways};
     ways->count = 0;
     texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);

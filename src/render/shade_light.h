@@ -19,6 +19,13 @@
 #include "render/texture.h"
 #include "trace/query.h"
 
+// What reaches a point of the first lights: found once for all layers of what is seen there.
+enum { SHADE_ARRIVED_MOST = 8 };
+typedef struct ShadeArrived {
+    uint32_t known; // a bit for each light
+    Rgb share[SHADE_ARRIVED_MOST];
+} ShadeArrived;
+
 // A point being shaded. `normal` is turned towards the viewer, `outward` is the shape's own.
 typedef struct ShadePoint {
     Vec3 point, normal, outward;
@@ -36,6 +43,7 @@ typedef struct ShadePoint {
     MediumTable *media;   // of what rays are inside of; NULL where there are no interiors
     MediumStack before;   // what the ray is inside of as it arrives; where there are
     double fresnel_ratio; // of indices of refraction, by medium_fresnel_sides; where there are
+    ShadeArrived *arrived; // NULL: each layer asks for itself
 } ShadePoint;
 
 // What a surface is made of at a point. "Opaque share" is 1 - filter - transmit, and in old scenes
@@ -261,6 +269,30 @@ RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const Shad
     return shade_area_grid(p, features, at, light, arriving, statistics);
 }
 
+// What of a light reaches the point, by colour: all would be `arriving`. Where an area is drawn from by chance, each
+// layer draws for itself.
+RT_ALWAYS_INLINE Rgb shade_arrived(const Prepared *p, unsigned features, const PreparedLight *light,
+                                   const ShadePoint *at, Rgb arriving, Vec3 towards, double distance,
+                                   RenderStatistics *statistics)
+{
+    size_t number = (size_t)(light - p->lights);
+    bool is_area = (features & RENDER_LIGHTS) && light->area.size1 > 0;
+    bool is_kept = at->arrived && number < SHADE_ARRIVED_MOST && !(is_area && at->stream);
+    if (is_kept && (at->arrived->known >> number & 1)) {
+        return at->arrived->share[number];
+    }
+    uint32_t blocker = NO_BLOCKER;
+    Rgb share = is_area
+                    ? shade_area(p, features, at, light, arriving, statistics)
+                    : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, towards, distance,
+                                       &blocker, statistics);
+    if (is_kept) {
+        at->arrived->known |= UINT32_C(1) << number;
+        at->arrived->share[number] = share;
+    }
+    return share;
+}
+
 // Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
 RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const ShadePoint *at, Vec3 towards)
 {
@@ -323,11 +355,7 @@ RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const Sha
     }
     // Beyond the plane of a parallel light nothing throws a shadow.
     if ((features & RENDER_SHADOWS) && !light->shadowless && distance > 0.0) {
-        uint32_t blocker = NO_BLOCKER;
-        Rgb share = (features & RENDER_LIGHTS) && light->area.size1 > 0
-                        ? shade_area(p, features, at, light, arriving, statistics)
-                        : shade_visibility(p, features, at, light->parallel ? NULL : &light->position, towards,
-                                           distance, &blocker, statistics);
+        Rgb share = shade_arrived(p, features, light, at, arriving, towards, distance, statistics);
         if (rgb_is_black(share)) {
             return share;
         }

@@ -98,6 +98,30 @@ static void test_one_sphere(void)
     scene_fini(&scene);
 }
 
+// Two layers, of which the upper one lets light through, by one light: one shadow ray.
+static void test_layers(void)
+{
+    Scene scene;
+    RenderStatistics statistics;
+    scene_init(&scene);
+    Texture layer = {.to_world = transform_identity(), .entries = RECORD_NONE, .below = RECORD_NONE,
+                     .normal = RECORD_NONE, .pigment = pigment_of((Rgbft){1.0, 0.5, 0.25, 0.0, 0.0})};
+    Compound compound = {.interior = RECORD_NONE};
+    MaterialIndex material;
+    bool is_fine = scene_add_finish(&scene, &plain_finish, &layer.finish) &&
+                   scene_add_texture(&scene, &layer, &layer.below);
+    layer.pigment = pigment_of((Rgbft){1.0, 1.0, 1.0, 0.0, 0.5});
+    is_fine = is_fine && scene_add_texture(&scene, &layer, &compound.texture) &&
+              scene_add_compound(&scene, &compound, &material) &&
+              scene_add_sphere(&scene, vec3(0.0, 0.0, 5.0), 1.0, material, 0);
+    add_light(&scene, LIGHT_POINT, vec3(0.0, 0.0, -10.0), false);
+    set_camera(&scene, vec3(0.0, 0.0, 0.0));
+    Film film = render(&scene, 1, 1, 1, &statistics);
+    tap_ok(is_fine && film.rgb[0] == 0.7f && statistics.shadow_rays == 1, "layers share what reaches them of a light");
+    film_fini(&film);
+    scene_fini(&scene);
+}
+
 static void test_threads(void)
 {
     Scene scene;
@@ -196,6 +220,7 @@ static void test_trace_level(void)
 int main(void)
 {
     test_one_sphere();
+    test_layers();
     test_threads();
     test_scale();
     test_kernels();
