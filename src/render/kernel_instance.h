@@ -9,10 +9,11 @@
 #include "render/kernels.h"
 #include "render/prepared.h"
 #include "render/scratch.h"
+#include "render/tile_first.h"
 
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");
 
-// The rays of a view, ray by ray but for what they hit.
+// The rays of a view, ray by ray but for what they hit, and for the first surfaces that are plain.
 RT_ALWAYS_INLINE void trace_view(const Prepared *p, unsigned features, ShadePath path, const TileView *view,
                                  const KernelPlaces *places, SampleStream *streams, uint64_t wanted, Rgb *light,
                                  RenderScratch *scratch, RenderStatistics *statistics)
@@ -20,6 +21,7 @@ RT_ALWAYS_INLINE void trace_view(const Prepared *p, unsigned features, ShadePath
     SphereTile *tile = &scratch->tile.rays;
     TileHits found;
     geometry_closest_view(p->geometry, features, view, places->u, places->v, tile, &found);
+    wanted = tile_first(p, &found, streams, wanted, light, scratch, statistics);
     for (; wanted; wanted &= wanted - 1) {
         unsigned i = (unsigned)__builtin_ctzll(wanted);
         SphereRay ray = sphere_tile_ray(tile, i);

@@ -79,6 +79,7 @@ struct Prepared {
     Rgb background; // with has_alpha as mirrors see it
     bool has_alpha; // pictures tell what is behind the scene (render/alpha.h)
     bool is_old;    // the scene's version is below 3.7
+    bool is_by_rays; // for tests: no surface is shaded together with others where a kernel traces ray by ray
     PreparedLight *lights;
     size_t light_count;
     const Material *materials; // the scene's

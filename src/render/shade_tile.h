@@ -65,6 +65,9 @@ typedef struct TileScratch {
     TilePaths paths;
     TileClear clear;
     TileCrossings crossings;
+    // What a shadow ray is inside of at its start, where there are interiors: as of ShadePoint.
+    MediumTable *media;
+    MediumStack before;
 } TileScratch;
 
 // Materials, glow, and normals towards the viewer. `through` is set where something may be let through.
@@ -115,6 +118,17 @@ RT_ALWAYS_INLINE ShadePoint shade_tile_point(const LightTile *tile, int i, Mater
                         .stream = stream};
 }
 
+// A surface that light is asked for.
+RT_ALWAYS_INLINE ShadePoint shade_tile_lit_point(unsigned features, const TileScratch *scratch, int i)
+{
+    ShadePoint at = shade_tile_point(&scratch->tile, i, 0, NULL);
+    if (features & RENDER_INTERIORS) {
+        at.media = scratch->media;
+        at.before = scratch->before;
+    }
+    return at;
+}
+
 // How strong a light is that is not plain, for those of `lit`; returns those where it is anything.
 RT_ALWAYS_INLINE uint64_t shade_tile_strengths(LightTile *tile, const PreparedLight *light, uint64_t lit)
 {
@@ -155,6 +169,12 @@ RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile
     }
 }
 
+// Whether light may come through something.
+RT_ALWAYS_INLINE bool shade_tile_is_clear(const Prepared *p, unsigned features)
+{
+    return (features & RENDER_TRANSPARENCY) && (p->features & RENDER_TRANSPARENCY);
+}
+
 // What clear spheres and planes let through on the way to a surface, in the order of a walk.
 RT_ALWAYS_INLINE Rgb shade_tile_crossed(const Prepared *p, unsigned features, const TileCrossings *crossings, int i)
 {
@@ -193,7 +213,7 @@ RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned feature
         if (told >> i & 1) {
             share = shade_tile_crossed(p, features, crossings, i);
         } else if (!(clear >> i & 1)) {
-            ShadePoint at = shade_tile_point(tile, i, 0, NULL);
+            ShadePoint at = shade_tile_lit_point(features, scratch, i);
             Ray ray = {at.point, lane_get(rays->towards, (unsigned)i)};
             RayStart start = {at.shape, vec3_dot(at.outward, ray.direction) < 0.0, HIDDEN_SHADOW};
             share = shade_light_through(p, features, &at, ray, start, rays->distance[i]);
@@ -205,13 +225,14 @@ RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned feature
 }
 
 // The surfaces of `asked` that nothing of an area light's grid reaches; what reaches the others is noted.
-RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, LightTile *tile,
+RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, TileScratch *scratch,
                                           const PreparedLight *light, uint64_t asked, RenderStatistics *statistics)
 {
+    LightTile *tile = &scratch->tile;
     uint64_t dark = 0;
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
-        ShadePoint at = shade_tile_point(tile, i, 0, NULL);
+        ShadePoint at = shade_tile_lit_point(features, scratch, i);
         Rgb arriving = light->is_plain ? light->colour : rgb_scale(tile->strength[i], light->colour);
         Rgb share = shade_area_grid(p, features, &at, light, arriving, statistics);
         shade_tile_set_share(tile, i, share);
@@ -222,9 +243,10 @@ RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, 
 
 // Takes the surfaces out of `asked` that are too far from their light to be asked from where they are; returns those
 // that nothing reaches. `end`: where each one's light is, NULL if that is the end of all.
-RT_SELDOM uint64_t shade_tile_far(const Prepared *p, LightTile *tile, const SurfaceRays *rays,
+RT_SELDOM uint64_t shade_tile_far(const Prepared *p, unsigned features, TileScratch *scratch, const SurfaceRays *rays,
                                   double end[3][TILE_RAYS], uint64_t *asked)
 {
+    LightTile *tile = &scratch->tile;
     uint64_t dark = 0;
     for (uint64_t rest = *asked; rest; rest &= rest - 1) {
         int i = __builtin_ctzll(rest);
@@ -232,7 +254,7 @@ RT_SELDOM uint64_t shade_tile_far(const Prepared *p, LightTile *tile, const Surf
         if (!shade_is_far(p, tile_surface_point(&tile->surfaces, i), light, rays->distance[i])) {
             continue;
         }
-        ShadePoint at = shade_tile_point(tile, i, 0, NULL);
+        ShadePoint at = shade_tile_lit_point(features, scratch, i);
         Rgb share = shade_far_light(p, &at, light, lane_get(rays->towards, (unsigned)i), rays->distance[i]);
         shade_tile_set_share(tile, i, share);
         dark |= (uint64_t)rgb_is_black(share) << i;
@@ -253,7 +275,7 @@ RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned feature
     double end[3][TILE_RAYS];
     uint64_t dark = 0;
     if (is_area && !streams) {
-        return shade_tile_grid(p, features, tile, light, asked, statistics);
+        return shade_tile_grid(p, features, scratch, light, asked, statistics);
     }
     if (is_area) {
         shade_tile_places(p, tile, light, asked, streams, &places, end);
@@ -262,9 +284,9 @@ RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned feature
     statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
     bool together = is_area || !light->parallel;
     if (RT_UNLIKELY(rays->farthest > p->near_light) && together) {
-        dark = shade_tile_far(p, tile, rays, is_area ? end : NULL, &asked);
+        dark = shade_tile_far(p, features, scratch, rays, is_area ? end : NULL, &asked);
     }
-    return dark | (features & RENDER_TRANSPARENCY
+    return dark | (shade_tile_is_clear(p, features)
                        ? shade_tile_through(p, features, scratch, rays, together, asked)
                        : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked));
 }
@@ -281,7 +303,7 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Ti
             lit = shade_tile_strengths(tile, light, lit);
         }
         uint64_t asked = (features & RENDER_SHADOWS) && !light->shadowless ? lit & tile->before : 0;
-        tile->is_shared = asked && ((features & RENDER_TRANSPARENCY) ||
+        tile->is_shared = asked && (shade_tile_is_clear(p, features) ||
                                     ((features & RENDER_LIGHTS) && light->area.size1 > 0 && !streams));
         for (uint64_t whole = tile->is_shared ? lit & ~asked : 0; whole; whole &= whole - 1) {
             shade_tile_set_share(tile, __builtin_ctzll(whole), rgb_grey(1.0));

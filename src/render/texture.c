@@ -73,21 +73,48 @@ static bool find_noise(TextureTable *table, const Scene *scene, const Noise *noi
     return find_waves(table, scene);
 }
 
+enum { OPACITY_UNKNOWN, OPACITY_NONE, OPACITY_WHOLE };
+
+bool texture_is_opaque(const TextureTable *table, const Pigment *pigment)
+{
+    return pigment->pattern == RECORD_NONE ? pigment->filter == 0.0F && pigment->transmit == 0.0F
+                                           : table->opaque[pigment->pattern] == OPACITY_WHOLE;
+}
+
+static bool find_opaque(TextureTable *table, const Pigment *pigment)
+{
+    uint32_t index = pigment->pattern;
+    if (index == RECORD_NONE || table->opaque[index] != OPACITY_UNKNOWN) {
+        return texture_is_opaque(table, pigment);
+    }
+    const PatternedPigment *record = &table->scene->patterns.items[index];
+    const PigmentEntry *entries = table->scene->pigment_entries.items;
+    bool is_image = pattern_info((PatternType)record->pattern.type)->form == PATTERN_OF_COLOURS;
+    bool is_opaque = !is_image || !image_is_transparent(&table->images[record->pattern.image]);
+    for (uint32_t at = is_image ? RECORD_NONE : record->entries; at != RECORD_NONE; at = entries[at].next) {
+        is_opaque = find_opaque(table, &entries[at].pigment) && is_opaque;
+    }
+    table->opaque[index] = is_opaque ? OPACITY_WHOLE : OPACITY_NONE;
+    return is_opaque;
+}
+
 bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent,
                         const char *isa)
 {
     *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
     table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
+    table->opaque = calloc(scene->patterns.count + 1, sizeof *table->opaque);
     table->texture_to_pattern = malloc((scene->textures.count + 1) * sizeof *table->texture_to_pattern);
     table->normal_to_pattern = malloc((scene->normals.count + 1) * sizeof *table->normal_to_pattern);
     table->images = images_new(scene);
-    if (!table->to_pattern || !table->texture_to_pattern || !table->normal_to_pattern || !table->images ||
-        !find_noise(table, scene, noise, isa)) {
+    if (!table->to_pattern || !table->opaque || !table->texture_to_pattern || !table->normal_to_pattern ||
+        !table->images || !find_noise(table, scene, noise, isa)) {
         texture_table_fini(table);
         return false;
     }
     for (size_t i = 0; i < scene->patterns.count; i++) {
         table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);
+        find_opaque(table, &(Pigment){.pattern = (uint32_t)i});
     }
     for (size_t i = 0; i < scene->textures.count; i++) {
         table->texture_to_pattern[i] = way_back(&scene->textures.items[i].to_world);
@@ -103,6 +130,7 @@ void texture_table_fini(TextureTable *table)
     free(table->noise);
     free(table->waves);
     free(table->to_pattern);
+    free(table->opaque);
     free(table->texture_to_pattern);
     free(table->normal_to_pattern);
     images_free(table->images, table->scene ? table->scene->image_maps.count : 0);

@@ -23,6 +23,7 @@ typedef struct TextureTable {
     WaveSource *waves;             // likewise
     NoiseSource source;
     Transform *to_pattern;         // for each of the scene's patterns
+    uint8_t *opaque;               // likewise: what texture_is_opaque knows of it
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
     PreparedImage *images;         // for each of its image maps
     Transform *normal_to_pattern;  // for each of its normals
@@ -41,6 +42,9 @@ bool texture_table_has_transparent_image(const TextureTable *table);
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);
 // The value of one of the scene's patterns there.
 double texture_pattern_value(const TextureTable *table, uint32_t pattern, Vec3 point);
+
+// Whether a pigment lets nothing through, but for single points that a picture's projection does not reach.
+bool texture_is_opaque(const TextureTable *table, const Pigment *pigment);
 
 // A point as a pattern of textures sees it.
 typedef struct TexturePlace TexturePlace;
