@@ -75,7 +75,9 @@ typedef struct GrammarHooks {
     unsigned *nesting; // of fragments, all together; kept by the grammar
     // What a name stands for now, kept in the parse arena; NULL: nothing.
     const void *(*capture)(void *client, Symbol name, Span span);
+    bool (*is_number)(void *client, const void *captured); // or a vector or colour
     bool (*is_macro)(void *client, Symbol name);
+    bool (*lacks_index)(void *client, const AstNode *element); // its array has more dimensions
     bool (*takes_braces)(void *client, Symbol word); // `{` stands after this word of the language
     // A macro whose text holds unpaired braces; *has_unbalanced: there are any.
     bool (*is_unbalanced)(void *client, Symbol name);
@@ -150,6 +152,8 @@ AstNode *grammar_stream_next(GrammarStream *stream, bool *failed) RT_MUST_CHECK;
 // One expression, or `name(arguments)` as a CALL; NULL when there is none, which is reported.
 AstNode *grammar_stream_expression(GrammarStream *stream) RT_MUST_CHECK;
 AstNode *grammar_stream_arguments(GrammarStream *stream) RT_MUST_CHECK;
+// Reads a `;` that stands right after what was read last; false: there is none.
+bool grammar_stream_take_semicolon(GrammarStream *stream);
 // True when a directive stood right after the last item, and may have ended it.
 bool grammar_stream_is_cut(const GrammarStream *stream);
 // After the last item: a comma stood behind it.

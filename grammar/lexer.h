@@ -133,6 +133,7 @@ typedef struct GrammarState {
     size_t own_frame;      // of the stream, in which this directive began; 0: it is none
     bool takes_elements;   // elements of arrays may stand for themselves in it
     bool is_target;        // the last token delivered is that name, or an index of it
+    size_t counter_frame;  // of the stream, in which the name of a #for stands
     size_t open_before;    // directives of the stream that were open when it began
     int fragment;          // what it begins with: TOKEN_START_…
     bool is_declared;      // the last token delivered is the name that it declares

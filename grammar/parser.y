@@ -133,6 +133,7 @@ start:
 more:
   %empty
 | ','
+| ';'
 ;
 
 rest:
@@ -177,7 +178,7 @@ block_body:
 
 body:
   block_body                        { $$ = $block_body; }
-| items ';'                         { $$ = ast_flag_last($items, AST_ENDED); }
+| items ';'                         { $$ = ast_flag_last($items, AST_BEFORE_SEMICOLON); }
 | ',' items                         { $$ = ast_flag_first($items, AST_AFTER_COMMA); }
 | ',' items ','                     { $$ = ast_flag_first(ast_flag_last($items, AST_BEFORE_COMMA), AST_AFTER_COMMA); }
 ;

@@ -59,12 +59,12 @@ static AstNode *next_item(GrammarStream *stream, uint64_t past)
         } else if (token.kind == ',' && !has_comma) {
             has_comma = true;
             comma = token.span;
-        } else if (token.kind != ';' || !stream->has_item || live != NULL ||
-                   stream_peek_kind(stream) != TOKEN_END_OF_FILE) {
-            stream->has_item = true;
+        } else {
             stream_unread(stream, &token);
             AstNode *item = stream_parse(stream, TOKEN_START_ITEM, base_of_items(stream), false);
-            return item != NULL && has_comma ? ast_flag(item, AST_AFTER_COMMA) : item;
+            bool is_ended = item != NULL && live == NULL && grammar_stream_take_semicolon(stream);
+            return item == NULL ? NULL
+                                : ast_flag(item, (has_comma ? AST_AFTER_COMMA : 0) | (is_ended ? AST_BEFORE_SEMICOLON : 0));
         }
     }
     return NULL;
@@ -105,6 +105,17 @@ AstNode *grammar_stream_next(GrammarStream *stream, bool *failed)
 AstNode *grammar_stream_expression(GrammarStream *stream)
 {
     return stream_parse(stream, TOKEN_START_FULL, base_of_items(stream), false);
+}
+
+bool grammar_stream_take_semicolon(GrammarStream *stream)
+{
+    Token token;
+    if (stream->failed || stream_peek_kind(stream) != ';') {
+        return false;
+    }
+    stream_read(stream, &token);
+    stream->is_cut = grammar_is_directive(stream_peek_kind(stream));
+    return true;
 }
 
 AstNode *grammar_stream_arguments(GrammarStream *stream)

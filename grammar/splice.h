@@ -51,7 +51,6 @@ struct GrammarStream {
     bool failed;  // reading cannot go on
     bool is_refused; // at the place where the statement was torn: see grammar_stream_is_refused
     bool is_cut;  // a directive stood right after the last item
-    bool has_item; // one was read, behind which a `;` may end the text
     bool ends_in_comma;
     bool is_open; // an item or a directive is being read
     Span end;     // of the last token
@@ -94,6 +93,8 @@ void stream_read(GrammarStream *stream, Token *token);
 void stream_unread(GrammarStream *stream, const Token *token);
 // The kind of the next token in the text of the innermost frame.
 int stream_peek_kind(GrammarStream *stream);
+// Whether a token of that kind comes next in the text of the last one.
+bool stream_is_before(GrammarStream *stream, int kind);
 void stream_deliver_end(const GrammarStream *stream, Token *token);
 
 // Reads up to the `#end` that closes `depth` open directives, or, at depth 1 and if wanted, to a token between its

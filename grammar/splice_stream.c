@@ -190,8 +190,15 @@ int stream_peek_kind(GrammarStream *stream)
     return token.kind;
 }
 
-// ---- skipping and keeping
+bool stream_is_before(GrammarStream *stream, int kind)
+{
+    size_t at = stream_innermost_text(stream);
+    const Frame *frame = at > 0 ? &stream->frames.items[at - 1] : NULL;
+    bool has_more = frame != NULL && (frame->kind == FRAME_LIVE || frame->kind == FRAME_TEXT || frame->at < frame->count);
+    return has_more && stream_peek_kind(stream) == kind;
+}
 
+// ---- skipping and keeping
 
 bool stream_skip(GrammarStream *stream, const Token *opener, unsigned depth, bool stops_between, Tokens *kept,
                  Token *last)
@@ -257,6 +264,24 @@ bool stream_is_head(int start)
            start == TOKEN_START_FOR;
 }
 
+// The innermost text; what is read again goes on in the live one.
+static size_t own_text(const GrammarStream *stream)
+{
+    size_t at = stream_innermost_text(stream);
+    return stream->live != NULL && at > 0 && stream->frames.items[at - 1].kind == FRAME_TEXT ? 1 : at;
+}
+
+// Where a head ends in a text that its directive is not in, POV-Ray loses its names: it refuses what follows, or crashes.
+static bool ends_elsewhere(const GrammarStream *stream, int start, size_t head, size_t counter)
+{
+    size_t last = own_text(stream);
+    bool is_elsewhere = start == TOKEN_START_FOR && (last > head || counter > head);
+    for (size_t i = head; i < last && !is_elsewhere; i++) {
+        is_elsewhere = stream->frames.items[i].kind == FRAME_MACRO;
+    }
+    return is_elsewhere;
+}
+
 AstNode *stream_parse(GrammarStream *stream, int start, int base_depth, bool is_raw)
 {
     GrammarState state;
@@ -277,12 +302,17 @@ AstNode *stream_parse(GrammarStream *stream, int start, int base_depth, bool is_
     state.is_raw = is_raw;
     state.takes_elements = start == TOKEN_START_SUBJECT;
     state.begins_raw = start == TOKEN_START_DIRECTIVE;
+    size_t head = own_text(stream);
     bool was_open = stream->is_open;
     stream->is_open = true;
     ++*stream->hooks->nesting;
     bool fine = grammar_yyparse(&state) == 0 && !state.faulty && !state.builder.failed && !stream->failed;
     if (fine && stream_is_head(start) && stream_open_directives(stream) > state.open_before) {
         stream_fault(stream, DIAG_E0106, stream->end, "a directive in the head of another ends in it");
+        fine = false;
+    }
+    if (fine && stream_is_head(start) && ends_elsewhere(stream, start, head, state.counter_frame)) {
+        stream_fault(stream, DIAG_E0106, stream->end, "the head of a directive ends in another text than it begins in");
         fine = false;
     }
     --*stream->hooks->nesting;

@@ -116,8 +116,8 @@ static void cut(GrammarStream *stream, GrammarState *state, Token *token)
 
 static void capture(GrammarStream *stream, Token *token)
 {
-    // The base of an element is looked up with its index.
-    if (token->kind == TOKEN_NAME && stream_peek_kind(stream) != '[') {
+    // The base of an element is looked up with its index, which stands right behind it.
+    if (token->kind == TOKEN_NAME && !stream_is_before(stream, '[')) {
         token->known = stream->hooks->capture(stream->hooks->client, token->symbol, token->span);
     }
 }
@@ -184,6 +184,14 @@ static void resolve(GrammarState *state, const Token *token)
     }
 }
 
+// A string, a block, or the name of what is no number: no directive ends that.
+static bool is_no_number(const GrammarStream *stream, const Token *token)
+{
+    const GrammarHooks *hooks = stream->hooks;
+    return token->kind == TOKEN_STRING || token->kind == '}' ||
+           (token->kind == TOKEN_NAME && token->known != NULL && !hooks->is_number(hooks->client, token->known));
+}
+
 void grammar_splice_token(GrammarState *state, Token *token)
 {
     GrammarStream *stream = state->stream;
@@ -228,6 +236,7 @@ void grammar_splice_token(GrammarState *state, Token *token)
             break;
         }
         bool is_passed = state->fragment == TOKEN_START_SUBJECT && grammar_role(token->kind) == ROLE_SIMPLE;
+        is_passed |= state->fragment == TOKEN_START_ARGUMENTS && is_no_number(stream, &state->previous);
         if (may_end && !is_passed && state->base_depth != NO_BASE &&
             state->openers.count <= (size_t)state->base_depth) {
             cut(stream, state, token);
@@ -235,7 +244,14 @@ void grammar_splice_token(GrammarState *state, Token *token)
         }
         resolve(state, token);
     }
+    if (token->kind == '[' && state->previous.kind == TOKEN_NAME && state->previous.known != NULL) {
+        stream_fault(stream, DIAG_E0106, token->span, "`[` must stand right behind the name of the array");
+    }
     size_t from = stream_innermost_text(stream);
+    if (state->fragment == TOKEN_START_FOR && token->kind == TOKEN_NAME && state->previous.kind == '(' &&
+        state->openers.count == 1) {
+        state->counter_frame = from > 0 && stream->frames.items[from - 1].kind == FRAME_TEXT ? 0 : from;
+    }
     if (from > 0 && stream->frames.items[from - 1].kind == FRAME_MACRO) {
         stream->silent.kind = 0;
     }
@@ -304,7 +320,8 @@ static AstNode *mark_pastes(AstNode *node)
     case AST_CALL:
     case AST_BUILTIN:
         for (const AstNode *part = node->a; part != NULL; part = part->next) {
-            pastes |= is_bare_call(part);
+            // What a directive gives may be no argument, or several.
+            pastes |= is_bare_call(part) || (part->kind == AST_INLINE && node->kind == AST_CALL);
         }
         break;
     default: break;
@@ -345,6 +362,8 @@ AstNode *grammar_element(GrammarState *state, AstNode *node)
     if (RT_LIKELY(state->stream == NULL) || state->takes_elements) {
         return node;
     }
+    GrammarHooks *hooks = state->stream->hooks;
     int next = stream_peek_kind(state->stream);
-    return next == '[' || next == '=' ? node : fold(state, node);
+    bool is_whole = next != '[' && next != '=' && !hooks->lacks_index(hooks->client, node);
+    return is_whole ? fold(state, node) : node;
 }

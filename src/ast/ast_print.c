@@ -288,7 +288,7 @@ static void print_item(Printer *printer, const AstNode *node, Neighbours *neighb
         printer_value(printer, node, indent);
     }
     printer_put(printer, node->flags & AST_BEFORE_COMMA ? "," : "");
-    printer_put(printer, node->flags & AST_ENDED && node->kind != AST_DECLARE ? ";" : "");
+    printer_put(printer, node->flags & AST_BEFORE_SEMICOLON ? ";" : "");
 }
 
 // One item a line; a word and the expressions after it share one.

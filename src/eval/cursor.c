@@ -149,10 +149,11 @@ bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *tex
 }
 
 // The item that a frame has next.
-static const AstNode *take_next(const Cursor *cursor)
+static const AstNode *take_next(Cursor *cursor)
 {
     CursorFrame *frame = cursor->frame;
     if (RT_UNLIKELY(frame->stream != NULL)) {
+        cursor->is_cut = cursor->is_cut || splice_stream_is_cut(frame->stream);
         const AstNode *item = splice_stream_next(frame->stream, cursor->top);
         frame->ends_in_comma = item == NULL && splice_stream_ends_in_comma(frame->stream);
         return item;
@@ -208,18 +209,34 @@ static void check_pasted_sign(Cursor *cursor, const AstNode *item)
     cursor->after_value = is_value;
 }
 
+// The `;` after an item. It may only end the value of a declaration.
+static void take_semicolon(Cursor *cursor, const AstNode *item)
+{
+    if (cursor->takes_end && item->kind < AST_DECLARE) {
+        cursor->ends++;
+    } else {
+        eval_fault(cursor->ev, DIAG_E0106, (Span){item->span.end, item->span.end}, "unexpected `;`");
+    }
+}
+
 const AstNode *cursor_advance(Cursor *cursor)
 {
     Eval *ev = cursor->ev;
     cursor->has_comma = cursor->has_comma && cursor->frame == NULL;
+    cursor->is_cut = cursor->is_cut && cursor->frame == NULL;
     while (cursor->frame != NULL && !ev->stop) {
         const AstNode *item = take_next(cursor);
         if (item == NULL) {
+            bool is_text = cursor->frame->kind == FRAME_MACRO || cursor->frame->kind == FRAME_INCLUDE;
             cursor->has_comma = cursor->has_comma || cursor->frame->ends_in_comma;
+            cursor->is_cut = cursor->is_cut || (cursor->frame->outer != NULL && !is_text);
             end_of_frame(cursor);
             continue;
         }
         cursor->has_comma = cursor->has_comma || (item->flags & AST_AFTER_COMMA);
+        if (RT_UNLIKELY(item->flags & AST_BEFORE_SEMICOLON)) {
+            take_semicolon(cursor, item);
+        }
         bool is_plain = item->kind == AST_WORD || item->kind == AST_NUMBER || item->kind == AST_BLOCK;
         if (RT_LIKELY(is_plain && !cursor->at_call)) {
             cursor->after_value = item->kind == AST_NUMBER;
@@ -236,6 +253,8 @@ const AstNode *cursor_advance(Cursor *cursor)
             check_pasted_sign(cursor, item);
             cursor->item = item;
             return item;
+        } else {
+            cursor->is_cut = true;
         }
     }
     return NULL;

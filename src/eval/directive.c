@@ -10,27 +10,12 @@
 
 enum { FAULTY_STEPS = 100000 }; // that say nothing new, before loops of a faulty scene end
 
+// Measured: before it numbers have operators in parentheses only, so that <1 -2 3> is a vector of three.
+static const double VERSION_OF_OPERATORS = 1.5;
+
 typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
 
 // ---- declarations
-
-// A call of a macro whose text ends with the semicolon, or a directive whose branch does.
-static bool is_ended_within(const Eval *ev, const AstNode *node)
-{
-    while ((node->kind == AST_BINARY || node->kind == AST_UNARY) && !(node->flags & AST_IN_PARENTHESES)) {
-        node = node->kind == AST_BINARY ? node->b : node->a;
-    }
-    if (node->kind == AST_INLINE) {
-        return ev->is_value_ended;
-    }
-    const Value *found = node->kind == AST_CALL ? scope_find(ev, node->symbol) : NULL;
-    const AstNode *last =
-        found != NULL && found->kind == VALUE_MACRO && !found->macro->is_torn ? found->macro->body->b : NULL;
-    while (last != NULL && last->next != NULL) {
-        last = last->next;
-    }
-    return found != NULL && (ev->is_value_ended || (last != NULL && (last->flags & AST_ENDED)));
-}
 
 // Before its end POV-Ray has read the name that comes next, which is the one that is being declared.
 static bool runs_into_name(const AstNode *node)
@@ -49,15 +34,29 @@ static bool needs_end(const Eval *ev, const AstNode *node, const Value *value)
     return (is_expression && !(ev->version < 3.5)) || (is_callable && !ev->is_value_made) || runs_into_name(node);
 }
 
-static void check_end(Eval *ev, const AstNode *node, const Value *value)
+// A second `;` may end numbers, vectors, colours and copies of functions and splines; none may follow the last directive
+// of the value.
+static bool has_too_many_ends(Eval *ev, const AstNode *node, const Value *value)
 {
+    Span last = {node->span.end - 1, node->span.end};
     bool is_callable = value->kind == VALUE_FUNCTION || value->kind == VALUE_SPLINE;
     bool takes_two = value->kind == VALUE_NUMBER || value_is_tuple(value) || (is_callable && !ev->is_value_made);
-    if ((node->flags & AST_ENDED_TWICE) && !takes_two) {
-        eval_fault(ev, DIAG_E0106, (Span){node->span.end - 1, node->span.end},
-                   "a second `;` may end a number, a vector or a colour, not %s", value_describe(value));
+    unsigned after = node->flags & AST_ENDED_TWICE ? 2 : node->flags & AST_ENDED ? 1 : 0;
+    if (after > 0 && ev->is_value_cut) {
+        return !eval_fault(ev, DIAG_E0106, last, "unexpected `;`: the directive before it ends the declaration");
     }
-    if ((node->flags & AST_ENDED) || !needs_end(ev, node, value) || is_ended_within(ev, node->b)) {
+    if (takes_two && after + ev->value_ends > 2) {
+        return !eval_fault(ev, DIAG_E0106, last, "a third `;` cannot end %s", value_describe(value));
+    }
+    return !takes_two && after + ev->value_ends > 1 &&
+           !eval_fault(ev, DIAG_E0106, last, "a second `;` may end a number, a vector or a colour, not %s",
+                       value_describe(value));
+}
+
+static void check_end(Eval *ev, const AstNode *node, const Value *value)
+{
+    bool is_ended = (node->flags & AST_ENDED) || ev->value_ends > 0;
+    if (has_too_many_ends(ev, node, value) || is_ended || !needs_end(ev, node, value)) {
         return;
     }
     Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
@@ -142,7 +141,8 @@ static bool declare_number(Eval *ev, const AstNode *node)
         return false;
     }
     value_set_number(known, number);
-    ev->is_value_ended = false;
+    ev->value_ends = 0;
+    ev->is_value_cut = false;
     return true;
 }
 
@@ -158,16 +158,19 @@ static void run_declare(Cursor *cursor, const AstNode *node)
         ev->faulty = true;
         return;
     }
-    ev->is_value_ended = ev->is_value_made = false;
+    ev->is_value_cut = ev->is_value_made = false;
+    ev->value_ends = 0;
+    ev->takes_end = true;
     ev->at_colour = node->b->kind == AST_NAME && !(node->flags & AST_ENDED); // with a vector behind it
     bool fine = !(node->flags & AST_UNREADABLE) && eval_open_rvalue(ev, node->b, &value);
-    ev->at_colour = false;
+    ev->at_colour = ev->takes_end = false;
     if (!fine) {
         forget_value(ev, node->a, node->op == AST_OP_LOCAL);
         return;
     }
     check_end(ev, node, &value);
-    ev->is_value_made = false;
+    ev->is_value_made = ev->is_value_cut = false;
+    ev->value_ends = 0;
     ev->faulty = !assign(ev, node, &target, &value) || ev->faulty;
 }
 
@@ -219,6 +222,11 @@ static void run_version(Cursor *cursor, const AstNode *node)
     }
     if (!(version <= 3.7 || numbers_equal(version, 3.7))) {
         eval_fault(ev, DIAG_E0212, node->a->span, "the scene asks for version %g of the language; this is 3.7",
+                   version);
+        return;
+    }
+    if (version < VERSION_OF_OPERATORS) {
+        eval_fault(ev, DIAG_E0212, node->a->span, "before version 1.5 the language is another one; %g is not supported",
                    version);
         return;
     }

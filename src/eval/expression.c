@@ -47,9 +47,12 @@ bool eval_condition(Eval *ev, const AstNode *node, bool *holds)
 {
     double number = 0;
     unsigned inner = ev->inner;
+    bool takes_end = ev->takes_end;
     ev->inner = 0;
+    ev->takes_end = false;
     bool fine = eval_number(ev, node, &number);
     ev->inner = inner;
+    ev->takes_end = takes_end;
     *holds = fine && number_is_true(number);
     return fine;
 }

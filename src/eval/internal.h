@@ -196,7 +196,9 @@ typedef struct Eval {
     LiteralWatch literal;
     Repeat repeats[REPEATS];
     bool is_value_made;  // the last function or spline was written where it is used, and has no name
-    bool is_value_ended; // the last value of a macro's text has the semicolon behind it
+    bool takes_end;      // a `;` may end the text of what is worked out: it is the value of a declaration, or its end
+    bool is_value_cut;   // a directive stands behind the value in such a text
+    unsigned value_ends; // how many such semicolons stand in the text of the value
     bool has_stray;      // at the top level, reported: the values after it are not reported as well
     bool lacks_brace;    // so is what follows a block's word without its brace, up to an object
     bool explains_steps; // too many steps were reported, and not yet which loop does not end
@@ -514,6 +516,9 @@ typedef struct Cursor {
     bool included;       // text was included on the way, and stands in the parse arena since `mark`
     bool counted;        // in expression_depth
     bool is_lossy;       // a call was at fault: what is missing may have been its text
+    bool is_cut;         // a directive stands before the item that is pending, or before the end
+    bool takes_end;      // a `;` may stand after the last item
+    unsigned ends;       // how many do
     ArenaMark mark;
 } Cursor;
 
@@ -661,6 +666,8 @@ const AstNode *paste_arguments(Eval *ev, const AstNode *call) RT_MUST_CHECK;
 bool eval_block(Eval *ev, const AstNode *block, Value *value) RT_MUST_CHECK;
 // Layers: texture{} texture{}.
 bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value) RT_MUST_CHECK;
+// One more, over `layers`; VALUE_NONE: there are none yet.
+bool eval_texture_layer(Eval *ev, const AstNode *node, Value *layers) RT_MUST_CHECK;
 // A block, or an identifier of an object, as a statement: adds it to the scene.
 bool eval_place(Eval *ev, const AstNode *item) RT_MUST_CHECK;
 // #default { items }

@@ -61,7 +61,7 @@ static Yield yield_of(const AstNode *items)
     for (; items != NULL; items = items->next) {
         Yield more = yield_of_item(items);
         yield.values = yield.values + more.values > 1 ? 2 : yield.values + more.values;
-        yield.is_loose |= more.is_loose || (items->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA));
+        yield.is_loose |= more.is_loose || (items->flags & (AST_AFTER_COMMA | AST_BEFORE_COMMA | AST_BEFORE_SEMICOLON));
     }
     return yield;
 }
@@ -344,20 +344,6 @@ void macro_leave(Eval *ev)
 
 // ---- the value of a call
 
-// True when more text of the macro follows, if only an #end.
-static bool is_followed(const Cursor *cursor)
-{
-    for (const CursorFrame *frame = cursor->frame; frame != NULL; frame = frame->outer) {
-        bool ends_in_directive = frame->outer != NULL && frame->kind != FRAME_MACRO && frame->kind != FRAME_INCLUDE;
-        bool has_directive = frame->stream != NULL ? splice_stream_is_cut(frame->stream)
-                                                   : frame->next != NULL && frame->next->kind >= AST_DECLARE;
-        if (has_directive || ends_in_directive) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // Where a value is wanted from items: the span and a name for messages.
 typedef struct Wanted {
     Span span;
@@ -385,37 +371,51 @@ static bool fault_followed(Eval *ev, const Wanted *wanted)
 static bool take_expression(Cursor *cursor, const Wanted *wanted, Value *value)
 {
     Eval *ev = cursor->ev;
-    const AstNode *item = cursor_peek(cursor);
-    if (item == NULL) {
+    if (cursor_peek(cursor) == NULL) {
         return fault_no_value(ev, wanted);
     }
-    bool is_ended = item->flags & AST_ENDED;
-    if (!cursor_value(cursor, value)) {
-        return false;
-    }
-    ev->is_value_ended = is_ended;
-    bool ends_statement = !is_ended && (value->kind == VALUE_NUMBER || value_is_tuple(value));
-    return !(ev->inner == 0 && ends_statement && is_followed(cursor)) || fault_followed(ev, wanted);
+    ev->takes_end = cursor->takes_end;
+    bool fine = cursor_value(cursor, value);
+    ev->takes_end = false;
+    cursor->ends += ev->value_ends;
+    return fine;
+}
+
+static bool take_colour(Cursor *cursor, Value *value)
+{
+    Rgbft colour;
+    Span span;
+    bool fine = cursor_colour(cursor, &colour, &span);
+    *value = (Value){.kind = VALUE_COLOUR,
+                     .components = 5,
+                     .v = {colour.red, colour.green, colour.blue, colour.filter, colour.transmit}};
+    return fine;
+}
+
+static bool take_layer(Eval *ev, const AstNode *texture, Value *layers)
+{
+    ev->inner++;
+    bool fine = eval_texture_layer(ev, texture, layers);
+    ev->inner--;
+    return fine;
 }
 
 static bool take_whole(Cursor *cursor, const Wanted *wanted, Value *value)
 {
-    Eval *ev = cursor->ev;
     const AstNode *item = cursor_peek(cursor);
     if (item != NULL && item->kind == AST_WORD && word_class(item->symbol) == WORD_COLOUR) {
-        Rgbft colour;
-        Span span;
-        if (!cursor_colour(cursor, &colour, &span)) {
-            return false;
-        }
-        *value = (Value){.kind = VALUE_COLOUR,
-                         .components = 5,
-                         .v = {colour.red, colour.green, colour.blue, colour.filter, colour.transmit}};
-        return true;
+        return take_colour(cursor, value);
     }
     if (item != NULL && (item->kind == AST_BLOCK || item->kind == AST_ARRAY || item->kind == AST_FUNCTION)) {
+        bool is_texture = item->kind == AST_BLOCK && item->symbol == W_texture, fine;
         cursor_skip(cursor);
-        return eval_rvalue(ev, item, value);
+        fine = eval_rvalue(cursor->ev, item, value);
+        while (fine && is_texture && (item = cursor_peek(cursor)) != NULL && !cursor->is_cut &&
+               item->kind == AST_BLOCK && item->symbol == W_texture) {
+            cursor_skip(cursor);
+            fine = take_layer(cursor->ev, item, value);
+        }
+        return fine;
     }
     return take_expression(cursor, wanted, value);
 }
@@ -428,31 +428,55 @@ static bool keep(Eval *ev, Value *value, Span span)
     return !has_memory || value_store(ev, value, &ev->scratch, span, value);
 }
 
-// Nothing may follow the value.
-static bool finish(Cursor *cursor)
+// Nothing may follow the value but its end; a directive ends numbers, vectors and colours that are not ended.
+static bool finish(Cursor *cursor, const Wanted *wanted, const Value *value)
 {
+    Eval *ev = cursor->ev;
     const AstNode *rest = cursor_peek(cursor);
-    return rest == NULL || eval_fault(cursor->ev, DIAG_E0213, rest->span, "the value has ended before this");
+    bool is_expression = value->kind == VALUE_NUMBER || value_is_tuple(value);
+    if (ev->inner == 0 && is_expression && cursor->ends == 0 && cursor->is_cut) {
+        return fault_followed(ev, wanted);
+    }
+    return rest == NULL || eval_fault(ev, DIAG_E0213, rest->span, "the value has ended before this");
 }
 
 static bool take_value(Cursor *cursor, const Wanted *wanted, bool whole, Value *value)
 {
-    bool fine = whole ? take_whole(cursor, wanted, value) : take_expression(cursor, wanted, value);
-    return fine && keep(cursor->ev, value, wanted->span) && finish(cursor);
+    Eval *ev = cursor->ev;
+    ev->value_ends = 0;
+    ev->is_value_cut = false;
+    bool fine = (whole ? take_whole(cursor, wanted, value) : take_expression(cursor, wanted, value)) &&
+                keep(ev, value, wanted->span);
+    bool is_cut = ev->is_value_cut;
+    fine = fine && finish(cursor, wanted, value);
+    ev->value_ends = cursor->ends;
+    ev->is_value_cut = ev->inner == 0 && (is_cut || cursor->is_cut);
+    return fine;
+}
+
+// Whether a `;` may end the value that is taken now; it may end none of those that are worked out on the way.
+static bool begin_end(Eval *ev, bool *outer)
+{
+    *outer = ev->takes_end;
+    ev->takes_end = false;
+    return *outer && ev->inner == 0;
 }
 
 static bool call_for_value(Eval *ev, const AstNode *call, bool whole, Value *value)
 {
     Macro *macro;
     DiagFrame frame;
+    bool outer;
     if (!macro_find(ev, call, &macro) || !eval_deepen(ev, CALL_WEIGHT, call->span)) {
         return false;
     }
+    bool takes_end = begin_end(ev, &outer);
     bool fine = macro_enter(ev, call, macro, &frame);
     if (fine) {
         Cursor cursor;
         Wanted wanted = {call->span, eval_text(ev, call->symbol)};
         cursor_open(&cursor, ev, macro->is_torn ? NULL : macro->body->b, call->span);
+        cursor.takes_end = takes_end;
         if (macro->is_torn && cursor.frame != NULL &&
             !cursor_push_text(&cursor, cursor.frame, macro->text, NULL, true)) {
             ev->faulty = true;
@@ -462,6 +486,7 @@ static bool call_for_value(Eval *ev, const AstNode *call, bool whole, Value *val
         macro_leave(ev);
     }
     eval_shallow(ev, CALL_WEIGHT);
+    ev->takes_end = outer;
     return fine && !ev->stop;
 }
 
@@ -475,10 +500,13 @@ bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value)
     Cursor cursor;
     Wanted wanted = {node->span, NULL};
     unsigned initialiser = ev->initialiser;
+    bool outer, takes_end = begin_end(ev, &outer);
     ev->initialiser = 0;
     cursor_open(&cursor, ev, node->a, node->span);
+    cursor.takes_end = takes_end;
     bool fine = take_value(&cursor, &wanted, whole, value);
     cursor_close(&cursor);
     ev->initialiser = initialiser;
+    ev->takes_end = outer;
     return fine && !ev->stop;
 }

@@ -16,14 +16,19 @@ static bool is_open_operation(const AstNode *node)
     return is_operation && (node->flags & AST_PASTES) && !(node->flags & AST_IN_PARENTHESES);
 }
 
+// The macro that is called, or NULL.
+static const Macro *called(const Eval *ev, const AstNode *part)
+{
+    bool is_call = part->kind == AST_CALL && part->b == NULL && !(part->flags & AST_IN_PARENTHESES);
+    const Value *found = is_call ? scope_find(ev, part->symbol) : NULL;
+    return found != NULL && found->kind == VALUE_MACRO ? found->macro : NULL;
+}
+
 static bool is_loose_part(const Eval *ev, const AstNode *part)
 {
-    if (part == NULL) {
-        return false;
-    }
-    if (part->kind == AST_CALL && !(part->flags & AST_IN_PARENTHESES)) {
-        const Value *found = scope_find(ev, part->symbol);
-        return found != NULL && found->kind == VALUE_MACRO && found->macro->is_loose;
+    const Macro *macro = part != NULL ? called(ev, part) : NULL;
+    if (part == NULL || macro != NULL) {
+        return macro != NULL && macro->is_loose;
     }
     return is_open_operation(part) && (is_loose_part(ev, part->a) || is_loose_part(ev, part->b));
 }
@@ -34,8 +39,11 @@ bool paste_is_needed(const Eval *ev, const AstNode *node)
     if (!is_list) {
         return is_loose_part(ev, node->a) || is_loose_part(ev, node->b);
     }
-    for (const AstNode *part = node->a; part != NULL; part = part->next) {
-        if (is_loose_part(ev, part)) {
+    const AstNode *before = NULL;
+    for (const AstNode *part = node->a; part != NULL; before = part, part = part->next) {
+        // A name and the parenthesis of its call may come from two texts.
+        bool is_joined = (part->flags & AST_WITHOUT_COMMA) && (called(ev, part) != NULL || called(ev, before) != NULL);
+        if (part->kind == AST_INLINE || is_joined || is_loose_part(ev, part)) {
             return true;
         }
     }
@@ -117,6 +125,7 @@ static bool read_value(Eval *ev, const AstNode *node, GrammarStream *stream, Val
         }
         return false;
     }
+    bool is_ended = grammar_stream_take_semicolon(stream), is_cut = grammar_stream_is_cut(stream);
     if (!eval_expression(ev, read, value)) {
         return false;
     }
@@ -130,6 +139,8 @@ static bool read_value(Eval *ev, const AstNode *node, GrammarStream *stream, Val
         return eval_fault(ev, DIAG_E0213, node->span, "macros give more than one value here");
     }
     ev->faulty = ev->faulty || failed;
+    ev->value_ends = is_ended;
+    ev->is_value_cut = is_cut;
     return !failed;
 }
 
@@ -156,7 +167,13 @@ static bool paste(Eval *ev, const AstNode *node, bool is_inner,
 
 bool paste_value(Eval *ev, const AstNode *node, Value *value)
 {
-    return paste(ev, node, ev->inner > 0, read_value, value);
+    bool takes_end = ev->takes_end;
+    ev->takes_end = ev->is_value_cut = false;
+    ev->value_ends = 0;
+    bool fine = paste(ev, node, ev->inner > 0, read_value, value);
+    ev->takes_end = takes_end;
+    return fine && (ev->value_ends == 0 || (takes_end && ev->inner == 0) ||
+                    eval_fault(ev, DIAG_E0106, node->span, "the text of a macro ends with a `;` here"));
 }
 
 const AstNode *paste_arguments(Eval *ev, const AstNode *call)

@@ -52,10 +52,27 @@ static const void *capture(void *client, Symbol name, Span span)
     return keep(ev, &value, span);
 }
 
+static bool is_number(void *client, const void *captured)
+{
+    const Value *value = captured;
+    (void)client;
+    return value->kind == VALUE_NUMBER || value_is_tuple(value);
+}
+
 static bool is_macro(void *client, Symbol name)
 {
     const Value *found = scope_find(eval_of(client), name);
     return found != NULL && found->kind == VALUE_MACRO;
+}
+
+static bool lacks_index(void *client, const AstNode *element)
+{
+    unsigned count = 0;
+    for (; element->kind == AST_INDEX; element = element->a) {
+        count++;
+    }
+    const Value *found = element->kind == AST_NAME ? scope_find(eval_of(client), element->symbol) : NULL;
+    return found != NULL && found->kind == VALUE_ARRAY && count < found->array->dimension_count;
 }
 
 static bool takes_braces(void *client, Symbol word)
@@ -233,7 +250,9 @@ void splice_init(Splice *splice, Eval *ev)
         .hooks = {.client = splice,
                   .nesting = &ev->splice_nesting,
                   .capture = capture,
+                  .is_number = is_number,
                   .is_macro = is_macro,
+                  .lacks_index = lacks_index,
                   .takes_braces = takes_braces,
                   .is_unbalanced = is_unbalanced,
                   .has_unbalanced = &ev->has_unbalanced,

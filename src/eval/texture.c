@@ -333,29 +333,33 @@ bool finish_close(Block *block)
     return block_finite(block, sum, block->node->span, "albedo");
 }
 
+bool eval_texture_layer(Eval *ev, const AstNode *node, Value *layers)
+{
+    Value one;
+    const TextureBlueprint *below = layers->kind == VALUE_BLOCK ? layers->record : NULL;
+    if (!eval_block(ev, node, &one)) {
+        return false;
+    }
+    if (one.block == KIND_UNSUPPORTED || (below && layers->block == KIND_UNSUPPORTED)) {
+        *layers = one.block == KIND_UNSUPPORTED ? one : *layers;
+        return true;
+    }
+    TextureBlueprint *layer = arena_copy(&ev->program, one.record, sizeof *layer);
+    if (!layer) {
+        return eval_no_memory(ev, node->span);
+    }
+    *layers = (Value){.kind = VALUE_BLOCK, .block = KIND_TEXTURE, .record = layer};
+    return !below || lay_over(ev, &ev->program, layer, below, node->span);
+}
+
 bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value)
 {
-    const TextureBlueprint *below = NULL;
-    for (const AstNode *node = first; node; node = node->next) {
-        Value one;
-        if (!eval_block(ev, node, &one)) {
-            return false;
-        }
-        if (one.block == KIND_UNSUPPORTED) {
-            *value = one;
-            return true;
-        }
-        TextureBlueprint *layer = arena_copy(&ev->program, one.record, sizeof *layer);
-        if (!layer) {
-            return eval_no_memory(ev, node->span);
-        }
-        if (below && !lay_over(ev, &ev->program, layer, below, node->span)) {
-            return false;
-        }
-        below = layer;
+    bool fine = true;
+    *value = (Value){.kind = VALUE_NONE};
+    for (const AstNode *node = first; node && fine; node = node->next) {
+        fine = eval_texture_layer(ev, node, value);
     }
-    *value = (Value){.kind = VALUE_BLOCK, .block = KIND_TEXTURE, .record = below};
-    return true;
+    return fine;
 }
 
 void texture_take_part(TextureBlueprint *texture, SchemaKind kind, const void *part)
