@@ -72,10 +72,17 @@ def check_scenes(name):
             yield f"the block at line {line}: " + done.stdout.replace(folder, "").strip().replace("\n", " | ")
 
 
-def check_generated(document, mark, variable):
+def printed(variable):
+    return output_of(os.environ.get(variable) or "tests/unit/" + variable.lower()).strip() + "\n"
+
+
+def povray_options():
+    return "```text\n" + output_of(os.environ["RTLANG"], "--help=povray") + "```\n"
+
+
+def check_generated(document, mark, want):
     begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->"
-    printer = os.environ.get(variable) or "tests/unit/" + variable.lower()
-    want, text = output_of(printer).strip() + "\n", read(document)
+    text = read(document)
     head, rest = text.split(begin)
     found, tail = rest.split(end)
     if found == want:
@@ -100,9 +107,11 @@ def checks():
     for name in pages:
         if "```scn\n" in read(name):
             yield f"{name}: rtlang accepts its scenes", check_scenes(name)
-    yield "docs/language.md: the tables are the schema's", check_generated("docs/language.md", "schema", "PRINT_SCHEMA")
+    yield "docs/language.md: the tables are the schema's", check_generated("docs/language.md", "schema", printed("PRINT_SCHEMA"))
     yield ("docs/diagnostics.md: the codes are those of the table",
-           check_generated("docs/diagnostics.md", "codes", "PRINT_DIAGNOSTICS"))
+           check_generated("docs/diagnostics.md", "codes", printed("PRINT_DIAGNOSTICS")))
+    yield ("docs/povray.md: the options are those of the table",
+           check_generated("docs/povray.md", "options", povray_options()))
 
 
 def main():

@@ -233,6 +233,7 @@ test_scripts = \
   %D%/system/check_stack.py \
   %D%/system/check_literals.py \
   %D%/system/check_messages.py \
+  %D%/system/check_povray_options.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
   %D%/system/check_install.py \

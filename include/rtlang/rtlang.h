@@ -85,6 +85,8 @@ RT_API rt_status rt_set_povray_includes(rt_session *session, int on);
 RT_API const char *rt_include_path(rt_session *session, size_t i);
 /* Let the scene read files below this folder too. It reads below its own folder and those of rt_include_path. */
 RT_API rt_status rt_allow_read(rt_session *session, const char *folder);
+/* A file that is included before the scene's first statement, as POV-Ray's Include_Header; "" for none. */
+RT_API rt_status rt_set_header(rt_session *session, const char *path);
 /* The scene's `clock`, 0 by default; `clock_on` is then true. */
 RT_API rt_status rt_set_clock(rt_session *session, double clock);
 
@@ -252,6 +254,10 @@ RT_API rt_status rt_explain_scene(rt_session *session, int threads, const char *
 /* Hands the client a fault of its own in the form of all others, with a code of this library, a message and a
  * suggestion (or NULL). Returns the status that the code means. */
 RT_API rt_status rt_report(rt_session *session, const char *code, const char *message, const char *suggestion);
+/* The same for a fault in a text that the client has read itself, as a file of options: `name` is what the text is
+ * called, and the fault stands in its bytes from `begin` up to `end`. */
+RT_API rt_status rt_report_in(rt_session *session, const char *code, const char *name, const char *text, size_t begin,
+                              size_t end, const char *message, const char *suggestion);
 
 /* The text of a file in the canonical layout (docs/language.md, "Layout"), with its comments. The file need not be a
  * whole scene: any text whose tokens can be read has a layout. *text is "" when there were faults, else valid until the
@@ -386,13 +392,14 @@ typedef struct rt_output {
     rt_depth depth;
     double file_gamma; /* 0: sRGB; otherwise the power, 1 writes linear values */
     int error_channel; /* 1: with the error of each pixel as a fourth channel, `error`; only EXR has room for it */
+    int whole;         /* 1: after rt_set_crop, a picture of rt_set_size that is black around the part */
 } rt_output;
 
 /* Whether a picture of this size fits the memory limit and could be written to this path, asked before a long run.
  * RT_FAULT_USAGE for an error channel in another format than EXR, and for alpha in one that has none. */
 RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output);
-/* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output. RT_FAULT_USAGE
- * for the channel of an error that is not known. */
+/* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output, "-.ppm" PPM, and
+ * so on. RT_FAULT_USAGE for the channel of an error that is not known. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
 
 /* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red,

@@ -12,7 +12,7 @@ class Error(Exception):
     "scene.scn:3:8", or ""), `index` the element of an array or None, `suggestion` what to do instead or "", `text` all
     of it as the program rtlang prints it."""
 
-    def __init__(self, message: str, code: str = "E0704", place: str = "", suggestion: str = "", text: str = ""):
+    def __init__(self, message: str, code: str = "E0709", place: str = "", suggestion: str = "", text: str = ""):
         self.message, self.code, self.place, self.suggestion = message, code, place, suggestion
         found = re.search(r"\[(\d+)\]$", place)
         self.index = int(found.group(1)) if found else None

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "api/session.h"
 
+#include <string.h>
+
 #include "base/explain.h"
 #include "base/suggest.h"
 
@@ -123,15 +125,37 @@ rt_status rt_explain(rt_session *session, const char *code, const char **text)
     return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;
 }
 
-rt_status rt_report(rt_session *session, const char *code, const char *message, const char *suggestion)
+static rt_status report(rt_session *session, const char *code, Span span, const char *message, const char *suggestion)
 {
     DiagCode found;
     if (!explain_find(code, &found)) {
         return RT_FAULT_USAGE;
     }
-    if (diag_report(&session->diags, found, SPAN_NONE, "%s", message) && suggestion) {
+    if (diag_report(&session->diags, found, span, "%s", message) && suggestion) {
         diag_suggest(&session->diags, "%s", suggestion);
     }
     session_deliver(session);
     return (rt_status)diag_code_class(found);
+}
+
+rt_status rt_report(rt_session *session, const char *code, const char *message, const char *suggestion)
+{
+    return report(session, code, SPAN_NONE, message, suggestion);
+}
+
+rt_status rt_report_in(rt_session *session, const char *code, const char *name, const char *text, size_t begin,
+                       size_t end, const char *message, const char *suggestion)
+{
+    size_t length = strlen(text);
+    if (begin > end || end > length) {
+        return RT_FAULT_USAGE;
+    }
+    Source *source = source_open_text(session->sources, name, text, length);
+    if (!source) {
+        return report(session, code, SPAN_NONE, message, suggestion);
+    }
+    uint64_t base = source_base(source);
+    rt_status status = report(session, code, (Span){base + begin, base + end}, message, suggestion);
+    source_close(source);
+    return status;
 }

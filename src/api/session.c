@@ -99,6 +99,7 @@ void rt_session_free(rt_session *session)
     geometry_free(session->kept.geometry);
     free(session->png);
     ARRAY_FREE(&session->groups);
+    free(session->header);
     ARRAY_FREE(&session->include_paths);
     library_fini(&session->library);
     ARRAY_FREE(&session->read_folders);
@@ -222,6 +223,7 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .read_folder_count = session->read_folders.count,
         .declarations = session->declarations.items,
         .declaration_count = session->declarations.count,
+        .header = session->header,
         .image_width = session->width,
         .image_height = session->height,
         .clock = session->clock,

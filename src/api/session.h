@@ -44,6 +44,7 @@ struct rt_session {
     Library library; // searched after them
     ARRAY(char *) read_folders;
     ARRAY(EvalDeclaration) declarations; // names are owned
+    char *header; // included before the scene; NULL: none; owned
     double clock;
     bool clock_on;
     EvalWorld world;

@@ -52,6 +52,17 @@ rt_status rt_allow_read(rt_session *session, const char *folder)
     return RT_OK;
 }
 
+rt_status rt_set_header(rt_session *session, const char *path)
+{
+    char *copy = path[0] ? strdup(path) : NULL;
+    if (path[0] && !copy) {
+        return RT_FAULT_LIMIT;
+    }
+    free(session->header);
+    session->header = copy;
+    return RT_OK;
+}
+
 rt_status rt_set_clock(rt_session *session, double clock)
 {
     if (!isfinite(clock)) {

@@ -12,7 +12,7 @@
 
 rt_status session_misuse(rt_session *session, const char *message, const char *suggestion)
 {
-    return rt_report(session, "E0704", message, suggestion);
+    return rt_report(session, "E0709", message, suggestion);
 }
 
 rt_status session_not_begun(rt_session *session, const char *function)

@@ -108,13 +108,58 @@ static bool apply_allow_read(Options *options, const char *argument, const char 
     return argument[0] != '\0';
 }
 
-static bool apply_clock(Options *options, const char *argument, const char **expected)
+static bool parse_clock(const char *text, double *clock)
 {
     char *end;
+    *clock = strtod(text, &end);
+    return end != text && !*end && isfinite(*clock);
+}
+
+static bool apply_clock(Options *options, const char *argument, const char **expected)
+{
     *expected = "a number";
-    options->clock = strtod(argument, &end);
     options->clock_given = true;
-    return end != argument && !*end && isfinite(options->clock);
+    return parse_clock(argument, &options->clock);
+}
+
+// A..B, from 0 upward.
+static bool apply_frames(Options *options, const char *argument, const char **expected)
+{
+    Frames *frames = &options->frames;
+    char first[16];
+    const char *dots = strstr(argument, "..");
+    size_t length = dots ? (size_t)(dots - argument) : sizeof first;
+    *expected = "the first and the last frame, as 1..100";
+    if (length >= sizeof first) {
+        return false;
+    }
+    memcpy(first, argument, length);
+    first[length] = '\0';
+    bool fine = parse_integer(first, 0, 999999999, &frames->initial) &&
+                parse_integer(dots + 2, frames->initial, 999999999, &frames->final);
+    frames->first = frames->initial;
+    frames->last = frames->final;
+    frames->step = 1;
+    return fine;
+}
+
+static bool apply_clock_from(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number";
+    return parse_clock(argument, &options->frames.clock_from);
+}
+
+static bool apply_clock_to(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number";
+    return parse_clock(argument, &options->frames.clock_to);
+}
+
+// By this word the command line is known for POV-Ray's before it is read.
+static bool apply_povray(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    return options->is_povray = true;
 }
 
 // A whole number; `units` are the letters that may follow, each 1024 times the one before.
@@ -466,7 +511,7 @@ static bool apply_crop(Options *options, const char *argument, const char **expe
 
 static const OptionRow rows[] = {
     {'o', "output", "FILE", apply_output,
-     "write the picture to FILE, its format by the ending; - is PNG to standard output\n"
+     "write the picture to FILE, its format by the ending; - is PNG to standard output, -.ppm PPM\n"
      "(default: the scene's name with .png, in the current folder)"},
     {'W', "width", "PIXELS", apply_width, "width of the picture (default 320)"},
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
@@ -482,6 +527,12 @@ static const OptionRow rows[] = {
      "do not look for #include where an installed POV-Ray has its files"},
     {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
     {'K', "clock", "NUMBER", apply_clock, "the scene's clock (default 0)"},
+    {0, "frames", "A..B", apply_frames,
+     "draw an animation: frames A to B, whose numbers stand in their pictures' names"},
+    {0, "clock-from", "NUMBER", apply_clock_from, "the clock of frame A (default 0)"},
+    {0, "clock-to", "NUMBER", apply_clock_to, "the clock of frame B (default 1)"},
+    {0, "povray", NULL, apply_povray,
+     "all other words are POV-Ray's, as they are when one of them begins with + or ends with .ini, or is KEY=VALUE"},
     {0, "allow-read", "FOLDER", apply_allow_read,
      "let the scene read files below FOLDER too, besides its own folder and those of -I; may repeat"},
     {0, "max-steps", "N", apply_max_steps, "turns of loops and macro calls, all together (default 30000000)"},
@@ -541,7 +592,7 @@ static const OptionRow rows[] = {
      "print the life of the ray of one pixel, from 0,0 at the top left, and stop; no picture is made"},
     {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},
     {'V', "version", NULL, NULL, "print the version and stop"},
-    {'h', "help", NULL, NULL, "print this and stop"},
+    {'h', "help", "[povray]", NULL, "print this and stop, or with `=povray` POV-Ray's options and what becomes of each"},
 };
 _Static_assert(COUNT_OF(rows) < OPTIONS_MOST, "enlarge OPTIONS_MOST");
 

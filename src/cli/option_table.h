@@ -19,7 +19,7 @@ typedef struct OptionRow {
     const char *help;
 } OptionRow;
 
-enum { OPTIONS_MOST = 64 };
+enum { OPTIONS_MOST = 96 };
 
 // The options in the order of the help; NULL from their number on, which is below OPTIONS_MOST.
 const OptionRow *option_row(size_t i);

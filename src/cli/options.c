@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cli/option_table.h"
+#include "cli/povray.h"
 
 static bool is_optional(const OptionRow *row)
 {
@@ -17,8 +18,8 @@ static bool is_optional(const OptionRow *row)
 
 void options_print_help(FILE *out)
 {
-    fprintf(out, "Usage: rtlang [OPTION]... SCENE\n"
-                 "Reads SCENE, traces it and writes a picture. A SCENE of - is standard input.\n\n");
+    fprintf(out, "Usage: rtlang [OPTION]... SCENE...\n"
+                 "Reads each SCENE, traces it and writes a picture. A SCENE of - is standard input.\n\n");
     const OptionRow *row;
     for (size_t i = 0; (row = option_row(i)); i++) {
         char left[64];
@@ -47,8 +48,8 @@ static void make_getopt_tables(struct option *long_options, char *short_options)
         if (row->letter) {
             *short_options++ = row->letter;
         }
-        if (row->letter && row->argument) {
-            *short_options++ = ':';
+        for (int colons = 0; row->letter && row->argument && colons < kind; colons++) {
+            *short_options++ = ':'; // two of an argument that may lack
         }
     }
     long_options[count] = (struct option){0};
@@ -124,6 +125,21 @@ static OptionsResult complain_getopt(Options *options, int val, int argc, char *
     return complain(options, "unknown option `%s`", is_letter ? letter : word);
 }
 
+// --help and --version.
+static OptionsResult print_and_stop(Options *options, const OptionRow *row)
+{
+    if (row->letter != 'h') {
+        printf("rtlang %s\n", rt_version());
+    } else if (!optarg) {
+        options_print_help(stdout);
+    } else if (strcmp(optarg, "povray") == 0) {
+        povray_print_help(stdout);
+    } else {
+        return complain(options, "option `--help` wants povray or nothing, found `%.40s`", optarg);
+    }
+    return OPTIONS_DONE;
+}
+
 static OptionsResult read_options(int argc, char **argv, Options *options)
 {
     struct option long_options[OPTIONS_MOST];
@@ -137,12 +153,7 @@ static OptionsResult read_options(int argc, char **argv, Options *options)
             return complain_getopt(options, val, argc, argv);
         }
         if (!row->apply) {
-            if (row->letter == 'h') {
-                options_print_help(stdout);
-            } else {
-                printf("rtlang %s\n", rt_version());
-            }
-            return OPTIONS_DONE;
+            return print_and_stop(options, row);
         }
         options->is_letter = val < FIRST_VAL;
         options->choices = NULL;
@@ -189,36 +200,51 @@ static void find_format(int argc, char **argv, Options *options)
     }
 }
 
-OptionsResult options_parse(int argc, char **argv, Options *options)
+OptionsResult options_read(int argc, char **argv, Options *options)
 {
     *options = (Options){.width = 320,
                          .height = 240,
                          .encoding = {.depth = RT_DEPTH_AUTO},
                          .antialias = {.threshold = 0.3},
-                         .photons = 1000000};
+                         .photons = 1000000,
+                         .frames = {.clock_to = 1.0}};
     // No more paths and declarations than arguments.
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths);
     options->declarations = calloc((size_t)argc + 1, sizeof *options->declarations);
     options->warnings = calloc((size_t)argc + 1, sizeof *options->warnings);
     options->read_folders = calloc((size_t)argc + 1, sizeof *options->read_folders);
-    if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders) {
+    options->scenes = calloc((size_t)argc + 1, sizeof *options->scenes);
+    if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders ||
+        !options->scenes) {
         return complain(options, "out of memory");
     }
     find_format(argc, argv, options);
-    OptionsResult result = read_options(argc, argv, options);
+    return read_options(argc, argv, options);
+}
+
+OptionsResult options_parse(int argc, char **argv, Options *options)
+{
+    OptionsResult result = options_read(argc, argv, options);
     if (result != OPTIONS_GO) {
         return result;
     }
-    if (options->action == ACTION_EXPLAIN) {
-        return settle_explain(argc, argv, options);
+    if (options->action == ACTION_EXPLAIN && (result = settle_explain(argc, argv, options)) != OPTIONS_GO) {
+        return result;
     }
-    if (optind == argc) {
+    if (options->action == ACTION_EXPLAIN || options->action == ACTION_EXPLAIN_SCENE) {
+        options->scenes[options->scene_count++] = options->scene;
+        return OPTIONS_GO;
+    }
+    for (; optind < argc; optind++) {
+        options->scenes[options->scene_count++] = argv[optind];
+    }
+    if (options->scene_count == 0) {
         return complain(options, "no scene given");
     }
-    if (optind + 1 < argc) {
-        return complain(options, "more than one scene given: `%s` and `%s`", argv[optind], argv[optind + 1]);
+    if (options->scene_count > 1 && (options->output || options->error_map)) {
+        return complain(options, "one file for the pictures of more than one scene: `%s` and `%s`", options->scenes[0],
+                        options->scenes[1]);
     }
-    options->scene = argv[optind];
     if (options->action == ACTION_TRACE_PIXEL &&
         (options->pixel_x >= options->width || options->pixel_y >= options->height)) {
         return complain(options, "pixel %d,%d is not in a picture of %d x %d pixels", options->pixel_x,
@@ -233,4 +259,5 @@ void options_fini(Options *options)
     free(options->declarations);
     free(options->warnings);
     free(options->read_folders);
+    free(options->scenes);
 }

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "cli/frames.h"
 #include "cli/terminal.h"
 #include "rtlang/rtlang.h"
 
@@ -36,7 +37,14 @@ enum { LIMIT_COUNT = RT_LIMIT_MESSAGES + 1 };
 // Pointers refer to argv.
 typedef struct Options {
     Action action;
-    const char *scene; // "-": standard input
+    const char **scenes; // owned list; "-": standard input
+    int scene_count;
+    const char *scene; // the one that is being run
+    Frames frames;
+    int frame;          // the one that is being run
+    const char *header; // included before the scene; NULL: none
+    bool is_povray;     // the options were POV-Ray's
+    bool has_no_progress, has_no_output;
     const char *code; // ACTION_EXPLAIN
     const char *output; // NULL: the scene's name with .png in the current folder
     int width, height;
@@ -81,6 +89,8 @@ typedef enum OptionsResult {
 } OptionsResult;
 
 OptionsResult options_parse(int argc, char **argv, Options *options);
+// The options alone, of which `argv` has nothing else: no scene is wanted.
+OptionsResult options_read(int argc, char **argv, Options *options);
 void options_fini(Options *options);
 void options_print_help(FILE *out);
 

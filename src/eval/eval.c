@@ -194,6 +194,32 @@ static void settle_version(const Eval *ev)
     }
 }
 
+static void read_items(Eval *ev, Source *source)
+{
+    Splice reading;
+    splice_init(&reading, ev);
+    bool is_whole = grammar_parse(&reading.context, source, take_item, ev);
+    splice_fini(&reading);
+    ev->faulty = ev->faulty || !is_whole;
+}
+
+// The header is included as by the scene's first line; that line is a text of its own, so that lines keep their numbers.
+static void read_header(Eval *ev)
+{
+    TextBuffer text;
+    text_init(&text);
+    text_printf(&text, "#include \"%s\"\n", ev->options.header);
+    Source *source = text.failed ? NULL
+                                 : source_open_text(ev->options.sources, "header", text_get(&text), text.length);
+    if (source == NULL) {
+        eval_no_memory(ev, SPAN_NONE);
+    } else {
+        read_items(ev, source);
+        source_close(source);
+    }
+    text_fini(&text);
+}
+
 bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
 {
     Eval ev;
@@ -209,11 +235,10 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
         !declare_all(&ev, source)) {
         eval_no_memory(&ev, SPAN_NONE);
     } else {
-        Splice reading;
-        splice_init(&reading, &ev);
-        bool is_whole = grammar_parse(&reading.context, source, take_item, &ev);
-        splice_fini(&reading);
-        ev.faulty = ev.faulty || !is_whole;
+        if (options->header != NULL) {
+            read_header(&ev);
+        }
+        read_items(&ev, source);
         settle_version(&ev);
         ev.faulty = !objects_finish(&ev) || ev.faulty;
         lint_finish(&ev);

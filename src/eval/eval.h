@@ -87,6 +87,7 @@ typedef struct EvalOptions {
     size_t read_folder_count;
     const EvalDeclaration *declarations;
     size_t declaration_count;
+    const char *header;            // a file that is included before the first item; NULL: none
     int image_width, image_height; // for the scene's own arithmetic
     double clock;
     bool clock_on;             // a clock was given

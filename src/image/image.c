@@ -15,6 +15,7 @@
 #include "image/image_error.h"
 #include "image/module.h"
 #include "image/picture_file.h"
+#include "image/plain_write.h"
 #include "image/png_write.h"
 
 enum { ENDING_MAX = 8 };
@@ -58,24 +59,33 @@ static bool path_ending(const char *path, char ending[static ENDING_MAX + 1])
     return true;
 }
 
-static bool path_is_stdout(const char *path)
+bool image_path_is_stdout(const char *path)
 {
-    return strcmp(path, "-") == 0;
+    return path[0] == '-' && (path[1] == '\0' || (path[1] == '.' && strchr(path, '/') == NULL));
 }
 
-// Finds the format. *module is NULL for PNG.
+// What atomic_file.h calls it.
+static const char *file_path(const char *path)
+{
+    return image_path_is_stdout(path) ? "-" : path;
+}
+
+// Finds the format. *module is NULL for what needs none.
 static ImageStatus format_find(const char *path, ImageDepth depth, char ending[static ENDING_MAX + 1],
                                const OiioModule **module, ImageError *error)
 {
     *module = NULL;
     image_error_clear(error);
-    if (path_is_stdout(path)) {
+    if (strcmp(path, "-") == 0) {
         strcpy(ending, "png");
     } else if (!path_ending(path, ending)) {
         return IMAGE_UNKNOWN_FORMAT;
     }
     if (strcmp(ending, "png") == 0) {
         return depth == IMAGE_DEPTH_FLOAT ? IMAGE_BAD_DEPTH : IMAGE_OK;
+    }
+    if (plain_has_format(ending)) {
+        return plain_has_depth(ending, depth) ? IMAGE_OK : IMAGE_BAD_DEPTH;
     }
     ImageStatus status = module_load_oiio(module, error);
     return status == IMAGE_OK ? (*module)->check(ending, depth, error) : status;
@@ -86,7 +96,7 @@ static bool path_ends_with(const char *path, const char *const *endings, size_t 
 {
     char ending[ENDING_MAX + 1];
 
-    if (!path_is_stdout(path) && path_ending(path, ending)) {
+    if (path_ending(path, ending)) {
         for (size_t i = 0; i < count; i++) {
             if (strcmp(ending, endings[i]) == 0) {
                 return true;
@@ -112,9 +122,9 @@ bool image_path_names_channels(const char *path)
 
 bool image_path_has_alpha(const char *path)
 {
-    static const char *const straight[] = {"png"};
+    static const char *const straight[] = {"png", "tga"};
 
-    return path_is_stdout(path) || path_ends_with(path, straight, RT_COUNT_OF(straight)) ||
+    return strcmp(path, "-") == 0 || path_ends_with(path, straight, RT_COUNT_OF(straight)) ||
            image_path_names_channels(path);
 }
 
@@ -127,7 +137,7 @@ ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *err
     if (status != IMAGE_OK) {
         return status;
     }
-    return atomic_file_check(path, error) ? IMAGE_OK : IMAGE_IO;
+    return atomic_file_check(file_path(path), error) ? IMAGE_OK : IMAGE_IO;
 }
 
 static void rows_fetch(const void *client, int first_row, int row_count, void *samples)
@@ -237,11 +247,12 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
     }
     source->image = image;
     encoder_init(&source->encoder, encoding, image->channels);
-    if (!atomic_file_open(&file, path, error)) {
+    if (!atomic_file_open(&file, file_path(path), error)) {
         status = IMAGE_IO;
     } else {
-        status = module == NULL ? png_write(image, &source->encoder, (PngSink){&file, file_put}, error)
-                                : write_by_module(module, ending, source, &file, error);
+        status = module != NULL               ? write_by_module(module, ending, source, &file, error)
+                 : strcmp(ending, "png") == 0 ? png_write(image, &source->encoder, (PngSink){&file, file_put}, error)
+                                              : plain_write(ending, image, &source->encoder, &file, error);
         if (status != IMAGE_OK) {
             atomic_file_abandon(&file);
         } else if (!atomic_file_commit(&file, error)) {

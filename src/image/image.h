@@ -1,8 +1,9 @@
 // Pictures as files: encoding, atomic writing, reading, and comparing.
 //
-// PNG goes through libpng. Everything else goes through modules that are loaded on first use: reading JPEG through libjpeg
-// (image/jpeg_module.c), the rest through OpenImageIO (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an
-// old picture is either kept or wholly replaced. The same picture and encoding give the same bytes.
+// PNG goes through libpng; PPM and Targa are written as they are (image/plain_write.c). Everything else goes through
+// modules that are loaded on first use: reading JPEG through libjpeg (image/jpeg_module.c), the rest through OpenImageIO
+// (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an old
+// picture is either kept or wholly replaced. The same picture and encoding give the same bytes.
 //
 // SPDX-License-Identifier: MIT
 #ifndef IMAGE_IMAGE_H
@@ -63,8 +64,10 @@ typedef struct ImageError {
     char detail[256]; // one line from the system or the library, "" if there is none
 } ImageError;
 
-// Whether a path can be written at this depth, asked before a long run: the format by its ending, `-` is PNG on
-// standard output.
+// Whether a path is standard output: `-`, as PNG, or `-.ENDING`, as the format of that ending.
+bool image_path_is_stdout(const char *path);
+
+// Whether a path can be written at this depth, asked before a long run: the format by its ending.
 ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *error) RT_MUST_CHECK;
 
 // The depth a path gets when none is asked for: float for formats that hold nothing else, such as EXR, else 8 bit.
@@ -73,7 +76,7 @@ ImageDepth image_path_depth(const char *path);
 // Whether the format that a path's ending names holds channels of any name: EXR.
 bool image_path_names_channels(const char *path);
 
-// Whether pictures with alpha can be written to a path: PNG, which has colours as they are, and EXR, which has them
+// Whether pictures with alpha can be written to a path: PNG and Targa, which have colours as they are, and EXR, which has them
 // multiplied with alpha.
 bool image_path_has_alpha(const char *path);
 

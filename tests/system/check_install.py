@@ -81,7 +81,8 @@ def find(top, name):
 def install(folder):
     """(the installation where it was moved to, what make said)."""
     stage, moved = os.path.join(folder, "stage"), os.path.join(folder, "another place")
-    done = run(os.environ.get("MAKE", "make"), "-s", "install", f"DESTDIR={stage}", folder=os.getcwd(), HOME=folder)
+    done = run(os.environ.get("MAKE", "make"), "-s", "install", f"DESTDIR={stage}", "POVRAY_LINK=povray",
+               folder=os.getcwd(), HOME=folder)
     if done.returncode == 0:
         top = os.path.dirname(os.path.dirname(find(stage, "rtcheck")))
         staged = run(find(stage, "rtlang"), "-q", "--check", "scene.scn", folder=folder)
@@ -170,6 +171,10 @@ def main():
             tap.done()
         program = find(moved, "rtlang")
         check_drawn("program", folder, moved, program, "-q", "-W16", "-H12", "scene.scn", "-o")
+        link = os.path.join(os.path.dirname(program), "povray")
+        done = run(link, "+Iscene.scn", "+W16", "+H12", "+Olink.png", folder=folder)
+        tap.ok(os.path.islink(link) and done.returncode == 0 and os.path.exists(os.path.join(folder, "link.png")),
+               "the link povray takes POV-Ray's options", said(done))
         os.symlink(program, os.path.join(folder, "link"))
         check_drawn("link", folder, moved, "./link", "-q", "-W16", "-H12", "scene.scn", "-o")
         if shutil.which("pkg-config"):

@@ -186,7 +186,7 @@ def check_refused():
     scene = lit()
     group = scene.spheres(centers, radii, colors)
     before = scene.render(48, 36)
-    says = "error[E0704]: "
+    says = "error[E0709]: "
     for name, call, kind, text, index in (
             ("a NaN", lambda: scene.spheres(nan, 1), wrong,
              "spheres[17]: error[E0460]: number 1 of the center must be finite, not nan", 17),
@@ -211,9 +211,9 @@ def check_refused():
              "finish:2:1: error[E0250]: unknown property `phogn` in finish\n   2 | phogn 1\n     | ^~~~~\n"
              "     = help: did you mean `phong`?", None),
             ("a finish that is more", lambda: scene.spheres(centers, 1, finish="} interior { ior 1.5"), usage,
-             "rtlang: error[E0704]: a finish is what stands in the braces of `finish { }`, and no more", None),
+             "rtlang: error[E0709]: a finish is what stands in the braces of `finish { }`, and no more", None),
             ("pairs beyond the centers", lambda: scene.bonds(centers, [[0, 1], [2, 20]], 0.1), usage,
-             "bonds[1]: error[E0704]: names centers (2, 20), and there are 20", 1),
+             "bonds[1]: error[E0709]: names centers (2, 20), and there are 20", 1),
             ("pairs that are no integers", lambda: scene.bonds(centers, [[0.0, 1.0]], 0.1), usage,
              says + "pairs must be integers of the shape (m, 2), not float64 of (1, 2)", None),
             ("a rod of no length", lambda: scene.rods(centers, centers, 0.1), wrong,
@@ -313,7 +313,7 @@ def check_interrupts():
             threading.Thread(target=other).start()
             done.wait(20)
     scene.render(64, 48, samples=4, progress=start)
-    tap.equal(caught, ["error[E0704]: rt_add_spheres: another thread is using this scene (one scene a thread)"],
+    tap.equal(caught, ["error[E0709]: rt_add_spheres: another thread is using this scene (one scene a thread)"],
               "a second thread is refused")
     images, before = [], slow()
     reference = before.render(64, 48)

@@ -172,7 +172,7 @@ COMMANDS = {
     "declare_reserved_word": ["-D", "sphere=1", "good.scn"],
     "declare_not_a_number": ["-D", "Size=big", "good.scn"],
     "no_scene": [],
-    "two_scenes": ["good.scn", "wrong_type.scn"],
+    "two_scenes": ["-o", "one.png", "good.scn", "wrong_type.scn"],
 }
 
 # Cases whose message is another without OpenImageIO.

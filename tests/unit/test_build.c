@@ -372,7 +372,7 @@ static void check_faults(void)
     rt_spheres spheres = three_spheres(centers, radii);
     rt_session *session = session_open(&told);
     tap_ok(rt_add_spheres(session, &spheres, NULL) == RT_FAULT_USAGE &&
-               says(&told, "rtlang: error[E0704]: rt_add_spheres is for a scene that was begun and is whole\n"
+               says(&told, "rtlang: error[E0709]: rt_add_spheres is for a scene that was begun and is whole\n"
                            "     = help: rt_begin_scene\n"),
            "arrays before rt_begin_scene");
     (void)rt_begin_scene(session);

@@ -1,0 +1,58 @@
+// As POV-Ray does it, but that the clock of a single frame is that of the first, where POV-Ray divides 0 by 0.
+//
+// SPDX-License-Identifier: MIT
+#include "cli/frames.h"
+
+#include <stdio.h>
+#include <string.h>
+
+double frames_clock_delta(const Frames *frames)
+{
+    int steps = frames->final - frames->initial;
+    return steps != 0 ? (frames->clock_to - frames->clock_from) / steps : 0.0;
+}
+
+double frames_clock(const Frames *frames, int frame)
+{
+    int steps = frames->final - frames->initial;
+    double whole = frames->clock_to - frames->clock_from;
+    return steps != 0 ? frames->clock_from + whole * (frame - frames->initial) / steps : frames->clock_from;
+}
+
+static int digits_of(int number)
+{
+    int digits = 1;
+    for (; number >= 10; number /= 10) {
+        digits++;
+    }
+    return digits;
+}
+
+void frames_name(const Frames *frames, int frame, const char *output, char *name, size_t size)
+{
+    const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+    int stem = dot ? (int)(dot - output) : (int)strlen(output);
+    bool is_stream = output[0] == '-' && (output[1] == '\0' || (output[1] == '.' && !slash));
+    if (is_stream) {
+        snprintf(name, size, "%s", output);
+    } else {
+        snprintf(name, size, "%.*s%0*d%s", stem, output, digits_of(frames->final), frame, dot ? dot : "");
+    }
+}
+
+rt_status frames_declare(const Frames *frames, int frame, rt_session *session)
+{
+    const struct {
+        const char *name;
+        double value;
+    } values[] = {{"clock_delta", frames_clock_delta(frames)}, {"initial_clock", frames->clock_from},
+                  {"final_clock", frames->clock_to},           {"initial_frame", frames->initial},
+                  {"final_frame", frames->final},              {"frame_number", frame}};
+    rt_status status = rt_set_clock(session, frames_clock(frames, frame));
+    for (size_t i = 0; !status && i < sizeof values / sizeof values[0]; i++) {
+        char declaration[64];
+        snprintf(declaration, sizeof declaration, "%s=%.17g", values[i].name, values[i].value);
+        status = rt_declare(session, declaration);
+    }
+    return status;
+}

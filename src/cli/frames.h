@@ -1,0 +1,30 @@
+// An animation: which frames are drawn, the clock of each, and what its picture is called.
+//
+// SPDX-License-Identifier: MIT
+#ifndef CLI_FRAMES_H
+#define CLI_FRAMES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rtlang/rtlang.h"
+
+// All zero: a single picture.
+typedef struct Frames {
+    int initial, final;     // numbers of the whole animation's frames; of a cyclic one `final` is the first again
+    int first, last, step;  // those that are drawn; a step of 0: there is no animation
+    double clock_from, clock_to;
+} Frames;
+
+// How much the clock goes on from frame to frame; 0 where there is only one.
+double frames_clock_delta(const Frames *frames);
+double frames_clock(const Frames *frames, int frame);
+
+// The name of a frame's picture: its number, of as many digits as the last one has, before the ending. Standard output
+// has the same name for all.
+void frames_name(const Frames *frames, int frame, const char *output, char *name, size_t size);
+
+// What a scene may ask about its animation: the clock, and POV-Ray's names for the rest.
+rt_status frames_declare(const Frames *frames, int frame, rt_session *session);
+
+#endif

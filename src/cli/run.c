@@ -1,0 +1,314 @@
+// What the program does with one scene: the action that its options name, and messages about options that do not fit.
+//
+// SPDX-License-Identifier: MIT
+#include "cli/run.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/frames.h"
+#include "cli/summary.h"
+
+static rt_status fail_usage(rt_session *session, const char *message)
+{
+    return rt_report(session, "E0703", message, "rtlang --help lists the options");
+}
+
+// `-W abc`: as mistyped `-Wall`, or a width.
+static rt_status fail_warning(rt_session *session, const WarningOption *option)
+{
+    static const char *const names[] = {"all", "error", NULL};
+    char message[COMPLAINT_SIZE], advice[ADVICE_SIZE];
+    snprintf(message, sizeof message, "option `--warnings` wants all, error or the code of a warning, found `%.80s`",
+             option->what);
+    advise_value(option->what, names, advice, sizeof advice);
+    if (!advice[0] && !option->is_letter) {
+        return fail_usage(session, message);
+    }
+    return rt_report(session, "E0703", message, advice[0] ? advice : "a width is a number, as in `-W 320`");
+}
+
+static rt_status fail_argument(rt_session *session, const char *expected, const char *found)
+{
+    char message[COMPLAINT_SIZE];
+    snprintf(message, sizeof message, "option %s `%.80s`", expected, found);
+    return fail_usage(session, message);
+}
+
+static rt_status configure(rt_session *session, const Options *options)
+{
+    const int *crop = options->crop;
+    rt_status status = rt_set_size(session, options->width, options->height);
+    if (!status && crop[2] > 0 && rt_set_crop(session, crop[0], crop[1], crop[2], crop[3])) {
+        return fail_usage(session, "`--crop` wants a part that lies in the picture");
+    }
+    for (int i = 0; !status && i < options->include_path_count; i++) {
+        status = rt_add_include_path(session, options->include_paths[i]);
+    }
+    if (!status && options->header) {
+        status = rt_set_header(session, options->header);
+    }
+    status = status ? status : rt_set_povray_includes(session, !options->no_povray_includes);
+    for (int i = 0; !status && i < options->read_folder_count; i++) {
+        status = rt_allow_read(session, options->read_folders[i]);
+    }
+    for (int i = 0; !status && i < LIMIT_COUNT; i++) {
+        status = options->limits[i] ? rt_set_limit(session, (rt_limit)i, options->limits[i]) : RT_OK;
+    }
+    rt_set_literals(session, !options->no_literals);
+    status = status ? status : rt_set_load_threads(session, options->threads);
+    if (!status && options->clock_given) {
+        status = rt_set_clock(session, options->clock);
+    }
+    if (!status && options->frames.step) {
+        status = frames_declare(&options->frames, options->frame, session);
+    }
+    for (int i = 0; !status && i < options->declaration_count; i++) {
+        status = rt_declare(session, options->declarations[i]);
+        if (status == RT_FAULT_USAGE) {
+            return fail_argument(session, "`--declare` wants NAME=NUMBER, with a NAME that is not reserved, found",
+                                 options->declarations[i]);
+        }
+    }
+    for (int i = 0; !status && i < options->warning_count; i++) {
+        status = rt_set_warning(session, options->warnings[i].what);
+        if (status) {
+            return fail_warning(session, &options->warnings[i]);
+        }
+    }
+    return status;
+}
+
+// What stands in the buffer of standard output goes out, too.
+rt_status run_print(rt_session *session, const char *text, rt_status status)
+{
+    errno = 0;
+    if (fputs(text, stdout) == EOF || fflush(stdout) != 0 || ferror(stdout)) {
+        char message[COMPLAINT_SIZE];
+        snprintf(message, sizeof message, "cannot write standard output: %s", strerror(errno ? errno : EIO));
+        return rt_report(session, "E0505", message, NULL);
+    }
+    return status;
+}
+
+// Prints a stage. What could be read is printed even when there were faults.
+static rt_status dump(rt_session *session, const Options *options)
+{
+    const char *text = "";
+    rt_status status;
+    if (options->action == ACTION_DUMP_SCENE) {
+        status = rt_load_file(session, options->scene);
+        if (!status) {
+            status = rt_dump_scene(session, &text);
+        }
+    } else {
+        rt_syntax stage = options->action == ACTION_DUMP_TOKENS ? RT_SYNTAX_TOKENS : RT_SYNTAX_AST;
+        status = rt_dump_syntax(session, stage, options->scene, &text);
+    }
+    return run_print(session, text, status);
+}
+
+static rt_status trace_pixel(rt_session *session, const Options *options)
+{
+    const char *text = "";
+    rt_status status = rt_load_file(session, options->scene);
+    if (!status && options->isa) {
+        status = rt_set_isa(session, options->isa);
+    }
+    status = status ? status : rt_trace_pixel(session, options->pixel_x, options->pixel_y, &text);
+    return status ? status : run_print(session, text, status);
+}
+
+static rt_status budget(rt_session *session, const Options *options)
+{
+    rt_budget b = {0};
+    char text[512];
+    rt_status status = rt_load_file(session, options->scene);
+    status = status ? status : rt_get_budget(session, &b);
+    snprintf(text, sizeof text,
+             "objects          %15llu\n"
+             "scene, bytes     %15llu\n"
+             "tree, at most    %15llu\n"
+             "picture          %15llu\n"
+             "all, at most     %15llu\n"
+             "limit            %15llu\n",
+             (unsigned long long)b.objects, (unsigned long long)b.scene, (unsigned long long)b.prepared,
+             (unsigned long long)b.picture, (unsigned long long)(b.scene + b.prepared + b.picture),
+             (unsigned long long)b.limit);
+    return status ? status : run_print(session, text, status);
+}
+
+static rt_status explain(rt_session *session, const Options *options)
+{
+    const char *text;
+    rt_status status = rt_explain(session, options->code, &text);
+    if (status == RT_FAULT_USAGE) {
+        return fail_argument(session, "`--explain`: no message has the code", options->code);
+    }
+    return run_print(session, text, status);
+}
+
+static rt_status explain_scene(rt_session *session, const Options *options)
+{
+    const char *text = "";
+    rt_status status = rt_load_file(session, options->scene);
+    if (!status && options->isa) {
+        status = rt_set_isa(session, options->isa);
+    }
+    status = status ? status : rt_explain_scene(session, options->threads, &text);
+    return status ? status : run_print(session, text, status);
+}
+
+static rt_status format(rt_session *session, const Options *options)
+{
+    const char *text;
+    rt_status status = rt_format_file(session, options->scene, &text);
+    return status ? status : rt_write_text(session, options->output ? options->output : "-");
+}
+
+// The scene's name without folder and ending, with .png; that of standard input is stdin.png.
+static void default_output(const char *scene, char *output, size_t size)
+{
+    const char *base = strrchr(scene, '/');
+    base = strcmp(scene, "-") == 0 ? "stdin" : base ? base + 1 : scene;
+    const char *dot = strrchr(base, '.');
+    int length = dot && dot != base ? (int)(dot - base) : (int)strlen(base);
+    snprintf(output, size, "%.*s.png", length, base);
+}
+
+static rt_status set_sampling(rt_session *session, const Options *options)
+{
+    rt_set_alpha(session, options->has_alpha);
+    rt_status status = rt_set_antialias(session, &options->antialias);
+    rt_sampling sampling = options->sampling;
+    sampling.no_pixel_errors = !options->error_map && !options->encoding.error_channel;
+    if (status || rt_set_sampling(session, &sampling) == RT_OK) {
+        return status;
+    }
+    return fail_usage(session, options->sampling.adaptive && options->sampling.samples == 0.0
+                                   ? "`--adaptive` wants `--samples`, `--target-error` or `--time-limit`"
+                               : options->sampling.no_estimate
+                                   ? "adaptive sampling needs the estimate that `--no-estimate` turns off"
+                               : options->sampling.adaptive || options->sampling.target_error > 0.0 ||
+                                       options->sampling.time_limit > 0.0
+                                   ? "adaptive sampling and goals want a sampler of sequences: sobol, halton or random"
+                                   : "`--samples` wants a whole number, unless with `--adaptive` or a goal");
+}
+
+static rt_status check_output(rt_session *session, const Options *options, const char *output)
+{
+    rt_status status = rt_check_output(session, output, &options->encoding);
+    if (status != RT_FAULT_USAGE) {
+        return status;
+    }
+    return options->has_alpha && options->encoding.error_channel
+               ? fail_usage(session, "a picture has `--alpha` or `--error-channel`, not both")
+           : options->has_alpha              ? fail_usage(session, "`--alpha` wants a picture in PNG or EXR")
+           : options->encoding.error_channel ? fail_usage(session, "`--error-channel` wants a picture in EXR")
+                                             : status;
+}
+
+static void say_summary(const rt_session *session, const Options *options, const char *output, Voice *voice)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (out) {
+        summary_print(out, session, output);
+        summary_print_error(out, session, options);
+        if (fclose(out) == 0) {
+            voice_say(voice, VOICE_STATISTICS, text, length);
+        }
+        free(text);
+    }
+}
+
+// Writes what there is to write, and tells of it.
+static rt_status finish(rt_session *session, const Options *options, const char *output, Voice *voice)
+{
+    rt_status status = options->has_no_output ? RT_OK : rt_write(session, output, &options->encoding);
+    if (!status && options->error_map) {
+        status = rt_write_error(session, options->error_map);
+    }
+    if (status == RT_FAULT_USAGE) {
+        return fail_usage(session,
+                          options->encoding.error_channel
+                              ? "`--error-channel` wants a sampled picture: `--samples` of 2 or more, or a goal"
+                              : "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
+    }
+    if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
+        say_summary(session, options, output, voice);
+    }
+    return status;
+}
+
+static rt_status render(rt_session *session, const Options *options, Voice *voice)
+{
+    char default_name[PATH_MAX], frame_name[PATH_MAX + 16];
+    const char *output = options->output;
+    if (!output) {
+        default_output(options->scene, default_name, sizeof default_name);
+        output = default_name;
+    }
+    if (options->frames.step) {
+        frames_name(&options->frames, options->frame, output, frame_name, sizeof frame_name);
+        output = frame_name;
+    }
+    rt_status status = set_sampling(session, options);
+    status = status || options->has_no_output ? status : check_output(session, options, output);
+    status = status ? status : rt_load_file(session, options->scene);
+    if (status) {
+        return status;
+    }
+    progress_begin(&voice->progress, !options->quiet && !options->has_no_progress && options->format == RT_FORMAT_TEXT);
+    status = rt_set_method(session, options->method, options->photons);
+    status = status ? status : rt_set_precision(session, options->precision);
+    if (status) {
+        return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
+    }
+    status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
+    rt_spend_scene(session);
+    status = status ? status : rt_render(session, options->threads);
+    progress_end(&voice->progress);
+    int width, height;
+    if (status == RT_CANCELLED && rt_pixels(session, &width, &height)) {
+        rt_status written = finish(session, options, output, voice);
+        return written ? written : status;
+    }
+    return status ? status : finish(session, options, output, voice);
+}
+
+static rt_status check(rt_session *session, const Options *options)
+{
+    return rt_load_file(session, options->scene);
+}
+
+static rt_status check_format(rt_session *session, const Options *options)
+{
+    return rt_check_format(session, options->scene);
+}
+
+rt_status run(rt_session *session, const Options *options, Voice *voice)
+{
+    static rt_status (*const actions[])(rt_session *session, const Options *options) = {
+        [ACTION_CHECK] = check,
+        [ACTION_DUMP_TOKENS] = dump,
+        [ACTION_DUMP_AST] = dump,
+        [ACTION_DUMP_SCENE] = dump,
+        [ACTION_EXPLAIN] = explain,
+        [ACTION_EXPLAIN_SCENE] = explain_scene,
+        [ACTION_FORMAT] = format,
+        [ACTION_FORMAT_CHECK] = check_format,
+        [ACTION_TRACE_PIXEL] = trace_pixel,
+        [ACTION_BUDGET] = budget,
+    };
+    rt_status status = configure(session, options);
+    if (status) {
+        return status;
+    }
+    return options->action == ACTION_RENDER ? render(session, options, voice)
+                                            : actions[options->action](session, options);
+}

@@ -1,0 +1,16 @@
+// Runs one scene, or one frame of it, as the options say.
+//
+// SPDX-License-Identifier: MIT
+#ifndef CLI_RUN_H
+#define CLI_RUN_H
+
+#include "cli/options.h"
+#include "cli/voice.h"
+#include "rtlang/rtlang.h"
+
+rt_status run(rt_session *session, const Options *options, Voice *voice);
+
+// Prints to standard output, with what stands in its buffer; returns `status`, or what went wrong.
+rt_status run_print(rt_session *session, const char *text, rt_status status);
+
+#endif
