@@ -30,7 +30,7 @@ rt_status session_image_fault(rt_session *session, ImageStatus status, const cha
         return session_status(session, true);
     }
     // The system's words begin with the path where the system was asked; again it would say nothing new.
-    bool is_stream = strcmp(path, "-") == 0;
+    bool is_stream = image_path_is_stdout(path);
     const char *detail = error->detail, *said = is_stream ? "standard output" : path;
     size_t length = strlen(said);
     if (strncmp(detail, said, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
@@ -74,17 +74,42 @@ rt_status rt_check_output(rt_session *session, const char *path, const rt_output
     return session_image_fault(session, image_check_path(path, output_depth(output, path), &error), path, &error);
 }
 
-// The picture with what belongs into a file beside its light, if anything (*own, to be released).
-static bool picture_of(const rt_session *session, bool has_error, bool is_multiplied, Image *own, Image *image)
+// A picture of the size that was set, black but for the rendered part, which is given with its three or four channels.
+static bool picture_whole(const rt_session *session, const Image *part, Image *image)
 {
+    size_t channels = (size_t)part->channels;
+    if (!image_init(image, session->width, session->height, part->channels)) {
+        return false;
+    }
+    for (size_t i = 3; channels == 4 && i < 4 * (size_t)image->width * (size_t)image->height; i += 4) {
+        image->values[i] = 1.0f; // opaque black, as in POV-Ray
+    }
+    for (size_t y = 0; y < (size_t)part->height; y++) {
+        size_t row = ((size_t)session->crop.top + y) * (size_t)image->width + (size_t)session->crop.left;
+        size_t length = (size_t)part->width * channels;
+        memcpy(image->values + row * channels, part->values + y * length, length * sizeof *image->values);
+    }
+    return true;
+}
+
+// The picture with what belongs into a file beside its light and its part, if anything (*own, to be released).
+static bool picture_of(const rt_session *session, const rt_output *output, bool is_multiplied, Image *own, Image *image)
+{
+    bool is_made = true;
     *own = (Image){0};
     *image = (Image){session->film.width, session->film.height, 3, session->film.rgb};
-    if (!has_error && !session->film.clear) {
-        return true;
+    if (output->error_channel) {
+        is_made = session_picture_with_error(session, own);
+    } else if (session->film.clear) {
+        is_made = session_picture_with_alpha(session, is_multiplied, own);
     }
-    bool is_made = has_error ? session_picture_with_error(session, own)
-                             : session_picture_with_alpha(session, is_multiplied, own);
-    *image = *own;
+    if (is_made && output->whole && session->crop.width) {
+        Image fourth = *own, part = own->values ? *own : *image;
+        *own = (Image){0};
+        is_made = picture_whole(session, &part, own);
+        image_fini(&fourth);
+    }
+    *image = own->values ? *own : *image;
     return is_made;
 }
 
@@ -112,7 +137,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
     double start = session_clock();
     ImageError error = {""};
     Image own, image;
-    if (!picture_of(session, output->error_channel, image_path_names_channels(path), &own, &image)) {
+    if (!picture_of(session, output, image_path_names_channels(path), &own, &image)) {
         return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
     }
     SessionNotes notes;
@@ -131,12 +156,15 @@ rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixe
     Image own, image;
     SessionNotes notes = {.count = 0};
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
-    size_t count = (size_t)session->film.width * (size_t)session->film.height * (session->film.clear ? 4 : 3);
+    bool is_whole = output->whole && session->crop.width;
+    int width = is_whole ? session->width : session->film.width;
+    int height = is_whole ? session->height : session->film.height;
+    size_t count = (size_t)width * (size_t)height * (session->film.clear ? 4 : 3);
     if (!session->rendered || !is_output(output, path, session->film.clear) ||
         bytes != count * encode_sample_bytes(encoding.depth)) {
         return RT_FAULT_USAGE;
     }
-    bool is_made = picture_of(session, false, false, &own, &image) && image_samples(&image, &encoding, pixels);
+    bool is_made = picture_of(session, output, false, &own, &image) && image_samples(&image, &encoding, pixels);
     image_fini(&own);
     return session_image_fault(session, is_made ? IMAGE_OK : IMAGE_NO_MEMORY, "memory", &error);
 }
@@ -179,7 +207,7 @@ rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigne
     session->png = NULL;
     session_make_notes(session, &notes);
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
-    ImageStatus status = picture_of(session, false, false, &own, &image)
+    ImageStatus status = picture_of(session, output, false, &own, &image)
                              ? image_encode_png(&image, &encoding, &session->png, size, &error)
                              : IMAGE_NO_MEMORY;
     image_fini(&own);
