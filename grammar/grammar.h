@@ -84,8 +84,9 @@ typedef struct GrammarHooks {
     const bool *has_unbalanced;
     // Works an expression out: sets AST_KNOWN and `known`.
     void (*fold)(void *client, AstNode *node);
-    // Runs a directive other than those below; `within`: inside an item. False: stop.
-    bool (*run)(void *client, const AstNode *directive, bool within);
+    // Runs a directive other than those below; `within`: inside an item. Since it began so many calls and files have
+    // begun that have not ended. False: stop.
+    bool (*run)(void *client, const AstNode *directive, bool within, unsigned scopes);
     // Whether the condition holds (IF, IFDEF, WHILE) or *subject meets it (CASE, RANGE); SWITCH sets *subject. False: a
     // fault was reported.
     bool (*decide)(void *client, const AstNode *directive, double *subject, bool *holds);

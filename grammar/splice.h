@@ -46,6 +46,7 @@ struct GrammarStream {
     GrammarHooks *hooks;
     GrammarState *live; // the state whose scanner gives the text after the kept tokens; NULL: there is none
     ARRAY(Frame) frames;
+    size_t head_frames; // those that were there when the head that is being read began; 0: none is
     bool within;  // the items stand inside braces or parentheses
     bool is_call; // the whole is a macro's body
     bool failed;  // reading cannot go on
@@ -82,6 +83,11 @@ static inline bool frame_has_text(const Frame *frame)
 {
     return frame->kind < FRAME_BRANCH;
 }
+
+// The innermost text; what is read again goes on in the live one.
+size_t stream_own_text(const GrammarStream *stream);
+// Calls and files that began in a text, given as above, and have not ended.
+unsigned stream_scopes_since(const GrammarStream *stream, size_t text);
 
 // Directives that have not met their #end.
 size_t stream_open_directives(const GrammarStream *stream);

@@ -258,6 +258,10 @@ static void break_out(Reading *reading)
     for (size_t i = stream->frames.count; i > 0; i--) {
         Frame *frame = &stream->frames.items[i - 1];
         Token opener = frame->opened_by, last;
+        if (i <= stream->head_frames) {
+            stream_fault(stream, DIAG_E0209, reading->directive.span, "`#break` cannot leave the head of a directive");
+            return;
+        }
         switch (frame->kind) {
         case FRAME_BRANCH: branches++; break;
         case FRAME_FILE: is_from_file = true; break;
@@ -379,7 +383,7 @@ static void include_file(Reading *reading)
     bool is_inside = stream->is_open || stream->within || !hooks->is_top;
     AstNode *node = stream_parse(stream, TOKEN_START_DIRECTIVE, 0, false);
     Source *source = node != NULL && is_inside ? hooks->include(hooks->client, node) : NULL;
-    if (node != NULL && !is_inside && !hooks->run(hooks->client, node, false)) {
+    if (node != NULL && !is_inside && !hooks->run(hooks->client, node, false, 0)) {
         stream_fail(stream);
     }
     arena_rewind(stream->context->arena, mark);
@@ -432,8 +436,10 @@ static void run_simple(Reading *reading)
     bool within = stream->is_open || stream->within;
     ArenaMark mark = arena_mark(stream->context->arena);
     stream_unread(stream, &reading->directive);
+    size_t own = stream_own_text(stream);
     AstNode *node = stream_parse(stream, TOKEN_START_DIRECTIVE, 0, false);
-    if (node != NULL && !stream->hooks->run(stream->hooks->client, node, within)) {
+    if (node != NULL &&
+        !stream->hooks->run(stream->hooks->client, node, within, stream_scopes_since(stream, own))) {
         stream_fail(stream);
     }
     arena_rewind(stream->context->arena, mark);

@@ -247,6 +247,21 @@ GrammarText *grammar_text_copy(const GrammarText *text, Arena *arena)
     return arena_copy(arena, text, sizeof *text + text->count * sizeof *text->tokens);
 }
 
+size_t stream_own_text(const GrammarStream *stream)
+{
+    size_t at = stream_innermost_text(stream);
+    return stream->live != NULL && at > 0 && stream->frames.items[at - 1].kind == FRAME_TEXT ? 1 : at;
+}
+
+unsigned stream_scopes_since(const GrammarStream *stream, size_t text)
+{
+    unsigned count = 0;
+    for (size_t i = text; i < stream->frames.count; i++) {
+        count += stream->frames.items[i].kind == FRAME_MACRO || stream->frames.items[i].kind == FRAME_FILE;
+    }
+    return count;
+}
+
 size_t stream_open_directives(const GrammarStream *stream)
 {
     size_t count = 0;
@@ -264,17 +279,10 @@ bool stream_is_head(int start)
            start == TOKEN_START_FOR;
 }
 
-// The innermost text; what is read again goes on in the live one.
-static size_t own_text(const GrammarStream *stream)
-{
-    size_t at = stream_innermost_text(stream);
-    return stream->live != NULL && at > 0 && stream->frames.items[at - 1].kind == FRAME_TEXT ? 1 : at;
-}
-
 // Where a head ends in a text that its directive is not in, POV-Ray loses its names: it refuses what follows, or crashes.
 static bool ends_elsewhere(const GrammarStream *stream, int start, size_t head, size_t counter)
 {
-    size_t last = own_text(stream);
+    size_t last = stream_own_text(stream);
     bool is_elsewhere = start == TOKEN_START_FOR && (last > head || counter > head);
     for (size_t i = head; i < last && !is_elsewhere; i++) {
         is_elsewhere = stream->frames.items[i].kind == FRAME_MACRO;
@@ -302,8 +310,10 @@ AstNode *stream_parse(GrammarStream *stream, int start, int base_depth, bool is_
     state.is_raw = is_raw;
     state.takes_elements = start == TOKEN_START_SUBJECT;
     state.begins_raw = start == TOKEN_START_DIRECTIVE;
-    size_t head = own_text(stream);
+    size_t head = stream_own_text(stream);
+    size_t before = stream->head_frames;
     bool was_open = stream->is_open;
+    stream->head_frames = stream_is_head(start) ? stream->frames.count : before;
     stream->is_open = true;
     ++*stream->hooks->nesting;
     bool fine = grammar_yyparse(&state) == 0 && !state.faulty && !state.builder.failed && !stream->failed;
@@ -317,6 +327,7 @@ AstNode *stream_parse(GrammarStream *stream, int start, int base_depth, bool is_
     }
     --*stream->hooks->nesting;
     stream->is_open = was_open;
+    stream->head_frames = before;
     if (!fine) {
         stream_fail(stream);
     } else if (state.has_lookahead && state.ended_by.kind == 0) {

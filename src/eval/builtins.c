@@ -123,13 +123,24 @@ static bool two_numbers(Eval *ev, const AstNode *node, Value *value)
     }
 }
 
+// Those of any number of numbers take no blank for a comma.
+static bool next_of_many(Eval *ev, const AstNode *call, const AstNode *argument, double *number)
+{
+    *number = 0.0;
+    if (argument->flags & AST_WITHOUT_COMMA) {
+        return eval_fault(ev, DIAG_E0203, argument->span, "a comma is missing before this argument of `%s`",
+                          eval_text(ev, call->symbol));
+    }
+    return eval_number(ev, argument, number);
+}
+
 static bool least_or_greatest(Eval *ev, const AstNode *node, Value *value)
 {
     double best = 0.0;
     bool fine = true, is_max = node->symbol == W_max;
     for (const AstNode *argument = node->a; argument != NULL; argument = argument->next) {
-        double number = 0.0;
-        fine = eval_number(ev, argument, &number) && fine;
+        double number;
+        fine = next_of_many(ev, node, argument, &number) && fine;
         bool is_better = argument == node->a || (is_max ? number > best : number < best);
         best = is_better ? number : best;
     }
@@ -141,8 +152,8 @@ static bool bitwise(Eval *ev, const AstNode *node, Value *value)
     int32_t bits = 0;
     bool fine = true;
     for (const AstNode *argument = node->a; argument != NULL; argument = argument->next) {
-        double number = 0.0;
-        fine = eval_number(ev, argument, &number) && fine;
+        double number;
+        fine = next_of_many(ev, node, argument, &number) && fine;
         int32_t next = (int32_t)number_to_int(number);
         bits = argument == node->a ? next
                : node->symbol == W_bitwise_and ? bits & next
@@ -289,6 +300,11 @@ static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
 
 static bool is_defined(Eval *ev, const AstNode *node, Value *value)
 {
+    // One token, whatever it is, or an element of an array.
+    bool is_name = node->a->kind <= AST_CONSTANT || node->a->kind == AST_INDEX;
+    if (!is_name || (node->a->flags & AST_IN_PARENTHESES)) {
+        return eval_fault(ev, DIAG_E0202, node->a->span, "`defined` takes a name or an element of an array");
+    }
     return give_number(value, name_is_declared(ev, node->a) ? 1.0 : 0.0);
 }
 

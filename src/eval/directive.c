@@ -161,9 +161,12 @@ static void run_declare(Cursor *cursor, const AstNode *node)
     ev->is_value_cut = ev->is_value_made = false;
     ev->value_ends = 0;
     ev->takes_end = true;
+    unsigned scopes = ev->scopes_within; // of this name, not of those that macros in its value declare
+    ev->scopes_within = 0;
     ev->at_colour = node->b->kind == AST_NAME && !(node->flags & AST_ENDED); // with a vector behind it
     bool fine = !(node->flags & AST_UNREADABLE) && eval_open_rvalue(ev, node->b, &value);
     ev->at_colour = ev->takes_end = false;
+    ev->scopes_within = scopes;
     if (!fine) {
         forget_value(ev, node->a, node->op == AST_OP_LOCAL);
         return;

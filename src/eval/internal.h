@@ -196,6 +196,7 @@ typedef struct Eval {
     LiteralWatch literal;
     Repeat repeats[REPEATS];
     bool is_value_made;  // the last function or spline was written where it is used, and has no name
+    unsigned scopes_within; // calls and files that began in the text of a #local and are not over: it is none of theirs
     bool takes_end;      // a `;` may end the text of what is worked out: it is the value of a declaration, or its end
     bool is_value_cut;   // a directive stands behind the value in such a text
     unsigned value_ends; // how many such semicolons stand in the text of the value

@@ -109,7 +109,7 @@ static bool least_or_greatest(Eval *ev, const AstNode *node, bool draws, double 
         return false;
     }
     for (const AstNode *argument = node->a->next; argument != NULL; argument = argument->next) {
-        if (!number_of(ev, argument, draws, &next)) {
+        if ((argument->flags & AST_WITHOUT_COMMA) || !number_of(ev, argument, draws, &next)) {
             return false;
         }
         bool is_better = node->symbol == W_max ? next > *number : next < *number;
@@ -138,7 +138,8 @@ static bool call_of(Eval *ev, const AstNode *node, bool draws, double *number)
     switch (node->symbol) {
     case W_defined:
         *number = first->kind == AST_NAME && scope_look(ev, first->symbol) != NULL ? 1.0 : 0.0;
-        return node->count == 1 && first->kind == AST_NAME && !(first->flags & AST_KNOWN);
+        return node->count == 1 && first->kind == AST_NAME &&
+               !(first->flags & (AST_KNOWN | AST_IN_PARENTHESES));
     case W_rand: return draws && node->count == 1 && number_of(ev, first, draws, a) && random_of(ev, a[0], number);
     case W_min:
     case W_max: return least_or_greatest(ev, node, draws, number);

@@ -100,14 +100,22 @@ static bool make_room(Eval *ev, Symbol name, Span span)
     return true;
 }
 
-// A global is made only when the name has no meaning at all, so hiding is always from further in.
+// That of the text in which a #local stands.
+static size_t own_level(const Eval *ev)
+{
+    return ev->scope->levels.count - ev->scopes_within;
+}
+
+// A global is made only when the name has no meaning at all, so hiding is from further in, but for a #local whose value
+// ends inside of a call.
 static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
 {
     Scope *scope = ev->scope;
     if (!make_room(ev, name, span)) {
         return NULL;
     }
-    Binding *binding = arena_alloc(level > 0 ? &scope->arena : &ev->program, sizeof *binding);
+    bool is_innermost = level > 0 && level == scope->levels.count;
+    Binding *binding = arena_alloc(is_innermost ? &scope->arena : &ev->program, sizeof *binding);
     if (binding == NULL) {
         eval_no_memory(ev, span);
         return NULL;
@@ -116,7 +124,11 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
     binding->own.name = SYMBOL_NONE;
     binding->variable = &binding->own;
     binding->array = NULL;
-    binding->hidden = scope->innermost.items[name];
+    Binding **place = &scope->innermost.items[name];
+    while (RT_UNLIKELY(*place != NULL && (*place)->level > level)) {
+        place = &(*place)->hidden;
+    }
+    binding->hidden = *place;
     binding->next = NULL;
     binding->name = name;
     binding->level = (uint32_t)level;
@@ -126,7 +138,7 @@ static Binding *make(Eval *ev, Symbol name, size_t level, Span span)
         binding->next = scope->levels.items[level - 1].locals;
         scope->levels.items[level - 1].locals = binding;
     }
-    scope->innermost.items[name] = binding;
+    *place = binding;
     return binding;
 }
 
@@ -140,8 +152,11 @@ static Arena *arena_for(Eval *ev, const Binding *binding)
 
 static Binding *find_or_make(Eval *ev, Symbol name, bool local, Span span)
 {
-    size_t level = ev->scope->levels.count;
+    size_t level = own_level(ev);
     Binding *binding = scope_binding(ev, name);
+    while (local && binding != NULL && binding->level > level) {
+        binding = binding->hidden;
+    }
     if (binding == NULL || (local && binding->level != level)) {
         return make(ev, name, local ? level : 0, span);
     }
@@ -167,7 +182,7 @@ static bool may_replace(Eval *ev, const Value *known, const Value *value, Symbol
 bool scope_is_new(const Eval *ev, Symbol name, bool local)
 {
     const Binding *binding = scope_binding(ev, name);
-    return binding == NULL || (local && binding->level != ev->scope->levels.count);
+    return binding == NULL || (local && binding->level != own_level(ev));
 }
 
 bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span)
@@ -179,7 +194,7 @@ bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span)
     if (outer != NULL && (outer->variable->kind == VALUE_MACRO || outer->variable->kind == VALUE_FUNCTION)) {
         return true; // it is not hidden
     }
-    Binding *binding = make(ev, name, local ? ev->scope->levels.count : 0, span);
+    Binding *binding = make(ev, name, local ? own_level(ev) : 0, span);
     if (binding != NULL) {
         binding->own = (Value){.kind = VALUE_UNSET};
     }

@@ -141,7 +141,7 @@ static bool uses_hidden(Eval *ev, const AstNode *directive)
     return use != NULL && !name_fault_unset(ev, use);
 }
 
-static bool run(void *client, const AstNode *directive, bool within)
+static bool run(void *client, const AstNode *directive, bool within, unsigned scopes)
 {
     Splice *splice = client;
     Eval *ev = eval_of(client);
@@ -153,7 +153,9 @@ static bool run(void *client, const AstNode *directive, bool within)
     if (uses_hidden(ev, directive)) {
         return false;
     }
+    ev->scopes_within = directive->kind == AST_DECLARE ? scopes : 0;
     directive_run(&splice->cursor, directive);
+    ev->scopes_within = 0;
     return !ev->stop;
 }
 

@@ -43,8 +43,10 @@ DECISIONS = [
     (r"E0(110|111)", r"", "(E0110)"),
     (r"E0106 .*(in the head of another|without the directive that it belongs to)", r"#(for|ifdef|ifndef)\b",
      "the head of a directive in which another ends that began before it, or begins and does not end (E0106)"),
+    (r"E0260 .*twice", r"function", "a parameter may stand twice in the list"),
+    (r"E0215", r"#read", "must be of the kind of the others"),
     (r"E0106 unexpected `$", r"#macro[^\n]*;\s*#end", "a `#declare` behind the value in a macro's text (E0106)"),
-    (r"E0212", r"#version\s+[-+]?(0|1?\.|1)", "a `#version` below 1.5 (E0212)"),
+    (r"E0212", r"#version\s+(-|\+?(0|1?\.|1))", "a `#version` below 1.5 (E0212)"),
     (r"E0223", r"array", "(E0223)"),
 ]
 DECIDED_MOST = 0.03   # of all odd programs

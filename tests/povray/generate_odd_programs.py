@@ -2,7 +2,8 @@
 """Writes short programs from where the language is odd, which POV-Ray may take or refuse.
 
 Loops in the bodies of functions, indices that are not whole, scopes of macros and includes, splines of few points, strings
-with characters 0 and 10, infinities, vectors of different lengths, versions. Most programs are then torn, a piece of a
+with characters 0 and 10, infinities, vectors of different lengths, versions, semicolons in the text of macros, arguments by
+reference and from directives, colours, arrays of arrays, data files, functions of blocks. Most programs are then torn, a piece of a
 statement standing in a directive, a macro or an included file, or get a near miss: a token more, less or in another place.
 
 The same seed gives the same program. Usage: generate_odd_programs.py SEED   Prints one. SPDX-License-Identifier: MIT
@@ -309,6 +310,135 @@ class OddProgram:
             self.show(name)
         self.add("#version 3.7;")
 
+    # ---- semicolons and values that macros and branches give
+
+    def given(self):
+        """(what a value is declared as, how to show the name)."""
+        return self.one((self.number(), "number"), (self.vector(), "vector"), (f"rgb {self.vector()}", "vector"), ('"abc"', "string"),
+                        ("S1", "string"), ("F1", "function"), ("function(x) { x*2 }", "function"), ("G1", "spline"),
+                        ("array[2] { 7, 8 }", "array"), ("A1", "array"), ("sphere { 0, 2 }", "object"), ("O1", "object"),
+                        ("texture { pigment { C1 } }", ""), ("texture { pigment { C1 } } texture { pigment { rgbt 1 } }", ""),
+                        ("C1", "vector"), (f"{self.number()} + {self.number()}", "number"), ("concat(S1, \"x\")", "string"))
+
+    def show_given(self, name, kind):
+        self.add({"number": lambda: self.shown(name), "vector": lambda: self.shown_vector(f"({name} + <0, 0, 0>)"),
+                  "string": lambda: self.shown_string(name), "function": lambda: self.shown(f"{name}(3)"),
+                  "spline": lambda: self.shown_vector(f"{name}(.25)"), "array": lambda: self.shown(f"{name}[1]"),
+                  "object": lambda: self.shown_vector(f"max_extent({name}) + 0"),
+                  "": lambda: f"sphere {{ 0, 1 texture {{ {name} }} }}"}[kind]())
+
+    def ends(self):
+        value, kind = self.given()
+        name, macro = self.name("E"), self.name("M")
+        is_expression = kind in ("number", "vector")
+        quiet = self.chance(.6)
+        before, after = ("" if quiet else self.one("", "", "#local L = 1;", "#if (0) 1 #end", '#debug "x\\n"', "#undef Q9") for _ in range(2))
+        body = self.one("V", "V", "V", "#if (N1 = 3) V #else 1; #end", "#if (0) x #elseif (1) V #end", "#switch (N1) #case (3) V #break #end",
+                        "#for (I, 1, 1) V #end")
+        inner, outer = ("", ";") if is_expression and body == "V" else (";", "") if is_expression else ("", "")
+        if not quiet:
+            inner, outer = self.one("", inner, inner, ";", ";;"), self.one("", outer, outer, ";", ";;")
+        body = f"{before} {body.replace('V', value + inner, 1)} {after}"
+        if self.chance(.3):
+            self.add(f"#declare {name} = {body}{outer}")
+        else:
+            self.add(f"#macro {macro}() {body} #end", f"#{self.one('declare', 'local')} {name} = {macro}(){outer}")
+        self.show_given(name, kind)
+        if kind == "number" and self.chance(.5):
+            first, last = self.one(("", ";"), ("", ";"), (";", ""), (";", ";"))
+            self.add(f"#macro {macro}2() {self.number()}{first} #end", f"#declare {name}2 = 2*{macro}2(){last}", self.shown(f"{name}2"))
+            if self.chance(.3):
+                self.add(self.one(self.shown(f"{macro}2()"), f"#if ({macro}2()) {self.shown('1')} #end"))
+
+    # ---- arguments
+
+    def argument(self):
+        n = self.number()
+        return self.one(n, n, f"#if (1) {n} #end", f"#if (0) 7 #end {n}", f"#if (0) 7 #else {n} #end", f"{n} #if (1) + 1 #end",
+                        f"#if (1) {n}, #end {self.number()}", f"({n})", f"#local L = 1; {n}", f"#ifdef (N1) ({n}) #end", f"M1({n})")
+
+    def arguments(self):
+        f, m, a, b = self.argument(), self.name("M"), self.argument(), self.argument()
+        comma = self.one(", ", ", ", ", ", " ")
+        self.one(lambda: self.show(f"F1({f})"), lambda: self.show(f"max({a}{comma}{b})"), lambda: self.show(f"sin({a})"),
+                 lambda: self.show(f"select({a}, 1, 2)"), lambda: self.show_vector(f"G1({a}{self.one('', ', linear_spline')})"),
+                 lambda: self.add(f"#macro {m}(P, Q) {self.shown('P')} {self.shown('Q')} #end", f"{m}({a}{comma}{b})"),
+                 lambda: self.add(f"#macro {m}(P) {self.shown_string('P')} #end",
+                                  f"{m}({self.one('#if (1) S1 #end', 'S1 #if (0) 1 #end', '#if (0) x #end S1', '#if (1) chr(65) #end')})"),
+                 lambda: self.add(f"#macro {m}(P) {self.shown_vector('max_extent(P)')} #end",
+                                  f"{m}({self.one('#if (1) O1 #end', 'O1', 'object { O1 }', 'sphere { 0, 2 } #if (0) 1 #end')})"),
+                 lambda: self.add(f"#macro {m}() {self.one('F1', '(2)', 'G1', 'A1', '[1]')} #end",
+                                  self.shown(f"{self.one(f'{m}()(2)', f'F1 {m}()', f'{m}()[1]', f'A1 {m}()')}")),
+                 lambda: self.show_vector(f"<{a}{comma}{b}, 3>"))()
+
+    def references(self):
+        x, a, m, k = self.name("X"), self.name("Y"), self.name("M"), self.name("K")
+        word = self.one("#declare", "#declare", "#local")
+        value, element = self.one("1", "<1, 2, 3>", "2"), self.one("3", "4", "<1, 2, 3>")
+        self.add(f"#declare {x} = {value};", f"#declare {a} = array[2] {{ {element}, {element} }}")
+        change = self.one(f"{word} P = 5;", f"{word} P = P + 1;", f"{word} P = P*2; {word} Q = P;", f"#local Q = P; {word} P = Q + 7;",
+                          f"#ifdef (P) {self.shown('1')} #end", f"{word} P = <4, 5, 6>;", "#undef P", f"{word} P[0] = 9;",
+                          "#for (P, 1, 2) #end", f"{word} P = \"b\";") if self.chance(.5) else f"{word} P = P + {self.number()};"
+        self.add(f"#macro {m}(P) {change} #end", f"#macro {k}(P, Q) {m}(P) {self.one(f'{m}(Q)', f'{word} Q = Q + 2;', f'#undef Q')} #end",
+                 self.one(f"{m}({x})", f"{m}({a}[0])", f"{m}({x} + 0)", f"{k}({x}, {x})", f"{k}({x}, {a}[1])", f"{m}(({x}))",
+                          f"{k}({a}[0], {x})", f"{m}({a})" if self.chance(.3) else f"{m}({x})"),
+                 f"#ifdef ({x}) {self.shown_vector(f'({x} + <0, 0, 0>)')} #else {self.shown('2')} #end",
+                 f"#for (I, 0, 1) #ifdef ({a}[I]) {self.shown_vector(f'({a}[I] + <0, 0, 0>)')} #end #end")
+
+    # ---- colours, arrays of arrays, data files, functions of blocks
+
+    def colours(self):
+        part = lambda: self.one("red", "green", "blue", "filter", "transmit") + " " + self.number()  # noqa: E731
+        colour = self.one(f"rgb {self.vector()}", f"rgb {self.number()}", f"rgbf {self.vector()}", f"rgbt {self.vector()}", f"C1 {part()}",
+                          f"color {part()} {part()}", f"rgb {self.vector()} {part()}", f"color C1*{self.number()}", f"C1 + {self.vector()}",
+                          f"colour rgbft {self.vector()} {part()}", f"color {self.vector()}", f"rgb {self.vector()}*{self.number()}",
+                          f"C1*{self.vector()} {part()}", f"color C1 {part()}", f"-C1", f"(C1)", f"{self.number()}*C1", f"rgb C1.{self.one('x', 'gray')}")
+        name = self.name("C")
+        self.add(f"#declare {name} = {colour};")
+        self.one(lambda: self.show_vector(name, 5), lambda: self.show_vector(f"{name} + 0", 3), lambda: self.show(f"{name}.{part().split()[0]}"),
+                 lambda: self.show(f"{name}.gray"), lambda: self.show_vector(f"{name}*{self.number()} + <1, 1, 1>", 5),
+                 lambda: self.add(f"sphere {{ 0, 1 pigment {{ {name} }} finish {{ ambient {name} }} }}"))()
+
+    def nested_arrays(self):
+        a, b = self.name("A"), self.name("B")
+        n, i, j = (self.one("0", "1", self.nearly() if self.chance(.2) else "1") for _ in range(3))
+        held, shown = self.one(("A1", self.shown(f"{b}[1][{j}]")), ("S1", self.shown_string(f"{b}[{j}]")), ("F1", self.shown(f"{b}[0](2)")),
+                               ("V1", self.shown_vector(f"({b}[1] + <0, 0, 0>)")), ("O1", self.shown_vector(f"max_extent({b}[{j}])")),
+                               ("C1", self.shown(f"{b}[1].green")), ("G1", self.shown_vector(f"{b}[1](.5)")))
+        other = held if self.chance(.8) else self.one("A1", "V1", "C1", "N1")
+        self.add(f"#declare {b} = array[2] {{ {held}, {other} }}", shown,
+                 f"#declare {a} = array[{self.one('2', '3')}][2]{self.one('', '', ' { { 1, 2 }, { 3, 4 } }') if self.chance(.4) else ''};",
+                 f"#declare {a}[{n}][{i}] = {self.number()};")
+        self.add(self.one(self.shown(f"{a}[{n}][{i}]"), self.shown(f"dimensions({a})"), self.shown(f"dimension_size({a}, {self.one('1', '2', '3')})"),
+                          f"#ifdef ({a}[{n}][{j}]) {self.shown('1')} #else {self.shown('2')} #end", f"#undef {a}[{n}][{i}]",
+                          f"#declare {b}[0] = {held}", f"#declare {b} = {a}") if self.chance(.8) else
+                 self.one(f"#declare {b}[0] = {self.number()};", self.shown(f"{b}[1].y"), f"#declare {b}[0][1] = 5; {self.shown('A1[1]')}",
+                          f"#local {a} = {b}", f"#declare {a}[0] = 1;"))
+
+    def data(self):
+        file, f, x = self.name("data") + ".csv", self.name("F"), self.name("X")
+        values = [self.one("1", "-2.5", "<1, 2, 3>", '"text"', "+3", "1e2", ".5", "<-1, 2>", "// comment\n4", "- 7") for _ in range(self.dice.randrange(1, 5))]
+        self.files[file] = ", ".join(values) + self.one("", ",", ",\n", "\n")
+        reads = self.one(f"{x}", f"{x}", f"{x}, N1", f"{x}, {x}", f"A1[0], {x}", f"{x}, A1[1]")
+        self.add(f'#fopen {f} "{file}" read', f"#while (defined({f})) "
+                 f"#read ({f}, {reads}) {self.shown(f'defined({f})')} #end", f"#ifdef ({x}) {self.shown('1')} #end", f"#ifdef (A1[0]) {self.shown('A1[0] + A1[1]')} #end")
+        if self.chance(.4):
+            self.add(self.one(self.shown(x), self.shown_string(x), self.shown_vector(f"({x} + <0, 0, 0>)")))
+
+    def made_functions(self):
+        f, at = self.name("F"), f"({self.one('1', '.5', 'N1', '-2')}, {self.one('0', '.25', '3')}, {self.one('1', '-.5')})"
+        made, kind = self.one(("transform { translate x scale 2 rotate 90*z }", 3), (f"transform {{ matrix <1,0,0, 0,2,0, 0,0,3, 1,2,3> }}", 3),
+                              ("pattern { checker }", 1), ("pattern { gradient x sine_wave frequency 2 }", 1), ("pigment { C1 }", 5),
+                              ("pattern { spherical scale 2 }", 1), ("pigment { gradient y color_map { [0 rgb 0] [1 rgbt 1] } }", 5),
+                              ("pattern { onion phase .25 }", 1), ("pigment { checker C1, rgb x }", 5))
+        self.add(f"#declare {f} = function {{ {made} }}")
+        self.add(self.one(self.shown(f"{f}{at}", 6) if kind == 1 else self.shown_vector(f"{f}{at}", min(kind, 5)),
+                          self.shown(f"{f}{at}{'' if kind == 1 else self.one('.x', '.y', '.red', '.gray')}", 6),
+                          self.shown(f"{'abs' if kind == 1 else 'vlength'}({f}{at}{'.x*y' if kind == 5 else ''})", 6)))
+        if self.chance(.5):
+            part = "" if kind == 1 else "." + self.one(*(("x", "y", "gray") if kind == 3 else ("red", "gray", "hf", "t", "transmit")))
+            self.add(f"#declare {f}2 = function(x, y) {{ {f}(x, y, {self.one('0', 'x + y')}){part}*2 + F1(x) }}", self.shown(f"{f}2(.5, 2)", 6))
+
     # ---- what makes of a program another one
 
     def tokens_of(self):
@@ -365,7 +495,8 @@ class OddProgram:
         self.defined_names()
         for _ in range(self.dice.randrange(2, 7)):
             self.one(self.function_of_loops, self.inexact, self.inexact, self.scopes, self.spline, self.strings, self.infinities,
-                     self.mixed, self.mixed, self.blocks, self.blocks, self.version)()
+                     self.mixed, self.mixed, self.blocks, self.blocks, self.version, self.ends, self.arguments, self.references,
+                     self.colours, self.nested_arrays, self.data, self.made_functions)()
         kind = self.dice.random()
         if kind > .3:
             for _ in range(self.one(1, 1, 2)):
