@@ -506,7 +506,8 @@ static bool has_directives(const GrammarState *state)
     for (size_t i = 0; text != NULL && i < text->count && !found; i++) {
         const Token *token = &text->tokens[i];
         DirectiveRole role = grammar_role(token->kind);
-        found = (role != ROLE_NONE && role != ROLE_SIMPLE) || token->kind == TOKEN_HASH_INCLUDE ||
+        bool is_before_brace = role == ROLE_SIMPLE && i > 0 && state->current.kind == '{';
+        found = is_before_brace || (role != ROLE_NONE && role != ROLE_SIMPLE) || token->kind == TOKEN_HASH_INCLUDE ||
                 (token->kind == TOKEN_NAME && hooks->is_macro(hooks->client, token->symbol));
     }
     free(text);
