@@ -250,11 +250,13 @@ test_scripts = \
   %D%/system/check_disable_study.py \
   %D%/system/check_report.py \
   %D%/povray/check_pictures.py \
+  %D%/povray/check_place.py \
   %D%/povray/check_apart.py \
   %D%/povray/check_blur.sh \
   %D%/povray/check_alpha.py \
   %D%/povray/check_alpha_samples.py \
   %D%/povray/check_antialias.py \
+  %D%/povray/check_callers.py \
   %D%/povray/check_cameras.py \
   %D%/povray/check_jitter.py \
   %D%/povray/check_lens.py \

@@ -1,6 +1,8 @@
 // The canonical layout of a file: made, compared with the file, and written.
 //
 // SPDX-License-Identifier: MIT
+#include <errno.h>
+
 #include <string.h>
 
 #include "api/session.h"
@@ -14,7 +16,7 @@ static bool read_all(rt_session *session, Source *source, TextBuffer *text)
     while ((length = source_read(source, block, sizeof block)) > 0) {
         text_append_n(text, block, (size_t)length);
     }
-    if (length < 0) {
+    if (length < 0 && errno != ECANCELED) { // see source_map_set_cancel
         diag_report(&session->diags, DIAG_E0502, SPAN_NONE, "cannot read `%s`", source_name(source));
     } else if (text->failed) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", source_name(source));

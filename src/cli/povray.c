@@ -103,15 +103,15 @@ static const char *ending_of(char type)
 static bool name_output(Povray *povray)
 {
     const PovraySettings *settings = &povray->settings;
-    const char *given = settings->output, *ending = ending_of(settings->type), *scene = base_name(povray->scene);
+    const char *given = settings->output, *ending = ending_of(settings->type), *scene = base_name(settings->input);
     const char *dot = strrchr(scene, '.');
     int stem = dot && dot != scene ? (int)(dot - scene) : (int)strlen(scene), length;
     size_t size = sizeof povray->output, given_length = given ? strlen(given) : 0, ending_length = strlen(ending);
     if (given && strcmp(given, "-") == 0) {
         length = snprintf(povray->output, size, "-%s", ending);
     } else if (!given) {
-        length = snprintf(povray->output, size, "%.*s%.*s%s", (int)(scene - povray->scene), povray->scene, stem, scene,
-                          ending);
+        length = snprintf(povray->output, size, "%.*s%.*s%s", (int)(scene - settings->input), settings->input, stem,
+                          scene, ending);
     } else if (given_length > 0 && given[given_length - 1] == '/') {
         length = snprintf(povray->output, size, "%s%.*s%s", given, stem, scene, ending);
     } else {
@@ -209,8 +209,7 @@ static rt_status follow_lists(rt_session *session, const PovraySettings *setting
     for (size_t i = settings->usual_count; i < settings->library_count; i++) {
         paths[options->include_path_count++] = settings->libraries[i];
     }
-    // Of two declarations of a name the last counts, and the session takes the first.
-    for (size_t i = settings->declaration_count; i-- > 0;) {
+    for (size_t i = 0; i < settings->declaration_count; i++) {
         declarations[options->declaration_count++] = settings->declarations[i];
     }
     return RT_OK;
@@ -218,12 +217,22 @@ static rt_status follow_lists(rt_session *session, const PovraySettings *setting
 
 // ---- messages
 
-static rt_status open_files(rt_session *session, const PovraySettings *settings, Voice *voice)
+// A name without a folder lies in the picture's.
+static FILE *open_file(const Povray *povray, const char *name)
+{
+    char path[2 * PATH_MAX];
+    const char *output = povray->output, *base = base_name(output);
+    snprintf(path, sizeof path, "%.*s%s", strchr(name, '/') ? 0 : (int)(base - output), output, name);
+    return fopen(path, povray->settings.appends ? "ae" : "we");
+}
+
+static rt_status open_files(rt_session *session, const Povray *povray, Voice *voice)
 {
     _Static_assert((int)POVRAY_STREAMS == (int)VOICE_STREAMS, "the streams are the same");
+    const PovraySettings *settings = &povray->settings;
     for (int i = 0; i < POVRAY_STREAMS; i++) {
         const char *name = settings->files[i];
-        if (name && !(voice->files[i] = fopen(name, settings->appends ? "ae" : "we"))) {
+        if (name && !(voice->files[i] = open_file(povray, name))) {
             char message[COMPLAINT_SIZE];
             snprintf(message, sizeof message, "cannot write `%.200s`: %s", name, strerror(errno));
             return rt_report(session, "E0505", message, NULL);
@@ -237,7 +246,7 @@ static rt_status open_files(rt_session *session, const PovraySettings *settings,
 // Create_Ini; its name is the scene's where none was said.
 static rt_status write_ini(rt_session *session, const Povray *povray)
 {
-    const char *name = povray->settings.create_ini, *scene = base_name(povray->scene), *dot = strrchr(scene, '.');
+    const char *name = povray->settings.create_ini, *scene = base_name(povray->settings.input), *dot = strrchr(scene, '.');
     char path[PATH_MAX], message[COMPLAINT_SIZE];
     if (!name) {
         return RT_OK;
@@ -282,7 +291,7 @@ static rt_status follow(rt_session *session, Povray *povray, Options *options, V
     rt_status status = follow_part(session, settings, options);
     status = status ? status : follow_lists(session, settings, options);
     status = status ? status : write_ini(session, povray);
-    status = status ? status : open_files(session, settings, voice);
+    status = status ? status : open_files(session, povray, voice);
     if (!status) {
         say_what_is_drawn(povray, options, voice);
     }

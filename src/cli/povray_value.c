@@ -209,14 +209,10 @@ static rt_status add_declaration(const PovrayText *text, const PovrayRow *row, P
     double number;
     size_t length = equals ? (size_t)(equals - found) : 0;
     size_t number_begin = equals ? value.begin + length + 1 : value.end;
-    while (number_begin < value.end && isblank((unsigned char)text->text[number_begin])) {
-        number_begin++;
-    }
-    while (length > 0 && isblank((unsigned char)found[length - 1])) {
-        length--;
-    }
-    if (length == 0 || !read_number(text, (PovraySpan){number_begin, value.end}, &number)) {
-        return fault_value(text, row, value, "NAME=NUMBER");
+    // POV-Ray takes a blank before the sign for a part of the name, which no scene can then ask for.
+    if (length == 0 || isspace((unsigned char)found[length - 1]) ||
+        !read_number(text, (PovraySpan){number_begin, value.end}, &number)) {
+        return fault_value(text, row, value, "NAME=NUMBER without blanks");
     }
     char joined[256];
     int size = snprintf(joined, sizeof joined, "%.*s=%.17g", (int)(length < 200 ? length : 200), found, number);
