@@ -229,6 +229,9 @@ static bool run_audit(Sampling *s)
     if (!run_looks(s)) {
         return false;
     }
+    if (s->round.share) {
+        share_set_contrast(&s->round);
+    }
     if (has_audit(s->wanted) && audit_draw(&s->audit, &s->estimate, &s->round) > 0) {
         if (!trace_beside(s, TRACES_REPLICAS)) {
             return false;

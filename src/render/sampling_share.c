@@ -16,8 +16,8 @@
 // thousands of times.
 static const double EXPECTED_LEAST = 2.0;
 
-// Less of a pixel is no stratum.
-static const double AREA_LEAST = 0x1p-8;
+// Less of a pixel is no stratum: shares are known to so much.
+static const double AREA_LEAST = 0x1p-13;
 
 typedef struct Candidate {
     float distance;

@@ -94,15 +94,30 @@ static unsigned fresh_seed(void)
     return random_below(&drawn_by, 1u << 30);
 }
 
-// By another sampler, with so many samples that its own error is at most a tenth of any that is judged.
+static Picture *reference_of(const SamplingScene *scene, const char *filter, double samples)
+{
+    rt_sampling halton = {.sampler = "halton", .samples = samples, .seed = 987654321, .filter = filter};
+    return picture_make_as(scene, WIDTH, HEIGHT, &halton, 1, false);
+}
+
+// By another sampler, with so many samples that its own error is at most a quarter of the least that is judged: that of
+// adaptive runs where all of it is in few pixels, of which a reference of all pixels alike knows no more than they do.
 static Picture *reference_make(const SamplingScene *scene, const char *filter)
 {
-    rt_sampling halton = {.sampler = "halton",
-                          .samples = is_long ? 8192 : 1024,
-                          .seed = 987654321,
-                          .filter = filter,
-                          .no_estimate = 1};
-    return picture_make_as(scene, WIDTH, HEIGHT, &halton, 1, false);
+    double samples = is_long ? 8192.0 : 1024.0, most = is_long ? 0x1p18 : 1024.0, least = 0.0;
+    if (is_long) {
+        rt_sampling finest = {.samples = 256, .adaptive = 1, .filter = filter, .seed = fresh_seed()};
+        Picture *picture = picture_make_as(scene, WIDTH, HEIGHT, &finest, 1, false);
+        least = picture->error.rmse;
+        picture_free(picture);
+    }
+    Picture *reference = reference_of(scene, filter, samples);
+    while (samples < most && reference->error.rmse > 0.25 * least) {
+        picture_free(reference);
+        samples *= 4.0;
+        reference = reference_of(scene, filter, samples);
+    }
+    return reference;
 }
 
 static Count count_held(const SamplingScene *scene, const Setting *setting, const char *filter, int times,
