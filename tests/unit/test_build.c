@@ -351,6 +351,47 @@ static void check_equal_to_text(Random *random, char *text)
     tap_ok(equal_moved == SCENES, "%d of %d: with other places and colours", equal_moved, SCENES);
 }
 
+// A scene far from the origin is moved there where a camera's place allows that exactly, and the range of numbers that
+// it is traced in follows the camera: what was built for another camera must not serve then.
+static void check_cameras_apart(void)
+{
+    static const double far = 0x1p40, places[][3] = {
+        {far + 3.0, 1.0, -9.0}, {far + 0.3, 1.1, -9.0}, {far - 2.0, 3.0, -8.0}, {far + 3.0, 1.0, -0x1p200},
+        {far + 1.0, 0.7, -7.0}};
+    enum { PLACES = sizeof places / sizeof places[0] };
+    double centers[5][3], radius = 0.7, colors[5][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}};
+    rt_light light = {.position = {far - 4.0, 8.0, -9.0}, .color = {1, 1, 1}};
+    rt_spheres spheres = {.count = 5,
+                          .centers = {centers, RT_FLOAT64, sizeof centers[0], sizeof(double)},
+                          .radii = {&radius, RT_FLOAT64, 0, 0},
+                          .look = {{colors, RT_FLOAT64, sizeof colors[0], sizeof(double)}, 3, "reflection 0.3"}};
+    rt_session *sessions[2] = {session_open(NULL), NULL};
+    int equal = 0;
+    for (int i = 0; i < 5; i++) {
+        centers[i][0] = far + i - 2.0;
+        centers[i][1] = 0.5 * i - 1.0;
+        centers[i][2] = i % 2;
+    }
+    for (int i = 0; i < PLACES; i++) {
+        rt_camera camera = {.look_at = {far, 0.0, 0.0}, .angle = 40.0};
+        memcpy(camera.location, places[i], sizeof camera.location);
+        sessions[1] = session_open(NULL);
+        bool is_drawn = true;
+        for (int k = 0; k < 2; k++) {
+            if (k == 1 || i == 0) {
+                is_drawn = is_drawn && rt_begin_scene(sessions[k]) == RT_OK &&
+                           rt_add_spheres(sessions[k], &spheres, NULL) == RT_OK &&
+                           rt_add_light(sessions[k], &light) == RT_OK;
+            }
+            is_drawn = is_drawn && rt_set_camera(sessions[k], &camera) == RT_OK && rt_render(sessions[k], 1) == RT_OK;
+        }
+        equal += is_drawn && pictures_equal(sessions[0], sessions[1]);
+        rt_session_free(sessions[1]);
+    }
+    rt_session_free(sessions[0]);
+    tap_ok(equal == PLACES, "%d of %d cameras: as from a session of their own", equal, PLACES);
+}
+
 // ---- what is told
 
 static rt_spheres three_spheres(double centers[3][3], double radii[3])
@@ -562,6 +603,7 @@ int main(int argc, char **argv)
     uint64_t seed = random_seed(argc > 1 ? argv[1] : NULL);
     Random random = {seed};
     check_equal_to_text(&random, text);
+    check_cameras_apart();
     check_faults();
     check_places();
     check_pixels();
