@@ -238,6 +238,10 @@ static char *read_whole(const char *path)
     size_t length = text ? fread(text, 1, INI_BYTES_MOST + 1, file) : 0;
     bool fine = text && !ferror(file) && length <= INI_BYTES_MOST;
     errno = text && length > INI_BYTES_MOST ? EFBIG : errno;
+    if (fine && memchr(text, '\0', length)) { // no text, of which the rest would be left out
+        errno = EINVAL;
+        fine = false;
+    }
     if (file) {
         (void)fclose(file);
     }

@@ -45,6 +45,7 @@ def check_messages():
              "a.ini": "b.ini\n", "b.ini": "+W8\n a.ini",
              "key.ini": "Width = 8\nHeigth=6\n",
              "value.ini": "[big]\nWidth=900\n[small]\n Width = \"wide\" ; not a number\n",
+             "binary.ini": "s.pov\0+W8",
              "refused.ini": "; comment\nPost_Frame_Command=rm %o\n"}
     for what, words, said in [
             ("a switch", ["+Is.pov", "+Zfoo"],
@@ -108,6 +109,9 @@ def check_messages():
             ("a file that is missing", ["s.pov", "nothere.ini"],
              "command line:1:7: error[E0501]: `nothere.ini` not found\n"
              "   1 | s.pov nothere.ini\n     |       ^~~~~~~~~~~\n"),
+            ("a file that is no text", ["binary.ini"],
+             "command line:1:1: error[E0502]: cannot read `binary.ini`: Invalid argument\n"
+             "   1 | binary.ini\n     | ^~~~~~~~~~\n"),
             ("a folder for a file", ["s.pov", "Include_Ini=/"],
              "command line:1:19: error[E0501]: `/.ini` not found\n"
              "   1 | s.pov Include_Ini=/\n     |                   ^\n"
