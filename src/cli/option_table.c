@@ -137,9 +137,7 @@ static bool apply_frames(Options *options, const char *argument, const char **ex
     first[length] = '\0';
     bool fine = parse_integer(first, 0, 999999999, &frames->initial) &&
                 parse_integer(dots + 2, frames->initial, 999999999, &frames->final);
-    frames->first = frames->initial;
-    frames->last = frames->final;
-    frames->step = 1;
+    frames->first = frames->initial, frames->last = frames->final, frames->step = 1;
     return fine;
 }
 
