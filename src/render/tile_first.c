@@ -7,7 +7,8 @@
 
 enum {
     FEATURES = TRACE_ALL_FEATURES | RENDER_SHADOWS | RENDER_HIGHLIGHTS | RENDER_BRILLIANCE | RENDER_TRANSPARENCY |
-               RENDER_LIGHTS | RENDER_PIGMENTS | RENDER_TEXTURES | RENDER_INTERIORS
+               RENDER_LIGHTS | RENDER_PIGMENTS | RENDER_TEXTURES | RENDER_INTERIORS,
+    LAYER_FEATURES = FEATURES & ~RENDER_TEXTURES // of what is one layer
 };
 
 static MaterialIndex material_of(const Geometry *g, ShapeId shape)
@@ -77,7 +78,7 @@ static uint64_t shade_surfaces(const Prepared *p, const TileHits *hits, SampleSt
     Rgb through[TILE_RAYS];
     LightTile *tile = &scratch->tile;
     geometry_tile_surfaces(p->geometry, FEATURES, &scratch->rays, hits, plain, &tile->surfaces, material);
-    shade_tile_begin(p, FEATURES, tile, material, through);
+    shade_tile_begin(p, LAYER_FEATURES, tile, material, through);
     uint64_t left = find_clear(tile, through);
     shade_tile_lights(p, FEATURES, scratch, streams, statistics);
     for (int i = 0; i < tile->surfaces.count; i++) {
