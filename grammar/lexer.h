@@ -137,6 +137,7 @@ typedef struct GrammarState {
     size_t open_before;    // directives of the stream that were open when it began
     int fragment;          // what it begins with: TOKEN_START_…
     bool is_declared;      // the last token delivered is the name that it declares
+    bool takes_mode;   // it is #fopen, which goes on behind the name of the file
     bool takes_string;     // it is a directive that takes a string
     bool ends_before;      // the last token delivered may end an expression
     bool ends_vector;      // it is the `>` of a vector

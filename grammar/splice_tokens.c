@@ -211,6 +211,7 @@ void grammar_splice_token(GrammarState *state, Token *token)
         bool is_directive = grammar_is_directive(token->kind);
         if (begins) {
             state->takes_string = takes_string(token->kind);
+            state->takes_mode = token->kind == TOKEN_HASH_FOPEN;
             state->takes_elements = token->kind == TOKEN_HASH_UNDEF || token->kind == TOKEN_HASH_READ;
             state->own_frame = stream_innermost_text(stream);
             if (stream->live != NULL && stream->frames.items[state->own_frame - 1].kind == FRAME_TEXT) {
@@ -236,6 +237,7 @@ void grammar_splice_token(GrammarState *state, Token *token)
             break;
         }
         bool is_passed = state->fragment == TOKEN_START_SUBJECT && grammar_role(token->kind) == ROLE_SIMPLE;
+        is_passed |= state->takes_mode;
         is_passed |= state->fragment == TOKEN_START_ARGUMENTS && is_no_number(stream, &state->previous);
         if (may_end && !is_passed && state->base_depth != NO_BASE &&
             state->openers.count <= (size_t)state->base_depth) {

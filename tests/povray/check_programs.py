@@ -27,7 +27,7 @@ BATCH = 20  # programs that share a run: a run of POV-Ray takes most of a second
 WORKERS = 16  # most of which POV-Ray sleeps
 PREFACE = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\ncamera { location -5*z look_at 0 }\nsphere { 0, 1 }\n"
 
-# Of quadratic splines a zero may have the other sign.
+# Of quadratic splines and rotations a zero may have the other sign.
 ZERO = re.compile(r"-(0\.0+)\b")
 ZERO_DOCUMENTED = "a zero that a quadratic spline gives may have the other sign"
 
@@ -44,7 +44,8 @@ DECISIONS = [
     (r"E0106 .*(in the head of another|without the directive that it belongs to)", r"#(for|ifdef|ifndef)\b",
      "the head of a directive in which another ends that began before it, or begins and does not end (E0106)"),
     (r"E0260 .*twice", r"function", "a parameter may stand twice in the list"),
-    (r"E0215", r"#read", "must be of the kind of the others"),
+    (r"E0215", r"#read|#macro", "must be of the kind of the others, and so must what a parameter becomes that stands for"),
+    (r"E0344", r"matrix[^>]*#", "a directive that gives several of the numbers of a `matrix` (E0344)"),
     (r"E0106 unexpected `$", r"#macro[^\n]*;\s*#end", "a `#declare` behind the value in a macro's text (E0106)"),
     (r"E0212", r"#version\s+(-|\+?(0|1?\.|1))", "a `#version` below 1.5 (E0212)"),
     (r"E0223", r"array", "(E0223)"),
@@ -132,7 +133,7 @@ def verdict(statements, files):
         return ("refused", wrong_too) if number is None else ("decided", number)
     if wrong:
         return "taken", wrong
-    if "quadratic_spline" in text:
+    if re.search("quadratic_spline|rotate", text):
         theirs, ours = ([ZERO.sub(r"\1", line) for line in lines] for lines in (theirs, ours))
     pair = next(((a, b) for a, b in zip(theirs + [None], ours + [None]) if a != b), None)
     return ("differs", f"POV-Ray: {pair[0]!r}   rtlang: {pair[1]!r}") if pair else ("", "")
