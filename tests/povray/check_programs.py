@@ -45,6 +45,7 @@ DECISIONS = [
      "the head of a directive in which another ends that began before it, or begins and does not end (E0106)"),
     (r"E0260 .*twice", r"function", "a parameter may stand twice in the list"),
     (r"E0215", r"#read|#macro", "must be of the kind of the others, and so must what a parameter becomes that stands for"),
+    (r"E0204 .*has no component `T\d+`", r"\.\s*T\d+\(", "a macro that gives the name of a component (E0204)"),
     (r"E0344", r"matrix[^>]*#", "a directive that gives several of the numbers of a `matrix` (E0344)"),
     (r"E0106 unexpected `$", r"#macro[^\n]*;\s*#end", "a `#declare` behind the value in a macro's text (E0106)"),
     (r"E0212", r"#version\s+(-|\+?(0|1?\.|1))", "a `#version` below 1.5 (E0212)"),

@@ -498,7 +498,7 @@ class OddProgram:
                      self.mixed, self.mixed, self.blocks, self.blocks, self.version, self.ends, self.arguments, self.references,
                      self.colours, self.nested_arrays, self.data, self.made_functions)()
         kind = self.dice.random()
-        if kind > .3:
+        if kind > .45:
             for _ in range(self.one(1, 1, 2)):
                 self.one(self.tear, self.tear, self.miss)()
 
