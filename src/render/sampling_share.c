@@ -451,11 +451,14 @@ static double pixel_contrast(const Round *round, size_t pixel, double *weight)
 void share_set_contrast(const Round *round)
 {
     double sum = 0.0, weights = 0.0, weight;
-    size_t pixels = (size_t)round->film->width * (size_t)round->film->height;
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
-        if (share_has(round->share, pixel)) {
-            sum += pixel_contrast(round, pixel, &weight);
-            weights += weight;
+    const Film *film = round->film;
+    for (int y = 0; y < film->height; y++) {
+        for (int x = 0; x < film->width; x++) {
+            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
+            if (share_has(round->share, pixel) && round_judges(round, x, y)) {
+                sum += pixel_contrast(round, pixel, &weight);
+                weights += weight;
+            }
         }
     }
     round->share->contrast = weights > 0.0 ? sum / weights : 0.0;
