@@ -104,11 +104,12 @@ static Picture *reference_of(const SamplingScene *scene, const char *filter, dou
 // adaptive runs where all of it is in few pixels, of which a reference of all pixels alike knows no more than they do.
 static Picture *reference_make(const SamplingScene *scene, const char *filter)
 {
-    double samples = is_long ? 8192.0 : 1024.0, most = is_long ? 0x1p18 : 1024.0, least = 0.0;
-    if (is_long) {
+    enum { FINEST_RUNS = 4 };
+    double samples = is_long ? 8192.0 : 1024.0, most = is_long ? 0x1p18 : 1024.0, least = HUGE_VAL;
+    for (int i = 0; is_long && i < FINEST_RUNS; i++) {
         rt_sampling finest = {.samples = 256, .adaptive = 1, .filter = filter, .seed = fresh_seed()};
         Picture *picture = picture_make_as(scene, WIDTH, HEIGHT, &finest, 1, false);
-        least = picture->error.rmse;
+        least = fmin(least, picture->error.rmse);
         picture_free(picture);
     }
     Picture *reference = reference_of(scene, filter, samples);
