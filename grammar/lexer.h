@@ -58,6 +58,7 @@ typedef struct GrammarItems GrammarItems; // items.c
 
 typedef struct GrammarState {
     const GrammarContext *context;
+    void *new_buffer; // of flex, until it has its bytes: they fail by a jump that forgets it
     AstBuilder builder;
     Source *source;    // NULL: `text` or `tokens` are read
     const char *text;  // the rest of a text in memory

@@ -234,6 +234,9 @@ test_scripts = \
   %D%/system/check_literals.py \
   %D%/system/check_messages.py \
   %D%/system/check_povray_options.py \
+  %D%/system/check_memory.py \
+  %D%/system/check_confinement.py \
+  %D%/system/check_hostile.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
   %D%/system/check_install.py \

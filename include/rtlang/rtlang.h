@@ -96,12 +96,17 @@ typedef enum rt_limit {
     RT_LIMIT_DEPTH,   /* nesting of expressions, blocks, calls and includes, 1 to 1000; calls and includes nest less */
     RT_LIMIT_OBJECTS, /* shapes, 1 000 000 000 */
     RT_LIMIT_TEXT,    /* bytes of text in all files, 64 GiB */
-    RT_LIMIT_MEMORY,  /* bytes of what is read, declared and prepared, and of the picture; what the machine, its container
-                         and the process's limits leave */
+    RT_LIMIT_MEMORY,  /* bytes of what is read, declared and prepared, and of the picture; by default 1 GiB and 16 bytes
+                         for each byte of text, the picture apart, and together no more than what the machine, its
+                         container and the process's limits leave */
     RT_LIMIT_MESSAGES /* bytes of what #debug and its like write, 16 MiB */
 } rt_limit;
 /* Sets a limit, at least 1; the defaults stand above. */
 RT_API rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value);
+/* For the scene of a stranger: small limits (3 000 000 steps, 1 000 000 shapes, 64 MiB of text, 256 MiB of memory
+ * besides the picture, 512 MiB with it, 64 KiB of messages), pictures of the scene in PNG only, and no include files but
+ * those of the scene's folders. rt_set_limit may follow. How long a run takes is the client's: rt_cancel. */
+RT_API void rt_set_untrusted(rt_session *session);
 /* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
 RT_API rt_status rt_declare(rt_session *session, const char *name_value);
 /* Which warnings are told, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with

@@ -27,7 +27,7 @@ static rt_budget budget_of(const rt_session *session)
                         ? small_bytes(width, height, objects) + share_bytes(width, height, objects)
                         : 0) +
                    (session->method != RT_METHOD_BACKWARD ? forward_bytes(width, height) : 0),
-        .limit = session->limits.memory_bytes,
+        .limit = session->limits.memory_most,
     };
 }
 
@@ -43,12 +43,14 @@ rt_status rt_get_budget(const rt_session *session, rt_budget *budget)
 bool session_memory_suffices(rt_session *session)
 {
     rt_budget budget = budget_of(session);
+    uint64_t granted = limits_memory(&session->limits, source_map_bytes(session->sources));
+    bool fits = budget.scene + budget.prepared <= granted;
     char needed[LIMITS_BYTES_TEXT], limit[LIMITS_BYTES_TEXT];
-    if (budget.picture + budget.scene + budget.prepared <= budget.limit) {
+    if (fits && budget.picture + budget.scene + budget.prepared <= budget.limit) {
         return true;
     }
-    limits_bytes_text(budget.limit, limit);
-    bool is_film = budget.picture > budget.scene + budget.prepared;
+    bool is_film = fits && budget.picture > budget.scene + budget.prepared;
+    limits_bytes_text(fits ? budget.limit : granted, limit);
     limits_bytes_text(is_film ? budget.picture : budget.scene + budget.prepared, needed);
     bool kept = is_film ? diag_report(&session->diags, DIAG_E0608, SPAN_NONE,
                                       "a picture of %d x %d pixels needs %s of memory, and the limit is %s",

@@ -30,7 +30,7 @@ static rt_status dump_syntax(rt_session *session, void *argument)
         return session_status(session, false);
     }
     Arena arena;
-    MemoryBudget memory = {.limit = session->limits.memory_bytes};
+    MemoryBudget memory = {.limit = session->limits.memory_most};
     arena_init_shared(&arena, &memory);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
                               session->no_literals, NULL};
@@ -56,7 +56,7 @@ static rt_status dump_scene(rt_session *session, void *argument)
 {
     (void)argument;
     scene_dump(&session->scene, &session->dump);
-    return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;
+    return session->dump.failed ? session_no_memory(session) : RT_OK;
 }
 
 rt_status rt_dump_scene(rt_session *session, const char **text)

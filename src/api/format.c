@@ -28,7 +28,7 @@ static bool read_all(rt_session *session, Source *source, TextBuffer *text)
 static bool lay_out(rt_session *session, Source *source, const TextBuffer *text)
 {
     Arena arena;
-    arena_init(&arena, session->limits.memory_bytes);
+    arena_init(&arena, session->limits.memory_most);
     GrammarContext context = {session->names, &arena, &session->diags, &session->limits, NULL,
                               session->no_literals, NULL};
     bool fine = format_source(&context, source, text_get(text), text->length, &session->cancel,
@@ -116,7 +116,7 @@ rt_status rt_check_format(rt_session *session, const char *path)
 
 rt_status rt_write_text(rt_session *session, const char *path)
 {
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     AtomicFile file;
     bool fine = atomic_file_open(&file, path, &error);
     if (fine && !atomic_file_write(&file, text_get(&session->dump), session->dump.length, &error)) {

@@ -8,6 +8,23 @@
 #include "base/explain.h"
 #include "base/suggest.h"
 
+// What is said where no memory is left to say it with: nothing of it is made.
+rt_status session_no_memory(rt_session *session)
+{
+    static const char plain[] = "rtlang: error[E0602]: out of memory\n";
+    static const char json[] = "{\"type\":\"diagnostic\",\"code\":\"E0602\",\"severity\":\"error\","
+                               "\"message\":\"out of memory\",\"file\":null,\"begin\":null,\"end\":null,\"line\":null,"
+                               "\"column\":null,\"end_line\":null,\"end_column\":null,\"notes\":[],\"stack\":[],"
+                               "\"suggestion\":null}\n";
+    rt_diagnostic out = {.severity = RT_ERROR, .code = "E0602", .message = "out of memory",
+                         .text = session->is_json ? json : plain};
+    if (session->callbacks.diagnostic && !session->has_told_memory) {
+        session->callbacks.diagnostic(session->callbacks.client, &out);
+    }
+    session->has_told_memory = true;
+    return RT_FAULT_LIMIT;
+}
+
 static void deliver_one(rt_session *session, const Diag *diag, TextBuffer *text)
 {
     SourceLocation location = {0};
@@ -26,6 +43,11 @@ static void deliver_one(rt_session *session, const Diag *diag, TextBuffer *text)
     } else {
         diag_print(&session->diags, diag, session->is_colored, text);
     }
+    if (text->failed) {
+        session->diags.out_of_memory = true;
+        return;
+    }
+    session->has_told_memory = session->has_told_memory || diag->code == DIAG_E0602;
     out.text = text_get(text);
     session->callbacks.diagnostic(session->callbacks.client, &out);
 }
@@ -56,7 +78,11 @@ static void say_json(rt_session *session, rt_stream stream)
     text_printf(&line, "{\"type\":\"message\",\"stream\":\"%s\",\"text\":", names[stream]);
     diag_json_string(&line, text_get(&session->said), session->said.length);
     text_append(&line, "}\n");
-    session->callbacks.message(session->callbacks.client, stream, text_get(&line), line.length);
+    if (line.failed || session->said.failed) {
+        session->diags.out_of_memory = true;
+    } else {
+        session->callbacks.message(session->callbacks.client, stream, text_get(&line), line.length);
+    }
     text_fini(&line);
     text_clear(&session->said);
 }
@@ -81,14 +107,12 @@ void session_say(rt_session *session, rt_stream stream, const char *text, size_t
 rt_status session_status(rt_session *session, bool fine)
 {
     session_deliver(session);
-    if (fine) {
-        return RT_OK;
+    bool is_cancelled = session->diags.class == CLASS_NONE && atomic_load(&session->cancel);
+    // A message was lost, or there was no memory even for the record of one.
+    if (session->diags.out_of_memory || (!fine && !is_cancelled && session->diags.class == CLASS_NONE)) {
+        return session_no_memory(session);
     }
-    if (session->diags.class == CLASS_NONE && atomic_load(&session->cancel)) {
-        return RT_CANCELLED;
-    }
-    // Without a recorded class there was no memory even for the record.
-    return session->diags.class == CLASS_NONE ? RT_FAULT_LIMIT : (rt_status)session->diags.class;
+    return fine ? RT_OK : is_cancelled ? RT_CANCELLED : (rt_status)session->diags.class;
 }
 
 rt_status rt_set_warning(rt_session *session, const char *what)
@@ -122,7 +146,7 @@ rt_status rt_explain(rt_session *session, const char *code, const char **text)
     }
     explain_write(found, &session->dump);
     *text = text_get(&session->dump);
-    return session->dump.failed ? RT_FAULT_LIMIT : RT_OK;
+    return session->dump.failed ? session_no_memory(session) : RT_OK;
 }
 
 static rt_status report(rt_session *session, const char *code, Span span, const char *message, const char *suggestion)
@@ -135,6 +159,9 @@ static rt_status report(rt_session *session, const char *code, Span span, const 
         diag_suggest(&session->diags, "%s", suggestion);
     }
     session_deliver(session);
+    if (session->diags.out_of_memory) {
+        return session_no_memory(session);
+    }
     return (rt_status)diag_code_class(found);
 }
 

@@ -29,6 +29,7 @@ rt_status session_image_fault(rt_session *session, ImageStatus status, const cha
     if (status == IMAGE_OK) {
         return session_status(session, true);
     }
+    status = error->no_memory ? IMAGE_NO_MEMORY : status;
     // The system's words begin with the path where the system was asked; again it would say nothing new.
     bool is_stream = image_path_is_stdout(path);
     const char *detail = error->detail, *said = is_stream ? "standard output" : path;
@@ -64,7 +65,7 @@ static ImageDepth output_depth(const rt_output *output, const char *path)
 
 rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
 {
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     if (!is_output(output, path, session->has_alpha)) {
         return RT_FAULT_USAGE;
     }
@@ -135,7 +136,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
         return RT_FAULT_USAGE;
     }
     double start = session_clock();
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     Image own, image;
     if (!picture_of(session, output, image_path_names_channels(path), &own, &image)) {
         return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
@@ -152,7 +153,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
 rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixels, size_t bytes)
 {
     static const char path[] = "picture.png";
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     Image own, image;
     SessionNotes notes = {.count = 0};
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
@@ -183,7 +184,7 @@ rt_status rt_set_pixels(rt_session *session, int width, int height, const float 
     session->scene.settings.gamma_model = GAMMA_LINEAR;
     if (!film_init(film, width, height) || (transparency && !film_want_clear(film))) {
         film_fini(film);
-        return session_image_fault(session, IMAGE_NO_MEMORY, "memory", &(ImageError){""});
+        return session_image_fault(session, IMAGE_NO_MEMORY, "memory", &(ImageError){.no_memory = false});
     }
     size_t count = (size_t)width * (size_t)height;
     memcpy(film->rgb, rgb, 3 * count * sizeof *rgb);
@@ -197,7 +198,7 @@ rt_status rt_set_pixels(rt_session *session, int width, int height, const float 
 rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigned char **bytes, size_t *size)
 {
     static const char path[] = "picture.png";
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     Image own, image;
     SessionNotes notes;
     if (!session->rendered || !is_output(output, path, session->film.clear) || output->depth == RT_DEPTH_FLOAT) {

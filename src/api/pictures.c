@@ -195,10 +195,15 @@ static const char *form_trouble(const PictureSource *source, const PictureFile *
     return NULL;
 }
 
+static size_t memory_granted(const rt_session *session)
+{
+    return limits_memory(&session->limits, source_map_bytes(session->sources));
+}
+
 static void report_too_large(rt_session *session, const Picture *picture, const char *path, const PictureFile *file)
 {
     char limit[LIMITS_BYTES_TEXT];
-    limits_bytes_text(session->limits.memory_bytes, limit);
+    limits_bytes_text(memory_granted(session), limit);
     if (diag_report(&session->diags, DIAG_E0608, picture->span,
                     "the picture `%s` of %d x %d pixels does not fit the memory limit of %s", path, file->width,
                     file->height, limit)) {
@@ -215,7 +220,7 @@ static void report_status(rt_session *session, const Picture *picture, const Pic
     if (strncmp(detail, path, length) == 0 && strncmp(detail + length, ": ", 2) == 0) {
         detail += length + 2;
     }
-    switch (status) {
+    switch (error->no_memory ? IMAGE_NO_MEMORY : status) {
     case IMAGE_OK: break;
     case IMAGE_NO_MEMORY: diag_report(diags, DIAG_E0602, picture->span, "out of memory reading `%s`", path); break;
     case IMAGE_NO_MODULE:
@@ -237,10 +242,14 @@ static bool picture_load(rt_session *session, Scene *scene, size_t index)
 {
     const PictureSource *source = &scene->picture_sources.items[index];
     Picture *picture = &scene->pictures.items[index];
-    uint64_t used = scene_bytes(scene), most = session->limits.memory_bytes;
+    uint64_t used = scene_bytes(scene), most = memory_granted(session);
     PictureLimit limit = {.pixels = UINT64_MAX, .bytes = most > used ? most - used : 0};
     PictureFile file;
     ImageError error;
+    if (session->is_untrusted && source->format != PICTURE_PNG) {
+        diag_report(&session->diags, DIAG_E0513, picture->span, "`--untrusted` reads pictures in PNG only");
+        return false;
+    }
     ImageStatus status =
         picture_file_read(source->path, picture_format_word((PictureFormat)source->format), &limit, &file, &error);
     if (status != IMAGE_OK) {

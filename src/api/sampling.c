@@ -47,7 +47,7 @@ bool session_has_pixel_errors(const rt_session *session)
 
 rt_status rt_write_error(rt_session *session, const char *path)
 {
-    ImageError fault = {""};
+    ImageError fault = {.no_memory = false};
     Image image;
     if (!session->rendered || !session_has_pixel_errors(session)) {
         return RT_FAULT_USAGE;

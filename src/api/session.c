@@ -49,7 +49,7 @@ static Limits limits_of_machine(void)
 {
     Limits limits = LIMITS_DEFAULT;
     size_t memory = machine_memory();
-    limits.memory_bytes = memory < SIZE_MAX ? memory : limits.memory_bytes;
+    limits.memory_most = memory < SIZE_MAX ? memory : limits.memory_most;
     return limits;
 }
 
@@ -70,7 +70,7 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     text_init(&session->dump);
     text_init(&session->said);
     session->sources = source_map_new();
-    session->names = intern_new(session->limits.memory_bytes);
+    session->names = intern_new(session->limits.memory_most);
     diag_init(&session->diags, session->sources);
     if (session->sources) {
         source_map_set_cancel(session->sources, &session->cancel);
@@ -148,7 +148,8 @@ bool session_open(rt_session *session, const char *path, Source **source)
     bool is_stream = strcmp(path, "-") == 0;
     const char *name = is_stream ? "<stdin>" : path;
     char memory[LIMITS_BYTES_TEXT];
-    source_map_set_memory(session->sources, session->limits.memory_bytes);
+    size_t most = limits_memory(&session->limits, 0); // a pipe is all kept
+    source_map_set_memory(session->sources, most);
     SourceResult result = is_stream ? source_open_stream(session->sources, name, STDIN_FILENO, limit, source,
                                                          &error_number)
                                     : source_open_file(session->sources, path, limit, source, &error_number);
@@ -173,7 +174,7 @@ bool session_open(rt_session *session, const char *path, Source **source)
         }
         break;
     case SOURCE_TOO_MUCH: // a pipe or a device is kept, because it cannot be read twice
-        limits_bytes_text(session->limits.memory_bytes, memory);
+        limits_bytes_text(most, memory);
         if (diag_report(&session->diags, DIAG_E0607, SPAN_NONE, "reading `%s` takes more than %s of memory", name,
                         memory)) {
             diag_suggest(&session->diags, "`--max-memory` allows more");
@@ -325,7 +326,7 @@ rt_status rt_load_text(rt_session *session, const char *name, const char *text, 
         return RT_FAULT_USAGE;
     }
     Source *source = source_open_text(session->sources, name, text, length);
-    return source ? load_source(session, source, start) : RT_FAULT_LIMIT;
+    return source ? load_source(session, source, start) : session_no_memory(session);
 }
 
 // ---- the picture

@@ -33,10 +33,12 @@ typedef struct SessionGroup {
 struct rt_session {
     rt_callbacks callbacks;
     Limits limits;
+    bool is_untrusted; // pictures of a scene are PNG
     SourceMap *sources;
     InternTable *names;
     DiagSink diags;
     size_t diags_delivered; // records already handed to the client
+    bool has_told_memory;   // that there is none
     bool is_json;           // the form of messages
     bool is_colored; // the text of messages, for a terminal
     TextBuffer said;        // in JSON: the scene's own line, not ended yet
@@ -123,6 +125,8 @@ void session_say(rt_session *session, rt_stream stream, const char *text, size_t
 
 // Delivers, and turns what was reported into a status: RT_OK when `fine`, else the class of the first error.
 rt_status session_status(rt_session *session, bool fine);
+// Says that memory is exhausted, without taking any; RT_FAULT_LIMIT.
+rt_status session_no_memory(rt_session *session);
 
 // Calls work(session, argument) where the stack bears all that the limits of nesting allow, whatever the caller's thread
 // has; returns what that returns.

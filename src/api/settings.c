@@ -18,7 +18,7 @@ rt_status rt_add_include_path(rt_session *session, const char *folder)
     char *copy = strdup(folder);
     if (!copy || !ARRAY_PUSH(&session->include_paths, copy)) {
         free(copy);
-        return RT_FAULT_LIMIT;
+        return session_no_memory(session);
     }
     return RT_OK;
 }
@@ -47,7 +47,7 @@ rt_status rt_allow_read(rt_session *session, const char *folder)
     char *copy = strdup(folder);
     if (!copy || !ARRAY_PUSH(&session->read_folders, copy)) {
         free(copy);
-        return RT_FAULT_LIMIT;
+        return session_no_memory(session);
     }
     return RT_OK;
 }
@@ -56,11 +56,30 @@ rt_status rt_set_header(rt_session *session, const char *path)
 {
     char *copy = path[0] ? strdup(path) : NULL;
     if (path[0] && !copy) {
-        return RT_FAULT_LIMIT;
+        return session_no_memory(session);
     }
     free(session->header);
     session->header = copy;
     return RT_OK;
+}
+
+void rt_set_untrusted(rt_session *session)
+{
+    Limits *limits = &session->limits;
+    *limits = (Limits){
+        .ast_depth = limits->ast_depth,
+        .include_depth = limits->include_depth,
+        .call_depth = limits->call_depth,
+        .steps = 3 * 1000 * 1000,
+        .message_bytes = 64 << 10,
+        .string_bytes = 1 << 20,
+        .objects = 1000 * 1000,
+        .text_bytes = 64 << 20,
+        .memory_bytes = 256 << 20,
+        .memory_most = 512 << 20,
+    };
+    session->is_untrusted = true;
+    session->library.is_filled = true; // with nothing
 }
 
 rt_status rt_set_clock(rt_session *session, double clock)
@@ -101,7 +120,8 @@ rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t value)
         limits->text_bytes = value;
         return RT_OK;
     case RT_LIMIT_MEMORY:
-        limits->memory_bytes = value < SIZE_MAX ? (size_t)value : SIZE_MAX;
+        limits->memory_bytes = limits->memory_most = value < SIZE_MAX ? (size_t)value : SIZE_MAX;
+        limits->memory_per_text = 0;
         return RT_OK;
     case RT_LIMIT_MESSAGES:
         limits->message_bytes = value;
@@ -143,7 +163,7 @@ rt_status rt_declare(rt_session *session, const char *name_value)
     }
     char *name = strndup(name_value, (size_t)(equals - name_value));
     if (!name) {
-        return RT_FAULT_LIMIT;
+        return session_no_memory(session);
     }
     EvalDeclaration declaration = {.name = name, .number = negative ? -value : value};
     if (is_declared(session, name)) {
@@ -152,7 +172,7 @@ rt_status rt_declare(rt_session *session, const char *name_value)
     }
     if (!ARRAY_PUSH(&session->declarations, declaration)) {
         free(name);
-        return RT_FAULT_LIMIT;
+        return session_no_memory(session);
     }
     return RT_OK;
 }

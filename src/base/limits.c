@@ -22,6 +22,16 @@ void limits_bytes_text(uint64_t bytes, char text[LIMITS_BYTES_TEXT])
     snprintf(text, LIMITS_BYTES_TEXT, "%.3g %s", number, units[unit]);
 }
 
+size_t limits_memory(const Limits *limits, uint64_t text_bytes)
+{
+    uint64_t room = limits->memory_most > limits->memory_bytes ? limits->memory_most - limits->memory_bytes : 0;
+    uint64_t per_text = limits->memory_per_text;
+    bool is_all = per_text > 0 && text_bytes > room / per_text;
+    return limits->memory_bytes > limits->memory_most ? limits->memory_most
+           : is_all                                   ? limits->memory_most
+                                                      : limits->memory_bytes + (size_t)(text_bytes * per_text);
+}
+
 bool limits_report_memory(DiagSink *sink, Span span, const MemoryBudget *budget, const char *doing)
 {
     char limit[LIMITS_BYTES_TEXT];

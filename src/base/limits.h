@@ -28,7 +28,9 @@ typedef struct Limits {
     size_t string_bytes;    // of one string
     uint64_t objects;       // shapes in the scene
     uint64_t text_bytes;    // bytes of scene text and data files, all together
-    size_t memory_bytes;    // what is read, declared and prepared, and the picture, together
+    size_t memory_bytes;    // what is read, declared and prepared, together
+    size_t memory_per_text; // more of it for each byte of the scene's text
+    size_t memory_most;     // the same and the picture: no more than this
 } Limits;
 
 #define LIMITS_DEFAULT                                                                                                 \
@@ -41,8 +43,13 @@ typedef struct Limits {
         .string_bytes = 64u << 20,                                                                                     \
         .objects = 1000u * 1000 * 1000,                                                                                \
         .text_bytes = (uint64_t)64 << 30,                                                                              \
-        .memory_bytes = (size_t)8 << 30,                                                                               \
+        .memory_bytes = (size_t)1 << 30,                                                                               \
+        .memory_per_text = 16,                                                                                         \
+        .memory_most = (size_t)8 << 30,                                                                                \
     })
+
+// What a scene of so much text may take, so that a short text cannot fill a machine and a long one is read whole.
+size_t limits_memory(const Limits *limits, uint64_t text_bytes);
 
 // Reports at the span that memory is exhausted while doing something ("reading the scene"): the system's, E0602, or
 // what the budget allows, E0607. True when the record was kept.

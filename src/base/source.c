@@ -93,6 +93,11 @@ void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel)
     map->cancel = cancel;
 }
 
+uint64_t source_map_bytes(const SourceMap *map)
+{
+    return map->next_base;
+}
+
 void source_map_set_memory(SourceMap *map, size_t bytes)
 {
     map->memory_bytes = bytes;

@@ -69,6 +69,9 @@ void source_map_free(SourceMap *map);          // closes everything
 // When the flag turns true, opening and reading stop soon. It must outlive the map; NULL, as at first: never.
 void source_map_set_cancel(SourceMap *map, const atomic_bool *cancel);
 
+// Bytes of all texts that were opened.
+uint64_t source_map_bytes(const SourceMap *map);
+
 // How many bytes may be kept of one pipe or device; at first any number.
 void source_map_set_memory(SourceMap *map, size_t bytes);
 

@@ -186,7 +186,7 @@ static bool povray_make(const Check *check, const Files *files, Outcome *outcome
 static bool picture_read(const Options *options, const char *path, Image *image, Outcome *outcome)
 {
     uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     bool fine = image_read(path, pixels, image, &error) == IMAGE_OK;
 
     if (!fine) {

@@ -138,7 +138,7 @@ static void base64_print(FILE *out, FILE *from)
 
 bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding, const char *scratch)
 {
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     bool fine = image_write(image, encoding, scratch, &error) == IMAGE_OK;
     FILE *file = fine ? fopen(scratch, "rb") : NULL;
 

@@ -92,7 +92,7 @@ bool povray_render(const char *scene, const StudySettings *settings, PovrayRun *
 {
     char output[4096], log[4096], detail[512];
     uint64_t pixels = (uint64_t)settings->width * (uint64_t)settings->height;
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
 
     snprintf(output, sizeof output, "%s/study-%s.png", settings->folder, run->name);
     snprintf(log, sizeof log, "%s/study-%s.log", settings->folder, run->name);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 
 #include "cli/options.h"
 #include "cli/povray.h"
@@ -19,9 +20,10 @@ enum { OUTPUT_BUFFER = 1 << 16 }; // more than --help says
 static rt_session *volatile interrupted_session;
 static volatile sig_atomic_t interrupted_by;
 
+// The timer's signals go on, should one come before the call that it is to end.
 static void on_interrupt(int signal_number)
 {
-    interrupted_by = signal_number;
+    interrupted_by = interrupted_by ? interrupted_by : signal_number;
     if (interrupted_session) {
         rt_cancel(interrupted_session);
     }
@@ -35,6 +37,15 @@ static void hear_signals(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     signal(SIGXFSZ, SIG_IGN);
+}
+
+static void begin_timer(double seconds)
+{
+    struct sigaction action = {.sa_handler = on_interrupt};
+    struct timeval first = {(time_t)seconds, (suseconds_t)((seconds - (double)(time_t)seconds) * 1e6)};
+    struct itimerval timer = {.it_interval = {.tv_usec = 100000}, .it_value = first};
+    sigaction(SIGALRM, &action, NULL);
+    setitimer(ITIMER_REAL, &timer, NULL);
 }
 
 static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
@@ -90,6 +101,13 @@ static void close_session(rt_session *session)
     rt_session_free(session);
 }
 
+static rt_status fail_time(rt_session *session, const Options *options)
+{
+    char message[COMPLAINT_SIZE];
+    snprintf(message, sizeof message, "the run takes more than %g seconds; nothing was written", options->max_time);
+    return rt_report(session, "E0612", message, "`--max-time` allows more");
+}
+
 // One scene or frame, in a session of its own. *wrote: there is a picture, of a run that was interrupted, too.
 static rt_status run_one(const Options *options, Voice *voice, bool *wrote)
 {
@@ -99,17 +117,24 @@ static rt_status run_one(const Options *options, Voice *voice, bool *wrote)
         return RT_FAULT_LIMIT;
     }
     rt_status status = interrupted_by ? RT_CANCELLED : run(session, options, voice);
+    if (status == RT_CANCELLED && interrupted_by == SIGALRM) {
+        status = fail_time(session, options);
+    }
     *wrote = rt_pixels(session, &width, &height) != NULL || *wrote;
     close_session(session);
     return status;
 }
 
-// All scenes and all their frames, one after the other. Returns the greatest status; an interrupt ends it.
+// All scenes and all their frames, one after the other. Returns the greatest status; an interrupt ends it, and so does
+// the end of the time for all of them.
 static rt_status run_all(Options *options, Voice *voice, bool *wrote)
 {
     const Frames *frames = &options->frames;
     rt_status worst = RT_OK;
-    for (int i = 0; i < options->scene_count && worst != RT_CANCELLED; i++) {
+    if (options->max_time > 0.0) {
+        begin_timer(options->max_time);
+    }
+    for (int i = 0; i < options->scene_count && !interrupted_by; i++) {
         options->scene = options->scenes[i];
         bool is_animated = frames->step > 0 && options->action == ACTION_RENDER;
         int last = is_animated ? frames->last : 0, step = is_animated ? frames->step : 1;
@@ -117,6 +142,7 @@ static rt_status run_all(Options *options, Voice *voice, bool *wrote)
         for (options->frame = is_animated ? frames->first : 0; !status && options->frame <= last;
              options->frame += step) {
             status = run_one(options, voice, wrote);
+            options->is_unconfined = true; // the kernel holds to the first run's rules, which are those of all
         }
         worst = status > worst ? status : worst;
     }
@@ -139,6 +165,8 @@ static OptionsResult read_command_line(int argc, char **argv, Options *options, 
     *status = session ? RT_OK : RT_FAULT_LIMIT;
     if (session && is_povray) {
         result = povray_parse(session, argc, argv, povray, options, voice, status);
+    } else if (session && result == OPTIONS_NO_MEMORY) {
+        *status = rt_report(session, "E0602", "out of memory", NULL);
     } else if (session && result == OPTIONS_WRONG) {
         *status = fail_parse(session, options);
     }
@@ -162,7 +190,7 @@ int main(int argc, char **argv)
 {
     Options options = {0};
     Povray povray = {0};
-    Voice voice = {0};
+    Voice voice = {.interrupted_by = &interrupted_by};
     bool wrote = false;
     rt_status status;
     // --help waits there until `print` can say what went wrong. Never freed: it serves to the end of the program.

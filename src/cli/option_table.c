@@ -310,6 +310,28 @@ static bool apply_time_limit(Options *options, const char *argument, const char 
     return parse_positive(argument, &options->sampling.time_limit);
 }
 
+// The timer takes whole microseconds, and a year is as good as none.
+static bool apply_max_time(Options *options, const char *argument, const char **expected)
+{
+    *expected = "a number of seconds from 0.001 to 31536000";
+    return parse_positive(argument, &options->max_time) && options->max_time >= 0.001 &&
+           options->max_time <= 31536000.0;
+}
+
+static bool apply_untrusted(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->is_untrusted = true;
+    return true;
+}
+
+static bool apply_no_confinement(Options *options, const char *argument, const char **expected)
+{
+    (void)argument, (void)expected;
+    options->is_unconfined = true;
+    return true;
+}
+
 static bool apply_no_estimate(Options *options, const char *argument, const char **expected)
 {
     (void)argument, (void)expected;
@@ -537,7 +559,15 @@ static const OptionRow rows[] = {
     {0, "max-depth", "N", apply_max_depth, "nesting of expressions, blocks, macro calls and includes (default 1000)"},
     {0, "max-objects", "N", apply_max_objects, "shapes in the scene (default 1000000000)"},
     {0, "max-text", "BYTES", apply_max_text, "text of all files of the scene (default 64G)"},
-    {0, "max-memory", "BYTES", apply_max_memory, "memory of scene and picture (default: what there is)"},
+    {0, "max-memory", "BYTES", apply_max_memory,
+     "memory of scene and picture (default: 1 GiB and 16 bytes for each byte of text, the\n"
+     "picture apart, and together no more than there is)"},
+    {0, "max-time", "SECONDS", apply_max_time, "end a run that takes longer, all stages together; nothing is written"},
+    {0, "untrusted", NULL, apply_untrusted,
+     "for the scene of a stranger: small limits, 10 seconds, pictures in PNG only, and nothing\n"
+     "is read but the scene's folder"},
+    {0, "no-confinement", NULL, apply_no_confinement,
+     "do not let the kernel forbid what the program has no use for, to trace its system calls"},
     {0, "max-messages", "BYTES", apply_max_messages, "text of #debug and its like (default 16M)"},
     {0, "depth", "8|16|float", apply_depth, "bits of a stored value (default: float for EXR and HDR, else 8)"},
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},

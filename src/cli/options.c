@@ -7,7 +7,9 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "cli/confine.h"
 #include "cli/option_table.h"
 #include "cli/povray.h"
 
@@ -129,7 +131,9 @@ static OptionsResult complain_getopt(Options *options, int val, int argc, char *
 static OptionsResult print_and_stop(Options *options, const OptionRow *row)
 {
     if (row->letter != 'h') {
-        printf("rtlang %s\n", rt_version());
+        char confinement[CONFINE_TEXT];
+        confine_describe(confinement);
+        printf("rtlang %s\nconfinement: %s\n", rt_version(), confinement);
     } else if (!optarg) {
         options_print_help(stdout);
     } else if (strcmp(optarg, "povray") == 0) {
@@ -186,6 +190,27 @@ static OptionsResult settle_explain(int argc, char **argv, Options *options)
     return OPTIONS_GO;
 }
 
+static bool is_png(const char *path)
+{
+    size_t length = path ? strlen(path) : 0;
+    return !path || strcmp(path, "-") == 0 || (length > 4 && strcasecmp(path + length - 4, ".png") == 0);
+}
+
+enum { UNTRUSTED_SECONDS = 10 };
+
+static OptionsResult settle_untrusted(Options *options)
+{
+    if (options->include_path_count > 0 || options->read_folder_count > 0) {
+        return complain(options, "`--untrusted` reads the scene's folder only: leave out `--include-path` and "
+                                 "`--allow-read`");
+    }
+    if (options->action == ACTION_RENDER && (!is_png(options->output) || !is_png(options->error_map))) {
+        return complain(options, "`--untrusted` writes pictures in PNG only");
+    }
+    options->max_time = options->max_time > 0.0 ? options->max_time : UNTRUSTED_SECONDS;
+    return OPTIONS_GO;
+}
+
 // So that a complaint has its form even when it stands before the option.
 static void find_format(int argc, char **argv, Options *options)
 {
@@ -216,7 +241,7 @@ OptionsResult options_read(int argc, char **argv, Options *options)
     options->scenes = calloc((size_t)argc + 1, sizeof *options->scenes);
     if (!options->include_paths || !options->declarations || !options->warnings || !options->read_folders ||
         !options->scenes) {
-        return complain(options, "out of memory");
+        return OPTIONS_NO_MEMORY;
     }
     find_format(argc, argv, options);
     return read_options(argc, argv, options);
@@ -250,7 +275,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
         return complain(options, "pixel %d,%d is not in a picture of %d x %d pixels", options->pixel_x,
                         options->pixel_y, options->width, options->height);
     }
-    return OPTIONS_GO;
+    return options->is_untrusted ? settle_untrusted(options) : OPTIONS_GO;
 }
 
 void options_fini(Options *options)

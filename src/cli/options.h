@@ -75,6 +75,8 @@ typedef struct Options {
     bool clock_given;
     bool no_literals;
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
+    double max_time; // seconds of the whole run; 0: as many as it takes
+    bool is_untrusted, is_unconfined;
     bool quiet;
     char complaint[COMPLAINT_SIZE]; // OPTIONS_WRONG: what is wrong
     char advice[ADVICE_SIZE];       // and what may have been meant; empty: nothing near
@@ -86,6 +88,7 @@ typedef enum OptionsResult {
     OPTIONS_GO,    // run
     OPTIONS_DONE,  // --help or --version stands in the buffer of stdout
     OPTIONS_WRONG, // see complaint
+    OPTIONS_NO_MEMORY,
 } OptionsResult;
 
 OptionsResult options_parse(int argc, char **argv, Options *options);

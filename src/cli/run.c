@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/confine.h"
 #include "cli/frames.h"
 #include "cli/summary.h"
 
@@ -41,6 +42,9 @@ static rt_status fail_argument(rt_session *session, const char *expected, const 
 static rt_status configure(rt_session *session, const Options *options)
 {
     const int *crop = options->crop;
+    if (options->is_untrusted) {
+        rt_set_untrusted(session);
+    }
     rt_status status = rt_set_size(session, options->width, options->height);
     if (!status && crop[2] > 0 && rt_set_crop(session, crop[0], crop[1], crop[2], crop[3])) {
         return fail_usage(session, "`--crop` wants a part that lies in the picture");
@@ -51,7 +55,9 @@ static rt_status configure(rt_session *session, const Options *options)
     if (!status && options->header) {
         status = rt_set_header(session, options->header);
     }
-    status = status ? status : rt_set_povray_includes(session, !options->no_povray_includes);
+    if (!status && !options->is_untrusted) { // whose includes are found already: there are none
+        status = rt_set_povray_includes(session, !options->no_povray_includes);
+    }
     for (int i = 0; !status && i < options->read_folder_count; i++) {
         status = rt_allow_read(session, options->read_folders[i]);
     }
@@ -274,7 +280,8 @@ static rt_status render(rt_session *session, const Options *options, Voice *voic
     status = status ? status : rt_render(session, options->threads);
     progress_end(&voice->progress);
     int width, height;
-    if (status == RT_CANCELLED && rt_pixels(session, &width, &height)) {
+    bool is_late = *voice->interrupted_by == SIGALRM; // then nothing is written
+    if (status == RT_CANCELLED && !is_late && rt_pixels(session, &width, &height)) {
         rt_status written = finish(session, options, output, voice);
         return written ? written : status;
     }
@@ -289,6 +296,50 @@ static rt_status check(rt_session *session, const Options *options)
 static rt_status check_format(rt_session *session, const Options *options)
 {
     return rt_check_format(session, options->scene);
+}
+
+// The folder of a file, to be freed; NULL when out of memory.
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return !slash ? strdup(".") : strndup(path, slash == path ? 1 : (size_t)(slash - path));
+}
+
+// From here on the kernel forbids what neither this run nor those after it, of further scenes and frames, have a use
+// for: pictures of frames are all in one folder, and the folders of include files are those of all scenes.
+static rt_status confine_runs(rt_session *session, const Options *options)
+{
+    const char *path, *writes[] = {options->output ? options->output
+                                   : options->action == ACTION_RENDER ? "./output.png" : NULL,
+                                   options->error_map};
+    bool writes_file = options->action == ACTION_RENDER || options->action == ACTION_FORMAT;
+    size_t count = 0, folders = 0, scenes = (size_t)options->scene_count;
+    while (rt_include_path(session, folders)) {
+        folders++;
+    }
+    const char **reads = calloc(2 * scenes + 1 + folders + (size_t)options->read_folder_count, sizeof *reads);
+    char **own = calloc(scenes + 1, sizeof *own); // a folder may be NULL for want of memory: then it is not read
+    for (size_t i = 0; reads && own && i < scenes; i++) {
+        reads[count++] = options->scenes[i];
+        reads[count++] = own[i] = folder_of(options->scenes[i]);
+    }
+    if (reads && own) {
+        reads[count++] = options->header;
+        for (int i = 0; i < options->read_folder_count; i++) {
+            reads[count++] = options->read_folders[i];
+        }
+        for (size_t i = 0; i < folders && (path = rt_include_path(session, i)); i++) {
+            reads[count++] = path;
+        }
+        confine(&(Confinement){reads, count, writes, writes_file ? 2 : 0, options->is_untrusted});
+    }
+    rt_status status = reads && own ? RT_OK : rt_report(session, "E0602", "out of memory", NULL);
+    for (size_t i = 0; own && i < scenes; i++) {
+        free(own[i]);
+    }
+    free(own);
+    free(reads);
+    return status;
 }
 
 rt_status run(rt_session *session, const Options *options, Voice *voice)
@@ -306,6 +357,9 @@ rt_status run(rt_session *session, const Options *options, Voice *voice)
         [ACTION_BUDGET] = budget,
     };
     rt_status status = configure(session, options);
+    if (!status && !options->is_unconfined && options->action != ACTION_EXPLAIN) {
+        status = confine_runs(session, options);
+    }
     if (status) {
         return status;
     }

@@ -4,6 +4,7 @@
 #ifndef CLI_VOICE_H
 #define CLI_VOICE_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -20,12 +21,13 @@ typedef enum VoiceStream {
     VOICE_STREAMS,
 } VoiceStream;
 
-// All zero: everything on stderr.
+// All zero but for the signal: everything on stderr.
 typedef struct Voice {
     Progress progress;
     bool is_mute[VOICE_STREAMS]; // not on stderr
     bool has_no_warnings;        // nowhere
     FILE *files[VOICE_STREAMS];  // NULL: none; owned
+    const volatile sig_atomic_t *interrupted_by; // the first signal that ends runs, or 0
 } Voice;
 
 void voice_say(Voice *voice, VoiceStream stream, const char *text, size_t length);

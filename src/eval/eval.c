@@ -146,7 +146,7 @@ static void init(Eval *ev, const EvalOptions *options, Scene *scene)
         ev->version_given = true;
     }
     ev->expression_depth_limit = options->limits->ast_depth * DEEPENING_PER_AST_LEVEL;
-    ev->memory.limit = options->limits->memory_bytes;
+    ev->memory.limit = limits_memory(options->limits, source_map_bytes(options->sources));
     arena_init_shared(&ev->parse, &ev->memory);
     arena_init_shared(&ev->program, &ev->memory);
     arena_init_shared(&ev->scratch, &ev->memory);

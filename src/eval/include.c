@@ -91,7 +91,11 @@ static Source *open_included(Eval *ev, const AstNode *node)
         ev->faulty = true;
         return NULL;
     }
-    return file_open(ev, node->a, FILE_INCLUDE, &source) ? source : NULL;
+    if (!file_open(ev, node->a, FILE_INCLUDE, &source)) {
+        return NULL;
+    }
+    ev->memory.limit = limits_memory(ev->options.limits, source_map_bytes(ev->options.sources));
+    return source;
 }
 
 Source *include_enter(Eval *ev, CursorFrame *frame, const AstNode *node)

@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/number.h"
 #include "eval/blocks.h"
+#include "eval/shared_maps.h"
 
 enum { TREE_DEPTH_WEIGHT = 2 }; // of native recursion, see eval_deepen
 
@@ -13,11 +14,13 @@ typedef struct Builder {
     Eval *ev;
     Scene *scene;
     Span span; // of the object that needs the texture
+    SharedMaps *shared;
 } Builder;
 
 static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                        uint32_t *index, unsigned *ways);
-static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out);
+                        uint32_t *index, MapCost *cost);
+static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out,
+                        uint64_t *patterns);
 
 // A pattern must be found back from the world.
 static bool place_pattern(const Builder *builder, const Transform *own, const Transform *outer, Transform *whole)
@@ -38,44 +41,104 @@ static bool no_memory(const Builder *builder)
     return eval_no_memory(builder->ev, builder->span);
 }
 
+// Of what lies along a pattern: only one entry counts at a point, two that are neighbours, or all of them. `most` is
+// that of the entry that has most, `sum` that of all.
+static uint64_t count_at_point(const Pattern *pattern, uint64_t most, uint64_t sum)
+{
+    if (pattern_info((PatternType)pattern->type)->blocks && pattern->frequency == 0.0) {
+        return most;
+    }
+    return pattern->type == PATTERN_AVERAGE || sum < 2 * most ? sum : 2 * most;
+}
+
+static void add_cost(SharedMap *made, MapCost own)
+{
+    made->most.ways = own.ways > made->most.ways ? own.ways : made->most.ways;
+    made->most.patterns = own.patterns > made->most.patterns ? own.patterns : made->most.patterns;
+    made->sum.ways += made->sum.ways > COST_MOST ? 0 : own.ways;
+    made->sum.patterns += made->sum.patterns > COST_MOST ? 0 : own.patterns;
+}
+
+static MapCost cost_at_point(const Pattern *pattern, const SharedMap *made)
+{
+    return (MapCost){.ways = count_at_point(pattern, made->most.ways, made->sum.ways),
+                     .patterns = 1 + count_at_point(pattern, made->most.patterns, made->sum.patterns)};
+}
+
 // Lists are made from their ends, so that equal ends are kept once.
-static bool add_pigment_entries(const Builder *builder, const PatternMap *map, uint32_t *first)
+static bool add_new_pigment_entries(const Builder *builder, const PatternMap *map, SharedMap *made)
 {
     Transform identity = transform_identity();
-    *first = RECORD_NONE;
+    *made = (SharedMap){.first = RECORD_NONE};
     for (size_t i = map->count; i-- > 0;) {
         const PatternEntry *from = &map->entries[i];
-        PigmentEntry entry = {.at = from->at, .pigment = pigment_of(from->colour), .next = *first};
+        PigmentEntry entry = {.at = from->at, .pigment = pigment_of(from->colour), .next = made->first};
+        MapCost own = {0};
         if (!eval_step(builder->ev, builder->span) ||
-            (from->pigment && !add_pigment(builder, from->pigment, &identity, &entry.pigment))) {
+            (from->pigment && !add_pigment(builder, from->pigment, &identity, &entry.pigment, &own.patterns))) {
             return false;
         }
-        if (!scene_add_pigment_entry(builder->scene, &entry, first)) {
+        if (!scene_add_pigment_entry(builder->scene, &entry, &made->first)) {
             return no_memory(builder);
         }
+        add_cost(made, own);
     }
     return true;
 }
 
+static bool has_pigments(const PatternMap *map)
+{
+    bool found = false;
+    for (size_t i = 0; !found && i < map->count; i++) {
+        found = map->entries[i].pigment != NULL;
+    }
+    return found;
+}
+
+typedef bool AddEntries(const Builder *builder, const PatternMap *map, SharedMap *made);
+
+// Visits a map, unless that was done before.
+static bool add_map(const Builder *builder, const PatternMap *map, AddEntries *add, SharedMap *made)
+{
+    uint32_t place;
+    bool is_new;
+    if (!shared_maps_place(builder->shared, map, &place, &is_new)) {
+        return no_memory(builder);
+    }
+    if (is_new) {
+        if (!add(builder, map, made)) {
+            return false;
+        }
+        builder->shared->made.items[place] = *made;
+    }
+    *made = builder->shared->made.items[place];
+    return true;
+}
+
 static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer,
-                          Pigment *out)
+                          Pigment *out, uint64_t *patterns)
 {
     const PatternPart *part = &pigment->part;
+    const PatternMap *map = part->map ? part->map : pattern_default_map((PatternType)part->pattern.type);
+    SharedMap made = {.first = RECORD_NONE};
     bool is_picture = part->pattern.type == PATTERN_IMAGE_MAP;
     PatternedPigment record = {.pattern = part->pattern, .entries = RECORD_NONE};
     if (!place_pattern(builder, &part->transform, outer, &record.to_world) ||
         (is_picture && !image_place(builder->ev, builder->scene, part->image, &record.pattern.image)) ||
-        (!is_picture &&
-         !add_pigment_entries(builder, part->map ? part->map : pattern_default_map((PatternType)part->pattern.type),
-                              &record.entries))) {
+        (!is_picture && !(has_pigments(map) ? add_map(builder, map, add_new_pigment_entries, &made)
+                                            : add_new_pigment_entries(builder, map, &made)))) {
         return false;
     }
+    record.entries = made.first;
+    *patterns = cost_at_point(&record.pattern, &made).patterns;
     *out = (Pigment){.pattern = 0};
     return scene_add_pattern(builder->scene, &record, &out->pattern) || no_memory(builder);
 }
 
-static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out)
+static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out,
+                        uint64_t *patterns)
 {
+    *patterns = 0;
     if (pigment->part.pattern.type == PATTERN_NONE) {
         *out = pigment_of(pigment->colour);
         return true;
@@ -83,7 +146,7 @@ static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment,
     if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
         return false;
     }
-    bool is_added = add_patterned(builder, pigment, outer, out);
+    bool is_added = add_patterned(builder, pigment, outer, out, patterns);
     eval_shallow(builder->ev, TREE_DEPTH_WEIGHT);
     return is_added;
 }
@@ -91,7 +154,7 @@ static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment,
 // ---- bumps
 
 static bool add_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer, bool keeps_length,
-                       uint32_t *index);
+                       uint32_t *index, uint64_t *patterns);
 
 static bool add_slopes(const Builder *builder, const PatternMap *map, uint32_t *first)
 {
@@ -109,26 +172,29 @@ static bool add_slopes(const Builder *builder, const PatternMap *map, uint32_t *
     return true;
 }
 
-static bool add_normal_entries(const Builder *builder, const PatternMap *map, uint32_t *first)
+static bool add_new_normal_entries(const Builder *builder, const PatternMap *map, SharedMap *made)
 {
     Transform identity = transform_identity();
-    *first = RECORD_NONE;
+    *made = (SharedMap){.first = RECORD_NONE};
     for (size_t i = map->count; i-- > 0;) {
-        NormalEntry entry = {.at = map->entries[i].at, .next = *first};
+        NormalEntry entry = {.at = map->entries[i].at, .next = made->first};
+        MapCost own = {0};
         if (!eval_step(builder->ev, builder->span) ||
-            !add_normal(builder, map->entries[i].normal, &identity, false, &entry.normal)) {
+            !add_normal(builder, map->entries[i].normal, &identity, false, &entry.normal, &own.patterns)) {
             return false;
         }
-        if (!scene_add_normal_entry(builder->scene, &entry, first)) {
+        if (!scene_add_normal_entry(builder->scene, &entry, &made->first)) {
             return no_memory(builder);
         }
+        add_cost(made, own);
     }
     return true;
 }
 
 static bool add_one_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer,
-                           bool keeps_length, uint32_t *index)
+                           bool keeps_length, uint32_t *index, uint64_t *patterns)
 {
+    SharedMap made = {.first = RECORD_NONE};
     Normal record = {
         .to_world = transform_identity(),
         .pattern = normal->part.pattern,
@@ -139,21 +205,23 @@ static bool add_one_normal(const Builder *builder, const NormalBlueprint *normal
         .flags = keeps_length || normal->keeps_length ? NORMAL_KEEPS_LENGTH : 0,
     };
     if (!place_pattern(builder, &normal->part.transform, outer, &record.to_world) ||
-        (normal->part.map && !add_normal_entries(builder, normal->part.map, &record.entries)) ||
+        (normal->part.map && !add_map(builder, normal->part.map, add_new_normal_entries, &made)) ||
         (normal->slopes && !normal->part.map && !pattern_info((PatternType)record.pattern.type)->blocks &&
          !add_slopes(builder, normal->slopes, &record.slopes))) {
         return false;
     }
+    record.entries = made.first;
+    *patterns = cost_at_point(&record.pattern, &made).patterns;
     return scene_add_normal(builder->scene, &record, index) || no_memory(builder);
 }
 
 static bool add_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer, bool keeps_length,
-                       uint32_t *index)
+                       uint32_t *index, uint64_t *patterns)
 {
     if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
         return false;
     }
-    bool is_added = add_one_normal(builder, normal, outer, keeps_length, index);
+    bool is_added = add_one_normal(builder, normal, outer, keeps_length, index, patterns);
     eval_shallow(builder->ev, TREE_DEPTH_WEIGHT);
     return is_added;
 }
@@ -187,36 +255,37 @@ static unsigned layers_ways(const TextureBlueprint *top)
     return ways;
 }
 
-// The same of a pattern of textures, `most` of which have up to so many, and all together `sum`.
-static unsigned pattern_ways(const Pattern *pattern, unsigned most, unsigned sum)
-{
-    if (pattern_info((PatternType)pattern->type)->blocks && pattern->frequency == 0.0) {
-        return most;
-    }
-    return pattern->type == PATTERN_AVERAGE || sum < 2 * most ? sum : 2 * most;
-}
-
 // ---- textures
 
-static bool add_texture_entries(const Builder *builder, const PatternPart *part, uint32_t *first, unsigned *ways)
+// A texture that is no layer below another; those below it are looked over with it.
+static bool add_top_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
+                            uint32_t *index, MapCost *cost)
+{
+    bool is_layer = texture->part.pattern.type == PATTERN_NONE;
+    if ((is_layer && !layers_have_patterns(builder->ev, texture)) ||
+        !add_texture(builder, texture, outer, index, cost)) {
+        return false;
+    }
+    cost->ways = is_layer ? layers_ways(texture) : cost->ways;
+    return true;
+}
+
+static bool add_new_texture_entries(const Builder *builder, const PatternMap *map, SharedMap *made)
 {
     Transform identity = transform_identity();
-    const PatternMap *map = part->map;
-    unsigned most = 0, sum = 0, own;
-    *first = RECORD_NONE;
+    MapCost own;
+    *made = (SharedMap){.first = RECORD_NONE};
     for (size_t i = map->count; i-- > 0;) {
-        TextureEntry entry = {.at = map->entries[i].at, .next = *first};
+        TextureEntry entry = {.at = map->entries[i].at, .next = made->first};
         if (!eval_step(builder->ev, builder->span) ||
-            !add_texture(builder, map->entries[i].texture, &identity, &entry.texture, &own)) {
+            !add_top_texture(builder, map->entries[i].texture, &identity, &entry.texture, &own)) {
             return false;
         }
-        if (!scene_add_texture_entry(builder->scene, &entry, first)) {
+        if (!scene_add_texture_entry(builder->scene, &entry, &made->first)) {
             return no_memory(builder);
         }
-        most = own > most ? own : most;
-        sum += sum > SCENE_NORMALS_MOST ? 0 : own;
+        add_cost(made, own);
     }
-    *ways = pattern_ways(&part->pattern, most, sum);
     return true;
 }
 
@@ -226,9 +295,38 @@ bool texture_hides_all(const TextureBlueprint *texture)
            texture->pigment.colour.filter == 0.0 && texture->pigment.colour.transmit == 0.0;
 }
 
-// `ways` is NULL for a layer below another, which was checked and counted with the top.
+static bool add_texture_pattern(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
+                                Texture *record, MapCost *cost)
+{
+    SharedMap made;
+    if (!place_pattern(builder, &texture->part.transform, outer, &record->to_world) ||
+        !add_map(builder, texture->part.map, add_new_texture_entries, &made)) {
+        return false;
+    }
+    record->entries = made.first;
+    *cost = cost_at_point(&record->pattern, &made);
+    return true;
+}
+
+// One layer and those below it; ways are counted for all of them together.
+static bool add_layers(const Builder *builder, const TextureBlueprint *texture, const Transform *moved, Texture *record,
+                       MapCost *cost)
+{
+    uint64_t of_pigment = 0, of_normal = 0;
+    MapCost of_below = {0};
+    if (!add_pigment(builder, &texture->pigment, moved, &record->pigment, &of_pigment) ||
+        (has_bumps(texture) &&
+         !add_normal(builder, &texture->normal, moved, texture->keeps_length, &record->normal, &of_normal)) ||
+        (texture->below && !texture_hides_all(texture) &&
+         !add_texture(builder, texture->below, moved, &record->below, &of_below))) {
+        return false;
+    }
+    *cost = (MapCost){0, of_pigment + of_normal + of_below.patterns};
+    return true;
+}
+
 static bool add_one_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                            uint32_t *index, unsigned *ways)
+                            uint32_t *index, MapCost *cost)
 {
     Texture record = {
         .pigment = pigment_of((Rgbft){0.0, 0.0, 0.0, 0.0, 0.0}),
@@ -242,33 +340,20 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
     if (!scene_add_finish(builder->scene, &texture->finish, &record.finish)) {
         return no_memory(builder);
     }
-    if (texture->part.pattern.type != PATTERN_NONE) {
-        if (!place_pattern(builder, &texture->part.transform, outer, &record.to_world) ||
-            !add_texture_entries(builder, &texture->part, &record.entries, ways)) {
-            return false;
-        }
-        return scene_add_texture(builder->scene, &record, index) || no_memory(builder);
-    }
-    if (ways != NULL) {
-        *ways = layers_ways(texture);
-    }
-    if ((ways != NULL && !layers_have_patterns(builder->ev, texture)) ||
-        !add_pigment(builder, &texture->pigment, &moved, &record.pigment) ||
-        (has_bumps(texture) && !add_normal(builder, &texture->normal, &moved, texture->keeps_length, &record.normal)) ||
-        (texture->below && !texture_hides_all(texture) &&
-         !add_texture(builder, texture->below, &moved, &record.below, NULL))) {
+    if (!(texture->part.pattern.type != PATTERN_NONE ? add_texture_pattern(builder, texture, outer, &record, cost)
+                                                     : add_layers(builder, texture, &moved, &record, cost))) {
         return false;
     }
     return scene_add_texture(builder->scene, &record, index) || no_memory(builder);
 }
 
 static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                        uint32_t *index, unsigned *ways)
+                        uint32_t *index, MapCost *cost)
 {
     if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
         return false;
     }
-    bool is_added = add_one_texture(builder, texture, outer, index, ways);
+    bool is_added = add_one_texture(builder, texture, outer, index, cost);
     eval_shallow(builder->ev, TREE_DEPTH_WEIGHT);
     return is_added;
 }
@@ -291,19 +376,31 @@ static bool add_interior(const Builder *builder, const TextureBlueprint *texture
            scene_add_interior(builder->scene, &interior, index) || no_memory(builder);
 }
 
+static bool patterns_fit(const Builder *builder, uint64_t patterns)
+{
+    return patterns <= SCENE_PATTERNS_MOST ||
+           eval_fault(builder->ev, DIAG_E0611, builder->span, "this is made of more than %d patterns at one point",
+                      (int)SCENE_PATTERNS_MOST);
+}
+
 bool pigment_place(Eval *ev, Scene *scene, const PigmentBlueprint *pigment, const Transform *outer, Span span,
                    Pigment *out)
 {
-    Builder builder = {ev, scene, span};
-    return add_pigment(&builder, pigment, outer, out);
+    SharedMaps shared = {0};
+    Builder builder = {ev, scene, span, &shared};
+    uint64_t patterns;
+    bool is_added = add_pigment(&builder, pigment, outer, out, &patterns);
+    shared_maps_fini(&shared);
+    return is_added && patterns_fit(&builder, patterns);
 }
 
 bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
                     const InteriorBlueprint *interior, bool is_hollow, Span span, MaterialIndex *index)
 {
-    Builder builder = {ev, ev->scene, span};
+    SharedMaps shared = {0};
+    Builder builder = {ev, ev->scene, span, &shared};
     Compound compound = {.is_hollow = is_hollow};
-    unsigned ways;
+    MapCost cost;
     if (!add_interior(&builder, texture, interior, &compound.interior)) {
         return false;
     }
@@ -315,12 +412,15 @@ bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *
         return layers_have_patterns(ev, texture) &&
                (scene_add_material(ev->scene, texture->pigment.colour, &finish, index) || eval_no_memory(ev, span));
     }
-    if (!add_texture(&builder, texture, outer, &compound.texture, &ways)) {
+    bool is_added = add_top_texture(&builder, texture, outer, &compound.texture, &cost);
+    shared_maps_fini(&shared);
+    if (!is_added) {
         return false;
     }
-    if (ways > SCENE_NORMALS_MOST) {
+    if (cost.ways > SCENE_NORMALS_MOST) {
         return eval_fault(ev, DIAG_E0295, span, "the bumps of this texture send rays in more than %d directions",
                           (int)SCENE_NORMALS_MOST);
     }
-    return scene_add_compound(ev->scene, &compound, index) || eval_no_memory(ev, span);
+    return patterns_fit(&builder, cost.patterns) &&
+           (scene_add_compound(ev->scene, &compound, index) || eval_no_memory(ev, span));
 }

@@ -67,6 +67,10 @@ void message_write(Eval *ev, EvalStream stream, const char *text, size_t length,
             return;
         }
         unsigned code = character_at(at, text + length, &bytes);
+        if (ev->line.failed) {
+            eval_no_memory(ev, span);
+            return;
+        }
         if (code == '\n') {
             send_line(ev, stream, text_get(&ev->line), ev->line.length);
             text_clear(&ev->line);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "eval/blocks.h"
+#include "eval/shared_maps.h"
 
 void texture_transform(TextureBlueprint *texture, const Transform *transform)
 {
@@ -57,15 +58,11 @@ static bool makes_filters_clear(const Eval *ev)
     return ev->version < 3.1 || numbers_equal(ev->version, 3.1);
 }
 
-// Up to version 3.1 the filters of what lies over something let light through unchanged: POV-Ray makes `transmit` of
-// them. Measured, also of maps.
-static bool take_filters(Eval *ev, Arena *arena, PigmentBlueprint *pigment, Span span)
+static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentBlueprint *pigment, Span span);
+
+static bool clear_entries(Eval *ev, Arena *arena, SharedMaps *shared, const PatternMap *map, Span span,
+                          const PatternMap **cleared)
 {
-    const PatternMap *map = pigment->part.map;
-    pigment->colour = without_filter(pigment->colour);
-    if (!map) {
-        return true;
-    }
     PatternMap *changed = arena_copy(arena, map, sizeof *map);
     PatternEntry *entries = changed ? arena_alloc_array(arena, map->count, sizeof *entries) : NULL;
     bool is_fine = entries != NULL;
@@ -74,7 +71,7 @@ static bool take_filters(Eval *ev, Arena *arena, PigmentBlueprint *pigment, Span
         entries[i].colour = without_filter(entries[i].colour);
         if (entries[i].pigment) {
             PigmentBlueprint *inner = arena_copy(arena, entries[i].pigment, sizeof *inner);
-            is_fine = inner && take_filters(ev, arena, inner, span);
+            is_fine = inner && clear_filters(ev, arena, shared, inner, span);
             entries[i].pigment = inner;
         }
     }
@@ -82,8 +79,41 @@ static bool take_filters(Eval *ev, Arena *arena, PigmentBlueprint *pigment, Span
         return eval_no_memory(ev, span);
     }
     changed->entries = entries;
-    pigment->part.map = changed;
+    *cleared = changed;
     return true;
+}
+
+static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentBlueprint *pigment, Span span)
+{
+    const PatternMap *map = pigment->part.map;
+    uint32_t place;
+    bool is_new;
+    pigment->colour = without_filter(pigment->colour);
+    if (!map) {
+        return true;
+    }
+    if (!shared_maps_place(shared, map, &place, &is_new)) {
+        return eval_no_memory(ev, span);
+    }
+    if (is_new) {
+        const PatternMap *cleared = NULL;
+        if (!clear_entries(ev, arena, shared, map, span, &cleared)) {
+            return false;
+        }
+        shared->made.items[place].changed = cleared;
+    }
+    pigment->part.map = shared->made.items[place].changed;
+    return true;
+}
+
+// Up to version 3.1 the filters of what lies over something let light through unchanged: POV-Ray makes `transmit` of
+// them. Measured, also of maps.
+static bool take_filters(Eval *ev, Arena *arena, PigmentBlueprint *pigment, Span span)
+{
+    SharedMaps shared = {0};
+    bool is_fine = clear_filters(ev, arena, &shared, pigment, span);
+    shared_maps_fini(&shared);
+    return is_fine;
 }
 
 static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)

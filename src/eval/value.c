@@ -135,6 +135,9 @@ bool value_array(Eval *ev, const Value *value, Span span)
 
 static bool store_array(Eval *ev, const ValueArray *array, Arena *arena, Span span, Value *copy)
 {
+    if (!eval_work(ev, array->count * sizeof *array->elements, span)) {
+        return false;
+    }
     ValueArray *kept = arena_copy(arena, array, sizeof *array);
     Value *elements = arena_alloc_array(arena, array->count, sizeof *elements);
     if (kept == NULL || elements == NULL) {

@@ -62,6 +62,7 @@ typedef enum ImageStatus {
 
 typedef struct ImageError {
     char detail[256]; // one line from the system or the library, "" if there is none
+    bool no_memory;   // an allocation failed, whatever came of it
 } ImageError;
 
 // Whether a path is standard output: `-`, as PNG, or `-.ENDING`, as the format of that ending.

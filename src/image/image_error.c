@@ -6,6 +6,7 @@
 #endif
 #include "image/image_error.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,6 +14,7 @@
 void image_error_clear(ImageError *error)
 {
     error->detail[0] = '\0';
+    error->no_memory = false;
 }
 
 void image_error_set(ImageError *error, const char *format, ...)
@@ -21,7 +23,7 @@ void image_error_set(ImageError *error, const char *format, ...)
 
     va_start(arguments, format);
     if (vsnprintf(error->detail, sizeof error->detail, format, arguments) < 0) {
-        image_error_clear(error);
+        error->detail[0] = '\0';
     }
     va_end(arguments);
     error->detail[strcspn(error->detail, "\r\n")] = '\0';
@@ -36,5 +38,6 @@ void image_error_system(ImageError *error, const char *path, int code)
 {
     const char *text = strerrordesc_np(code); // unlike strerror: safe in threads, and no locale
 
+    error->no_memory = error->no_memory || code == ENOMEM;
     image_error_set(error, "%s: %s", path, text != NULL ? text : "unknown error");
 }

@@ -10,6 +10,10 @@
 // back to where setjmp was called.
 void png_fault_error(png_structp png, png_const_charp message);
 
+// Memory of libpng's; one that fails is noted in the same ImageError, because libpng goes on without it where it can.
+png_voidp png_fault_malloc(png_structp png, png_alloc_size_t size);
+void png_fault_free(png_structp png, png_voidp memory);
+
 // Says nothing: what is wrong beside the pixels is nobody's concern.
 void png_fault_warning(png_structp png, png_const_charp message);
 

@@ -136,7 +136,8 @@ ImageStatus png_read(FILE *stream, const PictureLimit *limit, PictureFile *file,
     PngReader reader = {.stream = stream, .limit = limit, .file = file, .error = error};
 
     reader.status = IMAGE_NO_MEMORY;
-    reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning);
+    reader.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning, error,
+                                          png_fault_malloc, png_fault_free);
     reader.info = reader.png != NULL ? png_create_info_struct(reader.png) : NULL;
     if (reader.info != NULL) {
         png_set_read_fn(reader.png, &reader, on_read);
@@ -145,5 +146,5 @@ ImageStatus png_read(FILE *stream, const PictureLimit *limit, PictureFile *file,
         read_guarded(&reader);
     }
     png_destroy_read_struct(&reader.png, &reader.info, NULL);
-    return reader.status;
+    return error->no_memory ? IMAGE_NO_MEMORY : reader.status;
 }

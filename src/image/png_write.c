@@ -60,6 +60,18 @@ static void on_write(png_structp png, png_bytep data, size_t length)
     }
 }
 
+// A chunk tEXt (PNG 1.2, 4.2.3): png_set_text would keep a copy, and leaks it where memory ends.
+static void note_write(const PngWriter *writer, const char *name, const char *text)
+{
+    static const png_byte type[] = "tEXt";
+    size_t name_size = strlen(name) + 1, length = strlen(text);
+
+    png_write_chunk_start(writer->png, type, (png_uint_32)(name_size + length));
+    png_write_chunk_data(writer->png, (png_const_bytep)name, name_size);
+    png_write_chunk_data(writer->png, (png_const_bytep)text, length);
+    png_write_chunk_end(writer->png);
+}
+
 static void header_write(const PngWriter *writer)
 {
     static const int colour_types[] = {[1] = PNG_COLOR_TYPE_GRAY,
@@ -80,13 +92,10 @@ static void header_write(const PngWriter *writer)
     } else {
         png_set_gAMA_fixed(writer->png, writer->info, (png_fixed_point)lround(100000.0 / encoding->gamma));
     }
-    for (size_t i = 0; i < encoding->note_count; i++) {
-        png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
-                         .key = (png_charp)encoding->notes[i].name,
-                         .text = (png_charp)encoding->notes[i].text};
-        png_set_text(writer->png, writer->info, &text, 1);
-    }
     png_write_info(writer->png, writer->info);
+    for (size_t i = 0; i < encoding->note_count; i++) {
+        note_write(writer, encoding->notes[i].name, encoding->notes[i].text);
+    }
 }
 
 static void piece_write(const PngWriter *writer, const unsigned char *bytes, size_t size)
@@ -150,13 +159,15 @@ ImageStatus png_write(const Image *image, const Encoder *encoder, PngSink sink, 
     writer->sink = sink;
     writer->error = error;
     writer->strips = png_strips_new(image, encoder);
-    writer->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning);
+    writer->png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning, error,
+                                            png_fault_malloc, png_fault_free);
     writer->info = writer->png != NULL ? png_create_info_struct(writer->png) : NULL;
     if (writer->strips != NULL && writer->info != NULL) {
         png_set_write_fn(writer->png, writer, on_write, on_flush);
         int strips = png_strips_count(writer->strips), threads = encoder->encoding.threads;
         parallel_run(threads < strips ? threads : strips, thread_run, writer);
-        status = writer->is_whole ? IMAGE_OK : writer->no_memory ? IMAGE_NO_MEMORY : IMAGE_IO;
+        bool no_memory = writer->no_memory || error->no_memory;
+        status = no_memory ? IMAGE_NO_MEMORY : writer->is_whole ? IMAGE_OK : IMAGE_IO;
     }
     png_destroy_write_struct(&writer->png, &writer->info);
     png_strips_free(writer->strips);

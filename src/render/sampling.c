@@ -192,9 +192,10 @@ static bool trace_beside(Sampling *s, Traces traces)
         work.height = 1;
     }
     s->traces = traces;
-    bool is_whole = tiles_run(&work, s->options, &s->audited) == RENDER_OK;
+    RenderResult result = tiles_run(&work, s->options, &s->audited);
     s->traces = TRACES_ROUND;
-    return is_whole;
+    s->result = result == RENDER_NO_MEMORY ? result : s->result;
+    return result == RENDER_OK;
 }
 
 // Sets that are no sequences are two independent halves, which need no audit.

@@ -151,6 +151,10 @@ typedef struct Normal {
 // Layers with bumps that may mirror or bend rays at one point of a texture.
 enum { SCENE_NORMALS_MOST = 7 };
 
+// Patterns that one point of a texture may take: between two entries of a map both are looked at, so that maps of maps
+// double them. A thousandth of a second a point; no scene that was seen takes a hundred.
+enum { SCENE_PATTERNS_MOST = 10000 };
+
 // Heights and slopes along a pattern, as a list that ends with RECORD_NONE.
 typedef struct SlopeEntry {
     double at, height, slope;

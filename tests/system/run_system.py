@@ -327,7 +327,7 @@ def test_actions():
         tap.ok(dump and rtlang("--dump=" + stage, "dump.scn").stdout == dump, "--dump=%s of its own dump" % stage, dump)
         tap.equal(picture(dump), picture(faults.GOOD), "--dump=%s is a scene of the same picture" % stage)
     version = rtlang("--version")
-    tap.ok(version.returncode == 0 and re.fullmatch(rb"rtlang \d+\.\d+\.\d+\n", version.stdout), "--version", version)
+    tap.ok(version.returncode == 0 and re.fullmatch(rb"rtlang \d+\.\d+\.\d+\nconfinement: .+\n", version.stdout), "--version", version)
     usage = rtlang("--help")
     tap.equal((usage.returncode, usage.stderr), (0, b""), "--help")
     options = "clock allow-read max-steps max-depth max-objects max-text max-memory max-messages output width height threads " \

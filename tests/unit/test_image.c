@@ -381,7 +381,7 @@ static void test_format(const char *path, const ImageEncoding *encoding, uint32_
     Image image = {0}, expected = {0}, back = {0};
     static const double thresholds[IMAGE_THRESHOLDS] = {0.0};
     ImageDifference difference = {.max = HUGE_VAL};
-    ImageError error = {""};
+    ImageError error = {.no_memory = false};
     bool made = picture_make(&image, 3, seed);
     ImageStatus status;
 

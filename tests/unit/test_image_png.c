@@ -123,7 +123,7 @@ static void test_forms(void)
     for (size_t i = 0; i < RT_COUNT_OF(forms); i++) {
         const Form *form = &forms[i];
         Image image;
-        ImageError error = {""};
+        ImageError error = {.no_memory = false};
         bool fine = form_write(form, "form.png") && image_read("form.png", LIMIT, &image, &error) == IMAGE_OK;
 
         if (tap_ok(fine && image.width == WIDTH && image.height == HEIGHT && image.channels == form->channels,

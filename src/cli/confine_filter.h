@@ -1,0 +1,16 @@
+// The filter of system calls that seccomp takes: what of confine() is no question of folders.
+//
+// SPDX-License-Identifier: MIT
+#ifndef CLI_CONFINE_FILTER_H
+#define CLI_CONFINE_FILTER_H
+
+#include <stdbool.h>
+
+// Whether this kernel and processor have it.
+bool confine_filter_exists(void);
+
+// From now on calls for other programs, processes and sockets fail with EPERM; `is_strict`: and so does making memory
+// that can be run, which loading a library needs.
+void confine_filter(bool is_strict);
+
+#endif

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# What the kernel forbids a run: calls that an intruder would make are planted into the program and must fail, while all
+# that a run needs still works, and pictures are the same with and without. Prints TAP.
+#
+# Wants RTLANG, CC and top_srcdir.
+#
+# SPDX-License-Identifier: MIT
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from tap import Tap
+
+RTLANG = os.path.abspath(os.environ["RTLANG"])
+SOURCE = os.path.join(os.environ["top_srcdir"], "tests", "system", "intruder.c")
+GOOD = b"""#include "part.inc"
+camera { location -5*z look_at 0 }
+light_source { <5, 5, -5>, 1 }
+sphere { 0, 1 pigment { image_map { png "map.png" } } finish { F } }
+"""
+OFTEN = ["read: EACCES", "write: EACCES", "make: EACCES"]
+ALWAYS = ["socket: EPERM", "connect: EPERM", "kill: EPERM", "ptrace: EPERM"]
+tap = Tap()
+
+
+def write(path, data):
+    with open(path, "wb") as file:
+        file.write(data)
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def rtlang(*arguments, **environment):
+    return subprocess.run([RTLANG, *arguments], env={**os.environ, **environment}, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120, check=False)
+
+
+def test_intruder(has_landlock, has_seccomp):
+    built = subprocess.run("%s -shared -fPIC -O1 -o intruder.so '%s'" % (os.environ.get("CC", "cc"), SOURCE),
+                           shell=True, stderr=subprocess.PIPE, check=False)
+    planted = {"LD_PRELOAD": os.path.abspath("intruder.so"), "INTRUDER_OUT": os.path.abspath("../elsewhere")}
+    free = rtlang("-q", "--no-confinement", "-o", "out/free.png", "good.scn", **planted).stderr.decode()
+    if built.returncode != 0 or "read: done\n" not in free:
+        tap.skip("planted calls", "nothing can be preloaded: " + built.stderr.decode()[:200])
+        return
+    tap.ok("fork: done\n" in free and "socket: done\n" in free, "without confinement an intruder may do it all", free)
+    os.remove("../elsewhere/new")
+    os.remove("../elsewhere/link")
+    for options in [[], ["--untrusted"]]:
+        name = "planted calls" + " ".join(["", *options])
+        said = rtlang("-q", *options, "-o", "out/x.png", "good.scn", **planted).stderr.decode().splitlines()
+        wanted = (OFTEN if has_landlock else []) + ["symlink: EPERM", *ALWAYS, "fork: EPERM", "execute: EPERM"] * has_seccomp
+        tap.ok(all(line in said for line in wanted), "%s are stopped" % name, "%s\n%s" % (wanted, said))
+        tap.equal(sorted(os.listdir("../elsewhere")), ["secret"], "%s leave nothing elsewhere" % name)
+        if has_seccomp:
+            tap.equal([line for line in said if line.startswith("code")], ["code: EPERM" if options else "code: done"],
+                      "%s: memory that can be run" % name)
+
+
+def test_runs():
+    """What a run needs, with and without."""
+    runs = {
+        "threads": ["-q", "-t4", "-W300", "-H200", "-o", "out/p.png", "good.scn"],
+        "the current folder": ["-q", "-o", "p.png", "good.scn"],
+        "an old picture": ["-q", "-o", "old.png", "good.scn"],
+        "a link to a picture": ["-q", "-o", "link.png", "good.scn"],
+        "a link to nothing": ["-q", "-o", "dangling.png", "good.scn"],
+        "another folder's scene": ["-q", "-o", "p.png", "-I", "inc", "scenes/far.scn"],
+        "standard output": ["-q", "-o", "-", "good.scn"],
+        "a device": ["-q", "-o", "/dev/null", "good.scn"],
+        "samples and an error map": ["-q", "--samples=4", "--error-map=out/map.png", "-o", "out/p.png", "good.scn"],
+        "a module for EXR": ["-q", "-o", "out/p.exr", "good.scn"],
+        "a standard include": ["--check", "standard.scn"],
+        "--format into a file": ["--format", "-o", "out/formatted.scn", "good.scn"],
+    }
+    os.symlink("old.png", "link.png")
+    os.symlink("out/made.png", "dangling.png")
+    for name, arguments in runs.items():
+        outcomes = []
+        for options in [], ["--no-confinement"]:
+            write("old.png", b"old")
+            done = rtlang(*options, *arguments)
+            target = arguments[arguments.index("-o") + 1] if "-o" in arguments else "-"
+            written = read(target) if os.path.isfile(target) else b""
+            outcomes.append((done.returncode, done.stdout, done.stderr, written))
+        tap.equal(outcomes[0], outcomes[1], "the same with and without: " + name)
+
+
+def test_untrusted():
+    def refused(name, code, message, *arguments):
+        done = rtlang("-q", *arguments)
+        tap.ok(done.returncode == code and message in done.stderr.decode(), "--untrusted: " + name, done)
+
+    tap.equal(rtlang("-q", "--untrusted", "-o", "p.png", "good.scn").returncode, 0, "--untrusted: a scene is drawn")
+    refused("no other format", 2, "`--untrusted` writes pictures in PNG only", "--untrusted", "-o", "p.jpg", "good.scn")
+    refused("no other folders", 2, "`--untrusted` reads the scene's folder only: leave out `--include-path` and "
+            "`--allow-read`", "--untrusted", "-I", "inc", "good.scn")
+    write("jpeg.scn", GOOD.replace(b"png \"map.png\"", b"jpeg \"map.jpg\""))
+    write("map.jpg", b"\xff\xd8\xff\xe0")
+    refused("no picture of another format", 3, "jpeg.scn:4:42: error[E0513]: `--untrusted` reads pictures in PNG only",
+            "--untrusted", "-o", "p.png", "jpeg.scn")
+    refused("no include files of the installation", 3, "error[E0501]", "--untrusted", "--check", "standard.scn")
+    write("forever.scn", b"#while (1) #declare I = 1; #end\n")
+    refused("few steps", 4, "forever.scn:1:1: error[E0605]: more than 3000000 loop turns", "--untrusted", "--check",
+            "forever.scn")
+
+
+def test_time():
+    write("slow.scn", b"#while (1) #declare I = sin(I0); #end\n".replace(b"I0", b"1"))
+    write("trace.scn", GOOD.replace(b"1 }\nsphere", b"1 area_light 9*x, 9*y, 500, 500 }\nsphere"))
+    for name, arguments in {"evaluation": ["--check", "--max-steps=1000000000000", "slow.scn"],
+                            "tracing": ["-W2000", "-H2000", "-o", "old.png", "trace.scn"],
+                            "sampling": ["-W200", "-H200", "--samples=100000", "-o", "old.png", "good.scn"]}.items():
+        write("old.png", b"old")
+        done = rtlang("-q", "--max-time=0.5", *arguments)
+        tap.equal((done.returncode, done.stderr, read("old.png")),
+                  (4, b"rtlang: error[E0612]: the run takes more than 0.5 seconds; nothing was written\n"
+                      b"     = help: `--max-time` allows more\n", b"old"), "--max-time ends " + name)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        for name in "elsewhere", "work", "work/out", "work/inc", "work/scenes":
+            os.mkdir(os.path.join(folder, name))
+        os.chdir(os.path.join(folder, "work"))
+        write("../elsewhere/secret", b"secret")
+        write("part.inc", b"#declare F = finish { phong 0.5 }\n")
+        write("inc/part.inc", b"#declare F = finish { phong 0.5 }\n")
+        write("good.scn", GOOD)
+        write("scenes/far.scn", GOOD.replace(b"image_map { png \"map.png\" }", b"rgb 1"))
+        write("standard.scn", b'#include "colors.inc"\nsphere { 0, 1 pigment { Red } }\n')
+        write("map.scn", b"camera { location -5*z look_at 0 }\nsphere { 0, 1 }\n")
+        subprocess.run([RTLANG, "-q", "-W9", "-H7", "-o", "map.png", "map.scn"], stderr=subprocess.PIPE, check=True)
+        line = rtlang("--version").stdout.decode().splitlines()[1]
+        tap.ok(line.startswith("confinement: "), "--version says what there is: " + line)
+        if "none" not in line:
+            test_intruder("no Landlock" not in line, "no seccomp" not in line)
+        test_runs()
+        test_untrusted()
+        test_time()
+        os.chdir("/")
+    tap.done()
+
+
+main()

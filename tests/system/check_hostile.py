@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# Scenes that were made to take for ever, or all memory, or the program down: each ends by itself within two seconds, or
+# at a limit with a message that names the place, and takes no more than 1 GiB. Then, long runs of many kinds that are
+# interrupted at any moment end within a moment. Prints TAP.
+#
+# Wants RTLANG. CHECK_LONG=1 takes the default number of steps instead of a tenth of it. The seconds are of processor time, times SLOWNESS, which is measured once, for slow builds and machines.
+#
+# SPDX-License-Identifier: MIT
+import os
+import random
+import re
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True
+from tap import Tap
+
+RTLANG = os.path.abspath(os.environ["RTLANG"])
+SECONDS, SECONDS_AT_LIMIT, BYTES = 2.0, 10.0, 1 << 30
+MOMENT = 0.2
+KILLED = 30  # seconds of processor time
+# The default, 30 000 000, takes some seconds a scene.
+STEPS = [] if os.environ.get("CHECK_LONG") else ["--max-steps=3000000"]
+tap = Tap()
+HEAD = "camera { location <0, 1, -6> look_at 0 }\nlight_source { <5, 9, -5>, 1 }\n"
+BALL = "sphere { 0, 1 pigment { rgb 1 } }\n"
+
+
+def doubled(first, step, use, times=40):
+    """A declaration that names the one before twice, again and again."""
+    return HEAD + "#declare T = %s;\n#for (I, 1, %d) #declare T = %s; #end\n%s\n" % (first, times, step, use)
+
+
+def forever(body):
+    return "#declare I = 0;\n#while (1) %s #end\n" % body
+
+
+def nested(opening, closing, times=100000, middle=""):
+    return HEAD + opening * times + middle + closing * times
+
+
+def named(kind, make, count, last):
+    """Functions or macros that call the one before twice."""
+    return "".join("#%s F%d %s\n" % (kind, i, make % ((i - 1,) * make.count("%d"))) for i in range(1, count)) + last
+
+
+SCENES = {
+    # loops and calls
+    "an empty loop": forever(""),
+    "a #for that steps by nothing": "#for (I, 0, 1, 1e-300) #end\n",
+    "a #for to the greatest number": "#for (I, 0, 1e300) #end\n",
+    "a macro that calls itself": "#macro M() M() #end M()\n",
+    "two macros that call each other": "#macro A() B() #end #macro B() A() #end A()\n",
+    "macros that double": "#macro F0() #end\n" + named("macro", "() F%d() F%d() #end", 90, "F89()\n"),
+    "functions that double": "#declare F0 = function (x) { x }\n" +
+                             named("declare", "= function (x) { F%d(x) + F%d(x) }", 60, "#debug str(F59(1), 0, 0)\n"),
+    "a file that includes itself": '#include "SELF"\n',
+    "a loop of includes": forever('#include "empty.inc"'),
+    "a loop in a loop in a loop": "#for (A, 1, 1e5) #for (B, 1, 1e5) #for (C, 1, 1e5) #end #end #end\n",
+    "a loop of random numbers": forever("#declare R = rand(seed(I));"),
+    "a loop that declares new names": "#macro N(K) #declare I = I + 1; #end\n" + forever("N(I)"),
+    # strings and messages
+    "a string that doubles": '#declare S = "ab";\n' + forever("#declare S = concat(S, S);"),
+    "a string that is compared": '#declare S = "ab"; #for (K, 1, 20) #declare S = concat(S, S); #end\n' +
+                                 forever("#declare C = strcmp(S, S);"),
+    "a string in capitals": '#declare S = "ab"; #for (K, 1, 20) #declare S = concat(S, S); #end\n' +
+                            forever("#declare C = strupr(S);"),
+    "a number of a million digits": '#debug str(1, 0, 1000000)\n' * 3,
+    "messages for ever": forever('#debug "again\\n"'),
+    "warnings for ever": forever('#warning "again\\n"'),
+    "a message without an end of line": forever('#debug "again"'),
+    # arrays and values
+    "an array as large as can be": "#declare A = array[2147483647];\n",
+    "an array of five dimensions": "#declare A = array[1000][1000][1000][1000][1000];\n",
+    "an array of the one before": "#declare A = array[2] { 1, 2 };\n" + forever("#declare A = array[2] { A, A };"),
+    "an array that is copied": "#declare A = array[100000];\n#for (K, 0, 99999) #declare A[K] = K; #end\n" +
+                               forever("#declare B = A;"),
+    "a spline of many points": "#declare S = spline { cubic_spline " + ",".join("%d, %d" % (i, i) for i in range(50000)) +
+                               " }\n#for (K, 1, 1e9) #declare V = S(K/100); #end\n",
+    "prod and sum in functions": "#declare F = function (n) { sum(i, 1, n, sum(j, 1, n, i*j)) }\n#debug str(F(1e6), 0, 0)\n",
+    "a tower of powers": "#declare X = 2;\n" + forever("#declare X = pow(X, 1.0000001);"),
+    # depth
+    "parentheses": "#declare A = " + "(" * 100000 + "1" + ")" * 100000 + ";\n",
+    "open parentheses": "#declare A = " + "(" * 1000000,
+    "a sum of a million terms": "#declare A = 1" + " + 1" * 1000000 + ";\n",
+    "minus signs": "#declare A = " + "-" * 100000 + "1;\n",
+    "unions in unions": nested("union { ", "}", middle=BALL),
+    "open braces": HEAD + "union { " * 1000000,
+    "#if in #if": nested("#if (1) ", "#end ", middle=BALL),
+    "#while in #while": nested("#while (1) ", "#end ", times=1000),
+    "macros in macros": nested("#macro A() ", "#end ", times=5000),
+    "vectors in vectors": "#declare A = " + "<" * 10000 + "1" + ">" * 10000 + ";\n",
+    "textures in maps": HEAD + "sphere { 0, 1 texture { " + "gradient x texture_map { [0 " * 5000 + "]}" * 5000 + "}}\n",
+    "transforms": HEAD + "sphere { 0, 1 " + "rotate 1 " * 200000 + "}\n",
+    # shapes
+    "spheres for ever": HEAD + forever("sphere { I, 1 }"),
+    "boxes for ever": HEAD + forever("box { I, I + 1 }"),
+    "unions that double": doubled("sphere { 0, 1 }", "union { object { T } object { T translate x } }", "object { T }"),
+    "differences that double": doubled("sphere { 0, 1 }", "difference { object { T } object { T translate x } }",
+                                       "object { T }"),
+    "merges that double": doubled("sphere { 0, 1 }", "merge { object { T } object { T translate x } }", "object { T }"),
+    "a hundred thousand spheres in one place": HEAD + BALL * 100000,
+    "a hundred thousand spheres around one point": HEAD + "#for (I, 1, 100000) sphere { 0, I/1000 } #end\n",
+    "coordinates as large as can be": HEAD + "sphere { 1e300, 1e300 } sphere { <1e307, 1, 1>, 1e-300 }\n",
+    "a cone that ends in nothing": HEAD + "cone { 0, 1e-320, y*1e-320, 0 } cylinder { 0, 1e-310*y, 1e300 }\n",
+    "clips in clips": doubled("sphere { 0, 1 }", "object { T clipped_by { object { T } } }", "object { T }"),
+    # light and surfaces
+    "textures that double": doubled("texture { pigment { rgb 1 } }", "texture { gradient x texture_map { [0 T] [1 T] } }",
+                                    "sphere { 0, 1 texture { T } }"),
+    "pigments that double": doubled("pigment { rgb 1 }", "pigment { gradient x pigment_map { [0 T] [1 T] } }",
+                                    "sphere { 0, 1 pigment { T } }"),
+    "bumps that double": doubled("normal { bumps 1 }", "normal { gradient x normal_map { [0 T] [1 T] } }",
+                                 "sphere { 0, 1 pigment { rgb 1 } normal { T } }"),
+    "skies that double": doubled("pigment { rgb 1 }", "pigment { gradient x pigment_map { [0 T] [1 T] } }",
+                                 "sky_sphere { pigment { T } }"),
+    "layers that double": HEAD + "#declare T = texture { pigment { rgbt 0.9 } }\n#for (I, 1, 40)\n"
+                          "#declare T = texture { T } texture { T }\n#end\nsphere { 0, 1 texture { T } }\n",
+    "a hundred thousand layers": HEAD + "sphere { 0, 1 " + "texture { pigment { rgbt 0.9 } }\n" * 100000 + "}\n",
+    "a map of too many entries": HEAD + "sphere { 0, 1 pigment { gradient x color_map { " +
+                                 "".join("[%d rgb 1]" % i for i in range(100000)) + "}}}\n",
+    "lights without end": HEAD + forever("light_source { I, 1 }"),
+    "turbulence without end": HEAD + "sphere { 0, 1 pigment { bozo turbulence 1e300 octaves 10 lambda 1e300 } }\n",
+    "a pattern of huge frequency": HEAD + "plane { y, 0 pigment { ripples frequency 1e300 phase 1e300 } }\n",
+    "an ior of nothing": HEAD + "sphere { 0, 1 pigment { rgbt 1 } interior { ior 1e-300 } }\n",
+    # bytes
+    "no text at all": "",
+    "zeros": "\0" * 1000000,
+    "an open string": '#debug "' + "a" * 1000000,
+    "an open comment": "/*" * 1000000,
+    "comments in comments": "/*" * 100000 + "*/" * 100000,
+    "one name of a million letters": "a" * 1000000,
+    "a number of a million digits in text": "#declare A = 0." + "1" * 1000000 + ";\n",
+    "a million faults": "sphere { 0, Raduis }\n" * 100000,
+    "only closing braces": "}" * 1000000,
+    "directives without a sense": "#else #end #case #range #break " * 50000,
+    "a data file that is the scene": '#fopen F "SELF" read\n#while (defined(F)) #read (F, A) #end\n',
+    "a data file for ever": forever('#fopen F "data.txt" read #fclose F'),
+    "a picture that is none": HEAD + 'sphere { 0, 1 pigment { image_map { png "data.txt" } } }\n',
+}
+
+
+def write(path, text):
+    with open(path, "w", encoding="latin-1") as file:
+        file.write(text)
+
+
+def run(*arguments, stop=None):
+    """Exit code, standard error, processor seconds, bytes at most."""
+    with open("err", "wb+") as err:
+        process = subprocess.Popen([RTLANG, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=err,
+                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (KILLED, KILLED)))
+        timer = time.monotonic()
+        while stop is None or time.monotonic() - timer < stop:
+            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+            if pid:
+                break
+            time.sleep(0.002)
+        else:
+            pid = 0
+        if not pid:
+            asked = time.monotonic()
+            process.send_signal(signal.SIGTERM)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = 0
+            return os.waitstatus_to_exitcode(status), time.monotonic() - asked
+        process.returncode = 0
+        err.seek(0)
+        said = err.read().decode("utf-8", "replace")
+    return os.waitstatus_to_exitcode(status), said, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024
+
+
+def slowness():
+    """How much slower than the machine and build that the seconds were set for, which takes 0.15 of them."""
+    write("measure.scn", "#for (I, 1, 1000000) #declare A = sin(I)*I; #end\n")
+    return max(1.0, run("--check", "measure.scn")[2] / 0.15)
+
+
+def test_ends(name, text, slow):
+    write("hostile.scn", text.replace("SELF", "hostile.scn"))
+    code, said, seconds, peak = run("-q", "-W4", "-H3", "-t1", *STEPS, "-o", "x.png", "hostile.scn")
+    located = re.search(r"(?m)^\S+:\d+:\d+: error\[E(0490|036\d|06\d\d)\]|^rtlang: error\[E06\d\d\]", said)
+    ends = code in (0, 1, 3) and seconds <= SECONDS * slow
+    at_limit = code == 4 and located and seconds <= SECONDS_AT_LIMIT * slow
+    tap.ok((ends or at_limit) and peak <= BYTES * 1.2, name,
+           "exit %d after %.1f s with %d MiB\n%s" % (code, seconds, peak >> 20, said[:400]))
+
+
+LONG = {
+    "evaluation": (forever(""), ["--check", "--max-steps=1000000000000"]),
+    "functions": ("#declare F0 = function (x) { x }\n" +
+                  named("declare", "= function (x) { F%d(x) + F%d(x) }", 60, "#debug str(F59(1), 0, 0)\n"),
+                  ["--check", "--max-steps=1000000000000"]),
+    "text": (BALL * 500000, ["--check", "--no-literals"]),
+    "many shapes": (HEAD + "#for (I, 1, 3000000) sphere { <I, sin(I), cos(I)>, 1 } #end\n", ["-q", "-o", "x.png"]),
+    "spheres around one point": (HEAD + "#for (I, 1, 1000000) sphere { 0, I/1000 } #end\n", ["-q", "-o", "x.png"]),
+    "large composites": (HEAD + "difference { box { -9, 9 } #for (I, 1, 90000) sphere { <I, 0, 0>/9999, 0.1 } #end }\n",
+                         ["-q", "-o", "x.png"]),
+    "tracing": (HEAD + BALL, ["-q", "-W20000", "-H9000", "-o", "x.png"]),
+    "sampling": (HEAD + BALL, ["-q", "-W900", "-H900", "--samples=100000", "-o", "x.png"]),
+    "adaptive sampling": (HEAD + BALL, ["-q", "-W500", "-H500", "--target-error=1e-9", "-o", "x.png"]),
+    "area lights": (HEAD + "light_source { 9, 1 area_light x, z, 1000, 1000 }\n" * 50 + BALL,
+                    ["-q", "-W900", "-H900", "-o", "x.png"]),
+    "a tree of rays": ("global_settings { max_trace_level 40 adc_bailout 0 }\n" + HEAD +
+                       "#for (I, 0, 29) sphere { <mod(I, 5) - 2, mod(int(I/5), 3) - 1, int(I/15)>/2, 0.5 pigment { "
+                       "rgbt 0.9 } finish { reflection 0.9 } interior { ior 1.5 } } #end\n",
+                       ["-q", "-W4", "-H4", "-o", "x.png"]),
+    "patterns": (HEAD + "plane { y, 0 pigment { average pigment_map { " + "[1 bozo turbulence 1 octaves 10]" * 200 +
+                 "}}}\n", ["-q", "-W900", "-H900", "-o", "x.png"]),
+    "quadruple precision": (HEAD + BALL, ["-q", "-W900", "-H900", "--samples=1000", "--precision=quad", "-o", "x.png"]),
+    "photons": (HEAD + BALL, ["-q", "--method=forward", "--photons=1e12", "-o", "x.png"]),
+    "--format": (BALL * 500000, ["--format"]),
+    "layers": (HEAD + "sphere { 0, 1 " + "texture { pigment { rgbt 0.9 } }\n" * 100000 + "}\n", ["--check"]),
+}
+
+
+def test_interrupts(name, scene, slow):
+    text, options = scene
+    write("long.scn", text)
+    chance = random.Random(name)
+    late, codes = [], set()
+    for _ in range(int(os.environ.get("HOSTILE_INTERRUPTS", "4"))):
+        outcome = run(*options, "long.scn", stop=0.02 + chance.random() * 1.5)
+        codes.add(outcome[0])
+        if len(outcome) == 2:
+            late.append(outcome[1])
+    # The clock of the wall: on a busy machine the least of several is what the program takes.
+    tap.ok(codes <= {0, 1, 2, 143} and min(late, default=0.0) <= MOMENT * slow,
+           "interrupted at any moment: " + name, "exit %s, seconds %s" % (codes, late))
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        write("empty.inc", "")
+        write("data.txt", "1, 2, 3\n")
+        slow = slowness()
+        print("# slowness %.2f" % slow)
+        for name, text in SCENES.items():
+            test_ends(name, text, slow)
+        for name, scene in LONG.items():
+            test_interrupts(name, scene, slow)
+        os.chdir("/")
+    tap.done()
+
+
+main()
