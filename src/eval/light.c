@@ -4,6 +4,9 @@
 // POV-Ray 3.7. Knows nothing of shading.
 //
 // SPDX-License-Identifier: MIT
+#include <float.h>
+#include <math.h>
+
 #include "eval/blocks.h"
 
 enum { AREA_SIZE_MAX = 1024 }; // rows, and lights in each
@@ -182,9 +185,11 @@ bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer)
         .area = moved.area,
         .span = light->part.span,
     };
-    double side = vec3_length(record.area.axis2);
-    if (record.area.is_oriented && side > 0.0) {
-        record.area.axis2 = vec3_scale(vec3_length(record.area.axis1) / side, record.area.axis2);
+    // Lengths that are equal but for the rounding of two lengths, a quotient and a product stay, so that a light that was
+    // written with its axes is read as the same one.
+    double side = vec3_length(record.area.axis2), wanted = vec3_length(record.area.axis1);
+    if (record.area.is_oriented && side > 0.0 && fabs(side - wanted) > 8.0 * DBL_EPSILON * wanted) {
+        record.area.axis2 = vec3_scale(wanted / side, record.area.axis2);
     }
     if (!vec3_is_finite(record.position) || !vec3_is_finite(record.point_at) ||
         !vec3_is_finite(record.area.axis1) || !vec3_is_finite(record.area.axis2)) {

@@ -326,6 +326,13 @@ def test_actions():
         write("dump.scn", dump)
         tap.ok(dump and rtlang("--dump=" + stage, "dump.scn").stdout == dump, "--dump=%s of its own dump" % stage, dump)
         tap.equal(picture(dump), picture(faults.GOOD), "--dump=%s is a scene of the same picture" % stage)
+    write("lights.scn", b"#declare R = seed(1);\n#for (I, 1, 200) light_source { 9*y, 1 area_light <rand(R), 1, rand(R)>, "
+                        b"<1, rand(R), rand(R)>, 3, 3 circular orient rotate 360*<rand(R), rand(R), rand(R)> } #end\n"
+                        b"difference { sphere { 0, 1 } union { } }\nunion { union { } inverse }\nmerge { }\n")
+    dump = rtlang("--dump=scene", "lights.scn").stdout
+    write("dump.scn", dump)
+    tap.ok(dump.count(b"orient") == 200 and rtlang("--dump=scene", "dump.scn").stdout == dump,
+           "--dump=scene of its own dump: lights that turn to what they light, empty unions", dump)
     version = rtlang("--version")
     tap.ok(version.returncode == 0 and re.fullmatch(rb"rtlang \d+\.\d+\.\d+\nconfinement: .+\n", version.stdout), "--version", version)
     usage = rtlang("--help")
