@@ -138,7 +138,7 @@ def end_to_end(options, names, folder, results):
         rows.append([f"{kind} {count}", *(of_program(found, name, "seconds", "{:.3f}") for name in PROGRAMS),
                      *(ratio(found, peer) for peer in PEERS),
                      *(of_program(found, name, "megabytes", "{:.0f}") for name in PROGRAMS)])
-    header = ["whole, 800x600, 2 threads", "rtlang s", "POV-Ray s", "Tachyon s", "/ POV-Ray", "/ Tachyon",
+    header = ["800x600, 2 threads", "rtlang s", "POV-Ray s", "Tachyon s", "/ POV-Ray", "/ Tachyon",
               "rtlang MB", "POV-Ray MB", "Tachyon MB"]
     return table(header, rows)
 

@@ -40,10 +40,15 @@ rt_status rt_get_budget(const rt_session *session, rt_budget *budget)
     return RT_OK;
 }
 
+size_t session_memory_granted(const rt_session *session)
+{
+    return limits_memory(&session->limits, source_map_bytes(session->sources) + session->array_bytes);
+}
+
 bool session_memory_suffices(rt_session *session)
 {
     rt_budget budget = budget_of(session);
-    uint64_t granted = limits_memory(&session->limits, source_map_bytes(session->sources));
+    uint64_t granted = session_memory_granted(session);
     bool fits = budget.scene + budget.prepared <= granted;
     char needed[LIMITS_BYTES_TEXT], limit[LIMITS_BYTES_TEXT];
     if (fits && budget.picture + budget.scene + budget.prepared <= budget.limit) {

@@ -54,8 +54,8 @@ static Span span_of(const List *list, size_t element)
 
 static bool no_memory(rt_session *session, Span span)
 {
-    MemoryBudget budget = {.limit = session->limits.memory_bytes,
-                           .refused = !scene_memory_has(&session->scene, 0, 0, session->limits.memory_bytes)};
+    size_t limit = session_memory_granted(session);
+    MemoryBudget budget = {.limit = limit, .refused = !scene_memory_has(&session->scene, 0, 0, limit)};
     limits_report_memory(&session->diags, span, &budget, "adding shapes");
     return false;
 }
@@ -64,14 +64,13 @@ static bool no_memory(rt_session *session, Span span)
 static bool has_room(const List *list, size_t count, size_t bytes_each)
 {
     rt_session *session = list->session;
-    const Limits *limits = &session->limits;
+    size_t limit = session_memory_granted(session);
     Span span = span_of(list, 0);
-    if (!scene_has_room(&session->scene, count, limits, &session->diags, span)) {
+    if (!scene_has_room(&session->scene, count, &session->limits, &session->diags, span)) {
         return false;
     }
-    if (count > SIZE_MAX / bytes_each ||
-        !scene_memory_has(&session->scene, 0, count * bytes_each, limits->memory_bytes)) {
-        MemoryBudget budget = {.limit = limits->memory_bytes, .refused = true};
+    if (count > SIZE_MAX / bytes_each || !scene_memory_has(&session->scene, 0, count * bytes_each, limit)) {
+        MemoryBudget budget = {.limit = limit, .refused = true};
         limits_report_memory(&session->diags, span, &budget, "adding shapes");
         return false;
     }
@@ -97,6 +96,10 @@ static bool list_open(List *list, rt_session *session, const char *name, size_t 
         return no_memory(session, SPAN_NONE);
     }
     list->base = source_base(list->source);
+    for (int i = 0; i < check_count; i++) {
+        size_t numbers = array_is_given(checks[i].array) ? (size_t)checks[i].numbers : 0;
+        session->array_bytes += numbers * count * sizeof(double);
+    }
     return arrays_are_fine(session, checks, check_count, count, list->base) &&
            session_read_finish(session, look->finish, &list->finish);
 }
@@ -139,7 +142,7 @@ static bool spheres_fill(const List *list, const rt_spheres *spheres, size_t beg
     if (made > 0) {
         scene_commit_spheres(scene, made, 0, list->base + begin);
     }
-    return scene_memory_has(scene, 0, 0, list->session->limits.memory_bytes);
+    return scene_memory_has(scene, 0, 0, session_memory_granted(list->session));
 }
 
 // A scene as it was before.
@@ -211,7 +214,7 @@ static bool group_own_materials(rt_session *session, SessionGroup *group)
     if (group->own != RECORD_NONE) {
         return true;
     }
-    if (!scene_memory_has(scene, 0, group->count * sizeof(Material), session->limits.memory_bytes) ||
+    if (!scene_memory_has(scene, 0, group->count * sizeof(Material), session_memory_granted(session)) ||
         !scene_add_own_materials(scene, group->count, &first)) {
         return no_memory(session, SPAN_NONE);
     }
@@ -317,7 +320,7 @@ static bool parts_add(const List *list, MakePart make, const void *shapes, size_
         fine = (scene_add_material_record(scene, &material, &part.material) && scene_add_part(scene, &part)) ||
                no_memory(list->session, span_of(list, i));
     }
-    fine = fine && (scene_memory_has(scene, 0, 0, list->session->limits.memory_bytes) ||
+    fine = fine && (scene_memory_has(scene, 0, 0, session_memory_granted(list->session)) ||
                     no_memory(list->session, span_of(list, 0)));
     if (!fine) {
         scene->parts.count = before;

@@ -195,15 +195,10 @@ static const char *form_trouble(const PictureSource *source, const PictureFile *
     return NULL;
 }
 
-static size_t memory_granted(const rt_session *session)
-{
-    return limits_memory(&session->limits, source_map_bytes(session->sources));
-}
-
 static void report_too_large(rt_session *session, const Picture *picture, const char *path, const PictureFile *file)
 {
     char limit[LIMITS_BYTES_TEXT];
-    limits_bytes_text(memory_granted(session), limit);
+    limits_bytes_text(session_memory_granted(session), limit);
     if (diag_report(&session->diags, DIAG_E0608, picture->span,
                     "the picture `%s` of %d x %d pixels does not fit the memory limit of %s", path, file->width,
                     file->height, limit)) {
@@ -242,7 +237,7 @@ static bool picture_load(rt_session *session, Scene *scene, size_t index)
 {
     const PictureSource *source = &scene->picture_sources.items[index];
     Picture *picture = &scene->pictures.items[index];
-    uint64_t used = scene_bytes(scene), most = memory_granted(session);
+    uint64_t used = scene_bytes(scene), most = session_memory_granted(session);
     PictureLimit limit = {.pixels = UINT64_MAX, .bytes = most > used ? most - used : 0};
     PictureFile file;
     ImageError error;

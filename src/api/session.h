@@ -64,6 +64,7 @@ struct rt_session {
     bool is_broken; // a part of it could not be loaded
     bool is_checked, is_viewed; // as a whole since its shapes, since its camera or lights changed
     ARRAY(SessionGroup) groups;
+    uint64_t array_bytes; // of all arrays that shapes were read from, as doubles
     GeometryKept kept;  // of the shapes as they are, moved by …
     Vec3 kept_origin;
     size_t past_errors, past_warnings; // of calls before the present one
@@ -188,6 +189,9 @@ bool session_open(rt_session *session, const char *path, Source **source);
 
 // Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken; reports when not.
 bool session_memory_suffices(rt_session *session);
+
+// What the scene may take, by the limits: more for more text, and more for more numbers in arrays.
+size_t session_memory_granted(const rt_session *session);
 
 // The film from the scene's working space to linear light. Legacy files stay as they are.
 void session_film_to_linear(const Settings *settings, Film *film);
