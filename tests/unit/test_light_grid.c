@@ -45,7 +45,8 @@ static Rgb defined(Lights *lights, int left, int right, int top, int bottom, int
         is_whole = true;
         for (int a = 0; a < 4; a++) {
             for (int b = a + 1; b < 4; b++) {
-                is_whole = is_whole && !is_apart(lights->arriving, c[a], c[b]);
+                bool is_side = a + b != 3; // not across
+                is_whole = is_whole && !(is_side && is_apart(lights->arriving, c[a], c[b]));
             }
         }
     }
