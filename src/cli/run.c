@@ -318,12 +318,14 @@ static rt_status confine_runs(rt_session *session, const Options *options)
         folders++;
     }
     const char **reads = calloc(2 * scenes + 1 + folders + (size_t)options->read_folder_count, sizeof *reads);
-    char **own = calloc(scenes + 1, sizeof *own); // a folder may be NULL for want of memory: then it is not read
-    for (size_t i = 0; reads && own && i < scenes; i++) {
+    char **own = calloc(scenes + 1, sizeof *own);
+    bool is_whole = reads && own;
+    for (size_t i = 0; is_whole && i < scenes; i++) {
         reads[count++] = options->scenes[i];
         reads[count++] = own[i] = folder_of(options->scenes[i]);
+        is_whole = own[i] != NULL;
     }
-    if (reads && own) {
+    if (is_whole) {
         reads[count++] = options->header;
         for (int i = 0; i < options->read_folder_count; i++) {
             reads[count++] = options->read_folders[i];
@@ -333,7 +335,7 @@ static rt_status confine_runs(rt_session *session, const Options *options)
         }
         confine(&(Confinement){reads, count, writes, writes_file ? 2 : 0, options->is_untrusted});
     }
-    rt_status status = reads && own ? RT_OK : rt_report(session, "E0602", "out of memory", NULL);
+    rt_status status = is_whole ? RT_OK : rt_report(session, "E0602", "out of memory", NULL);
     for (size_t i = 0; own && i < scenes; i++) {
         free(own[i]);
     }

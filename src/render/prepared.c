@@ -284,6 +284,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
         prepared_free(p);
         return NULL;
     }
+    geometry_set_abandon(p->geometry, p->abandon);
     p->camera = prepare_camera(&scene->camera, exponent);
     p->background = rgb_scale(1.0 - scene->background.transmit, rgbft_rgb(scene->background));
     p->is_old = scene->settings.version < 3.7;
@@ -313,6 +314,8 @@ void prepared_free(Prepared *prepared)
     }
     if (!prepared->is_kept) {
         geometry_free(prepared->geometry);
+    } else if (prepared->geometry) {
+        geometry_set_abandon(prepared->geometry, NULL);
     }
     free(prepared->abandon);
     free(prepared->lights);

@@ -65,12 +65,6 @@ typedef struct PreparedFinish {
 // harm: it misses the light by no more than 2^-24 sizes.
 #define SHADOW_NEAR 0x1p26
 
-// Whether rays may be left untraced, since nothing of the picture will be kept.
-typedef struct Abandon {
-    const atomic_bool *cancel; // RenderOptions.cancel
-    atomic_bool keeps;         // what is done is a picture already: a tile in work is finished
-} Abandon;
-
 struct Prepared {
     Abandon *abandon; // its own; a copy of this record shares it
     Geometry *geometry;
@@ -103,8 +97,7 @@ struct Prepared {
 // Asked for each ray that goes on: one camera ray's tree may take longer than anybody waits.
 static inline bool prepared_is_abandoned(const Prepared *p)
 {
-    return p->abandon->cancel && atomic_load_explicit(p->abandon->cancel, memory_order_relaxed) &&
-           !atomic_load_explicit(&p->abandon->keeps, memory_order_relaxed);
+    return trace_is_abandoned(p->abandon);
 }
 
 // What a ray that starts at a point of prepared space is inside of, the outermost first.

@@ -155,6 +155,11 @@ size_t geometry_bytes(const Geometry *geometry)
            shapes_bytes(&geometry->shapes);
 }
 
+void geometry_set_abandon(Geometry *geometry, const Abandon *abandon)
+{
+    geometry->shapes.abandon = abandon;
+}
+
 const char *geometry_isa_name(const Geometry *geometry)
 {
     return geometry->kernels->name;

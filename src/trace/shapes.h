@@ -66,6 +66,7 @@ typedef struct ItemBox {
 } ItemBox;
 
 struct ShapeTable {
+    const Abandon *abandon; // NULL: no ray is left untraced; not owned
     Solid *solids;
     Pages solid_pages; // which they are in; owned
     uint32_t solid_count;

@@ -311,6 +311,8 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
     double enter;
     if (index < table->solid_count) {
         solid_closest(q, index, first);
+    } else if (table->abandon && trace_is_abandoned(table->abandon)) {
+        return; // one ray may cross 10^5 parts
     } else if (item_enters(q, &enter) && enter <= first->limit) {
         settle_span(q, first);
         assembly_closest(table, &table->assemblies[index - table->solid_count], q->ray, q->start, start_error(q),

@@ -12,6 +12,7 @@
 #ifndef TRACE_TRACE_H
 #define TRACE_TRACE_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -81,6 +82,18 @@ typedef struct Surface {
 typedef struct Geometry Geometry;
 
 // A geometry that serves several pictures of the same shapes, as long as these have one exponent.
+// Whether rays may be left untraced, since nothing of the picture will be kept.
+typedef struct Abandon {
+    const atomic_bool *cancel; // turns true when the run is to end; may be NULL
+    atomic_bool keeps;         // what is done is a picture already: a tile in work is finished
+} Abandon;
+
+static inline bool trace_is_abandoned(const Abandon *abandon)
+{
+    return abandon->cancel && atomic_load_explicit(abandon->cancel, memory_order_relaxed) &&
+           !atomic_load_explicit(&abandon->keeps, memory_order_relaxed);
+}
+
 typedef struct GeometryKept {
     Geometry *geometry; // NULL: none yet
     int exponent;
@@ -111,6 +124,9 @@ unsigned geometry_features(const Geometry *geometry);
 
 // The name of the instruction set that it is traced with.
 const char *geometry_isa_name(const Geometry *geometry);
+
+// From now on rays need not meet what takes long (composites of many parts) once this says so; NULL: they always do.
+void geometry_set_abandon(Geometry *geometry, const Abandon *abandon);
 
 // A point of a surface.
 typedef struct SurfaceSpot {
