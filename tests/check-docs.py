@@ -46,6 +46,20 @@ def check_width(name):
             yield f"line {number} has {len(line)} columns, more than {COLUMNS}"
 
 
+def check_promises(name):
+    """Each promise names tests, and these are there."""
+    promises = re.findall(r"^- \*\*(.*?)\*\*(.*?)(?=^- |^$)", read(name), re.MULTILINE | re.DOTALL)
+    for promise, how in promises:
+        tests = re.findall(r"`(tests/[^`]*)`", how)
+        for test in tests:
+            if not os.path.exists(os.path.join(TOP, test)):
+                yield f"no {test}"
+        if not tests:
+            yield f"no test for `{promise}`"
+    if not promises:
+        yield "no promises"
+
+
 def check_links(name):
     text = re.sub(r"```.*?```", "", read(name), flags=re.DOTALL)
     for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
@@ -99,7 +113,8 @@ def check_generated(document, mark, want):
 def checks():
     yield "rtlang.1 has rtlang's options", check_options(os.environ["RTLANG"], "docs/rtlang.1")
     yield "rtcheck.1 has rtcheck's options", check_options(os.environ["RTCHECK"], "docs/rtcheck.1")
-    pages = ["README.md", "CONTRIBUTING.md"] + sorted(glob.glob("docs/*.md", root_dir=TOP))
+    yield "SECURITY.md: each promise names tests that are there", check_promises("SECURITY.md")
+    pages = ["README.md", "CONTRIBUTING.md", "SECURITY.md"] + sorted(glob.glob("docs/*.md", root_dir=TOP))
     for name in pages + ["CHANGELOG.md"] + sorted(glob.glob("docs/*.1", root_dir=TOP)):
         yield f"{name}: no line is too long to read", check_width(name)
     for name in pages + (["examples/README.md"] if os.path.exists(os.path.join(TOP, "examples/README.md")) else []):

@@ -138,6 +138,21 @@ static void allow_output(const Ruleset *ruleset, const char *path)
     }
 }
 
+// The files that tell each scene's session where POV-Ray's include files are (base/library.c).
+static void allow_povray_ini(const Ruleset *ruleset)
+{
+    static const char *const at_home[] = {".povray", ".povrayrc"};
+    const char *home = getenv("HOME");
+    char path[PATH_MAX];
+    allow(ruleset, getenv("POVINI"), FS_READ_FILE);
+    allow(ruleset, "/etc/povray", FS_READ_FILE | FS_READ_DIR);
+    allow(ruleset, "/etc/povray.ini", FS_READ_FILE);
+    for (size_t i = 0; home && i < sizeof at_home / sizeof *at_home; i++) {
+        snprintf(path, sizeof path, "%s/%s", home, at_home[i]);
+        allow(ruleset, path, FS_READ_FILE | FS_READ_DIR);
+    }
+}
+
 // What every run reads: what the C library and the loader ask the system, and where modules and their libraries are.
 static void allow_system(const Ruleset *ruleset, bool is_strict)
 {
@@ -154,6 +169,7 @@ static void allow_system(const Ruleset *ruleset, bool is_strict)
     for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
         allow(ruleset, libraries[i], FS_READ_FILE | FS_READ_DIR);
     }
+    allow_povray_ini(ruleset);
     for (const char *folder = getenv("LD_LIBRARY_PATH"); folder && *folder;) {
         int length = (int)strcspn(folder, ":");
         snprintf(self, sizeof self, "%.*s", length, folder);

@@ -101,15 +101,8 @@ static void close_session(rt_session *session)
     rt_session_free(session);
 }
 
-static rt_status fail_time(rt_session *session, const Options *options)
-{
-    char message[COMPLAINT_SIZE];
-    snprintf(message, sizeof message, "the run takes more than %g seconds; nothing was written", options->max_time);
-    return rt_report(session, "E0612", message, "`--max-time` allows more");
-}
-
-// One scene or frame, in a session of its own. *wrote: there is a picture, of a run that was interrupted, too.
-static rt_status run_one(const Options *options, Voice *voice, bool *wrote)
+// One scene or frame, in a session of its own. *wrote: a picture was written, of a run that was interrupted, too.
+static rt_status run_one(Options *options, Voice *voice, bool *wrote)
 {
     int width, height;
     rt_session *session = open_session(options, voice);
@@ -117,12 +110,23 @@ static rt_status run_one(const Options *options, Voice *voice, bool *wrote)
         return RT_FAULT_LIMIT;
     }
     rt_status status = interrupted_by ? RT_CANCELLED : run(session, options, voice);
-    if (status == RT_CANCELLED && interrupted_by == SIGALRM) {
-        status = fail_time(session, options);
-    }
-    *wrote = rt_pixels(session, &width, &height) != NULL || *wrote;
+    bool is_late = status == RT_CANCELLED && interrupted_by == SIGALRM; // then nothing is written
+    *wrote = (!is_late && rt_pixels(session, &width, &height) != NULL) || *wrote;
     close_session(session);
     return status;
+}
+
+static rt_status fail_time(const Options *options, Voice *voice, bool wrote)
+{
+    char message[COMPLAINT_SIZE];
+    snprintf(message, sizeof message, "the run takes more than %g seconds; %s", options->max_time,
+             wrote ? "not all pictures were written" : "nothing was written");
+    rt_session *session = open_session(options, voice);
+    if (session) {
+        (void)rt_report(session, "E0612", message, "`--max-time` allows more");
+    }
+    close_session(session);
+    return RT_FAULT_LIMIT;
 }
 
 // All scenes and all their frames, one after the other. Returns the greatest status; an interrupt ends it, and so does
@@ -134,7 +138,7 @@ static rt_status run_all(Options *options, Voice *voice, bool *wrote)
     if (options->max_time > 0.0) {
         begin_timer(options->max_time);
     }
-    for (int i = 0; i < options->scene_count && !interrupted_by; i++) {
+    for (int i = 0; i < options->scene_count && worst != RT_CANCELLED; i++) {
         options->scene = options->scenes[i];
         bool is_animated = frames->step > 0 && options->action == ACTION_RENDER;
         int last = is_animated ? frames->last : 0, step = is_animated ? frames->step : 1;
@@ -142,11 +146,10 @@ static rt_status run_all(Options *options, Voice *voice, bool *wrote)
         for (options->frame = is_animated ? frames->first : 0; !status && options->frame <= last;
              options->frame += step) {
             status = run_one(options, voice, wrote);
-            options->is_unconfined = true; // the kernel holds to the first run's rules, which are those of all
         }
         worst = status > worst ? status : worst;
     }
-    return worst;
+    return worst == RT_CANCELLED && interrupted_by == SIGALRM ? fail_time(options, voice, *wrote) : worst;
 }
 
 static rt_status fail_parse(rt_session *session, const Options *options)

@@ -307,7 +307,7 @@ static char *folder_of(const char *path)
 
 // From here on the kernel forbids what neither this run nor those after it, of further scenes and frames, have a use
 // for: pictures of frames are all in one folder, and the folders of include files are those of all scenes.
-static rt_status confine_runs(rt_session *session, const Options *options)
+static rt_status confine_runs(rt_session *session, Options *options)
 {
     const char *path, *writes[] = {options->output ? options->output
                                    : options->action == ACTION_RENDER ? "./output.png" : NULL,
@@ -334,6 +334,7 @@ static rt_status confine_runs(rt_session *session, const Options *options)
             reads[count++] = path;
         }
         confine(&(Confinement){reads, count, writes, writes_file ? 2 : 0, options->is_untrusted});
+        options->is_unconfined = true; // the kernel holds to these rules: there are none to be added
     }
     rt_status status = is_whole ? RT_OK : rt_report(session, "E0602", "out of memory", NULL);
     for (size_t i = 0; own && i < scenes; i++) {
@@ -344,7 +345,7 @@ static rt_status confine_runs(rt_session *session, const Options *options)
     return status;
 }
 
-rt_status run(rt_session *session, const Options *options, Voice *voice)
+rt_status run(rt_session *session, Options *options, Voice *voice)
 {
     static rt_status (*const actions[])(rt_session *session, const Options *options) = {
         [ACTION_CHECK] = check,

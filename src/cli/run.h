@@ -1,4 +1,4 @@
-// Runs one scene, or one frame of it, as the options say.
+// Runs one scene, or one frame of it, as the options say. The first run confines the process for all of them.
 //
 // SPDX-License-Identifier: MIT
 #ifndef CLI_RUN_H
@@ -8,7 +8,7 @@
 #include "cli/voice.h"
 #include "rtlang/rtlang.h"
 
-rt_status run(rt_session *session, const Options *options, Voice *voice);
+rt_status run(rt_session *session, Options *options, Voice *voice);
 
 // Prints to standard output, with what stands in its buffer; returns `status`, or what went wrong.
 rt_status run_print(rt_session *session, const char *text, rt_status status);

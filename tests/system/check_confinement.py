@@ -22,6 +22,8 @@ sphere { 0, 1 pigment { image_map { png "map.png" } } finish { F } }
 """
 OFTEN = ["read: EACCES", "write: EACCES", "make: EACCES"]
 ALWAYS = ["socket: EPERM", "connect: EPERM", "kill: EPERM", "ptrace: EPERM"]
+LATE = (b"rtlang: error[E0612]: the run takes more than 0.5 seconds; %s\n"
+        b"     = help: `--max-time` allows more\n")
 tap = Tap()
 
 
@@ -54,12 +56,59 @@ def test_intruder(has_landlock, has_seccomp):
     for options in [[], ["--untrusted"]]:
         name = "planted calls" + " ".join(["", *options])
         said = rtlang("-q", *options, "-o", "out/x.png", "good.scn", **planted).stderr.decode().splitlines()
-        wanted = (OFTEN if has_landlock else []) + ["symlink: EPERM", *ALWAYS, "fork: EPERM", "execute: EPERM"] * has_seccomp
+        wanted = OFTEN * has_landlock + ["symlink: EPERM", *ALWAYS, "fork: EPERM", "execute: EPERM"] * has_seccomp
         tap.ok(all(line in said for line in wanted), "%s are stopped" % name, "%s\n%s" % (wanted, said))
         tap.equal(sorted(os.listdir("../elsewhere")), ["secret"], "%s leave nothing elsewhere" % name)
         if has_seccomp:
             tap.equal([line for line in said if line.startswith("code")], ["code: EPERM" if options else "code: done"],
                       "%s: memory that can be run" % name)
+
+
+def test_several():
+    """The first run's rules are those of all scenes and frames."""
+    for folder in "one", "two":
+        os.mkdir(folder)
+        write(folder + "/own.inc", b"#declare F = finish { phong 0.5 }\n")
+        write(folder + "/own.png", read("map.png"))
+        write(folder + "/%s.scn" % folder, GOOD.replace(b"part.inc", b"own.inc").replace(b"map.png", b"own.png"))
+    write("one/wrong.scn", b"sphere { 0, Radius }\n")
+    scenes = ["one/wrong.scn", "one/one.scn", "two/two.scn"]
+    names = ["one.png", "two.png"]
+    frames = ["out/f%d.png" % i for i in range(1, 4)]
+    outcomes = []
+    for options in [], ["--no-confinement"]:
+        done = rtlang("-q", *options, "-I", "one", "-I", "two", *scenes)
+        moved = rtlang("-q", *options, "-I", "two", "--frames=1..3", "-o", "out/f.png", "two/two.scn")
+        outcomes.append((done.returncode, done.stderr, moved.returncode, moved.stderr,
+                         [os.path.exists(name) and read(name) for name in names + frames]))
+        for name in names + frames:
+            if os.path.exists(name):
+                os.remove(name)
+    tap.equal(outcomes[0], outcomes[1], "the same with and without: scenes in several folders, and frames")
+    tap.ok(outcomes[0][0] == 1 and b"wrong.scn:1:13: error" in outcomes[0][1] and outcomes[0][2:4] == (0, b"") and
+           all(outcomes[0][4]),
+           "scenes in several folders, after one that is wrong, and frames are drawn", outcomes)
+    # Each scene's session asks povray.ini where include files are.
+    os.mkdir("../library")
+    write("../library/own_library.inc", b"sphere { 0, 1 }\n")
+    write("../own.ini", b"Library_Path=" + os.path.abspath("../library").encode() + b"\n")
+    write("library.scn", b"camera { location -5*z }\nlight_source { 9, 1 }\n#include \"own_library.inc\"\n")
+    done = rtlang("-q", "--check", "library.scn", "library.scn", POVINI=os.path.abspath("../own.ini"))
+    tap.equal((done.returncode, done.stderr), (0, b""), "further scenes find the folders of povray.ini, too")
+    write("one/thief.scn", b'#include "../two/own.inc"\n')
+    done = rtlang("-q", "--check", "two/two.scn", "one/thief.scn")
+    tap.ok(done.returncode == 3 and b"one/thief.scn:1:10: error[E0508]" in done.stderr,
+           "the folder of another scene is not read", done)
+
+
+def test_several_intruders(has_landlock, has_seccomp):
+    """Whatever the first scene comes to, the kernel holds to the rules."""
+    planted = {"LD_PRELOAD": os.path.abspath("intruder.so"), "INTRUDER_OUT": os.path.abspath("../elsewhere")}
+    wanted = OFTEN * has_landlock + ["fork: EPERM"] * has_seccomp
+    if os.path.exists("intruder.so"):
+        said = rtlang("-q", "one/wrong.scn", "two/two.scn", **planted).stderr.decode().splitlines()
+        tap.ok(all(line in said for line in wanted), "planted calls after several scenes are stopped",
+               "%s\n%s" % (wanted, said))
 
 
 def test_runs():
@@ -119,8 +168,14 @@ def test_time():
         write("old.png", b"old")
         done = rtlang("-q", "--max-time=0.5", *arguments)
         tap.equal((done.returncode, done.stderr, read("old.png")),
-                  (4, b"rtlang: error[E0612]: the run takes more than 0.5 seconds; nothing was written\n"
-                      b"     = help: `--max-time` allows more\n", b"old"), "--max-time ends " + name)
+                  (4, LATE % b"nothing was written", b"old"), "--max-time ends " + name)
+    done = rtlang("-q", "--max-time=1", "-W9", "-H7", "--max-steps=1000000000000", "good.scn", "slow.scn", "good.scn")
+    tap.equal((done.returncode, done.stderr, os.path.exists("good.png"), os.path.exists("slow.png")),
+              (4, LATE.replace(b"0.5", b"1") % b"not all pictures were written", True, False),
+              "--max-time ends several scenes, and says once that they are not all drawn")
+    os.remove("good.png")
+    done = rtlang("-q", "--max-time=0.5", "-W100", "-H100", "--frames=1..100000", "-o", "out/late.png", "good.scn")
+    tap.equal((done.returncode, done.stderr), (4, LATE % b"not all pictures were written"), "--max-time ends frames")
 
 
 def main():
@@ -140,6 +195,9 @@ def main():
         tap.ok(line.startswith("confinement: "), "--version says what there is: " + line)
         if "none" not in line:
             test_intruder("no Landlock" not in line, "no seccomp" not in line)
+        test_several()
+        if "none" not in line:
+            test_several_intruders("no Landlock" not in line, "no seccomp" not in line)
         test_runs()
         test_untrusted()
         test_time()

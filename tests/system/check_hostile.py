@@ -3,7 +3,8 @@
 # at a limit with a message that names the place, and takes no more than 1 GiB. Then, long runs of many kinds that are
 # interrupted at any moment end within a moment. Prints TAP.
 #
-# Wants RTLANG. CHECK_LONG=1 takes the default number of steps instead of a tenth of it. The seconds are of processor time, times SLOWNESS, which is measured once, for slow builds and machines.
+# Wants RTLANG. CHECK_LONG=1 takes the default number of steps instead of a tenth of it. The seconds are of processor
+# time, times a slowness that is measured once, for slow builds and machines.
 #
 # SPDX-License-Identifier: MIT
 import os
@@ -79,9 +80,11 @@ SCENES = {
     "an array of the one before": "#declare A = array[2] { 1, 2 };\n" + forever("#declare A = array[2] { A, A };"),
     "an array that is copied": "#declare A = array[100000];\n#for (K, 0, 99999) #declare A[K] = K; #end\n" +
                                forever("#declare B = A;"),
-    "a spline of many points": "#declare S = spline { cubic_spline " + ",".join("%d, %d" % (i, i) for i in range(50000)) +
+    "a spline of many points": "#declare S = spline { cubic_spline " +
+                               ",".join("%d, %d" % (i, i) for i in range(50000)) +
                                " }\n#for (K, 1, 1e9) #declare V = S(K/100); #end\n",
-    "prod and sum in functions": "#declare F = function (n) { sum(i, 1, n, sum(j, 1, n, i*j)) }\n#debug str(F(1e6), 0, 0)\n",
+    "prod and sum in functions":
+        "#declare F = function (n) { sum(i, 1, n, sum(j, 1, n, i*j)) }\n#debug str(F(1e6), 0, 0)\n",
     "a tower of powers": "#declare X = 2;\n" + forever("#declare X = pow(X, 1.0000001);"),
     # depth
     "parentheses": "#declare A = " + "(" * 100000 + "1" + ")" * 100000 + ";\n",
@@ -94,7 +97,8 @@ SCENES = {
     "#while in #while": nested("#while (1) ", "#end ", times=1000),
     "macros in macros": nested("#macro A() ", "#end ", times=5000),
     "vectors in vectors": "#declare A = " + "<" * 10000 + "1" + ">" * 10000 + ";\n",
-    "textures in maps": HEAD + "sphere { 0, 1 texture { " + "gradient x texture_map { [0 " * 5000 + "]}" * 5000 + "}}\n",
+    "textures in maps": HEAD + "sphere { 0, 1 texture { " +
+                        "gradient x texture_map { [0 " * 5000 + "]}" * 5000 + "}}\n",
     "transforms": HEAD + "sphere { 0, 1 " + "rotate 1 " * 200000 + "}\n",
     # shapes
     "spheres for ever": HEAD + forever("sphere { I, 1 }"),
@@ -109,7 +113,8 @@ SCENES = {
     "a cone that ends in nothing": HEAD + "cone { 0, 1e-320, y*1e-320, 0 } cylinder { 0, 1e-310*y, 1e300 }\n",
     "clips in clips": doubled("sphere { 0, 1 }", "object { T clipped_by { object { T } } }", "object { T }"),
     # light and surfaces
-    "textures that double": doubled("texture { pigment { rgb 1 } }", "texture { gradient x texture_map { [0 T] [1 T] } }",
+    "textures that double": doubled("texture { pigment { rgb 1 } }",
+                                    "texture { gradient x texture_map { [0 T] [1 T] } }",
                                     "sphere { 0, 1 texture { T } }"),
     "pigments that double": doubled("pigment { rgb 1 }", "pigment { gradient x pigment_map { [0 T] [1 T] } }",
                                     "sphere { 0, 1 pigment { T } }"),
@@ -157,7 +162,8 @@ def processor_seconds(pid):
 def run(*arguments, stop=None):
     """Exit code, standard error, processor seconds, bytes at most."""
     with open("err", "wb+") as err:
-        process = subprocess.Popen([RTLANG, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=err,
+        process = subprocess.Popen([RTLANG, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=err,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (KILLED, KILLED)))
         timer = time.monotonic()
         while stop is None or time.monotonic() - timer < stop:

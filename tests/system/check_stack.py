@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""A stack of 256 kB is enough: every example is drawn with the same bytes, and what nests too deep ends in a located message.
+"""A stack of 256 kB is enough: every example is drawn with the same bytes, what nests deep is drawn, too, and what nests
+too deep ends in a located message.
 
-Clients' threads of 128 kB are tested by tests/unit/test_stack.c; that no function takes more than 16 kB is a warning of the
-build. Prints TAP.
+Clients' threads of 128 kB are tested by tests/unit/test_stack.c; that no function takes more than 16 kB is a warning
+of the build. Prints TAP.
 SPDX-License-Identifier: MIT
 """
 import glob
@@ -41,6 +42,21 @@ def check_examples(tap):
             tap.ok(small == usual and small[0] == 0, " ".join([os.path.basename(path), *options]), (small[0], small[2]))
 
 
+def check_deep(tap):
+    """Depths that the limits allow, drawn with little stack, and with all there usually is."""
+    ball = "sphere { 0, 1 pigment { rgb 1 } }"
+    other = "sphere { 9, 1 }"
+    with tempfile.TemporaryDirectory() as folder:
+        for kind in "union", "merge", "difference", "intersection":
+            inner = ball if kind == "intersection" else other
+            text = ("%s { " % kind) * 300 + ball + (" %s }" % inner) * 300
+            with open(os.path.join(folder, "deep.scn"), "w", encoding="ascii") as file:
+                file.write(HEAD + text)
+            arguments = ["-W", "16", "-H", "12", "-o", "-", "deep.scn"]
+            usual, small = (run(folder, arguments, is_small) for is_small in (False, True))
+            tap.ok(small == usual and small[0] == 0, "300 times %s" % kind, (small[0], small[2][:400]))
+
+
 def check_too_deep(tap):
     cases = {
         "union { " * 5000 + "sphere { 0, 1 }" + " }" * 5000:
@@ -60,6 +76,7 @@ def check_too_deep(tap):
 def main():
     tap = Tap()
     check_examples(tap)
+    check_deep(tap)
     check_too_deep(tap)
     tap.done()
 
