@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
 
 sys.dont_write_bytecode = True
 from tap import Tap
@@ -62,6 +63,34 @@ def test_intruder(has_landlock, has_seccomp):
         if has_seccomp:
             tap.equal([line for line in said if line.startswith("code")], ["code: EPERM" if options else "code: done"],
                       "%s: memory that can be run" % name)
+
+
+def test_swapped():
+    """A file that is now the scene's own, now a link out of its folder: the program by itself never reads the latter."""
+    write("../elsewhere/swapped.inc", b"#error \"the secret was read\"\n")
+    write("swapped.scn", b"#for (I, 1, 40)\n#include \"swapped.inc\"\n#end\nsphere { 0, 1 }\n")
+    os.symlink("../elsewhere/swapped.inc", "leading_out")
+    write("own", b"#declare A = 1;\n")
+    stop = threading.Event()
+
+    def swap():
+        while not stop.is_set():
+            for source in "leading_out", "own":
+                os.link(source, "next", follow_symlinks=False)
+                os.replace("next", "swapped.inc")
+
+    os.link("own", "swapped.inc")
+    swapper = threading.Thread(target=swap)
+    swapper.start()
+    runs = [rtlang("-q", "--no-confinement", "--check", "swapped.scn") for _ in range(150)]
+    stop.set()
+    swapper.join()
+    read_runs = [done for done in runs if b"secret" in done.stderr]
+    tap.ok(not read_runs, "a link that is swapped while it is read does not lead out",
+           "%d of %d runs read it" % (len(read_runs), len(runs)))
+    refused = sum(b"error[E0508]" in done.stderr for done in runs)
+    tap.ok(0 < refused, "which was tried: %d of %d runs met the link, %d met none" %
+           (refused, len(runs), sum(done.returncode == 0 for done in runs)))
 
 
 def test_several():
@@ -195,6 +224,7 @@ def main():
         tap.ok(line.startswith("confinement: "), "--version says what there is: " + line)
         if "none" not in line:
             test_intruder("no Landlock" not in line, "no seccomp" not in line)
+        test_swapped()
         test_several()
         if "none" not in line:
             test_several_intruders("no Landlock" not in line, "no seccomp" not in line)
