@@ -74,6 +74,7 @@ struct FunctionNode {
     unsigned slot;   // of a parameter or of a sum's variable; the component of a vector function
     unsigned count;  // of arguments
     unsigned height; // of the tree below and including this node, calls counted in
+    bool is_constant; // no parameter, sum or product below it; see function_body.c
 };
 
 struct Function {
@@ -93,6 +94,7 @@ typedef struct FunctionBody {
     Symbol names[FUNCTION_SLOTS_MAX]; // of the slots
     unsigned count;
     const char *unsupported; // what rtlang has not, or NULL
+    bool keeps_numbers;      // numbers in a chain of operators are not joined where this is set
 } FunctionBody;
 
 Symbol function_slot_name(Symbol symbol);

@@ -4,6 +4,9 @@
 // in the body, it has been read in a splice (paste_function), and each name knows what it stood for then. A body that
 // holds what rtlang has not makes a function that is a fault where it is called.
 //
+// Numbers that follow one another in a chain of operators of one rank are joined as POV-Ray joins them, and these are
+// not always the values of ordinary arithmetic: docs/language.md, "Functions of your own", has the rule.
+//
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
@@ -37,6 +40,7 @@ static FunctionNode *number_node(Compiler *compiler, const AstNode *at, double n
     FunctionNode *node = new_node(compiler, at, function_run_number);
     if (node != NULL) {
         node->number = number;
+        node->is_constant = true;
     }
     return node;
 }
@@ -48,11 +52,19 @@ static FunctionNode *with_arguments(FunctionNode *node, FunctionNode *first)
         return NULL;
     }
     node->arguments = first;
+    node->is_constant = true;
     for (const FunctionNode *argument = first; argument != NULL; argument = argument->next) {
         node->height = argument->height >= node->height ? argument->height + 1 : node->height;
         node->count++;
+        node->is_constant = node->is_constant && argument->is_constant;
     }
     return node;
+}
+
+// A number that stands without parentheses, or what such numbers alone make.
+static bool is_bare_number(const FunctionNode *made, const AstNode *node)
+{
+    return made->run == function_run_number && made->is_constant && !(node->flags & AST_IN_PARENTHESES);
 }
 
 static FunctionNode *fault_body(Compiler *compiler, const AstNode *node, const char *what, const char *advice)
@@ -169,7 +181,11 @@ static FunctionNode *compile_constant(Compiler *compiler, const AstNode *node)
     }
     Symbol name = function_slot_name(node->symbol);
     if (name == W_x || name == W_y || name == W_z) {
-        return number_node(compiler, node, 0.0); // as POV-Ray: a coordinate that is no parameter is zero
+        FunctionNode *zero = number_node(compiler, node, 0.0); // as POV-Ray: a coordinate that is no parameter is zero
+        if (zero != NULL) {
+            zero->is_constant = false;
+        }
+        return zero;
     }
     return fault_word(compiler, node, "write its number, or declare it under another name");
 }
@@ -199,16 +215,16 @@ static FunctionNode *compile_unary(Compiler *compiler, const AstNode *node)
     if (operand == NULL) {
         return NULL;
     }
+    if (is_bare_number(operand, node->a)) {
+        operand->number = node->op == AST_OP_NEG ? 0.0 - operand->number : operand->number; // -0 is 0, as in POV-Ray
+        return operand;
+    }
     return with_arguments(new_node(compiler, node, function_operator((AstOp)node->op)), operand);
 }
 
 static FunctionNode *join(Compiler *compiler, const AstNode *at, AstOp op, FunctionNode *left, FunctionNode *right)
 {
     if (left == NULL || right == NULL) {
-        return NULL;
-    }
-    if (op == AST_OP_DIV && right->run == function_run_number && right->number == 0.0) {
-        eval_fault(compiler->ev, DIAG_E0350, at->b->span, "a function cannot divide by 0");
         return NULL;
     }
     left->next = right;
@@ -245,6 +261,110 @@ static bool split_logic(Compiler *compiler, const AstNode *node, FunctionNode **
     return *sum != NULL;
 }
 
+// A chain of operators of one rank, read from the left: a - 3 * 2 + 10 is one of three parts.
+typedef struct Chain {
+    FunctionNode *before; // what its parts have made so far, without `number`; NULL: nothing
+    FunctionNode *number; // that bare numbers have made, and that the next one may join; NULL: the last part is none
+    AstOp op;             // between the two
+    const AstNode *at;    // of that operator; NULL: `number` is the first part
+    bool has_variable;    // among its parts
+} Chain;
+
+static int rank_of(AstOp op)
+{
+    return op == AST_OP_ADD || op == AST_OP_SUB ? 1 : op == AST_OP_MUL || op == AST_OP_DIV ? 2 : 0;
+}
+
+static double of_numbers(AstOp op, double left, double right)
+{
+    FunctionNode second = {.run = function_run_number, .number = right};
+    FunctionNode first = {.run = function_run_number, .number = left, .next = &second};
+    FunctionNode both = {.arguments = &first};
+    return function_operator(op)(&both, NULL);
+}
+
+static bool end_number(Compiler *compiler, Chain *chain)
+{
+    FunctionNode *number = chain->number;
+    chain->number = NULL;
+    if (number == NULL) {
+        return true;
+    }
+    number->number += 0.0; // -0 is 0, as in POV-Ray
+    if (chain->at == NULL) {
+        chain->before = number;
+        return true;
+    }
+    if (chain->op == AST_OP_DIV) {
+        if (number->number == 0.0) {
+            return eval_fault(compiler->ev, DIAG_E0350, chain->at->b->span, "a function cannot divide by 0");
+        }
+        number->number = 1.0 / number->number;
+        chain->op = AST_OP_MUL;
+    }
+    chain->before = join(compiler, chain->at, chain->op, chain->before, number);
+    return chain->before != NULL;
+}
+
+// `at` is the operator before the part, or NULL.
+static bool add_number(Compiler *compiler, Chain *chain, const AstNode *at, const AstNode *part, FunctionNode *made)
+{
+    AstOp op = at == NULL ? AST_OP_ADD : (AstOp)at->op;
+    bool joins = chain->number != NULL && !compiler->keeps_numbers && !(chain->has_variable && rank_of(op) == 2);
+    if (joins) {
+        if (op == AST_OP_DIV && made->number == 0.0) {
+            return eval_fault(compiler->ev, DIAG_E0350, part->span, "a function cannot divide by 0");
+        }
+        chain->number->number = of_numbers(op, chain->number->number, made->number);
+        return true;
+    }
+    if (!end_number(compiler, chain)) {
+        return false;
+    }
+    bool is_result = part->kind == AST_BINARY || (part->kind == AST_UNARY && part->op == AST_OP_NEG);
+    if (op == AST_OP_SUB && !is_result) {
+        made->number = -made->number;
+        op = AST_OP_ADD;
+    }
+    chain->number = made;
+    chain->op = op;
+    chain->at = at;
+    return true;
+}
+
+static bool add_part(Compiler *compiler, Chain *chain, const AstNode *at, const AstNode *part)
+{
+    FunctionNode *made = compile(compiler, part);
+    if (made == NULL) {
+        return false;
+    }
+    if (is_bare_number(made, part)) {
+        return add_number(compiler, chain, at, part, made);
+    }
+    if (!end_number(compiler, chain)) {
+        return false;
+    }
+    chain->has_variable = chain->has_variable || !made->is_constant;
+    chain->before = at == NULL ? made : join(compiler, at, (AstOp)at->op, chain->before, made);
+    return chain->before != NULL;
+}
+
+static bool read_chain(Compiler *compiler, const AstNode *node, Chain *chain)
+{
+    const AstNode *left = node->a;
+    bool goes_on = left->kind == AST_BINARY && !(left->flags & AST_IN_PARENTHESES) && !is_logic(left) &&
+                   rank_of((AstOp)left->op) == rank_of((AstOp)node->op);
+    if (!goes_on) {
+        return add_part(compiler, chain, NULL, left) && add_part(compiler, chain, node, node->b);
+    }
+    if (!eval_deepen(compiler->ev, 1, left->span)) {
+        return false;
+    }
+    bool fine = read_chain(compiler, left, chain);
+    eval_shallow(compiler->ev, 1);
+    return fine && add_part(compiler, chain, node, node->b);
+}
+
 static FunctionNode *compile_binary(Compiler *compiler, const AstNode *node)
 {
     if (is_logic(node)) {
@@ -254,9 +374,8 @@ static FunctionNode *compile_binary(Compiler *compiler, const AstNode *node)
         }
         return sum == NULL ? last : join(compiler, node, AST_OP_OR, sum, last);
     }
-    FunctionNode *left = compile(compiler, node->a);
-    FunctionNode *right = compile(compiler, node->b);
-    return join(compiler, node, (AstOp)node->op, left, right);
+    Chain chain = {0};
+    return read_chain(compiler, node, &chain) && end_number(compiler, &chain) ? chain.before : NULL;
 }
 
 static FunctionNode *compile_conditional(Compiler *compiler, const AstNode *node)
@@ -277,14 +396,20 @@ static bool has_commas(Compiler *compiler, const AstNode *arguments)
     return true;
 }
 
-static FunctionNode *compile_arguments(Compiler *compiler, const AstNode *arguments, FunctionNode *node)
+// In those behind the first `joining` no numbers are joined.
+static FunctionNode *compile_arguments(Compiler *compiler, const AstNode *arguments, FunctionNode *node,
+                                       unsigned joining)
 {
     FunctionNode *first = NULL, **end = &first;
+    bool keeps_numbers = compiler->keeps_numbers;
     if (node == NULL || !has_commas(compiler, arguments)) {
         return NULL;
     }
     for (const AstNode *argument = arguments; argument != NULL; argument = argument->next) {
+        compiler->keeps_numbers = keeps_numbers || joining == 0;
+        joining -= joining > 0;
         *end = compile(compiler, argument);
+        compiler->keeps_numbers = keeps_numbers;
         if (*end == NULL) {
             return NULL;
         }
@@ -311,10 +436,11 @@ static FunctionNode *compile_sequence(Compiler *compiler, const AstNode *node)
     }
     unsigned slot = compiler->count;
     compiler->names[compiler->count++] = name->symbol;
-    FunctionNode *sequence = compile_arguments(compiler, name->next, made);
+    FunctionNode *sequence = compile_arguments(compiler, name->next, made, 0);
     compiler->count--;
     if (sequence != NULL) {
         sequence->slot = slot;
+        sequence->is_constant = false;
     }
     return sequence;
 }
@@ -343,7 +469,7 @@ static FunctionNode *compile_builtin(Compiler *compiler, const AstNode *node)
     if (kept != NULL) {
         *kept = made;
     }
-    return compile_arguments(compiler, node->a, kept);
+    return compile_arguments(compiler, node->a, kept, node->symbol == W_pow ? 2 : 1);
 }
 
 // Two more than vectors have elsewhere.
@@ -385,7 +511,7 @@ static FunctionNode *call_node(Compiler *compiler, const AstNode *call, const Fu
         return NULL;
     }
     FunctionNode *node = new_node(compiler, call, function_run_call);
-    node = compile_arguments(compiler, call->a, node);
+    node = compile_arguments(compiler, call->a, node, 1);
     if (node != NULL) {
         node->function = function;
         node->slot = component;

@@ -93,7 +93,8 @@ static double run_extreme(const FunctionNode *node, FunctionRun *run)
     double best = value_of(node->arguments, run);
     for (const FunctionNode *argument = node->arguments->next; argument != NULL; argument = argument->next) {
         double number = value_of(argument, run);
-        best = (node->slot == W_max ? number > best : number < best) ? number : best;
+        bool is_new = node->slot == W_max ? number > best : !(best <= number); // as POV-Ray, where one is no number, too
+        best = is_new ? number : best;
     }
     return best;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes short programs from where the language is odd, which POV-Ray may take or refuse.
 
-Loops in the bodies of functions, indices that are not whole, scopes of macros and includes, splines of few points, strings
+Loops and chains of numbers in the bodies of functions, indices that are not whole, scopes of macros and includes, splines of few points, strings
 with characters 0 and 10, infinities, vectors of different lengths, versions, semicolons in the text of macros, arguments by
 reference and from directives, colours, arrays of arrays, data files, functions of blocks. Most programs are then torn, a piece of a
 statement standing in a directive, a macro or an included file, or get a near miss: a token more, less or in another place.
@@ -30,6 +30,7 @@ class OddProgram:
     def __init__(self, seed):
         self.dice = random.Random(seed)
         self.count, self.lines = 10, 0
+        self.knows_chains = False
         self.statements, self.files = [], {}
 
     # ---- small things
@@ -113,6 +114,37 @@ class OddProgram:
             self.add(f"#declare {f} = function{head} {{ {body} }}")
         for _ in range(2):
             self.show(f"{f}({', '.join(self.one('1', '2', '.5', '-3', 'N1') for _ in range(count))})")
+
+    # ---- chains of operators in functions, whose numbers POV-Ray joins
+
+    def chain(self, operators, depth=2):
+        def part():
+            inner = self.chain(operators, depth - 1) if depth > 0 and self.chance(.35) else self.one("b", "3", ".7", "a*2")
+            call = self.one("sin({0})", "abs({0})", "max({0}, a)", "min(b, {0})", "pow(2, {0})", "select({0}, a, 5)", "F1({0})",
+                            "F2({0}, {0})", "mod({0}, 7)", "atan2({0}, 3)", "sum(i, 1, 2, i + {0})", "T1({0}, 1, 2).x", "({0})", "({0})")
+            if "<" in operators:
+                inner = f"({inner})"  # among arguments it must have its own
+            number = self.one("3", "2", ".1", "7", "11", "pi", "N1", "N2", "A1[1]", ".3", "10", "5")
+            return self.one("", "", "", "", "", "", "-", "+") + self.one("a", "b", number, number, number, number, f"({number})",
+                                                                        call.format(inner))
+
+        text = part()
+        for _ in range(self.one(1, 2, 2, 3, 4)):
+            text += f" {self.one(*operators)} {part()}"
+        return text
+
+    def function_of_chains(self):
+        f = self.name("F")
+        if not self.knows_chains:
+            self.knows_chains = True
+            self.add("#declare F2 = function(x, y) { x*2 + y }", "#declare T1 = function { transform { scale 2 } }")
+        for _ in range(4):
+            operators = self.one(("*", "/"), ("+", "-"), ("+", "-", "*", "/"), ("+", "-", "-", "*"), ("<", ">=", "=", "!=", "+", "-", "*", "&", "|"))
+            text = self.chain(operators)
+            self.add(f"#declare {f} = function(a, b) {{ {text} }}")
+            for at in ("1.25, .7", "-3, 2"):
+                self.add(self.shown(f"min(max({f}({at}), -1e6), 1e6)", 12))
+            f = self.name("F")
 
     # ---- numbers that are nearly whole
 
@@ -496,7 +528,7 @@ class OddProgram:
         for _ in range(self.dice.randrange(2, 7)):
             self.one(self.function_of_loops, self.inexact, self.inexact, self.scopes, self.spline, self.strings, self.infinities,
                      self.mixed, self.mixed, self.blocks, self.blocks, self.version, self.ends, self.arguments, self.references,
-                     self.colours, self.nested_arrays, self.data, self.made_functions)()
+                     self.colours, self.nested_arrays, self.data, self.made_functions, self.function_of_chains)()
         kind = self.dice.random()
         if kind > .45:
             for _ in range(self.one(1, 1, 2)):
