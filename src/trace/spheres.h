@@ -35,6 +35,7 @@ typedef struct ShapeInfo {
 } ShapeInfo;
 
 typedef struct SphereTable {
+    const Abandon *abandon; // NULL: no ray is left untraced; not owned
     SphereBlock *blocks;
     ShapeInfo *info;                // of each slot
     Pages block_pages, info_pages;  // which they are in; owned

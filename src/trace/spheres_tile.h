@@ -421,7 +421,8 @@ static void beam_walk(TileBeam *beam, BvhWalk *walk)
     BvhChild leaf;
     walk->leaves = (const char *)beam->table->blocks;
     float limit = bvh_walk_limit(walk, beam->limit);
-    while (bvh_walk_next(walk, limit, &leaf)) {
+    const Abandon *abandon = beam->table->abandon; // 64 rays may meet 10^6 spheres each
+    while (bvh_walk_next(walk, limit, &leaf) && !(abandon && trace_is_abandoned(abandon))) {
         if (beam_block(beam, leaf & ~BVH_LEAF)) {
             limit = bvh_walk_limit(walk, beam->limit);
         }

@@ -125,7 +125,7 @@ unsigned geometry_features(const Geometry *geometry);
 // The name of the instruction set that it is traced with.
 const char *geometry_isa_name(const Geometry *geometry);
 
-// From now on rays need not meet what takes long (composites of many parts) once this says so; NULL: they always do.
+// From now on rays need not meet what takes long (composites of many parts, tiles of many spheres) once this says so; NULL: they always do.
 void geometry_set_abandon(Geometry *geometry, const Abandon *abandon);
 
 // A point of a surface.
