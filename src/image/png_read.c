@@ -85,7 +85,8 @@ static void gamma_take(const PngReader *reader)
     }
 }
 
-static bool memory_take(PngReader *reader)
+// Whether there may be room for the picture, asked before the library takes memory for its rows.
+static bool size_take(PngReader *reader)
 {
     PictureFile *file = reader->file;
     uint32_t width = png_get_image_width(reader->png, reader->info);
@@ -97,6 +98,18 @@ static bool memory_take(PngReader *reader)
     }
     file->width = (int)width;
     file->height = (int)height;
+    uint64_t pixels = (uint64_t)width * height; // below 2^62
+    uint64_t depth_bytes = png_get_bit_depth(reader->png, reader->info) == 16 ? 2 : 1;
+    uint64_t bytes = png_get_channels(reader->png, reader->info) * depth_bytes; // of a pixel, at least
+    bool has_room = pixels <= reader->limit->pixels && pixels <= reader->limit->bytes / bytes;
+    reader->status = has_room ? reader->status : IMAGE_TOO_LARGE;
+    return has_room;
+}
+
+static bool memory_take(PngReader *reader)
+{
+    PictureFile *file = reader->file;
+
     file->channels = png_get_channels(reader->png, reader->info);
     file->depth = png_get_bit_depth(reader->png, reader->info) == 16 ? IMAGE_DEPTH_16 : IMAGE_DEPTH_8;
     reader->status = picture_file_allocate(file, reader->limit);
@@ -111,6 +124,9 @@ static void read_guarded(PngReader *reader)
         return;
     }
     png_read_info(reader->png, reader->info);
+    if (!size_take(reader)) {
+        return;
+    }
     reader->file->bits = png_get_bit_depth(reader->png, reader->info);
     form_choose(reader);
     (void)png_set_interlace_handling(reader->png);
