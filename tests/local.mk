@@ -204,9 +204,6 @@ endif
 check_PROGRAMS += $(count_block_programs) tests/unit/count_kernels
 tests_unit_count_kernels_SOURCES = %D%/unit/count_kernels.c
 tests_unit_count_kernels_LDADD = librender.la $(UNIT_TRACE)
-check_PROGRAMS += tests/fuzz/fuzz_scene
-tests_fuzz_fuzz_scene_SOURCES = %D%/fuzz/fuzz_scene.c
-tests_fuzz_fuzz_scene_LDADD = libapi.la
 check_PROGRAMS += tests/fuzz/fuzz_exponents
 check_PROGRAMS += tests/exact/test_exact
 tests_exact_test_exact_SOURCES = %D%/exact/test_exact.c %D%/exact/families.c %D%/exact/families.h \
@@ -217,7 +214,6 @@ tests_fuzz_fuzz_exponents_SOURCES = %D%/fuzz/fuzz_exponents.c $(unit_headers)
 tests_fuzz_fuzz_exponents_LDADD = libapi.la
 
 test_scripts = \
-  %D%/fuzz/replay.sh \
   %D%/lang/check_cases.sh \
   %D%/check-layers.py \
   %D%/check-headers.py \
@@ -332,7 +328,6 @@ EXTRA_DIST += \
   $(lang_cases) \
   %D%/format/layout.scn \
   %D%/format/layout.expected \
-  %D%/fuzz/cut_far_apart.scn \
   %D%/golden \
   %D%/system \
   %D%/povray

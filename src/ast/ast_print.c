@@ -96,11 +96,14 @@ void printer_value(Printer *printer, const AstNode *node, int indent)
     }
 }
 
+// One that could not be read is missing: it is in #ifdef, #ifndef and #range with a fault.
 static void print_condition(Printer *printer, const char *directive, const AstNode *condition)
 {
     printer_put(printer, directive);
     printer_put(printer, " (");
-    printer_operand(printer, condition, PRECEDENCE_CHOICE);
+    if (condition != NULL) {
+        printer_operand(printer, condition, PRECEDENCE_CHOICE);
+    }
     printer_put(printer, ")");
 }
 

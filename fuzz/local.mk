@@ -1,0 +1,57 @@
+# Fuzzing: targets that a fuzzer gives any bytes. Each is built twice: with fuzz/replay.c for `make check`, and, where
+# `make fuzz` or OSS-Fuzz ask for it, with a fuzzer.
+# SPDX-License-Identifier: MIT
+
+# Given on the command line of make: -fsanitize=fuzzer, or the library of another fuzzer.
+LIB_FUZZING_ENGINE =
+fuzz_ini_sources = src/cli/povray_ini.c src/cli/povray_read.c src/cli/povray_table.c src/cli/povray_value.c \
+  src/cli/terminal.c
+fuzz_replays = fuzz/replay_grammar fuzz/replay_scene fuzz/replay_dump fuzz/replay_picture fuzz/replay_ini
+fuzz_targets = fuzz/fuzz_grammar fuzz/fuzz_scene fuzz/fuzz_dump fuzz/fuzz_picture fuzz/fuzz_ini
+check_PROGRAMS += $(fuzz_replays)
+EXTRA_PROGRAMS = $(fuzz_targets)
+fuzz_replay_grammar_SOURCES = %D%/fuzz_grammar.c %D%/fuzz.h %D%/replay.c
+fuzz_replay_grammar_LDADD = libapi.la
+fuzz_replay_scene_SOURCES = %D%/fuzz_scene.c %D%/fuzz.h %D%/replay.c
+fuzz_replay_scene_LDADD = libapi.la
+fuzz_replay_dump_SOURCES = %D%/fuzz_dump.c %D%/fuzz.h %D%/replay.c
+fuzz_replay_dump_LDADD = libapi.la
+fuzz_replay_picture_SOURCES = %D%/fuzz_picture.c %D%/fuzz.h %D%/replay.c
+fuzz_replay_picture_LDADD = libimage.la libmath.la libbase.la
+fuzz_replay_ini_SOURCES = %D%/fuzz_ini.c %D%/fuzz.h %D%/replay.c $(fuzz_ini_sources)
+fuzz_replay_ini_LDADD = libapi.la
+fuzz_fuzz_grammar_SOURCES = %D%/fuzz_grammar.c %D%/fuzz.h
+fuzz_fuzz_grammar_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
+fuzz_fuzz_scene_SOURCES = %D%/fuzz_scene.c %D%/fuzz.h
+fuzz_fuzz_scene_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
+fuzz_fuzz_dump_SOURCES = %D%/fuzz_dump.c %D%/fuzz.h
+fuzz_fuzz_dump_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
+# The module that reads JPEG is loaded, and calls the fuzzer for what it covers.
+fuzz_fuzz_picture_SOURCES = %D%/fuzz_picture.c %D%/fuzz.h
+fuzz_fuzz_picture_LDADD = libimage.la libmath.la libbase.la $(LIB_FUZZING_ENGINE)
+fuzz_fuzz_picture_LDFLAGS = -export-dynamic
+fuzz_fuzz_ini_SOURCES = %D%/fuzz_ini.c %D%/fuzz.h $(fuzz_ini_sources)
+fuzz_fuzz_ini_LDADD = libapi.la $(LIB_FUZZING_ENGINE)
+
+TESTS += %D%/replay.py
+EXTRA_DIST += %D%/replay.py %D%/make_seeds.py %D%/make_dictionary.py %D%/run %D%/corpus %D%/oss-fuzz
+
+# What a fuzzer needs beside a build for it: programs, dictionaries and seeds.
+.PHONY: fuzz fuzz-build
+fuzz-build: $(fuzz_targets) rtlang_jpeg.la tests/unit/print_schema$(EXEEXT)
+	tests/unit/print_schema$(EXEEXT) | $(PYTHON3) $(srcdir)/%D%/make_dictionary.py $(srcdir) fuzz
+	$(PYTHON3) $(srcdir)/%D%/make_seeds.py $(srcdir) fuzz/seeds
+
+# Each target for SECONDS, in a build of its own with clang in the folder build-fuzz. Sources are copied: those that a
+# build was configured in cannot be built in another folder.
+SECONDS = 60
+fuzz:
+	$(MKDIR_P) build-fuzz
+	$(MAKE) $(AM_MAKEFLAGS) distdir distdir=build-fuzz/source
+	$(SHELL) $(srcdir)/%D%/run '$(abs_builddir)/build-fuzz/source' $(SECONDS)
+
+clean-local: clean-fuzz
+.PHONY: clean-fuzz
+clean-fuzz:
+	rm -rf fuzz/seeds fuzz/text.dict fuzz/ini.dict
+CLEANFILES += $(fuzz_targets)

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Writes what fuzzers begin with: files of each kind, into FOLDER/KIND, from the tests and examples.
+
+Usage: make_seeds.py TOP FOLDER. SPDX-License-Identifier: MIT
+"""
+import glob
+import os
+import re
+import struct
+import sys
+import zlib
+
+# Each target, and the kind of its files.
+TARGETS = {"grammar": "text", "scene": "text", "dump": "text", "picture": "picture", "ini": "ini"}
+
+
+def lang_cases(top):
+    """The programs of tests/lang."""
+    for path in sorted(glob.glob(os.path.join(top, "tests", "lang", "*.test"))):
+        with open(path, "rb") as file:
+            cases = re.split(rb"^== .*\n", file.read(), flags=re.MULTILINE)[1:]
+        for number, case in enumerate(cases):
+            yield "%s-%03d" % (os.path.basename(path)[:-5], number), re.split(rb"^-- ", case, flags=re.MULTILINE)[0]
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(bits, kind, interlaced, extra=b""):
+    """A PNG of 5 by 3 pixels whose samples count up."""
+    channels = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[kind]
+    passes = [(0, 0, 1, 1)]
+    if interlaced:
+        passes = [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)]
+    rows = b""
+    for left, top, right, down in passes:
+        width, height = -(-(5 - left) // right), -(-(3 - top) // down)
+        if width > 0 and height > 0:
+            length = (width * channels * bits + 7) // 8
+            rows += b"".join(bytes([row % 5]) + bytes((7 * i + row) % 256 for i in range(length))
+                             for row in range(height))
+    palette = chunk(b"PLTE", bytes(range(3 * 2 ** min(bits, 4)))) if kind == 3 else b""
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 5, 3, bits, kind, 0, 0, interlaced)) + extra +
+            palette + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def pictures(top):
+    for kind, all_bits in {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}.items():
+        for bits in all_bits:
+            for interlaced in 0, 1:
+                yield "%d-%d-%d.png" % (kind, bits, interlaced), png(bits, kind, interlaced)
+    yield "gamma.png", png(8, 2, 0, chunk(b"gAMA", struct.pack(">I", 45455)))
+    yield "key.png", png(8, 2, 0, chunk(b"tRNS", bytes(6)))
+    for path in sorted(glob.glob(os.path.join(top, "tests", "**", "*.jp*g"), recursive=True)):
+        with open(path, "rb") as file:
+            yield os.path.basename(path), file.read()
+    yield "plain.ppm", b"P6 2 1 255\nabcdef"
+
+
+def option_files(top):
+    yield "long.ini", (b"; a comment\nWidth=320\nHeight=200\n[part]\nStart_Column=0.25\nEnd_Column=0.75\n"
+                       b"Antialias=On\nLibrary_Path=\"/usr\"\nDeclare=N=5\nInput_File_Name=x.pov\n")
+    yield "short.ini", b"+W320 +H200 -D +A0.3 +FN8 +KFI1 +KFF9 -V +Ix.pov +Oy.png Output_File_Type=N\n"
+    yield "words.ini", b"+W32\0+H20\0-GA\0+Ix.pov\0Clock=0.5\0"
+    with open(os.path.join(top, "src", "cli", "povray_table.c"), "rb") as file:
+        for number, key in enumerate(re.findall(rb"^    [A-Z_]+\(\"(\w+)\"", file.read(), re.MULTILINE)):
+            yield "key-%03d.ini" % number, b"%s=On\n%s=1\n%s=0.5\n" % (key, key, key)
+
+
+def write_seeds(top, folder):
+    texts = list(lang_cases(top))
+    for path in sorted(glob.glob(os.path.join(top, "examples", "*.scn"))):
+        with open(path, "rb") as file:
+            texts.append((os.path.basename(path), file.read()))
+    for kind, files in {"text": texts, "picture": pictures(top), "ini": option_files(top)}.items():
+        os.makedirs(os.path.join(folder, kind), exist_ok=True)
+        for name, data in files:
+            with open(os.path.join(folder, kind, name), "wb") as file:
+                file.write(data)
+
+
+if __name__ == "__main__":
+    write_seeds(sys.argv[1], sys.argv[2])
