@@ -50,6 +50,22 @@ DECISIONS = [
     (r"E0106 unexpected `$", r"#macro[^\n]*;\s*#end", "a `#declare` behind the value in a macro's text (E0106)"),
     (r"E0212", r"#version\s+(-|\+?(0|1?\.|1))", "a `#version` below 1.5 (E0212)"),
     (r"E0223", r"array", "(E0223)"),
+    (r"E0106", r"defined\s*\(\s*[a-z]\w*\s*\)", "`defined` of a reserved word (E0106)"),
+    (r"E0204", r"[*/]\s*\w+\s*\.\s*[tw]\w*|[*/]\s*\w+\s*\.\s*(filter|transmit)",
+     "a component that a vector does not have (E0204) at the end of a product with a colour"),
+]
+# Where both take a program and print other values; the words of docs/language.md.
+LEFT_BEHIND = "keeps what the operand before it had as components 4 and 5"
+NAMED_WITHIN = "a directive within its own value declares keeps the directive's value"
+UNREAD = "A new name for which a file that ends with a comma has no value is not declared"
+# Programs in which they show.
+KNOWN = [
+    ('#debug concat(vstr(5, <1, 2, 3, 4, 5>*2*z, " ", 0, 6), "\\n")', LEFT_BEHIND),
+    ('#declare Z = (3 #local Z = 7; + 1); #debug concat(str(Z, 0, 6), "\\n")', NAMED_WITHIN),
+    ('#debug str(defined(sphere), 0, 6)', "`defined` of a reserved word (E0106)"),
+    ('#declare C = rgb 1; #debug str((C*x.t).red, 0, 6)',
+     "a component that a vector does not have (E0204) at the end of a product with a colour"),
+    ('#macro N() #end #declare A = N() 3; #debug str(A, 0, 6)', "a directive without a value in the place of one (E0213, E0221)"),
 ]
 DECIDED_MOST = 0.03   # of all odd programs
 AGREED_LEAST = 0.25   # that both take
@@ -131,13 +147,32 @@ def verdict(statements, files):
         return "both refuse", ""
     if wrong_too:
         number = decision(text + "".join(files.values()), wrong_too)
-        return ("refused", wrong_too) if number is None else ("decided", number)
+        return ("refused", wrong_too) if number is None else ("decided", DECISIONS[number][2])
     if wrong:
         return "taken", wrong
     if re.search("quadratic_spline|rotate", text):
         theirs, ours = ([ZERO.sub(r"\1", line) for line in lines] for lines in (theirs, ours))
     pair = next(((a, b) for a, b in zip(theirs + [None], ours + [None]) if a != b), None)
+    words = pair and difference(text + "".join(files.values()), files, *pair)
+    if words:
+        return "decided", words
     return ("differs", f"POV-Ray: {pair[0]!r}   rtlang: {pair[1]!r}") if pair else ("", "")
+
+
+def difference(text, files, theirs, ours):
+    """The words for a difference of two lines that is documented, or None."""
+    if any(part.rstrip().endswith(",") for part in files.values()) and \
+            re.search(r"#read \(\w+,.*\b(\w+)\b.*#ifdef \(\1\)", text, re.S):
+        return UNREAD
+    if None in (theirs, ours):
+        return None
+    mine, other = ours.split(), theirs.split()
+    is_behind = len(mine) == len(other) >= 4 and mine[:-2] == other[:-2]
+    if is_behind and re.search(r"[*/][^;\"\n]*[*/]|[+-][^;\"\n]*[+-]", text):
+        return LEFT_BEHIND
+    if re.search(r"#(?:declare|local) (\w+) = [^;]*(?:#(?:declare|local)|#for \() ?\1\b", text):
+        return NAMED_WITHIN
+    return None
 
 
 def shrunk(statements, files, what):
@@ -182,8 +217,8 @@ def check_odd(seeds, pool, number):
             counts["no verdict"] <= CRASHED_MOST * total)
     print(f"{'ok' if fine else 'not ok'} {number} - {counts['']} of {total} taken by both, {counts['both refuse']} refused, "
           f"{counts['decided']} as decided, {counts['no verdict']} in which POV-Ray ends by a signal or never")
-    for which, count in sorted(used.items()):
-        print(f"# decided {count} times: {DECISIONS[which][2]}")
+    for words, count in sorted(used.items()):
+        print(f"# decided {count} times: {words}")
     return failed + (not fine)
 
 
@@ -191,7 +226,7 @@ def undocumented():
     """Words of DECISIONS that docs/language.md does not have."""
     with open(os.path.join(os.environ.get("top_srcdir", "."), "docs/language.md"), encoding="utf-8") as document:
         text = " ".join(document.read().split())
-    return [words for words in [ZERO_DOCUMENTED] + [words for _, _, words in DECISIONS] if words not in text]
+    return [words for words in [ZERO_DOCUMENTED, LEFT_BEHIND, NAMED_WITHIN, UNREAD] + [words for _, _, words in DECISIONS] if words not in text]
 
 
 def coverage(seeds):
@@ -214,7 +249,7 @@ def main():
     odd_seeds = list(range(seed * 1000000, seed * 1000000 + (count if sys.argv[1:] else ODD)))
     batches = [seeds[i:i + BATCH] for i in range(0, count, BATCH)]
     failed = 0
-    print(f"1..{len(batches) + -(-len(odd_seeds) // (5 * BATCH)) + 3}\n# seed {seed}")
+    print(f"1..{len(batches) + -(-len(odd_seeds) // (5 * BATCH)) + 4}\n# seed {seed}")
     with concurrent.futures.ThreadPoolExecutor(WORKERS) as pool:
         for number, (batch, (faults, lines)) in enumerate(zip(batches, pool.map(compare, batches)), 1):
             failed += bool(faults)
@@ -222,10 +257,12 @@ def main():
             for which, fault in faults:
                 print(f"# generate_programs.py {which}: " + fault.replace("\n", "\n#   "))
         for number, missing, words in ((1, coverage(seeds) if count >= COUNT else [], "every function and constant occurs"),
-                                       (2, undocumented(), "what is refused is in docs/language.md")):
+                                       (2, undocumented(), "what is refused is in docs/language.md"),
+                                       (3, [text for text, words in KNOWN if verdict([text], {}) != ("decided", words)],
+                                        "what is documented shows")):
             failed += bool(missing)
             print(f"{'not ok' if missing else 'ok'} {len(batches) + number} - {words} {', '.join(missing)}", flush=True)
-        failed += check_odd(odd_seeds, pool, len(batches) + 3)
+        failed += check_odd(odd_seeds, pool, len(batches) + 4)
     return 1 if failed else 0
 
 
