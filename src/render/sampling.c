@@ -232,7 +232,7 @@ static bool run_audit(Sampling *s)
         return false;
     }
     if (s->round.share && (s->wanted->is_adaptive || s->wanted->samples >= SLIVER_SAMPLES)) {
-        share_set_contrast(&s->round);
+        share_set_contrasts(&s->round);
     }
     if (has_audit(s->wanted) && audit_draw(&s->audit, &s->estimate, &s->round) > 0) {
         if (!trace_beside(s, TRACES_REPLICAS)) {
@@ -329,8 +329,10 @@ static double audit_seconds(Sampling *s)
     }
     int count = audit_draw(&s->audit, &s->estimate, &s->round);
     for (int i = 0; i < count; i++) {
-        uint32_t had = s->film->records[s->audit.picks[i].pixel].count;
-        samples += had > 1 ? doubled * had : 2.0 * AUDIT_SAMPLES;
+        size_t pixel = s->audit.picks[i].pixel;
+        uint32_t had = s->film->records[pixel].count;
+        double replicas = round_is_like_replica(&s->round, pixel) ? 1.0 : 2.0;
+        samples += replicas * (had > 1 ? doubled * had : AUDIT_SAMPLES);
     }
     return samples * s->sample_seconds;
 }

@@ -60,18 +60,15 @@ static inline int round_block_end(int at, int origin, int end)
 }
 
 // Whether a pixel is as far off as another set of samples would be. One that is made of corners is not, nor one of
-// which it is known that it has met all small shapes that are in it, since another set may not have; nor is one that
-// was left with few samples, maybe since these met none of a narrow stratum.
+// which it is known that it has met all small shapes that are in it, since another set may not have; nor is any where
+// samples went by what was seen: one that was left with few seemed better than it is.
 static inline bool round_is_like_replica(const Round *round, size_t pixel)
 {
-    uint32_t count = round->film->records[pixel].count;
-    bool was_chosen = round->buckets && share_has(round->share, pixel);
-    return count > 1 && !small_has(round->small, pixel) &&
-           !(was_chosen && share_variance(round->share, pixel, count) > 0.0);
+    return !round->buckets && round->film->records[pixel].count > 1 && !small_has(round->small, pixel);
 }
 
-// Takes round->share->contrast from the samples that strata have so far.
-void share_set_contrast(const Round *round);
+// Takes round->share->contrasts from the samples that strata have so far.
+void share_set_contrasts(const Round *round);
 
 enum { START_SAMPLES = 4 };
 

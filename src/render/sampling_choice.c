@@ -144,7 +144,7 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
     double spent = 0.0;
     choice->power = mean_log_ratio(estimate);
     if (round->share) {
-        share_set_contrast(round);
+        share_set_contrasts(round);
     }
     constants_init(&constants, estimate, (double)film->width * film->height, choice->power);
     sorts_init(&constants, film);

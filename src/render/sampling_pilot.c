@@ -106,6 +106,36 @@ static uint32_t probes_choose(const Film *film, uint64_t seed, uint16_t *buckets
     return count;
 }
 
+// Few pixels may be much more uneven than all others, as around a bright lamp, and by chance none of them chosen: then
+// those that are less uneven would say what they are off by. So the most uneven sorts get more probes, chosen by chance
+// within each, as far as the pixels chosen so far are not doubled. Marks them, and counts them.
+static uint32_t sorts_fill(const Film *film, uint64_t seed, uint16_t *buckets, uint32_t chosen)
+{
+    double pixels[PILOT_SORTS] = {0.0}, probes[PILOT_SORTS] = {0.0}, part[PILOT_SORTS], left = chosen;
+    size_t count = (size_t)film->width * (size_t)film->height;
+    for (size_t i = 0; i < count; i++) {
+        pixels[buckets[i] & ~PILOT_PROBE]++;
+        probes[buckets[i] & ~PILOT_PROBE] += (buckets[i] & PILOT_PROBE) != 0;
+    }
+    for (int sort = PILOT_SORTS - 1; sort >= 0; sort--) {
+        double others = pixels[sort] - probes[sort];
+        double more = fmin(fmin(fmax(PROBES_LEAST - probes[sort], 0.0), others), left);
+        part[sort] = others > 0.0 ? more / others : 0.0;
+        left -= more;
+    }
+    uint32_t added = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t x = (uint32_t)(film->left + (int)(i % (size_t)film->width)),
+                 y = (uint32_t)(film->top + (int)(i / (size_t)film->width));
+        if (!(buckets[i] & PILOT_PROBE) && part[buckets[i]] > 0.0 &&
+            sample_unit(sample_hash_add(sampler_pixel_seed(~seed, x, y), PILOT_PROBE)) < part[buckets[i]]) {
+            buckets[i] |= PILOT_PROBE;
+            added++;
+        }
+    }
+    return added;
+}
+
 // Pixels that hold small shapes are not left to their corners. Marks them, and counts those that were not chosen yet.
 static uint32_t small_choose(const Round *round, uint16_t *buckets)
 {
@@ -143,7 +173,9 @@ uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory)
             }
         }
     }
-    return probes_choose(film, round->sampling->seed, buckets) + small_choose(round, buckets);
+    uint32_t probes = probes_choose(film, round->sampling->seed, buckets);
+    probes += sorts_fill(film, round->sampling->seed, buckets, probes);
+    return probes + small_choose(round, buckets);
 }
 
 // What the probes of a sort were off by: the square of the distance of what the corners gave from the mean of the
@@ -172,15 +204,21 @@ static void sorts_gather(const Film *film, const uint16_t *buckets, Sort sorts[P
     }
 }
 
-// Sorts of few probes go with their neighbours, from the most uneven down.
+// Sorts of few probes go with their neighbours, from the most uneven down; before a sort of many probes, which may have
+// most of the pixels, they go with those above, and do not spoil it.
 static void sorts_judge(const Sort sorts[PILOT_SORTS], double mean[PILOT_SORTS], double variance[PILOT_SORTS])
 {
+    Sort last = {0.0, 0.0, 0.0};
     for (int end = PILOT_SORTS; end > 0;) {
-        Sort sum = {0.0, 0.0, 0.0};
-        int begin = end;
-        while (begin > 0 && sum.count < PROBES_LEAST) {
+        Sort sum = sorts[end - 1];
+        int begin = end - 1;
+        while (begin > 0 && sum.count < PROBES_LEAST && sorts[begin - 1].count < PROBES_LEAST) {
             sort_add(&sum, &sorts[--begin]);
         }
+        if (sum.count < PROBES_LEAST) {
+            sort_add(&sum, &last);
+        }
+        last = sum;
         double value = sum.count > 0.0 ? fmax(sum.sum / sum.count, 0.0) : 0.0;
         double spread = sum.count > 1.0 ? (sum.squares / sum.count - value * value) / (sum.count - 1.0) : 0.0;
         for (int i = begin; i < end; i++) {

@@ -228,7 +228,8 @@ static bool builder_take_all(Builder *builder)
 {
     size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
     builder->share->first = malloc((pixels + 1) * sizeof *builder->share->first);
-    bool has_memory = builder->share->first != NULL;
+    builder->share->contrasts = calloc(pixels, sizeof *builder->share->contrasts);
+    bool has_memory = builder->share->first && builder->share->contrasts;
     for (size_t pixel = 0; has_memory && pixel < pixels; pixel++) {
         builder->share->first[pixel] = builder->used;
         has_memory = builder->counts[pixel] == 0 || pixel_take(builder, pixel);
@@ -243,6 +244,7 @@ void share_free(Share *share)
 {
     if (share) {
         free(share->first);
+        free(share->contrasts);
         free(share->strata);
         free(share);
     }
@@ -273,7 +275,8 @@ uint64_t share_bytes(int width, int height, uint64_t shapes)
 {
     enum { STRATA_EACH = 2 }; // of a pixel, more than most have
     uint64_t pixels = (uint64_t)width * (uint64_t)height, most = 4 * shapes * ((uint64_t)width + (uint64_t)height);
-    uint64_t pixel = sizeof(float) + sizeof(uint8_t) + OUTLINES_ROUGH * sizeof(Candidate) + sizeof(uint32_t);
+    uint64_t pixel = sizeof(float) + sizeof(uint8_t) + OUTLINES_ROUGH * sizeof(Candidate) + sizeof(uint32_t) +
+                     sizeof(ShareContrast);
     return pixels * pixel + (most < pixels ? most : pixels) * STRATA_EACH * sizeof(ShareStratum);
 }
 
@@ -421,7 +424,7 @@ double share_variance(const Share *share, size_t pixel, double count)
         double area = share->strata[i].area;
         sum += area * count < EXPECTED_LEAST ? area : 0.0;
     }
-    return share->contrast * sum / count;
+    return (double)share->contrasts[pixel].around * sum / count;
 }
 
 // Of the strata that have samples: the mean square of how far they are from their common mean, in linear light, and
@@ -448,18 +451,42 @@ static double pixel_contrast(const Round *round, size_t pixel, double *weight)
     return fmax(spread.red + spread.green + spread.blue, 0.0) / 3.0;
 }
 
-void share_set_contrast(const Round *round)
+// The contrast of a pixel is that of the strata in it and around it: edges of one picture differ in theirs by powers of
+// ten, and one's own samples may have met one stratum only. Where none has met two, that of all of the picture's.
+static double contrast_around(const Round *round, int x, int y, double of_all)
 {
-    double sum = 0.0, weights = 0.0, weight;
     const Film *film = round->film;
-    for (int y = 0; y < film->height; y++) {
-        for (int x = 0; x < film->width; x++) {
-            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            if (share_has(round->share, pixel) && round_judges(round, x, y)) {
-                sum += pixel_contrast(round, pixel, &weight);
-                weights += weight;
-            }
+    int left = x > 0 ? x - 1 : x, right = x + 1 < film->width ? x + 1 : x;
+    double square = 0.0, weight = 0.0;
+    for (int row = y > 0 ? y - 1 : y; row <= y + 1 && row < film->height; row++) {
+        const ShareContrast *contrasts = &round->share->contrasts[(size_t)row * (size_t)film->width];
+        for (int column = left; column <= right; column++) {
+            square += (double)contrasts[column].square;
+            weight += (double)contrasts[column].weight;
         }
     }
-    round->share->contrast = weights > 0.0 ? sum / weights : 0.0;
+    return weight > 0.0 ? square / weight : of_all;
+}
+
+void share_set_contrasts(const Round *round)
+{
+    const Film *film = round->film;
+    ShareContrast *contrasts = round->share->contrasts;
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    double sum = 0.0, weights = 0.0, weight;
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        if (share_has(round->share, pixel)) {
+            double square = pixel_contrast(round, pixel, &weight);
+            contrasts[pixel] = (ShareContrast){.square = (float)square, .weight = (float)weight};
+            sum += square;
+            weights += weight;
+        }
+    }
+    double of_all = weights > 0.0 ? sum / weights : 0.0;
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        if (share_has(round->share, pixel)) {
+            int x = (int)(pixel % (size_t)film->width), y = (int)(pixel / (size_t)film->width);
+            contrasts[pixel].around = (float)contrast_around(round, x, y, of_all);
+        }
+    }
 }

@@ -24,12 +24,18 @@ typedef struct ShareStratum {
     float mean[3];  // of these
 } ShareStratum;
 
+// How far the strata of a pixel are from each other that have samples: the square, the part of the pixel it counts for,
+// and the mean square over the pixel and those around it, in linear light.
+typedef struct ShareContrast {
+    float square, weight, around;
+} ShareContrast;
+
 // What is known of a film.
 typedef struct Share {
     uint32_t *first; // of each pixel's strata; one more for the end
     ShareStratum *strata;
     size_t capacity;
-    double contrast; // how far two strata of a pixel are from each other: the mean square, in linear light
+    ShareContrast *contrasts; // of each pixel; 0 before share_set_contrasts
 } Share;
 
 // New samples of a pixel: its first and second half.

@@ -172,7 +172,7 @@ static double ratios_quantile(double values[2000], const Ratios *ratios, double 
 static void test_targets(void)
 {
     static Ratios predicted;
-    int seeds = is_long ? 100 : 5, scenes = is_long ? SCENES : 2, all = 0, met = 0;
+    int seeds = is_long ? 100 : 20, scenes = is_long ? SCENES : 2, all = 0, met = 0;
     const double targets[] = {0.008, 0.004};
     for (int i = 0; i < scenes; i++) {
         Picture *reference = reference_make(sampling_scenes[i], is_long ? 16384 : 1024);
