@@ -87,7 +87,9 @@ OPEN_BABEL = "obabel -:c1ccccc1O --gen3d -opov -xm SPF -O babel.pov && povray +I
 def run(words, folder, first):
     """Runs a caller; `first` is what stands first in PATH."""
     path = os.pathsep.join(filter(None, [first, "/usr/bin", "/bin", os.environ.get("PATH", "")]))
-    environment = dict(os.environ, PATH=path, HOME=folder, POVINI=os.path.join(folder, "usual.ini"))
+    # Some callers want POV-Ray's window. Where there is no terminal either, the library that opens it ends the program.
+    environment = dict(os.environ, PATH=path, HOME=folder, POVINI=os.path.join(folder, "usual.ini"),
+                       SDL_VIDEODRIVER="dummy")
     done = subprocess.run(words, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, timeout=120, check=False)
     with open(os.path.join(folder, "standard output"), "wb") as file:
