@@ -12,8 +12,10 @@ static void print_switch(const PovrayRow *row, char *text, size_t size)
     const char *value = row->value_key ? (strstr(row->value_key, "File") && row->letters[0] == 'G' ? "[file]" : "[x]")
                         : has_sign     ? ""
                                        : "x";
-    snprintf(text, size, row->letters ? "%s%s%s" : "", has_sign ? "+-" : "+", row->letters ? row->letters : "",
-             row->letters ? value : "");
+    text[0] = '\0';
+    if (row->letters) {
+        snprintf(text, size, "%s%s%s", has_sign ? "+-" : "+", row->letters, value);
+    }
 }
 
 void povray_print_help(FILE *out)
