@@ -231,6 +231,7 @@ test_scripts = \
   %D%/system/check_messages.py \
   %D%/system/check_povray_options.py \
   %D%/system/check_memory.py \
+  %D%/system/check_planes.py \
   %D%/system/check_confinement.py \
   %D%/system/check_hostile.py \
   %D%/system/run_system.py \

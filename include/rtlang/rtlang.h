@@ -334,6 +334,25 @@ RT_API rt_status rt_set_antialias(rt_session *session, const rt_antialias *antia
  * else. RT_FAULT_USAGE from rt_render with another precision than double or a forward method. */
 RT_API void rt_set_alpha(rt_session *session, int on);
 
+/* What a picture may tell of each pixel beside its light, a bit each, and the channels of it that an EXR has. The last
+ * four are of the first surface that the ray through the pixel's middle meets, without a lens: the same with and
+ * without samples, by any method. */
+typedef enum rt_plane {
+    RT_PLANE_ERROR = 1,   /* `error`: float, what the pixel is off by, root mean square, linear; sampled pictures */
+    RT_PLANE_SAMPLES = 2, /* `samples`: uint32_t, those that it has; of adaptive runs 1: its corners only */
+    RT_PLANE_DEPTH = 4,   /* `Z`: float, distance from the eye; infinity where nothing is met */
+    RT_PLANE_NORMAL = 8,  /* `normal.X`, `.Y`, `.Z`: floats, unit normal without bumps, of the side that is seen; or 0 */
+    RT_PLANE_OBJECT = 16, /* `object`: uint32_t, its place in the order of declaration, from 1; 0 where nothing is met */
+    RT_PLANE_ALBEDO = 32, /* `albedo.R`, `.G`, `.B`: floats, the pigment's colour as far as it is opaque, linear */
+    RT_PLANES_ALL = 63
+} rt_plane;
+/* The planes of pictures from now on, bits of rt_plane; 0, the default: none, and they cost nothing. rt_render reports
+ * E0703 for the first two where the picture is not sampled. RT_FAULT_USAGE for other bits. */
+RT_API rt_status rt_set_planes(rt_session *session, unsigned planes);
+/* Copies one plane of the rendered picture: its numbers pixel by pixel, from the top row. `bytes` is the room at `values`;
+ * RT_FAULT_USAGE unless it is what the plane takes, 4 bytes a number, and unless rt_set_planes asked for it. */
+RT_API rt_status rt_get_plane(rt_session *session, rt_plane plane, void *values, size_t bytes);
+
 /* Nobody asks for the scene after the next rt_render, which may free parts of it as it goes on: with very many spheres
  * it takes a tenth less memory. From then on no scene is loaded, and the session does not load another. */
 RT_API void rt_spend_scene(rt_session *session);
@@ -396,15 +415,16 @@ typedef enum rt_depth {
 typedef struct rt_output {
     rt_depth depth;
     double file_gamma; /* 0: sRGB; otherwise the power, 1 writes linear values */
-    int error_channel; /* 1: with the error of each pixel as a fourth channel, `error`; only EXR has room for it */
+    unsigned planes;   /* of rt_plane, that the file has as channels beside its light; only EXR has room for them */
     int whole;         /* 1: after rt_set_crop, a picture of rt_set_size that is black around the part */
 } rt_output;
 
 /* Whether a picture of this size fits the memory limit and could be written to this path, asked before a long run.
- * RT_FAULT_USAGE for an error channel in another format than EXR, and for alpha in one that has none. */
+ * RT_FAULT_USAGE for planes in another format than EXR or beyond those of rt_set_planes, and for alpha in one that has
+ * none. */
 RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output);
 /* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output, "-.ppm" PPM, and
- * so on. RT_FAULT_USAGE for the channel of an error that is not known. */
+ * so on. RT_FAULT_USAGE for a plane that was not wanted when the picture was rendered. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
 
 /* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red,

@@ -80,7 +80,12 @@ class SamplingError(Structure):
 
 
 class Output(Structure):
-    _fields_ = [("depth", c_int), ("file_gamma", c_double), ("error_channel", c_int)]
+    _fields_ = [("depth", c_int), ("file_gamma", c_double), ("planes", ctypes.c_uint), ("whole", c_int)]
+
+
+PLANES = {  # name: (bit of rt_plane, the type of its numbers, how many a pixel has)
+    "error": (1, "float32", 1), "samples": (2, "uint32", 1), "depth": (4, "float32", 1), "normal": (8, "float32", 3),
+    "object": (16, "uint32", 1), "albedo": (32, "float32", 3)}
 
 
 class Summary(Structure):
@@ -102,6 +107,8 @@ _FUNCTIONS = {  # name: (result, arguments after the session)
     "rt_set_limit": (c_int, [c_int, c_uint64]),
     "rt_set_sampling": (c_int, [POINTER(Sampling)]),
     "rt_set_alpha": (None, [c_int]),
+    "rt_set_planes": (c_int, [ctypes.c_uint]),
+    "rt_get_plane": (c_int, [c_int, c_void_p, c_size_t]),
     "rt_add_spheres": (c_int, [POINTER(Spheres), POINTER(c_size_t)]),
     "rt_update_spheres": (c_int, [c_size_t, c_size_t, POINTER(Spheres)]),
     "rt_add_rods": (c_int, [POINTER(Rods)]),

@@ -21,6 +21,8 @@ class Image:
     pixels    float32 (height, width, 3): red, green, blue in linear light, not clamped, row 0 at the top
     alpha     float32 (height, width), 1 where shapes hide the background; None unless rendered with alpha=True.
               The light of `pixels` is multiplied with it
+    planes    {name: array} of the planes that Scene.render was asked for: float32 `error`, `depth` and uint32 `samples`,
+              `object` of (height, width), float32 `normal` and `albedo` of (height, width, 3)
     samples   rays a pixel, in the mean
     rmse      estimated root mean square error of `pixels` against the converged picture, None if it is not known
     interval  (low, high) that holds it with 95 % confidence, None likewise
@@ -30,8 +32,8 @@ class Image:
 
     def __init__(self, pixels: np.ndarray, alpha: Optional[np.ndarray] = None, samples: float = 1.0,
                  rmse: Optional[float] = None, interval: Optional[Tuple[float, float]] = None, end: str = "done",
-                 seconds: Optional[dict] = None):
-        self.pixels, self.alpha, self.samples = pixels, alpha, samples
+                 seconds: Optional[dict] = None, planes: Optional[dict] = None):
+        self.pixels, self.alpha, self.samples, self.planes = pixels, alpha, samples, planes or {}
         self.rmse, self.interval, self.end, self.seconds = rmse, interval, end, seconds or {}
 
     @property

@@ -299,7 +299,8 @@ class Scene:
     def render(self, width: int = 640, height: int = 480, *, samples: Optional[float] = None,
                target_error: Optional[float] = None, time_limit: Optional[float] = None, adaptive: bool = False,
                sampler: Optional[str] = None, filter: Optional[str] = None, seed: int = 0, alpha: bool = False,
-               crop: Optional[Tuple[int, int, int, int]] = None, threads: int = 0, max_trace_level: int = 0,
+               planes: Sequence[str] = (), crop: Optional[Tuple[int, int, int, int]] = None, threads: int = 0,
+               max_trace_level: int = 0,
                progress: Union[bool, Callable[[float], None], None] = None) -> Image:
         """Traces the scene. May be repeated; what did not change is not built again.
 
@@ -310,6 +311,10 @@ class Scene:
         adaptive       more samples where the error is
         sampler, filter, seed, max_trace_level  as the program's options of these names (docs/sampling.md)
         alpha          the image says how much each pixel shows of the background
+        planes         names of what else it tells of each pixel: "error" and "samples" of a sampled picture; "depth"
+                       (distance from the eye, inf where nothing is seen), "normal" (unit, without bumps, of the side that
+                       is seen), "object" (place among all shapes in the order in which they were added, from 1; 0 for
+                       nothing) and "albedo" (color) of what is seen through the pixel's middle
         crop           (left, top, width, height): a part of the picture only
         threads        0: as many as the machine has; the picture does not depend on it
         progress       called with 0 to 1 meanwhile, from another thread; True: a bar, of tqdm where it is installed.
@@ -325,6 +330,10 @@ class Scene:
         if crop is not None:
             session.call("rt_set_crop", *crop)
         session.ask("rt_set_alpha", int(alpha))
+        unknown = [name for name in planes if name not in c.PLANES]
+        if isinstance(planes, str) or unknown:
+            raise UsageError(f"planes is a list of names of {', '.join(c.PLANES)}, not {planes!r}")
+        session.call("rt_set_planes", sum({c.PLANES[name][0] for name in planes}))
         sampling = c.Sampling(_text("sampler", sampler), _text("filter", filter), samples or 0.0, seed, int(adaptive),
                               target_error or 0.0, time_limit or 0.0, 0, 0, max_trace_level)
         session.call("rt_set_sampling", ctypes.byref(sampling))
@@ -333,9 +342,15 @@ class Scene:
         session.render(threads, bar or progress or None)
         if bar:
             bar.close()
-        return self._image()
+        return self._image(planes)
 
-    def _image(self) -> Image:
+    def _plane(self, name: str, shape: Tuple[int, int]) -> np.ndarray:
+        plane, dtype, count = c.PLANES[name]
+        values = np.empty(shape if count == 1 else shape + (count,), dtype)
+        self._session.call("rt_get_plane", plane, values.ctypes.data, values.nbytes)
+        return values
+
+    def _image(self, planes: Sequence[str]) -> Image:
         width, height, error, summary = ctypes.c_int(), ctypes.c_int(), c.SamplingError(), c.Summary()
         address = self._session.ask("rt_pixels", ctypes.byref(width), ctypes.byref(height))
         shape = (height.value, width.value)
@@ -345,7 +360,8 @@ class Scene:
         known = bool(error.known)
         return Image(_copy(address, shape + (3,)), None if not clear else 1 - _copy(clear, shape),
                      error.samples or 1.0, error.rmse if known else None, (error.low, error.high) if known else None,
-                     c.ENDS[error.end], {"prepare": summary.prepare_seconds, "trace": summary.trace_seconds})
+                     c.ENDS[error.end], {"prepare": summary.prepare_seconds, "trace": summary.trace_seconds},
+                     {name: self._plane(name, shape) for name in planes})
 
     def dump(self) -> str:
         """The scene as text of the scene language, which gives the same records, bit for bit."""

@@ -22,7 +22,7 @@ static rt_budget budget_of(const rt_session *session)
         .objects = objects,
         .scene = scene,
         .prepared = (scene - pictures - plain) * PREPARED_PER_RECORD + objects * TREE_BYTES_PER_SHAPE,
-        .picture = film_bytes(width, height, session_is_sampled(session), session->has_alpha) +
+        .picture = film_bytes(width, height, session_is_sampled(session), session_film_planes(session)) +
                    (session_is_sampled(session) && objects > 0
                         ? small_bytes(width, height, objects) + share_bytes(width, height, objects)
                         : 0) +

@@ -82,7 +82,7 @@ static bool trace_once(rt_session *session, const Prepared *prepared, int thread
     RenderOptions options = {.threads = threads, .cancel = &session->cancel};
     SamplingError error;
     RenderStatistics statistics = {0};
-    bool is_fine = film_init(&film, session->width, session->height);
+    bool is_fine = film_init(&film, session->width, session->height, 0);
     double start = session_clock();
     is_fine = is_fine && render_film(prepared, &options, &film, &statistics, &error) == RENDER_OK;
     double seconds = session_clock() - start;

@@ -44,10 +44,11 @@ rt_status session_image_fault(rt_session *session, ImageStatus status, const cha
     return session_status(session, false);
 }
 
-static bool is_output(const rt_output *output, const char *path, bool has_alpha)
+// `planes`: those that there are, or will be.
+static bool is_output(const rt_output *output, const char *path, bool has_alpha, unsigned planes)
 {
-    return (!output->error_channel || image_path_names_channels(path)) &&
-           (!has_alpha || (image_path_has_alpha(path) && !output->error_channel)) &&
+    return (!output->planes || image_path_names_channels(path)) && !(output->planes & ~planes) &&
+           (!has_alpha || image_path_has_alpha(path)) &&
            (output->depth == RT_DEPTH_AUTO || output->depth == RT_DEPTH_8 || output->depth == RT_DEPTH_16 ||
             output->depth == RT_DEPTH_FLOAT) &&
            output->file_gamma >= 0.0 && isfinite(output->file_gamma);
@@ -66,7 +67,7 @@ static ImageDepth output_depth(const rt_output *output, const char *path)
 rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output)
 {
     ImageError error = {.no_memory = false};
-    if (!is_output(output, path, session->has_alpha)) {
+    if (!is_output(output, path, session->has_alpha, session->planes)) {
         return RT_FAULT_USAGE;
     }
     if (!session_memory_suffices(session)) {
@@ -99,16 +100,14 @@ static bool picture_of(const rt_session *session, const rt_output *output, bool 
     bool is_made = true;
     *own = (Image){0};
     *image = (Image){session->film.width, session->film.height, 3, session->film.rgb};
-    if (output->error_channel) {
-        is_made = session_picture_with_error(session, own);
-    } else if (session->film.clear) {
+    if (film_background(&session->film)) {
         is_made = session_picture_with_alpha(session, is_multiplied, own);
     }
     if (is_made && output->whole && session->crop.width) {
-        Image fourth = *own, part = own->values ? *own : *image;
+        Image with_alpha = *own, part = own->values ? *own : *image;
         *own = (Image){0};
         is_made = picture_whole(session, &part, own);
-        image_fini(&fourth);
+        image_fini(&with_alpha);
     }
     *image = own->values ? *own : *image;
     return is_made;
@@ -125,27 +124,31 @@ static ImageEncoding encoding_of(const rt_session *session, const rt_output *out
         .gamma = output->file_gamma,
         .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,
         .threads = session->threads,
-        .fourth = output->error_channel ? "error" : NULL,
     };
 }
 
 rt_status rt_write(rt_session *session, const char *path, const rt_output *output)
 {
-    if (!session->rendered || !is_output(output, path, session->film.clear) ||
-        (output->error_channel && !session_has_pixel_errors(session))) {
+    if (!session->rendered ||
+        !is_output(output, path, film_background(&session->film), session_drawn_planes(session))) {
         return RT_FAULT_USAGE;
     }
     double start = session_clock();
     ImageError error = {.no_memory = false};
     Image own, image;
-    if (!picture_of(session, output, image_path_names_channels(path), &own, &image)) {
-        return session_image_fault(session, IMAGE_NO_MEMORY, path, &error);
-    }
+    PlaneChannels channels;
     SessionNotes notes;
     session_make_notes(session, &notes);
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
-    ImageStatus status = image_write(&image, &encoding, path, &error);
-    image_fini(&own);
+    bool is_made = plane_channels_make(session, output->planes, output->whole && session->crop.width, &channels) &&
+                   picture_of(session, output, image_path_names_channels(path), &own, &image);
+    encoding.more = channels.items;
+    encoding.more_count = channels.count;
+    ImageStatus status = is_made ? image_write(&image, &encoding, path, &error) : IMAGE_NO_MEMORY;
+    if (is_made) {
+        image_fini(&own);
+    }
+    plane_channels_fini(&channels);
     session->write_seconds = session_clock() - start;
     return session_image_fault(session, status, path, &error);
 }
@@ -160,8 +163,8 @@ rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixe
     bool is_whole = output->whole && session->crop.width;
     int width = is_whole ? session->width : session->film.width;
     int height = is_whole ? session->height : session->film.height;
-    size_t count = (size_t)width * (size_t)height * (session->film.clear ? 4 : 3);
-    if (!session->rendered || !is_output(output, path, session->film.clear) ||
+    size_t count = (size_t)width * (size_t)height * (film_background(&session->film) ? 4 : 3);
+    if (!session->rendered || !is_output(output, path, film_background(&session->film), 0) ||
         bytes != count * encode_sample_bytes(encoding.depth)) {
         return RT_FAULT_USAGE;
     }
@@ -180,16 +183,17 @@ rt_status rt_set_pixels(rt_session *session, int width, int height, const float 
     film_fini(film);
     session->rendered = false;
     session->error = (SamplingError){0};
+    session->drawn.planes = 0;
     session->threads = render_default_threads();
     session->scene.settings.gamma_model = GAMMA_LINEAR;
-    if (!film_init(film, width, height) || (transparency && !film_want_clear(film))) {
+    if (!film_init(film, width, height, transparency ? 1u << FILM_BACKGROUND : 0)) {
         film_fini(film);
         return session_image_fault(session, IMAGE_NO_MEMORY, "memory", &(ImageError){.no_memory = false});
     }
     size_t count = (size_t)width * (size_t)height;
     memcpy(film->rgb, rgb, 3 * count * sizeof *rgb);
     if (transparency) {
-        memcpy(film->clear, transparency, count * sizeof *transparency);
+        memcpy(film_background(film), transparency, count * sizeof *transparency);
     }
     session->rendered = true;
     return RT_OK;
@@ -201,7 +205,8 @@ rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigne
     ImageError error = {.no_memory = false};
     Image own, image;
     SessionNotes notes;
-    if (!session->rendered || !is_output(output, path, session->film.clear) || output->depth == RT_DEPTH_FLOAT) {
+    if (!session->rendered || !is_output(output, path, film_background(&session->film), 0) ||
+        output->depth == RT_DEPTH_FLOAT) {
         return RT_FAULT_USAGE;
     }
     free(session->png);
@@ -218,7 +223,7 @@ rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigne
 
 const float *rt_transparency(const rt_session *session)
 {
-    return session->rendered ? session->film.clear : NULL;
+    return session->rendered ? film_background(&session->film) : NULL;
 }
 
 const float *rt_pixels(const rt_session *session, int *width, int *height)

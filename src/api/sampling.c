@@ -69,22 +69,6 @@ rt_status rt_write_error(rt_session *session, const char *path)
     return session_image_fault(session, status, path, &fault);
 }
 
-bool session_picture_with_error(const rt_session *session, Image *image)
-{
-    const Film *film = &session->film;
-    if (!image_init(image, film->width, film->height, 4)) {
-        return false;
-    }
-    size_t count = (size_t)film->width * (size_t)film->height;
-    for (size_t i = 0; i < count; i++) {
-        for (size_t c = 0; c < 3; c++) {
-            image->values[4 * i + c] = film->rgb[3 * i + c];
-        }
-        image->values[4 * i + 3] = (float)render_pixel_error(film, &session->error, i);
-    }
-    return true;
-}
-
 // Light that was multiplied with alpha in the scene's working space, as it was before.
 static float straight(const Settings *settings, float light, double alpha)
 {
@@ -104,7 +88,7 @@ bool session_picture_with_alpha(const rt_session *session, bool is_multiplied, I
     }
     size_t count = (size_t)film->width * (size_t)film->height;
     for (size_t i = 0; i < count; i++) {
-        double alpha = 1.0 - (double)film->clear[i];
+        double alpha = 1.0 - (double)film_background(film)[i];
         for (size_t c = 0; c < 3; c++) {
             float light = film->rgb[3 * i + c];
             image->values[4 * i + c] = is_multiplied ? light : straight(&session->scene.settings, light, alpha);

@@ -341,8 +341,11 @@ static void forward_progress(void *client, const RenderProgress *progress)
 void session_film_to_linear(const Settings *settings, Film *film)
 {
     size_t count = (size_t)film->width * (size_t)film->height * 3;
-    for (size_t i = 0; i < count && linear_is_needed(settings); i++) {
-        film->rgb[i] = (float)linear_value(settings, film->rgb[i]);
+    float *colours[] = {film->rgb, film->planes[FILM_ALBEDO]};
+    for (int k = 0; k < 2 && linear_is_needed(settings); k++) {
+        for (size_t i = 0; i < count && colours[k]; i++) {
+            colours[k][i] = (float)linear_value(settings, colours[k][i]);
+        }
     }
 }
 
@@ -396,6 +399,12 @@ static bool forward_fits(rt_session *session, const Prepared *prepared)
 
 static RenderResult trace_film(rt_session *session, const Prepared *prepared, const RenderOptions *options)
 {
+    if (session_film_planes(session) & FILM_SURFACE_PLANES) {
+        RenderResult result = render_surface_planes(prepared, options, &session->film);
+        if (result != RENDER_OK) {
+            return result;
+        }
+    }
     if (session->method != RT_METHOD_BACKWARD) {
         ForwardOptions forward = forward_options(session, options);
         session->kernel = forward.connects ? "forward, connected" : "forward";
@@ -416,8 +425,8 @@ static rt_status render_scene(rt_session *session, void *argument)
                                 .kept = is_spent ? NULL : &session->kept};
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     Film *film = &session->film;
-    if (!prepared || !film_init(film, session_film_width(session), session_film_height(session)) ||
-        (session->has_alpha && !film_want_clear(film))) {
+    if (!prepared || !film_init(film, session_film_width(session), session_film_height(session),
+                                session_film_planes(session))) {
         film_fini(film);
         prepared_free(prepared);
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory preparing the scene");
@@ -484,6 +493,12 @@ static rt_status session_ways_fit(rt_session *session)
         return rt_report(session, "E0703", "only the ordinary kernels tell what is behind the scene",
                          "leave out `--alpha`, or `--precision` and `--method`");
     }
+    bool has_error = session_is_sampled(session) && !session->sampling.has_no_estimate;
+    if (((session->planes & RT_PLANE_ERROR) && !has_error) ||
+        ((session->planes & RT_PLANE_SAMPLES) && !session_is_sampled(session))) {
+        return rt_report(session, "E0703", "only a sampled picture has the planes `error` and `samples`",
+                         "give `--samples` of 2 or more or a goal, without `--no-estimate`");
+    }
     if (session->antialias.method != 0 && (session_is_sampled(session) || !is_plain || session->crop.width)) {
         return rt_report(session, "E0703",
                          "`--antialias` is for whole pictures of the ordinary kernels without sampling",
@@ -510,11 +525,12 @@ rt_status rt_render(rt_session *session, int threads)
     film_fini(&session->film);
     session->rendered = false;
     session->error = (SamplingError){0};
-    session->drawn.sampling = session->sampling;
+    session->drawn.sampling = session_sampling(session);
     session->drawn.method = session->method;
     session->drawn.photons = session->photons;
     session->drawn.precision = session->precision;
     session->drawn.is_sampled = session_is_sampled(session);
+    session->drawn.planes = session->planes;
     Settings *settings = &session->scene.settings;
     int max_trace_level = settings->max_trace_level;
     settings->max_trace_level = session->max_trace_level > 0 ? session->max_trace_level : max_trace_level;

@@ -77,6 +77,7 @@ struct rt_session {
         uint64_t photons;
         rt_precision precision;
         bool is_sampled;
+        unsigned planes;
     } drawn;       // with which settings
     bool rendered; // the film holds a picture in linear light
     int threads;   // that rendered it
@@ -87,6 +88,7 @@ struct rt_session {
     ForwardCounts photon_counts;
     AntialiasOptions antialias; // method 0: none
     bool has_alpha;             // pictures have that channel
+    unsigned planes;            // bits of rt_plane
     SamplingError error;
     double seconds_left; // while rendering
     RenderStatistics statistics;
@@ -111,8 +113,23 @@ void session_make_notes(const rt_session *session, SessionNotes *notes);
 
 // Whether errors of single pixels are known.
 bool session_has_pixel_errors(const rt_session *session);
-// The picture with each pixel's error as a fourth channel; released with image_fini. False when out of memory.
-bool session_picture_with_error(const rt_session *session, Image *image) RT_MUST_CHECK;
+// The planes that the rendered picture has.
+unsigned session_drawn_planes(const rt_session *session);
+
+// The FilmPlane bits that the wanted planes and alpha take.
+unsigned session_film_planes(const rt_session *session);
+
+// Channels of a picture's planes, for a file of it.
+typedef struct PlaneChannels {
+    ImageChannel items[IMAGE_CHANNELS_MORE];
+    int count;
+    void *made[IMAGE_CHANNELS_MORE]; // owned
+    int made_count;
+} PlaneChannels;
+// Those of some planes, within a whole picture where that is wanted. False when out of memory; plane_channels_fini is
+// to be called anyway.
+bool plane_channels_make(const rt_session *session, unsigned planes, bool is_whole, PlaneChannels *out) RT_MUST_CHECK;
+void plane_channels_fini(PlaneChannels *channels);
 
 // The picture with alpha as a fourth channel, its colours multiplied with it or not; released with image_fini. False when
 // out of memory.
@@ -146,6 +163,7 @@ static inline bool sampling_is_wanted(const SamplingOptions *sampling)
 static inline SamplingOptions session_sampling(const rt_session *session)
 {
     SamplingOptions sampling = session->sampling;
+    sampling.no_pixel_errors = sampling.no_pixel_errors && !(session->planes & RT_PLANE_ERROR);
     if (sampling.samples == 0.0 && !sampling.is_adaptive && session->scene.camera.blur_samples > 1) {
         const Camera *camera = &session->scene.camera;
         sampling.samples = camera->blur_samples;

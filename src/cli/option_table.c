@@ -394,11 +394,28 @@ static bool apply_error_map(Options *options, const char *argument, const char *
     return argument[0] != '\0';
 }
 
-static bool apply_error_channel(Options *options, const char *argument, const char **expected)
+static bool apply_planes(Options *options, const char *argument, const char **expected)
 {
-    (void)argument, (void)expected;
-    options->encoding.error_channel = 1;
-    return true;
+    static const struct {
+        const char *name;
+        rt_plane plane;
+    } names[] = {{"error", RT_PLANE_ERROR},   {"samples", RT_PLANE_SAMPLES}, {"depth", RT_PLANE_DEPTH},
+                 {"normal", RT_PLANE_NORMAL}, {"object", RT_PLANE_OBJECT},   {"albedo", RT_PLANE_ALBEDO}};
+    *expected = "error, samples, depth, normal, object or albedo, or several with commas between";
+    for (;;) {
+        size_t length = strcspn(argument, ","), i = 0;
+        while (i < COUNT_OF(names) && (strlen(names[i].name) != length || strncmp(names[i].name, argument, length) != 0)) {
+            i++;
+        }
+        if (i == COUNT_OF(names)) {
+            return false;
+        }
+        options->encoding.planes |= names[i].plane;
+        if (!argument[length]) {
+            return true;
+        }
+        argument += length + 1;
+    }
 }
 
 static bool apply_alpha(Options *options, const char *argument, const char **expected)
@@ -593,8 +610,9 @@ static const OptionRow rows[] = {
      "with a channel that tells where what is behind the scene is seen, as POV-Ray's `+UA`:\n"
      "no background, or its transmit and filter; the picture must be PNG or EXR"},
     {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
-    {0, "error-channel", NULL, apply_error_channel,
-     "write it as a fourth channel `error` of the picture, which must be EXR"},
+    {0, "planes", "LIST", apply_planes,
+     "channels beside the light, in EXR: error and samples of sampled pictures; depth, normal,\n"
+     "object (a number) and albedo (its colour) of what is seen; several with commas between"},
     {0, "method", "NAME", apply_method,
      "backward (default), or for study photons from the lights: forward, forward-connect"},
     {0, "photons", "N", apply_photons, "photons of the forward methods (default 1e6)"},

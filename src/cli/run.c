@@ -188,9 +188,10 @@ static void default_output(const char *scene, char *output, size_t size)
 static rt_status set_sampling(rt_session *session, const Options *options)
 {
     rt_set_alpha(session, options->has_alpha);
+    (void)rt_set_planes(session, options->encoding.planes); // bits of the option's own table
     rt_status status = rt_set_antialias(session, &options->antialias);
     rt_sampling sampling = options->sampling;
-    sampling.no_pixel_errors = !options->error_map && !options->encoding.error_channel;
+    sampling.no_pixel_errors = !options->error_map && !(options->encoding.planes & RT_PLANE_ERROR);
     if (status || rt_set_sampling(session, &sampling) == RT_OK) {
         return status;
     }
@@ -210,11 +211,9 @@ static rt_status check_output(rt_session *session, const Options *options, const
     if (status != RT_FAULT_USAGE) {
         return status;
     }
-    return options->has_alpha && options->encoding.error_channel
-               ? fail_usage(session, "a picture has `--alpha` or `--error-channel`, not both")
-           : options->has_alpha              ? fail_usage(session, "`--alpha` wants a picture in PNG or EXR")
-           : options->encoding.error_channel ? fail_usage(session, "`--error-channel` wants a picture in EXR")
-                                             : status;
+    return options->encoding.planes ? fail_usage(session, "`--planes` wants a picture in EXR")
+           : options->has_alpha     ? fail_usage(session, "`--alpha` wants a picture in PNG or EXR")
+                                    : status;
 }
 
 static void say_summary(const rt_session *session, const Options *options, const char *output, Voice *voice)
@@ -241,9 +240,7 @@ static rt_status finish(rt_session *session, const Options *options, const char 
     }
     if (status == RT_FAULT_USAGE) {
         return fail_usage(session,
-                          options->encoding.error_channel
-                              ? "`--error-channel` wants a sampled picture: `--samples` of 2 or more, or a goal"
-                              : "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
+                          "`--error-map` wants a sampled picture: `--samples` of 2 or more, or a goal");
     }
     if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
         say_summary(session, options, output, voice);

@@ -140,6 +140,25 @@ ImageStatus image_check_path(const char *path, ImageDepth depth, ImageError *err
     return atomic_file_check(file_path(path), error) ? IMAGE_OK : IMAGE_IO;
 }
 
+// The picture's own channels and more, floats and counts of 4 bytes each.
+static void channels_fetch(const RowSource *source, size_t first, size_t pixels, unsigned char *samples)
+{
+    const Image *image = source->image;
+    const ImageEncoding *encoding = &source->encoder.encoding;
+    size_t own = (size_t)image->channels, all = own + (size_t)encoding->more_count;
+
+    for (size_t i = 0; i < pixels; i++) {
+        unsigned char *pixel = samples + i * all * sizeof(float);
+        encoder_run(&source->encoder, image->values + (first + i) * own, 1, pixel);
+        for (int c = 0; c < encoding->more_count; c++) {
+            const ImageChannel *channel = &encoding->more[c];
+            const unsigned char *from = channel->first;
+            memcpy(pixel + (own + (size_t)c) * sizeof(float), from + (first + i) * (size_t)channel->step * sizeof(float),
+                   sizeof(float));
+        }
+    }
+}
+
 static void rows_fetch(const void *client, int first_row, int row_count, void *samples)
 {
     const RowSource *source = client;
@@ -147,6 +166,10 @@ static void rows_fetch(const void *client, int first_row, int row_count, void *s
     size_t width = (size_t)image->width;
     const float *values = image->values + (size_t)first_row * width * (size_t)image->channels;
 
+    if (source->encoder.encoding.more_count > 0) {
+        channels_fetch(source, (size_t)first_row * width, width * (size_t)row_count, samples);
+        return;
+    }
     encoder_run(&source->encoder, values, width * (size_t)row_count, samples);
 }
 
@@ -220,7 +243,8 @@ static ImageStatus write_by_module(const OiioModule *module, const char *ending,
         .depth = source->encoder.encoding.depth,
         .notes = source->encoder.encoding.notes,
         .note_count = source->encoder.encoding.note_count,
-        .fourth = source->encoder.encoding.fourth,
+        .more = source->encoder.encoding.more,
+        .more_count = source->encoder.encoding.more_count,
         .client = source,
         .fetch = rows_fetch,
     };

@@ -18,7 +18,7 @@
 // Values are linear light unless the encoding says otherwise; row 0 is the top one.
 typedef struct Image {
     int width, height;
-    int channels;  // 1 to 4: grey, grey+alpha, rgb, rgb+alpha, or rgb and what ImageEncoding.fourth says
+    int channels;  // 1 to 4: grey, grey+alpha, rgb, rgb+alpha
     float *values; // width * height * channels; owned
 } Image;
 
@@ -38,6 +38,16 @@ typedef struct ImageNote {
     const char *text; // ASCII
 } ImageNote;
 
+// A channel beside light and alpha: a number of 4 bytes a pixel.
+typedef struct ImageChannel {
+    const char *name;
+    const void *first; // the top left pixel's number; not owned
+    int step;          // from a pixel's number to the next one's, in numbers
+    bool is_count;     // uint32_t below 2^31, not float
+} ImageChannel;
+
+enum { IMAGE_CHANNELS_MORE = 16 }; // that a picture may have beside its first ones
+
 typedef struct ImageEncoding {
     ImageDepth depth;
     ImageTransfer transfer;
@@ -46,7 +56,8 @@ typedef struct ImageEncoding {
     int threads;          // to use for it, at most; the file does not depend on it
     const ImageNote *notes;
     size_t note_count;
-    const char *fourth; // what the fourth channel is called that is no alpha, where image_path_names_channels; or NULL
+    const ImageChannel *more; // other channels, where image_path_names_channels
+    int more_count;           // at most IMAGE_CHANNELS_MORE
 } ImageEncoding;
 
 typedef enum ImageStatus {

@@ -70,6 +70,17 @@ OIIO::TypeDesc sample_type(ImageDepth depth)
     return OIIO::TypeDesc::FLOAT;
 }
 
+// Of all samples where the picture has channels of several types.
+void add_channels(const OiioPicture &picture, OIIO::ImageSpec &spec)
+{
+    spec.channelformats.assign(static_cast<size_t>(picture.channels), OIIO::TypeDesc::FLOAT);
+    for (int i = 0; i < picture.more_count; i++) {
+        spec.channelnames.emplace_back(picture.more[i].name);
+        spec.channelformats.push_back(picture.more[i].is_count ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+    }
+    spec.nchannels += picture.more_count;
+}
+
 // Opens a writer onto the file. A format that can be written only to a path is refused: see above.
 ImageStatus open_output(const OiioPicture &picture, MemoryFile &file, std::unique_ptr<OIIO::ImageOutput> &output,
                         ImageError *error)
@@ -85,9 +96,8 @@ ImageStatus open_output(const OiioPicture &picture, MemoryFile &file, std::uniqu
     }
     // No oiio:ColorSpace: OpenImageIO 2.4 then adds an Exif directory to TIFF, which breaks a file written to memory.
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (picture.fourth != nullptr) {
-        spec.channelnames.back() = picture.fourth;
-        spec.alpha_channel = -1;
+    if (picture.more_count > 0) {
+        add_channels(picture, spec);
     }
     spec.attribute("DateTime", ""); // else the writers of EXR and TIFF add the hour
     for (size_t i = 0; i < picture.note_count; i++) {
@@ -103,13 +113,16 @@ ImageStatus open_output(const OiioPicture &picture, MemoryFile &file, std::uniqu
 ImageStatus write_rows(const OiioPicture &picture, OIIO::ImageOutput &output, ImageError *error)
 {
     OIIO::TypeDesc type = sample_type(picture.depth);
-    size_t row_bytes = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.channels) * type.size();
+    size_t channels = static_cast<size_t>(picture.channels + picture.more_count);
+    size_t row_bytes = static_cast<size_t>(picture.width) * channels * type.size();
+    // UNKNOWN: as the file has them, each channel in its own type.
+    OIIO::TypeDesc given = picture.more_count > 0 ? OIIO::TypeDesc(OIIO::TypeDesc::UNKNOWN) : type;
     std::vector<unsigned char> samples(row_bytes * static_cast<size_t>(std::min(rows_at_once, picture.height)));
 
     for (int y = 0; y < picture.height; y += rows_at_once) {
         int end = std::min(y + rows_at_once, picture.height);
         picture.fetch(picture.client, y, end - y, samples.data());
-        if (!output.write_scanlines(y, end, 0, type, samples.data())) {
+        if (!output.write_scanlines(y, end, 0, given, samples.data())) {
             set_detail(error, output.geterror());
             return IMAGE_IO;
         }
@@ -140,7 +153,7 @@ void fetch_black(const void *, int, int, void *)
 ImageStatus format_check(const char *ending, ImageDepth depth, ImageError *error)
 {
     MemoryFile file;
-    OiioPicture picture = {ending, check_size, check_size, 3, depth, nullptr, 0, nullptr, nullptr, fetch_black};
+    OiioPicture picture = {ending, check_size, check_size, 3, depth, nullptr, 0, nullptr, 0, nullptr, fetch_black};
 
     return write_picture(picture, file, error);
 }

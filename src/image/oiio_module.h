@@ -13,18 +13,20 @@
 #include "image/picture_file.h"
 
 // Raised with each change of the structures below; a module of another version is passed over.
-#define OIIO_MODULE_VERSION 3u
+#define OIIO_MODULE_VERSION 4u
 #define OIIO_MODULE_FILE "rtlang_oiio.so"
 #define OIIO_MODULE_SYMBOL "rtlang_oiio_module"
 
 // A picture to be written: rows are fetched from above downward, a few at a time.
 typedef struct OiioPicture {
     const char *ending; // of the file name, without the dot; names the format
-    int width, height, channels;
+    int width, height;
+    int channels; // grey, rgb or with alpha; in `samples` those of `more` follow
     ImageDepth depth;
     const ImageNote *notes;
     size_t note_count;
-    const char *fourth; // name of the fourth channel; NULL: alpha
+    const ImageChannel *more; // their names and kinds; then the depth is IMAGE_DEPTH_FLOAT
+    int more_count;
     const void *client;
     void (*fetch)(const void *client, int first_row, int row_count, void *samples); // packed, in the machine's order
 } OiioPicture;

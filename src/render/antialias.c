@@ -80,8 +80,8 @@ static void film_set(Film *film, int x, int y, Seen seen)
     rgb[0] = (float)seen.light.red;
     rgb[1] = (float)seen.light.green;
     rgb[2] = (float)seen.light.blue;
-    if (film->clear) {
-        film->clear[pixel] = (float)seen.clear;
+    if (film_background(film)) {
+        film_background(film)[pixel] = (float)seen.clear;
     }
 }
 

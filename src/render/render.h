@@ -28,7 +28,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options) RT_MU
 void prepared_free(Prepared *prepared);
 // Other numbers for the `jitter` of area lights, 0 being those of the beginning.
 void prepared_seed(Prepared *prepared, uint64_t seed);
-// Films get their `clear` from here on.
+// Films get FILM_BACKGROUND from here on.
 void prepared_want_alpha(Prepared *prepared);
 
 // Name of the kernel that was chosen, for example "spheres+shadows".
@@ -48,19 +48,44 @@ typedef struct PixelRecord {
     float spread;   // the samples themselves, from their mean
 } PixelRecord;
 
+// What a film may keep of each pixel beside its light. The first belongs to the light, over all rays of the pixel; the
+// others are of the first surface that the ray through the pixel's middle meets (without a lens and samples: a mean of
+// depths or of numbers of objects is none), in the scene's lengths.
+typedef enum FilmPlane {
+    FILM_BACKGROUND, // the share of what is behind the scene, which is not in the light: 1 - alpha
+    FILM_DEPTH,      // distance from the ray's start; infinity where it meets nothing
+    FILM_NORMAL,     // x, y, z: unit normal without bumps, on the side that is seen; 0 where nothing is
+    FILM_OBJECT,     // a uint32_t: the object's place in the order of declaration, from 1; 0: nothing
+    FILM_ALBEDO,     // red, green, blue: the colour of the pigment as far as it is opaque, through the layers above
+    FILM_PLANES,
+} FilmPlane;
+enum { FILM_SURFACE_PLANES = 1u << FILM_DEPTH | 1u << FILM_NORMAL | 1u << FILM_OBJECT | 1u << FILM_ALBEDO };
+
+// The numbers of a pixel in a plane, of 4 bytes each.
+static inline int film_plane_channels(FilmPlane plane)
+{
+    return plane == FILM_NORMAL || plane == FILM_ALBEDO ? 3 : 1;
+}
+
 // A picture in the scene's working space, or a part of one: rows from the top, pixels from the left, red green blue
 // each.
 typedef struct Film {
     int width, height;
     int left, top, whole_width, whole_height; // where it lies in the whole picture, and how large that is
     float *rgb;                               // width * height * 3; owned
-    float *clear; // width * height: the share of what is behind the scene, which is not in rgb; NULL: not told; owned
+    void *planes[FILM_PLANES];                // width * height of each that is wanted, else NULL; owned
     PixelRecord *records;                     // width * height, after sampling; else NULL; owned
 } Film;
 
-bool film_init(Film *film, int width, int height) RT_MUST_CHECK; // false when out of memory; cleared to 0
-bool film_want_clear(Film *film) RT_MUST_CHECK; // gives it that plane; false when out of memory
+// With planes of the bits 1 << FilmPlane. False when out of memory; cleared to 0.
+bool film_init(Film *film, int width, int height, unsigned planes) RT_MUST_CHECK;
 void film_fini(Film *film);
+
+// NULL where that plane is not wanted.
+static inline float *film_background(const Film *film)
+{
+    return film->planes[FILM_BACKGROUND];
+}
 
 // Makes the film a part of a greater picture; it is the same pixels then as there. The part lies within.
 void film_put(Film *film, int left, int top, int whole_width, int whole_height);
@@ -77,7 +102,7 @@ static inline double film_v(const Film *film, int y, double aside)
 }
 
 // The bytes of a film and of what is needed beside it.
-uint64_t film_bytes(int width, int height, bool is_sampled, bool has_clear);
+uint64_t film_bytes(int width, int height, bool is_sampled, unsigned planes);
 
 // The bytes of the lists of small shapes that a sampled film may need, of so many shapes in all.
 uint64_t small_bytes(int width, int height, uint64_t shapes);
@@ -174,6 +199,9 @@ typedef enum RenderResult { RENDER_OK, RENDER_CANCELLED, RENDER_NO_MEMORY } Rend
 // (error->samples > 0).
 RenderResult render_film(const Prepared *prepared, const RenderOptions *options, Film *film,
                          RenderStatistics *statistics, SamplingError *error) RT_MUST_CHECK;
+
+// Fills those of FILM_SURFACE_PLANES that the film has. Its rays are not counted.
+RenderResult render_surface_planes(const Prepared *prepared, const RenderOptions *options, Film *film) RT_MUST_CHECK;
 
 // What a pixel of a sampled film is off by, root mean square in linear light, by its own samples.
 double render_pixel_error(const Film *film, const SamplingError *error, size_t pixel);

@@ -140,8 +140,8 @@ static inline void pixel_finish(const Round *round, Shares *shares, const Chosen
     size_t pixel = chosen->index;
     PixelRecord *record = &round->film->records[pixel];
     float *value = &round->film->rgb[3 * pixel];
-    if (round->film->clear) {
-        clear_put(&round->film->clear[pixel], chosen->starts ? 0.0 : record->count, chosen->count, parts);
+    if (film_background(round->film)) {
+        clear_put(&film_background(round->film)[pixel], chosen->starts ? 0.0 : record->count, chosen->count, parts);
     }
     if (chosen->starts) {
         pixel_start(round, chosen, parts);

@@ -136,9 +136,9 @@ static void pixel_finish(const Round *round, const StopPixel *pixel, const Sampl
     float *value = &film->rgb[3 * pixel->index];
     Rgb one = set_mean(pixel, sums, 0), other = set_mean(pixel, sums, 1), place;
     value_put(value, rgb_scale(0.5, rgb_add(one, other)));
-    if (film->clear) {
+    if (film_background(film)) {
         double clear = 0.5 * (sums[0].clear / pixel->count[0] + sums[1].clear / pixel->count[1]);
-        film->clear[pixel->index] = (float)fmin(fmax(clear, 0.0), 1.0);
+        film_background(film)[pixel->index] = (float)fmin(fmax(clear, 0.0), 1.0);
     }
     record->count = pixel->count[0] + pixel->count[1];
     record->fresh = record->outer = square_apart(rgb_add_scaled(one, -1.0, other), slope_at(round, value, &place),

@@ -41,8 +41,9 @@ static void trace_block(const Single *single, Tile block, RenderScratch *scratch
         } else {
             store_row(&light[first], columns, &film->rgb[3 * at]);
         }
-        for (int i = 0; film->clear && i < columns; i++) {
-            film->clear[at + (size_t)i] = (float)clear[first + i];
+        float *background = film_background(film);
+        for (int i = 0; background && i < columns; i++) {
+            background[at + (size_t)i] = (float)clear[first + i];
         }
     }
 }

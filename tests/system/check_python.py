@@ -157,7 +157,19 @@ def check_samples():
     tap.equal(scene.render(64, 48, samples=4).samples, 4.0, "samples")
     clear = scene.render(64, 48, alpha=True)
     tap.ok(clear.alpha.min() == 0 and clear.alpha.max() == 1 and clear.to_array().shape == (48, 64, 4), "alpha")
-    tap.ok(scene.render(64, 48).alpha is None, "no alpha again")
+    again = scene.render(64, 48)
+    tap.ok(again.alpha is None and not again.planes, "no alpha again")
+    found = scene.render(64, 48, planes=("object", "depth", "normal")).planes
+    is_seen = found["object"] > 0
+    tap.ok(found["object"].dtype == np.uint32 and found["object"].max() <= 30 and
+           found["normal"].shape == (48, 64, 3) and np.array_equal(is_seen, np.isfinite(found["depth"])) and np.array_equal(is_seen, clear.alpha > 0) and
+           np.allclose(np.linalg.norm(found["normal"], axis=2), is_seen, atol=1e-6), "planes of what is seen")
+    sampled = scene.render(64, 48, samples=4, planes=("samples", "error", "depth"))
+    tap.ok((sampled.planes["samples"] == 4).all() and np.array_equal(sampled.planes["depth"], found["depth"]) and
+           np.isclose(np.sqrt((sampled.planes["error"] ** 2).mean()), sampled.rmse, rtol=1e-3), "and of samples")
+    for wrong in (["depht"], "depth"):
+        refused(f"planes {wrong!r}", lambda: scene.render(64, 48, planes=wrong), rtlang.UsageError,  # noqa: B023
+                f"error[E0709]: planes is a list of names of error, samples, depth, normal, object, albedo, not {wrong!r}")
     low, high = scene.box()
     tap.ok(np.all(low < high), "the box around the shapes")
     scene.camera(fit=True)

@@ -139,7 +139,7 @@ def test_some_pixels():
 
 def test_channel():
     """The same in EXR, where the error of each pixel is a channel of its own."""
-    status, said = rtlang(BALLS, "--samples=16", "--seed=5", "--error-channel", "--error-map=map.exr", output="out.exr")
+    status, said = rtlang(BALLS, "--samples=16", "--seed=5", "--planes=error", "--error-map=map.exr", output="out.exr")
     if "E0507" in said:
         tap.skip("the channel of the error", "built without OpenImageIO")
         return
@@ -157,9 +157,10 @@ def test_channel():
     plain = read_exr("plain.exr")[1]
     tap.ok(sorted(plain) == ["B", "G", "R"] and all(plain[name] == channels[name] for name in plain),
            "beside the same picture, and not unless asked for")
-    for name, output, options in (("in PNG", "out.png", ("--samples=16",)), ("of nothing", "out.exr", ())):
-        status, said = rtlang(BALLS, "--error-channel", *options, output=output)
-        tap.ok(status == 2 and "error[E0703]: `--error-channel`" in said, "refused: a channel " + name, said)
+    for name, output, options, why in (("in PNG", "out.png", ("--samples=16",), "`--planes` wants a picture in EXR"),
+                                       ("of nothing", "out.exr", (), "only a sampled picture has the planes `error`")):
+        status, said = rtlang(BALLS, "--planes=error", *options, output=output)
+        tap.ok(status == 2 and "error[E0703]: " + why in said, "refused: a channel " + name, said)
 
 
 def is_without_study():

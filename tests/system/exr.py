@@ -6,6 +6,8 @@
 import struct
 import zlib
 
+KINDS = {0: "I", 2: "f"}  # of 4 bytes each
+
 
 def read_name(data, at):
     end = data.index(b"\0", at)
@@ -39,7 +41,7 @@ def unzipped(packed, size):
 
 
 def read_exr(name):
-    """({attribute of text: its text}, {channel: its values from the top row})."""
+    """({attribute of text: its text}, {channel: its values, floats or whole numbers, from the top row})."""
     with open(name, "rb") as file:
         data = file.read()
     attributes, table = read_attributes(data)
@@ -47,19 +49,21 @@ def read_exr(name):
     listed, at, names = attributes["channels"][1], 0, []
     while listed[at]:
         channel, at = read_name(listed, at)
-        if struct.unpack_from("<I", listed, at)[0] != 2:
-            raise ValueError(f"{channel} is not of floats")
-        names.append(channel)
+        kind, = struct.unpack_from("<I", listed, at)
+        if kind not in KINDS:
+            raise ValueError(f"{channel} is neither of floats nor of whole numbers")
+        names.append((channel, KINDS[kind]))
         at += 16
     width, lines = right - left + 1, {0: 1, 3: 16}[attributes["compression"][1][0]]
-    channels = {channel: [] for channel in names}
+    channels = {channel: [] for channel, _ in names}
     for i in range((bottom - top) // lines + 1):
         start, = struct.unpack_from("<Q", data, table + 8 * i)
         y, size = struct.unpack_from("<iI", data, start)
         count = min(lines, bottom + 1 - y)
         block = unzipped(data[start + 8:start + 8 + size], 4 * width * len(names) * count)
         for line in range(count):
-            for number, channel in enumerate(names):
-                channels[channel] += struct.unpack_from(f"<{width}f", block, 4 * width * (line * len(names) + number))
+            for number, (channel, kind) in enumerate(names):
+                at = 4 * width * (line * len(names) + number)
+                channels[channel] += struct.unpack_from(f"<{width}{kind}", block, at)
     texts = {key: value.decode() for key, (kind, value) in attributes.items() if kind == "string"}
     return texts, channels

@@ -88,7 +88,7 @@ int main(int count, char **words)
     SamplingError error;
     make_scene(&scene, &wanted[number]);
     Prepared *prepared = prepared_new(&scene, &(GeometryOptions){.threads = 1});
-    check(prepared != NULL && film_init(&film, WIDTH, HEIGHT) && prepared->features == own[number].features);
+    check(prepared != NULL && film_init(&film, WIDTH, HEIGHT, 0) && prepared->features == own[number].features);
     prepared->kernel = strcmp(words[2], "own") == 0 ? &own[number] : prepared->kernel;
     check(render_film(prepared, &(RenderOptions){.threads = 1}, &film, &statistics, &error) == RENDER_OK);
     uint64_t digest = 0;

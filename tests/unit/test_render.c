@@ -65,7 +65,7 @@ static Film render(const Scene *scene, int width, int height, int threads, Rende
     Prepared *prepared = prepared_new(scene, &(GeometryOptions){.threads = 2});
     RenderOptions options = {.threads = threads};
     SamplingError error;
-    if (!prepared || !film_init(&film, width, height) ||
+    if (!prepared || !film_init(&film, width, height, 0) ||
         render_film(prepared, &options, &film, statistics, &error) != RENDER_OK) {
         abort();
     }

@@ -546,7 +546,7 @@ static Film picture(const Scene *scene, const char *isa, unsigned features, bool
     SamplingError error;
     Prepared *prepared = prepared_new(scene, &(GeometryOptions){.threads = 1, .isa = isa});
     RenderOptions options = {.threads = 1, .sampling = sampling};
-    if (!prepared || !film_init(&film, 45, 31)) {
+    if (!prepared || !film_init(&film, 45, 31, 0)) {
         abort();
     }
     prepared->kernel = kernel_choose(features | prepared->features);
