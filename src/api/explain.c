@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "render/kernel.h"
 #include "scene/near.h"
 
@@ -83,9 +84,9 @@ static bool trace_once(rt_session *session, const Prepared *prepared, int thread
     SamplingError error;
     RenderStatistics statistics = {0};
     bool is_fine = film_init(&film, session->width, session->height, 0);
-    double start = session_clock();
+    double start = clock_seconds();
     is_fine = is_fine && render_film(prepared, &options, &film, &statistics, &error) == RENDER_OK;
-    double seconds = session_clock() - start;
+    double seconds = clock_seconds() - start;
     run->trace_seconds = seconds < run->trace_seconds ? seconds : run->trace_seconds;
     run->statistics = statistics;
     film_fini(&film);
@@ -96,12 +97,12 @@ static bool trace_once(rt_session *session, const Prepared *prepared, int thread
 static bool run_scene(rt_session *session, int threads, Run *run)
 {
     GeometryOptions geometry = {.threads = threads, .isa = session->isa};
-    double start = session_clock();
+    double start = clock_seconds();
     Prepared *prepared = prepared_new(&session->scene, &geometry);
-    *run = (Run){.prepare_seconds = session_clock() - start, .trace_seconds = HUGE_VAL};
+    *run = (Run){.prepare_seconds = clock_seconds() - start, .trace_seconds = HUGE_VAL};
     bool is_fine = prepared != NULL;
-    start = session_clock();
-    for (int i = 0; is_fine && i < RUNS_MAX && (i == 0 || session_clock() - start < RUNS_SECONDS); i++) {
+    start = clock_seconds();
+    for (int i = 0; is_fine && i < RUNS_MAX && (i == 0 || clock_seconds() - start < RUNS_SECONDS); i++) {
         is_fine = trace_once(session, prepared, threads, run);
     }
     if (is_fine) {

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "api/session.h"
+#include "base/json.h"
 #include "render/life.h"
 #include "scene/near.h"
 
@@ -50,10 +51,9 @@ static void put(const Printer *p, const char *text)
     text_append(p->out, text);
 }
 
-// JSON has no infinity and no NaN.
 static void put_number(const Printer *p, double x)
 {
-    isfinite(x) ? text_append_double(p->out, x + 0.0) : put(p, "null");
+    json_number(p->out, x);
 }
 
 static void put_three(const Printer *p, const char *open, const char *close, double a, double b, double c)
@@ -249,7 +249,7 @@ static void member(const Printer *p, const char *name)
     text_printf(p->out, "%s\"%s\": ", last == '{' ? "" : ", ", name);
 }
 
-static void json_number(const Printer *p, const char *name, double x)
+static void put_member(const Printer *p, const char *name, double x)
 {
     member(p, name);
     put_number(p, x);
@@ -289,9 +289,9 @@ static void json_place(const Printer *p, uint64_t source)
     SourceLocation at;
     if (source && source_locate(p->diags->sources, scene_source_span(source), &at)) {
         member(p, "file");
-        diag_json_string(p->out, at.name, strlen(at.name));
-        json_number(p, "line", (double)at.line);
-        json_number(p, "column", (double)at.column);
+        json_string(p->out, at.name, strlen(at.name));
+        put_member(p, "line", (double)at.line);
+        put_member(p, "column", (double)at.column);
     }
 }
 
@@ -311,28 +311,28 @@ static void json_spheres(const Printer *p, const LifeRay *ray)
         } else {
             json_place_of(p, "centre", s->centre);
         }
-        json_number(p, "radius", s->radius);
-        json_number(p, "a", s->a);
-        json_number(p, "b", s->b);
-        json_number(p, "c", s->c);
-        json_number(p, "h", s->h);
+        put_member(p, "radius", s->radius);
+        put_member(p, "a", s->a);
+        put_member(p, "b", s->b);
+        put_member(p, "c", s->c);
+        put_member(p, "h", s->h);
         json_word(p, "case", case_of(s->h));
         if (s->h >= 0.0) {
-            json_number(p, "t1", s->t1);
-            json_number(p, "t2", s->t2);
+            put_member(p, "t1", s->t1);
+            put_member(p, "t2", s->t2);
         }
         json_word(p, "used", choice_words[s->choice]);
         json_word(p, "why", choice_reasons[s->choice]);
         if (s->t > 0.0) {
-            json_number(p, "t", s->t);
-            json_number(p, "t_error", s->bound);
+            put_member(p, "t", s->t);
+            put_member(p, "t_error", s->bound);
         }
         json_truth(p, "doubtful", s->is_doubtful);
         json_truth(p, "plain_formulas_differ", s->is_misjudged);
         put(p, "}");
     }
     put(p, "]");
-    json_number(p, "spheres_omitted", (double)ray->missed);
+    put_member(p, "spheres_omitted", (double)ray->missed);
 }
 
 static void json_lights(const Printer *p, const LifeLayer *layer)
@@ -342,10 +342,10 @@ static void json_lights(const Printer *p, const LifeLayer *layer)
     for (size_t i = 0; i < layer->light_count; i++) {
         const LifeLight *light = &p->life->lights.items[layer->first_light + i];
         put(p, i > 0 ? ", {" : "{");
-        json_number(p, "light", (double)light->number + 1);
+        put_member(p, "light", (double)light->number + 1);
         json_place_of(p, "position", light->position);
-        json_number(p, "distance", light->distance);
-        json_number(p, "cosine", light->cosine);
+        put_member(p, "distance", light->distance);
+        put_member(p, "cosine", light->cosine);
         json_colour(p, "sends", light->sends);
         json_colour(p, "visible", light->visible);
         json_colour(p, "diffuse", light->diffuse);
@@ -362,12 +362,12 @@ static void json_hit(const Printer *p, const LifeRay *ray)
     put(p, "{");
     json_word(p, "shape", ray->shape);
     json_place(p, ray->source);
-    json_number(p, "t", ray->t);
-    json_number(p, "t_error", ray->bound);
+    put_member(p, "t", ray->t);
+    put_member(p, "t_error", ray->bound);
     json_truth(p, "inside", ray->is_inside);
     json_place_of(p, "point", ray->point);
     json_vector(p, "normal", ray->normal);
-    json_number(p, "ior_ratio", ray->ior_ratio);
+    put_member(p, "ior_ratio", ray->ior_ratio);
     json_colour(p, "reflectance", ray->reflectance);
     json_colour(p, "through", ray->through);
     member(p, "layers");
@@ -377,9 +377,9 @@ static void json_hit(const Printer *p, const LifeRay *ray)
         const Rgbft *pigment = &layer->pigment;
         put(p, i > 0 ? ", {" : "{");
         json_colour(p, "pigment", rgbft_rgb(*pigment));
-        json_number(p, "filter", pigment->filter);
-        json_number(p, "transmit", pigment->transmit);
-        json_number(p, "part", layer->part);
+        put_member(p, "filter", pigment->filter);
+        put_member(p, "transmit", pigment->transmit);
+        put_member(p, "part", layer->part);
         json_colour(p, "above", layer->above);
         json_vector(p, "normal", layer->normal);
         json_colour(p, "glow", layer->glow);
@@ -393,18 +393,18 @@ static void json_ray(const Printer *p, size_t number)
 {
     const LifeRay *ray = &p->life->rays.items[number];
     put(p, number > 0 ? ", {" : "{");
-    json_number(p, "ray", (double)number + 1);
+    put_member(p, "ray", (double)number + 1);
     json_word(p, "kind", kind_words[ray->kind]);
     if (ray->parent != LIFE_NONE) {
-        json_number(p, "from", ray->parent + 1);
+        put_member(p, "from", ray->parent + 1);
     } else {
         json_place_of(p, "screen", p->life->screen);
     }
-    json_number(p, "level", ray->level);
+    put_member(p, "level", ray->level);
     json_place_of(p, "e", ray->origin);
     json_vector(p, "d", ray->direction);
     json_colour(p, "share", ray->share);
-    json_number(p, "weight", ray->weight);
+    put_member(p, "weight", ray->weight);
     json_spheres(p, ray);
     if (ray->is_hit) {
         json_hit(p, ray);
@@ -419,15 +419,15 @@ static void print_json(const Printer *p, int x, int y, Rgb linear)
 {
     put(p, "{");
     json_word(p, "type", "pixel");
-    json_number(p, "x", x);
-    json_number(p, "y", y);
+    put_member(p, "x", x);
+    put_member(p, "y", y);
     member(p, "rays");
     put(p, "[");
     for (size_t i = 0; i < p->life->rays.count; i++) {
         json_ray(p, i);
     }
     put(p, "]");
-    json_number(p, "rays_omitted", (double)p->life->more_rays);
+    put_member(p, "rays_omitted", (double)p->life->more_rays);
     json_colour(p, "colour", p->life->colour);
     json_colour(p, "linear", linear);
     put(p, "}\n");

@@ -2,6 +2,7 @@
 //
 // SPDX-License-Identifier: MIT
 #include "api/session.h"
+#include "base/json.h"
 
 #include <string.h>
 
@@ -76,7 +77,7 @@ static void say_json(rt_session *session, rt_stream stream)
     TextBuffer line;
     text_init(&line);
     text_printf(&line, "{\"type\":\"message\",\"stream\":\"%s\",\"text\":", names[stream]);
-    diag_json_string(&line, text_get(&session->said), session->said.length);
+    json_string(&line, text_get(&session->said), session->said.length);
     text_append(&line, "}\n");
     if (line.failed || session->said.failed) {
         session->diags.out_of_memory = true;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "api/session.h"
+#include "base/clock.h"
 #include "image/encode.h"
 
 rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
@@ -133,7 +134,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
         !is_output(output, path, film_background(&session->film), session_drawn_planes(session))) {
         return RT_FAULT_USAGE;
     }
-    double start = session_clock();
+    double start = clock_seconds();
     ImageError error = {.no_memory = false};
     Image own, image;
     PlaneChannels channels;
@@ -149,7 +150,7 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
         image_fini(&own);
     }
     plane_channels_fini(&channels);
-    session->write_seconds = session_clock() - start;
+    session->write_seconds = clock_seconds() - start;
     return session_image_fault(session, status, path, &error);
 }
 

@@ -13,12 +13,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "api/painter.h"
 #include "api/probe.h"
 #include "ast/words.h"
+#include "base/clock.h"
 #include "base/machine.h"
 #include "base/stack.h"
 #include "render/linear.h"
@@ -31,13 +31,6 @@
 #endif
 
 enum { WIDTH_DEFAULT = 320, HEIGHT_DEFAULT = 240 };
-
-double session_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 const char *rt_version(void)
 {
@@ -302,13 +295,13 @@ static rt_status load_source(rt_session *session, Source *source, double start)
 {
     rt_status status = session_run_deep(session, load, source);
     source_close(source);
-    session->parse_seconds = session_clock() - start;
+    session->parse_seconds = clock_seconds() - start;
     return status;
 }
 
 rt_status rt_load_file(rt_session *session, const char *path)
 {
-    double start = session_clock();
+    double start = clock_seconds();
     Source *source;
     if (!may_load(session)) {
         return RT_FAULT_USAGE;
@@ -321,7 +314,7 @@ rt_status rt_load_file(rt_session *session, const char *path)
 
 rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length)
 {
-    double start = session_clock();
+    double start = clock_seconds();
     if (!may_load(session)) {
         return RT_FAULT_USAGE;
     }
@@ -415,7 +408,7 @@ static RenderResult trace_film(rt_session *session, const Prepared *prepared, co
 
 static rt_status render_scene(rt_session *session, void *argument)
 {
-    double start = session_clock();
+    double start = clock_seconds();
     int threads = *(const int *)argument;
     threads = threads ? threads : render_default_threads();
     session->threads = threads;
@@ -445,8 +438,8 @@ static rt_status render_scene(rt_session *session, void *argument)
         return session_status(session, false);
     }
     session->kernel = prepared_kernel_name(prepared);
-    session->prepare_seconds = session_clock() - start;
-    start = session_clock();
+    session->prepare_seconds = clock_seconds() - start;
+    start = clock_seconds();
     SamplingOptions sampling = session_sampling(session);
     RenderOptions options = {
         .threads = threads,
@@ -464,7 +457,7 @@ static rt_status render_scene(rt_session *session, void *argument)
     } else {
         film_fini(&session->film);
     }
-    session->trace_seconds = session_clock() - start;
+    session->trace_seconds = clock_seconds() - start;
     session->rendered = has_picture;
     if (result == RENDER_CANCELLED) {
         return RT_CANCELLED;

@@ -99,9 +99,6 @@ struct rt_session {
     TextBuffer dump;
 };
 
-// Seconds of a clock that only goes forward.
-double session_clock(void);
-
 // What a picture's file says of how it was made: nothing, but of sampled pictures.
 enum { NOTES_MAX = 13, NOTE_TEXT = 48 };
 typedef struct SessionNotes {

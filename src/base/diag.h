@@ -142,7 +142,5 @@ void diag_print(DiagSink *sink, const Diag *diag, bool is_colored, TextBuffer *o
 // The form for programs: one JSON object (RFC 8259) on one line, ended by LF; its members are listed in
 // docs/diagnostics.md. Bytes that are not UTF-8 become U+FFFD.
 void diag_json(DiagSink *sink, const Diag *diag, TextBuffer *out);
-// A text as a JSON string, quotes included.
-void diag_json_string(TextBuffer *out, const char *text, size_t length);
 
 #endif

@@ -7,33 +7,13 @@
 #include <string.h>
 
 #include "base/diag.h"
-#include "base/utf8.h"
-
-void diag_json_string(TextBuffer *out, const char *text, size_t length)
-{
-    const char *end = text + length;
-    text_append_char(out, '"');
-    while (text < end) {
-        size_t size = utf8_length(text, end);
-        if (size == 0) {
-            text_append(out, "\\ufffd");
-        } else if (*text == '"' || *text == '\\') {
-            text_printf(out, "\\%c", *text);
-        } else if ((unsigned char)*text < 0x20) {
-            text_printf(out, "\\u%04x", (unsigned)*text);
-        } else {
-            text_append_n(out, text, size);
-        }
-        text += size > 0 ? size : 1;
-    }
-    text_append_char(out, '"');
-}
+#include "base/json.h"
 
 static void append_member(TextBuffer *out, const char *name, const char *text)
 {
     text_printf(out, ",\"%s\":", name);
     if (text) {
-        diag_json_string(out, text, strlen(text));
+        json_string(out, text, strlen(text));
     } else {
         text_append(out, "null");
     }
@@ -66,7 +46,7 @@ static void append_suggestion(DiagSink *sink, const Diag *diag, TextBuffer *out)
         return;
     }
     text_append(out, ",\"suggestion\":{\"message\":");
-    diag_json_string(out, diag->suggestion, strlen(diag->suggestion));
+    json_string(out, diag->suggestion, strlen(diag->suggestion));
     append_member(out, "replacement", diag->replacement);
     if (diag->replacement) {
         append_place(sink, diag->replaced, out);
@@ -85,7 +65,7 @@ static void append_notes(DiagSink *sink, const Diag *diag, bool of_stack, TextBu
         }
         text_append(out, is_first ? "{\"message\":" : ",{\"message\":");
         is_first = false;
-        diag_json_string(out, note->message, strlen(note->message));
+        json_string(out, note->message, strlen(note->message));
         if (of_stack) {
             append_member(out, "kind", strcmp(note->what, "in macro") == 0   ? "macro"
                                        : strcmp(note->what, "included") == 0 ? "include"

@@ -1,26 +1,22 @@
-// Escapes and numbers as RFC 8259 wants them.
-//
 // SPDX-License-Identifier: MIT
 #include "check/json.h"
 
 #include <math.h>
+#include <string.h>
 
-void json_text(FILE *out, const char *text)
+#include "base/json.h"
+
+void json_print_text(FILE *out, const char *text)
 {
-    fputc('"', out);
-    for (const char *c = text; *c != '\0'; c++) {
-        if (*c == '"' || *c == '\\') {
-            fprintf(out, "\\%c", *c);
-        } else if ((unsigned char)*c < ' ') {
-            fprintf(out, "\\u%04x", (unsigned)(unsigned char)*c);
-        } else {
-            fputc(*c, out);
-        }
-    }
-    fputc('"', out);
+    TextBuffer buffer;
+
+    text_init(&buffer);
+    json_string(&buffer, text, strlen(text));
+    fputs(text_get(&buffer), out);
+    text_fini(&buffer);
 }
 
-void json_number(FILE *out, const char *name, double value)
+void json_print_number(FILE *out, const char *name, double value)
 {
     if (isfinite(value)) {
         fprintf(out, ", \"%s\": %.9g", name, value);

@@ -7,9 +7,9 @@
 #include <stdio.h>
 
 // A string in quotes.
-void json_text(FILE *out, const char *text);
+void json_print_text(FILE *out, const char *text);
 
 // `, "name": value`, a member that is not the first of its object. JSON has no infinity: null stands for it.
-void json_number(FILE *out, const char *name, double value);
+void json_print_number(FILE *out, const char *name, double value);
 
 #endif

@@ -6,12 +6,13 @@
 
 #include <stdbool.h>
 
+#include "cli/option_reader.h"
 #include "cli/terminal.h"
 
 enum { ELSEWHERE_MOST = 100 };
 
 // Pointers refer to argv.
-typedef struct Options {
+struct Options {
     int width, height;
     double clock;
     bool clock_given;
@@ -37,15 +38,9 @@ typedef struct Options {
     char **scenes;
     int scene_count;
     ColorChoice color; // of what is said on stderr
-} Options;
+};
 
-typedef enum OptionsResult {
-    OPTIONS_GO,    // run
-    OPTIONS_DONE,  // --help or --version was printed
-    OPTIONS_WRONG, // a message was printed to stderr
-} OptionsResult;
-
-// To be released by options_fini whatever the result.
+// Prints what is wrong to stderr. To be released by options_fini whatever the result.
 OptionsResult options_parse(int argc, char **argv, Options *options);
 void options_fini(Options *options);
 

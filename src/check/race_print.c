@@ -107,23 +107,23 @@ static void json_entry(const Race *race, const RaceEntry *entry, bool is_povray,
     static const char *const judges[RACE_JUDGES] = {"rmse", "rmse_by_povray", "rmse_by_other"};
 
     fputs("{\"setting\": ", out);
-    json_text(out, entry->setting);
+    json_print_text(out, entry->setting);
     fprintf(out, ", \"run\": %s", entry->is_run ? "true" : "false");
     if (is_povray) {
-        json_number(out, "small_rays", entry->small_rays);
-        json_number(out, "small_rmse", entry->small_error);
+        json_print_number(out, "small_rays", entry->small_rays);
+        json_print_number(out, "small_rmse", entry->small_error);
         fputs(", \"same_as\": ", out);
-        json_text(out, entry->same_as >= 0 ? race->povray[entry->same_as].setting : "");
+        json_print_text(out, entry->same_as >= 0 ? race->povray[entry->same_as].setting : "");
         fputs(", \"front\": ", out);
-        json_text(out, front_text(race, entry));
+        json_print_text(out, front_text(race, entry));
     }
     if (entry->is_run) {
-        json_number(out, "rays", entry->rays);
+        json_print_number(out, "rays", entry->rays);
         for (int i = 0; i < RACE_TIMES; i++) {
-            json_number(out, times[i], entry->seconds[i]);
+            json_print_number(out, times[i], entry->seconds[i]);
         }
         for (int i = 0; i < RACE_JUDGES; i++) {
-            json_number(out, judges[i], entry->errors[i]);
+            json_print_number(out, judges[i], entry->errors[i]);
         }
     }
     fputc('}', out);
@@ -132,25 +132,25 @@ static void json_entry(const Race *race, const RaceEntry *entry, bool is_povray,
 void race_print_json(const Race *race, FILE *out)
 {
     fprintf(out, "{\"width\": %d, \"height\": %d", race->width, race->height);
-    json_number(out, "shortest", race->shortest);
-    json_number(out, "reference_samples", race->reference_samples);
-    json_number(out, "floor", race->floor);
+    json_print_number(out, "shortest", race->shortest);
+    json_print_number(out, "reference_samples", race->reference_samples);
+    json_print_number(out, "floor", race->floor);
     fputs(", \"povray_reference\": ", out);
-    json_text(out, race->povray_reference);
-    json_number(out, "povray_reference_rays", race->povray_reference_rays);
-    json_number(out, "references_apart", race->apart);
-    json_number(out, "budget", race->budget);
-    json_number(out, "spent", race->spent);
-    json_number(out, "same", race->same);
-    json_number(out, "left_out", race->left_out);
+    json_print_text(out, race->povray_reference);
+    json_print_number(out, "povray_reference_rays", race->povray_reference_rays);
+    json_print_number(out, "references_apart", race->apart);
+    json_print_number(out, "budget", race->budget);
+    json_print_number(out, "spent", race->spent);
+    json_print_number(out, "same", race->same);
+    json_print_number(out, "left_out", race->left_out);
     fputs(", \"ratios\": [", out);
     for (int i = 0; i < TOLD; i++) {
         RaceRatio ratio = race_ratio(race, told[i].time, told[i].judge);
         fprintf(out, "%s{\"name\": ", i > 0 ? ", " : "");
-        json_text(out, told[i].name);
-        json_number(out, "ratio", ratio.ratio);
-        json_number(out, "least", ratio.least);
-        json_number(out, "greatest", ratio.greatest);
+        json_print_text(out, told[i].name);
+        json_print_number(out, "ratio", ratio.ratio);
+        json_print_number(out, "least", ratio.least);
+        json_print_number(out, "greatest", ratio.greatest);
         fprintf(out, ", \"settings\": %d, \"beyond\": %d}", ratio.settings, ratio.beyond);
     }
     fputs("], \"rtlang\": [", out);

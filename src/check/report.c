@@ -47,29 +47,29 @@ void report_json(FILE *out, const Outcome *outcome)
     const ImageDifference *d = &outcome->difference;
 
     fprintf(out, "{\"scene\": ");
-    json_text(out, outcome->scene);
+    json_print_text(out, outcome->scene);
     fprintf(out, ", \"agrees\": %s", outcome->agrees ? "true" : "false");
     if (outcome->compared) {
-        json_number(out, "max", report_steps(d->max));
-        json_number(out, "rmse", report_steps(d->rmse));
-        json_number(out, "p999", report_steps(d->p999));
-        json_number(out, "psnr", d->psnr);
-        json_number(out, "flip", outcome->flip);
+        json_print_number(out, "max", report_steps(d->max));
+        json_print_number(out, "rmse", report_steps(d->rmse));
+        json_print_number(out, "p999", report_steps(d->p999));
+        json_print_number(out, "psnr", d->psnr);
+        json_print_number(out, "flip", outcome->flip);
         fprintf(out, ", \"beyond\": %" PRIu64 ", \"beyond_code_16\": %" PRIu64 ", \"beyond_code_8\": %" PRIu64,
                 d->pixels_beyond[BEYOND_THRESHOLD], d->pixels_beyond[BEYOND_CODE_16], d->pixels_beyond[BEYOND_CODE_8]);
         fprintf(out, ", \"by_rounding\": %" PRIu64 ", \"not_elsewhere\": %" PRIu64, outcome->decided_by_rounding,
                 outcome->povray_elsewhere);
         fprintf(out, ", \"pixels\": %" PRIu64, d->pixels);
-        json_number(out, "rtlang_seconds", outcome->rtlang_seconds);
-        json_number(out, "povray_seconds", outcome->povray_seconds);
-        json_number(out, "ratio", outcome->povray_seconds / outcome->rtlang_seconds);
+        json_print_number(out, "rtlang_seconds", outcome->rtlang_seconds);
+        json_print_number(out, "povray_seconds", outcome->povray_seconds);
+        json_print_number(out, "ratio", outcome->povray_seconds / outcome->rtlang_seconds);
     } else {
         fprintf(out, ", \"fault\": ");
-        json_text(out, outcome->detail);
+        json_print_text(out, outcome->detail);
     }
     if (outcome->range[0] != '\0') {
         fprintf(out, ", \"range\": ");
-        json_text(out, outcome->range);
+        json_print_text(out, outcome->range);
     }
     fputc('}', out);
 }

@@ -325,7 +325,7 @@ void stability_json(const Stability *stability, FILE *out)
     for (size_t i = 0; i < stability->picture_count; i++) {
         const PictureRow *row = &stability->pictures[i];
         fprintf(out, "%s\n{\"scene\": ", i > 0 ? "," : "");
-        json_text(out, row->scene);
+        json_print_text(out, row->scene);
         fprintf(out,
                 ", \"what\": \"%s\", \"beside\": \"%s\", \"made\": %s, \"same_bits\": %s, \"values\": %" PRIu64
                 ", \"off\": %" PRIu64 ", \"rmse\": %.6g}",
@@ -336,7 +336,7 @@ void stability_json(const Stability *stability, FILE *out)
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
         fprintf(out, "%s\n{\"scene\": ", i > 0 ? "," : "");
-        json_text(out, row->scene);
+        json_print_text(out, row->scene);
         fprintf(out, ", \"what\": \"%s\", \"pixels\": %" PRIu64 ", \"rtlang\": %" PRIu64 ", \"povray\": ", row->what,
                 row->pixels, row->off);
         row->has_povray ? fprintf(out, "%" PRIu64 "}", row->povray_off) : fprintf(out, "null}");

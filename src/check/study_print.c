@@ -162,40 +162,40 @@ void study_print_csv(const Study *study, FILE *out, bool with_heading)
 static void json_point(FILE *out, const StudyPoint *p)
 {
     fputs("{\"setting\": ", out);
-    json_text(out, p->setting);
-    json_number(out, "samples", p->samples);
-    json_number(out, "seconds", p->seconds);
-    json_number(out, "rmse", p->rmse);
-    json_number(out, "relmse", p->relmse);
-    json_number(out, "max", p->greatest);
-    json_number(out, "p999", p->p999);
-    json_number(out, "flip", p->flip);
-    json_number(out, "efficiency", efficiency(p));
-    json_number(out, "estimate", p->estimate);
+    json_print_text(out, p->setting);
+    json_print_number(out, "samples", p->samples);
+    json_print_number(out, "seconds", p->seconds);
+    json_print_number(out, "rmse", p->rmse);
+    json_print_number(out, "relmse", p->relmse);
+    json_print_number(out, "max", p->greatest);
+    json_print_number(out, "p999", p->p999);
+    json_print_number(out, "flip", p->flip);
+    json_print_number(out, "efficiency", efficiency(p));
+    json_print_number(out, "estimate", p->estimate);
     fputc('}', out);
 }
 
 void study_print_json(const Study *study, FILE *out)
 {
     fputs("{\"scene\": ", out);
-    json_text(out, study->scene);
+    json_print_text(out, study->scene);
     fprintf(out, ", \"width\": %d, \"height\": %d, \"reference_samples\": %g", study->width, study->height,
             study->reference_samples);
-    json_number(out, "floor", study->floor);
-    json_number(out, "model", study->model);
-    json_number(out, "arithmetic", study->arithmetic);
-    json_number(out, "arithmetic_float", study->arithmetic_float);
-    json_number(out, "depth_bias", study->depth_bias);
-    json_number(out, "cut_bias", study->cut_bias);
+    json_print_number(out, "floor", study->floor);
+    json_print_number(out, "model", study->model);
+    json_print_number(out, "arithmetic", study->arithmetic);
+    json_print_number(out, "arithmetic_float", study->arithmetic_float);
+    json_print_number(out, "depth_bias", study->depth_bias);
+    json_print_number(out, "cut_bias", study->cut_bias);
     fputs(", \"methods\": [", out);
     for (int i = 0; i < study->count; i++) {
         const StudyMethod *method = &study->methods[i];
         fprintf(out, "%s{\"name\": ", i > 0 ? ", " : "");
-        json_text(out, method->name);
-        json_number(out, "slope", method->slope);
-        json_number(out, "slope_spread", method->slope_spread);
+        json_print_text(out, method->name);
+        json_print_number(out, "slope", method->slope);
+        json_print_number(out, "slope_spread", method->slope_spread);
         if (method->kind == STUDY_FORWARD) {
-            json_number(out, "photons_an_arrival", method->photons_an_arrival);
+            json_print_number(out, "photons_an_arrival", method->photons_an_arrival);
         }
         fprintf(out, ", \"biased\": %s, \"points\": [", method->is_biased ? "true" : "false");
         for (int j = 0; j < method->count; j++) {
@@ -206,7 +206,7 @@ void study_print_json(const Study *study, FILE *out)
     }
     fputs("]", out);
     if (study->has_race) {
-        json_number(out, "best_ratio", race_ratio(&study->race, RACE_CPU, RACE_BY_RTLANG).ratio);
+        json_print_number(out, "best_ratio", race_ratio(&study->race, RACE_CPU, RACE_BY_RTLANG).ratio);
         fputs(", \"race\": ", out);
         race_print_json(&study->race, out);
     }

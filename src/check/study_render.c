@@ -9,15 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-static double seconds_by(clockid_t clock)
-{
-    struct timespec now;
-
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+#include "base/clock.h"
 
 static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
 {
@@ -62,7 +55,7 @@ void rtlang_render(const char *scene, const StudySettings *settings, const rt_sa
     *run = (RtlangRun){
         .status = RT_FAULT_LIMIT, .method = run->method, .photons = run->photons, .output = run->output};
     rt_callbacks callbacks = {.client = run, .diagnostic = on_diagnostic};
-    double begin = seconds_by(CLOCK_PROCESS_CPUTIME_ID);
+    double begin = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     rt_session *session = rt_session_new(&callbacks);
 
     if (session == NULL) {
@@ -71,15 +64,15 @@ void rtlang_render(const char *scene, const StudySettings *settings, const rt_sa
     run->status = session_ready(session, scene, settings, sampling, precision);
     run->status = run->status != RT_OK ? run->status : rt_set_method(session, run->method, run->photons);
     if (run->status == RT_OK) {
-        double start = seconds_by(CLOCK_PROCESS_CPUTIME_ID), wall_start = seconds_by(CLOCK_MONOTONIC);
+        double start = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID), wall_start = clock_seconds_of(CLOCK_MONOTONIC);
         run->status = rt_render(session, threads);
-        run->wall = seconds_by(CLOCK_MONOTONIC) - wall_start;
-        run->seconds = seconds_by(CLOCK_PROCESS_CPUTIME_ID) - start;
+        run->wall = clock_seconds_of(CLOCK_MONOTONIC) - wall_start;
+        run->seconds = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID) - start;
     }
     if (run->status == RT_OK && run->output != NULL) {
         run->status = rt_write(session, run->output, &linear);
     }
-    run->whole = seconds_by(CLOCK_PROCESS_CPUTIME_ID) - begin;
+    run->whole = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID) - begin;
     rt_get_error(session, &run->error);
     rt_get_photons(session, &run->counts);
     if (run->status == RT_OK && !picture_take(session, &run->image)) {

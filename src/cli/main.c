@@ -154,8 +154,8 @@ static rt_status run_all(Options *options, Voice *voice, bool *wrote)
 
 static rt_status fail_parse(rt_session *session, const Options *options)
 {
-    return rt_report(session, "E0703", options->complaint,
-                     options->advice[0] ? options->advice : "rtlang --help lists the options");
+    return rt_report(session, "E0703", options->reading.complaint,
+                     options->reading.advice[0] ? options->reading.advice : "rtlang --help lists the options");
 }
 
 // Reads the command line; OPTIONS_WRONG and OPTIONS_DONE leave what the program returns in *status.

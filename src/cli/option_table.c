@@ -12,58 +12,47 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
-static bool parse_integer(const char *text, long low, long high, int *value)
+static bool apply_output(Options *options, const char *argument, OptionReading *reading)
 {
-    char *end;
-    long number = strtol(text, &end, 10);
-    if (end == text || *end || number < low || number > high) {
-        return false;
-    }
-    *value = (int)number;
-    return true;
-}
-
-static bool apply_output(Options *options, const char *argument, const char **expected)
-{
-    *expected = "a file name";
+    reading->expected = "a file name";
     options->output = argument;
     return argument[0] != '\0';
 }
 
-static bool apply_warnings(Options *options, const char *argument, const char **expected)
+static bool apply_warnings(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "all, error or the code of a warning";
-    options->warnings[options->warning_count++] = (WarningOption){argument, options->is_letter};
+    reading->expected = "all, error or the code of a warning";
+    options->warnings[options->warning_count++] = (WarningOption){argument, reading->is_letter};
     return argument[0] != '\0';
 }
 
 // `-Wall` and the like begin with the same letter.
-static bool apply_width(Options *options, const char *argument, const char **expected)
+static bool apply_width(Options *options, const char *argument, OptionReading *reading)
 {
-    if (options->is_letter && isalpha((unsigned char)argument[0])) {
-        return apply_warnings(options, argument, expected);
+    if (reading->is_letter && isalpha((unsigned char)argument[0])) {
+        return apply_warnings(options, argument, reading);
     }
-    *expected = "a whole number from 1 to 65535";
-    return parse_integer(argument, 1, 65535, &options->width);
+    reading->expected = "a whole number from 1 to 65535";
+    return option_parse_integer(argument, 1, 65535, &options->width);
 }
 
-static bool apply_height(Options *options, const char *argument, const char **expected)
+static bool apply_height(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a whole number from 1 to 65535";
-    return parse_integer(argument, 1, 65535, &options->height);
+    reading->expected = "a whole number from 1 to 65535";
+    return option_parse_integer(argument, 1, 65535, &options->height);
 }
 
-static bool apply_threads(Options *options, const char *argument, const char **expected)
+static bool apply_threads(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a whole number from 1 to 1024";
-    return parse_integer(argument, 1, 1024, &options->threads);
+    reading->expected = "a whole number from 1 to 1024";
+    return option_parse_integer(argument, 1, 1024, &options->threads);
 }
 
-static bool apply_isa(Options *options, const char *argument, const char **expected)
+static bool apply_isa(Options *options, const char *argument, OptionReading *reading)
 {
     static const char *const names[] = {"plain", "v2", "v3", "v4", NULL};
-    *expected = "an instruction set of this processor: plain, or on x86-64 v2, v3 or v4";
-    options->choices = names;
+    reading->expected = "an instruction set of this processor: plain, or on x86-64 v2, v3 or v4";
+    reading->choices = names;
     for (size_t i = 0; rt_isa(i); i++) {
         if (strcmp(argument, rt_isa(i)) == 0) {
             options->isa = rt_isa(i);
@@ -73,90 +62,83 @@ static bool apply_isa(Options *options, const char *argument, const char **expec
     return false;
 }
 
-static bool apply_no_literals(Options *options, const char *argument, const char **expected)
+static bool apply_no_literals(Options *options, const char *argument, OptionReading *reading)
 {
     (void)argument;
-    *expected = "";
+    reading->expected = "";
     return options->no_literals = true;
 }
 
-static bool apply_include_path(Options *options, const char *argument, const char **expected)
+static bool apply_include_path(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a folder";
+    reading->expected = "a folder";
     options->include_paths[options->include_path_count++] = argument;
     return argument[0] != '\0';
 }
 
-static bool apply_no_povray_includes(Options *options, const char *argument, const char **expected)
+static bool apply_no_povray_includes(Options *options, const char *argument, OptionReading *reading)
 {
     (void)argument;
-    *expected = "";
+    reading->expected = "";
     return options->no_povray_includes = true;
 }
 
-static bool apply_declare(Options *options, const char *argument, const char **expected)
+static bool apply_declare(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "NAME=NUMBER, with a NAME that is not reserved";
+    reading->expected = "NAME=NUMBER, with a NAME that is not reserved";
     options->declarations[options->declaration_count++] = argument;
     return strchr(argument, '=') != NULL;
 }
 
-static bool apply_allow_read(Options *options, const char *argument, const char **expected)
+static bool apply_allow_read(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a folder";
+    reading->expected = "a folder";
     options->read_folders[options->read_folder_count++] = argument;
     return argument[0] != '\0';
 }
 
-static bool parse_clock(const char *text, double *clock)
+static bool apply_clock(Options *options, const char *argument, OptionReading *reading)
 {
-    char *end;
-    *clock = strtod(text, &end);
-    return end != text && !*end && isfinite(*clock);
-}
-
-static bool apply_clock(Options *options, const char *argument, const char **expected)
-{
-    *expected = "a number";
+    reading->expected = "a number";
     options->clock_given = true;
-    return parse_clock(argument, &options->clock);
+    return option_parse_number(argument, &options->clock);
 }
 
 // A..B, from 0 upward.
-static bool apply_frames(Options *options, const char *argument, const char **expected)
+static bool apply_frames(Options *options, const char *argument, OptionReading *reading)
 {
     Frames *frames = &options->frames;
     char first[16];
     const char *dots = strstr(argument, "..");
     size_t length = dots ? (size_t)(dots - argument) : sizeof first;
-    *expected = "the first and the last frame, as 1..100";
+    reading->expected = "the first and the last frame, as 1..100";
     if (length >= sizeof first) {
         return false;
     }
     memcpy(first, argument, length);
     first[length] = '\0';
-    bool fine = parse_integer(first, 0, 999999999, &frames->initial) &&
-                parse_integer(dots + 2, frames->initial, 999999999, &frames->final);
+    bool fine = option_parse_integer(first, 0, 999999999, &frames->initial) &&
+                option_parse_integer(dots + 2, frames->initial, 999999999, &frames->final);
     frames->first = frames->initial, frames->last = frames->final, frames->step = 1;
     return fine;
 }
 
-static bool apply_clock_from(Options *options, const char *argument, const char **expected)
+static bool apply_clock_from(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a number";
-    return parse_clock(argument, &options->frames.clock_from);
+    reading->expected = "a number";
+    return option_parse_number(argument, &options->frames.clock_from);
 }
 
-static bool apply_clock_to(Options *options, const char *argument, const char **expected)
+static bool apply_clock_to(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a number";
-    return parse_clock(argument, &options->frames.clock_to);
+    reading->expected = "a number";
+    return option_parse_number(argument, &options->frames.clock_to);
 }
 
 // By this word the command line is known for POV-Ray's before it is read.
-static bool apply_povray(Options *options, const char *argument, const char **expected)
+static bool apply_povray(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     return options->is_povray = true;
 }
 
@@ -175,51 +157,51 @@ static bool parse_limit(const char *text, const char *units, uint64_t greatest, 
     return true;
 }
 
-static bool apply_max_steps(Options *options, const char *argument, const char **expected)
+static bool apply_max_steps(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a whole number from 1";
+    reading->expected = "a whole number from 1";
     return parse_limit(argument, "", UINT64_MAX, &options->limits[RT_LIMIT_STEPS]);
 }
 
-static bool apply_max_depth(Options *options, const char *argument, const char **expected)
+static bool apply_max_depth(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a whole number from 1 to 1000";
+    reading->expected = "a whole number from 1 to 1000";
     return parse_limit(argument, "", 1000, &options->limits[RT_LIMIT_DEPTH]);
 }
 
-static bool apply_max_objects(Options *options, const char *argument, const char **expected)
+static bool apply_max_objects(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a whole number from 1";
+    reading->expected = "a whole number from 1";
     return parse_limit(argument, "", UINT64_MAX, &options->limits[RT_LIMIT_OBJECTS]);
 }
 
 static const char bytes_expected[] = "a number of bytes, as 500K, 64M, 2G or 1T";
 
-static bool apply_max_text(Options *options, const char *argument, const char **expected)
+static bool apply_max_text(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = bytes_expected;
+    reading->expected = bytes_expected;
     return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_TEXT]);
 }
 
-static bool apply_max_memory(Options *options, const char *argument, const char **expected)
+static bool apply_max_memory(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = bytes_expected;
+    reading->expected = bytes_expected;
     return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_MEMORY]);
 }
 
-static bool apply_max_messages(Options *options, const char *argument, const char **expected)
+static bool apply_max_messages(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = bytes_expected;
+    reading->expected = bytes_expected;
     return parse_limit(argument, "KMGT", UINT64_MAX, &options->limits[RT_LIMIT_MESSAGES]);
 }
 
-static bool apply_depth(Options *options, const char *argument, const char **expected)
+static bool apply_depth(Options *options, const char *argument, OptionReading *reading)
 {
     static const struct {
         const char *name;
         rt_depth depth;
     } depths[] = {{"8", RT_DEPTH_8}, {"16", RT_DEPTH_16}, {"float", RT_DEPTH_FLOAT}};
-    *expected = "8, 16 or float";
+    reading->expected = "8, 16 or float";
     for (size_t i = 0; i < COUNT_OF(depths); i++) {
         if (strcmp(argument, depths[i].name) == 0) {
             options->encoding.depth = depths[i].depth;
@@ -229,9 +211,9 @@ static bool apply_depth(Options *options, const char *argument, const char **exp
     return false;
 }
 
-static bool apply_file_gamma(Options *options, const char *argument, const char **expected)
+static bool apply_file_gamma(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "srgb or a number above 0";
+    reading->expected = "srgb or a number above 0";
     char *end;
     double gamma = strcmp(argument, "srgb") == 0 ? 0.0 : strtod(argument, &end);
     options->encoding.file_gamma = gamma;
@@ -240,168 +222,158 @@ static bool apply_file_gamma(Options *options, const char *argument, const char 
 
 static bool parse_positive(const char *text, double *value)
 {
-    char *end;
-    *value = strtod(text, &end);
-    return end != text && !*end && *value > 0.0 && isfinite(*value);
+    return option_parse_number(text, value) && *value > 0.0;
 }
 
-static bool apply_samples(Options *options, const char *argument, const char **expected)
+static bool apply_samples(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a number from 1 to 16777216";
+    reading->expected = "a number from 1 to 16777216";
     return parse_positive(argument, &options->sampling.samples) && options->sampling.samples >= 1.0 &&
            options->sampling.samples <= 16777216.0;
 }
 
-static bool apply_seed(Options *options, const char *argument, const char **expected)
+static bool apply_seed(Options *options, const char *argument, OptionReading *reading)
 {
     char *end;
-    *expected = "a whole number from 0 to 18446744073709551615";
+    reading->expected = "a whole number from 0 to 18446744073709551615";
     errno = 0;
     options->sampling.seed = strtoull(argument, &end, 10);
     return argument[0] >= '0' && argument[0] <= '9' && !*end && errno == 0;
 }
 
-// Takes one of some names, of which the last is NULL.
-static bool parse_choice(Options *options, const char *argument, const char *const *names, int *place)
-{
-    options->choices = names;
-    *place = choice_find(argument, names);
-    return *place >= 0;
-}
-
-static bool parse_name(Options *options, const char *argument, const char *const *names, const char **name)
+static bool parse_name(OptionReading *reading, const char *argument, const char *const *names, const char **name)
 {
     int place;
-    bool is_one = parse_choice(options, argument, names, &place);
+    bool is_one = option_parse_choice(reading, argument, names, &place);
     *name = is_one ? names[place] : NULL;
     return is_one;
 }
 
-static bool apply_sampler(Options *options, const char *argument, const char **expected)
+static bool apply_sampler(Options *options, const char *argument, OptionReading *reading)
 {
     static const char *const names[] = {"sobol", "halton", "jittered", "grid", "random", NULL};
-    *expected = "sobol, halton, jittered, grid or random";
-    return parse_name(options, argument, names, &options->sampling.sampler);
+    reading->expected = "sobol, halton, jittered, grid or random";
+    return parse_name(reading, argument, names, &options->sampling.sampler);
 }
 
-static bool apply_filter(Options *options, const char *argument, const char **expected)
+static bool apply_filter(Options *options, const char *argument, OptionReading *reading)
 {
     static const char *const names[] = {"box", "tent", "gaussian", "mitchell", NULL};
-    *expected = "box, tent, gaussian or mitchell";
-    return parse_name(options, argument, names, &options->sampling.filter);
+    reading->expected = "box, tent, gaussian or mitchell";
+    return parse_name(reading, argument, names, &options->sampling.filter);
 }
 
-static bool apply_adaptive(Options *options, const char *argument, const char **expected)
+static bool apply_adaptive(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->sampling.adaptive = 1;
     return true;
 }
 
-static bool apply_target_error(Options *options, const char *argument, const char **expected)
+static bool apply_target_error(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a number above 0";
+    reading->expected = "a number above 0";
     return parse_positive(argument, &options->sampling.target_error);
 }
 
-static bool apply_time_limit(Options *options, const char *argument, const char **expected)
+static bool apply_time_limit(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a number of seconds above 0";
+    reading->expected = "a number of seconds above 0";
     return parse_positive(argument, &options->sampling.time_limit);
 }
 
 // The timer takes whole microseconds, and a year is as good as none.
-static bool apply_max_time(Options *options, const char *argument, const char **expected)
+static bool apply_max_time(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a number of seconds from 0.001 to 31536000";
+    reading->expected = "a number of seconds from 0.001 to 31536000";
     return parse_positive(argument, &options->max_time) && options->max_time >= 0.001 &&
            options->max_time <= 31536000.0;
 }
 
-static bool apply_untrusted(Options *options, const char *argument, const char **expected)
+static bool apply_untrusted(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->is_untrusted = true;
     return true;
 }
 
-static bool apply_no_confinement(Options *options, const char *argument, const char **expected)
+static bool apply_no_confinement(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->is_unconfined = true;
     return true;
 }
 
-static bool apply_no_estimate(Options *options, const char *argument, const char **expected)
+static bool apply_no_estimate(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->sampling.no_estimate = 1;
     return true;
 }
 
-static bool apply_method(Options *options, const char *argument, const char **expected)
+static bool apply_method(Options *options, const char *argument, OptionReading *reading)
 {
     static const char *const names[] = {[RT_METHOD_BACKWARD] = "backward", [RT_METHOD_FORWARD] = "forward",
                                         [RT_METHOD_FORWARD_CONNECT] = "forward-connect", NULL};
     int place;
-    *expected = "backward, forward or forward-connect";
-    bool is_one = parse_choice(options, argument, names, &place);
+    reading->expected = "backward, forward or forward-connect";
+    bool is_one = option_parse_choice(reading, argument, names, &place);
     options->method = is_one ? (rt_method)place : RT_METHOD_BACKWARD;
     return is_one;
 }
 
-static bool apply_photons(Options *options, const char *argument, const char **expected)
+static bool apply_photons(Options *options, const char *argument, OptionReading *reading)
 {
     double photons;
-    *expected = "a number from 1 to 1e15, as 1000000 or 1e6";
+    reading->expected = "a number from 1 to 1e15, as 1000000 or 1e6";
     bool fine = parse_positive(argument, &photons) && photons >= 1.0 && photons <= 1e15;
     options->photons = fine ? (uint64_t)photons : 0;
     return fine;
 }
 
-static bool apply_antialias(Options *options, const char *argument, const char **expected)
+static bool apply_antialias(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "1 or 2";
+    reading->expected = "1 or 2";
     options->antialias.method = strcmp(argument, "2") == 0 ? 2 : 1;
     return strcmp(argument, "1") == 0 || strcmp(argument, "2") == 0;
 }
 
-static bool apply_antialias_depth(Options *options, const char *argument, const char **expected)
+static bool apply_antialias_depth(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a whole number from 1 to 9";
+    reading->expected = "a whole number from 1 to 9";
     options->antialias.depth = argument[0] - '0';
     return argument[0] >= '1' && argument[0] <= '9' && !argument[1];
 }
 
-static bool apply_antialias_threshold(Options *options, const char *argument, const char **expected)
+static bool apply_antialias_threshold(Options *options, const char *argument, OptionReading *reading)
 {
     char *end;
-    *expected = "a number, 0 or more";
+    reading->expected = "a number, 0 or more";
     options->antialias.threshold = strtod(argument, &end);
     return end != argument && !*end && options->antialias.threshold >= 0.0;
 }
 
-static bool apply_antialias_gamma(Options *options, const char *argument, const char **expected)
+static bool apply_antialias_gamma(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a number above 0";
+    reading->expected = "a number above 0";
     return parse_positive(argument, &options->antialias.gamma);
 }
 
-static bool apply_error_map(Options *options, const char *argument, const char **expected)
+static bool apply_error_map(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "a file name";
+    reading->expected = "a file name";
     options->error_map = argument;
     return argument[0] != '\0';
 }
 
-static bool apply_planes(Options *options, const char *argument, const char **expected)
+static bool apply_planes(Options *options, const char *argument, OptionReading *reading)
 {
     static const struct {
         const char *name;
         rt_plane plane;
     } names[] = {{"error", RT_PLANE_ERROR},   {"samples", RT_PLANE_SAMPLES}, {"depth", RT_PLANE_DEPTH},
                  {"normal", RT_PLANE_NORMAL}, {"object", RT_PLANE_OBJECT},   {"albedo", RT_PLANE_ALBEDO}};
-    *expected = "error, samples, depth, normal, object or albedo, or several with commas between";
+    reading->expected = "error, samples, depth, normal, object or albedo, or several with commas between";
     for (;;) {
         size_t length = strcspn(argument, ","), i = 0;
         while (i < COUNT_OF(names) && (strlen(names[i].name) != length || strncmp(names[i].name, argument, length) != 0)) {
@@ -418,56 +390,56 @@ static bool apply_planes(Options *options, const char *argument, const char **ex
     }
 }
 
-static bool apply_alpha(Options *options, const char *argument, const char **expected)
+static bool apply_alpha(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->has_alpha = true;
     return true;
 }
 
-static bool apply_quiet(Options *options, const char *argument, const char **expected)
+static bool apply_quiet(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->quiet = true;
     return true;
 }
 
-static bool apply_check(Options *options, const char *argument, const char **expected)
+static bool apply_check(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->action = options->action == ACTION_FORMAT ? ACTION_FORMAT_CHECK : ACTION_CHECK;
     return true;
 }
 
-static bool apply_format(Options *options, const char *argument, const char **expected)
+static bool apply_format(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->action = options->action == ACTION_CHECK ? ACTION_FORMAT_CHECK : ACTION_FORMAT;
     return true;
 }
 
-static bool apply_budget(Options *options, const char *argument, const char **expected)
+static bool apply_budget(Options *options, const char *argument, OptionReading *reading)
 {
-    (void)argument, (void)expected;
+    (void)argument, (void)reading;
     options->action = ACTION_BUDGET;
     return true;
 }
 
-static bool apply_diagnostics(Options *options, const char *argument, const char **expected)
+static bool apply_diagnostics(Options *options, const char *argument, OptionReading *reading)
 {
     static const char *const names[] = {[RT_FORMAT_TEXT] = "text", [RT_FORMAT_JSON] = "json", NULL};
     int place;
-    *expected = "text or json";
-    bool is_one = parse_choice(options, argument, names, &place);
+    reading->expected = "text or json";
+    bool is_one = option_parse_choice(reading, argument, names, &place);
     options->format = is_one ? (rt_format)place : RT_FORMAT_TEXT;
     return is_one;
 }
 
-static bool apply_color(Options *options, const char *argument, const char **expected)
+static bool apply_color(Options *options, const char *argument, OptionReading *reading)
 {
     int place;
-    *expected = "auto, always or never";
-    bool is_one = parse_choice(options, argument, color_choices, &place);
+    reading->expected = "auto, always or never";
+    bool is_one = option_parse_choice(reading, argument, color_choices, &place);
     options->color = is_one ? (ColorChoice)place : COLOR_AUTO;
     return is_one;
 }
@@ -478,58 +450,58 @@ bool option_is_code(const char *text)
     return strlen(text) == 5 && strchr("EeWw", text[0]) && strspn(text + 1, "0123456789") == 4;
 }
 
-static bool apply_explain(Options *options, const char *argument, const char **expected)
+static bool apply_explain(Options *options, const char *argument, OptionReading *reading)
 {
-    *expected = "the code of a message, such as E0201";
+    reading->expected = "the code of a message, such as E0201";
     options->action = ACTION_EXPLAIN;
     options->code = argument;
     return !argument || option_is_code(argument);
 }
 
-static bool apply_dump(Options *options, const char *argument, const char **expected)
+static bool apply_dump(Options *options, const char *argument, OptionReading *reading)
 {
     static const char *const names[] = {"tokens", "ast", "scene", NULL};
     static const Action actions[] = {ACTION_DUMP_TOKENS, ACTION_DUMP_AST, ACTION_DUMP_SCENE};
     int place;
-    *expected = "tokens, ast or scene";
-    bool is_one = parse_choice(options, argument, names, &place);
+    reading->expected = "tokens, ast or scene";
+    bool is_one = option_parse_choice(reading, argument, names, &place);
     options->action = is_one ? actions[place] : options->action;
     return is_one;
 }
 
-static bool apply_precision(Options *options, const char *argument, const char **expected)
+static bool apply_precision(Options *options, const char *argument, OptionReading *reading)
 {
     static const char *const names[] = {"double", "float", "quad", "reference", NULL};
     static const rt_precision precisions[] = {RT_PRECISION_DOUBLE, RT_PRECISION_FLOAT, RT_PRECISION_QUAD,
                                               RT_PRECISION_REFERENCE};
     int place;
-    *expected = "float, double, quad or reference";
-    bool is_one = parse_choice(options, argument, names, &place);
+    reading->expected = "float, double, quad or reference";
+    bool is_one = option_parse_choice(reading, argument, names, &place);
     options->precision = is_one ? precisions[place] : RT_PRECISION_DOUBLE;
     return is_one;
 }
 
 // Two whole numbers; whether they lie in the picture is known when all options are read.
-static bool apply_trace_pixel(Options *options, const char *argument, const char **expected)
+static bool apply_trace_pixel(Options *options, const char *argument, OptionReading *reading)
 {
     char first[8];
     size_t length = strcspn(argument, ",");
-    *expected = "the column and the row of a pixel, from 0, as 160,120";
+    reading->expected = "the column and the row of a pixel, from 0, as 160,120";
     options->action = ACTION_TRACE_PIXEL;
     if (argument[length] == '\0' || length >= sizeof first) {
         return false;
     }
     memcpy(first, argument, length);
     first[length] = '\0';
-    return parse_integer(first, 0, 65534, &options->pixel_x) &&
-           parse_integer(argument + length + 1, 0, 65534, &options->pixel_y);
+    return option_parse_integer(first, 0, 65534, &options->pixel_x) &&
+           option_parse_integer(argument + length + 1, 0, 65534, &options->pixel_y);
 }
 
 // LEFT,TOP,WIDTH,HEIGHT; whether that lies in the picture is known when all options are read.
-static bool apply_crop(Options *options, const char *argument, const char **expected)
+static bool apply_crop(Options *options, const char *argument, OptionReading *reading)
 {
     int *numbers[] = {&options->crop[0], &options->crop[1], &options->crop[2], &options->crop[3]};
-    *expected = "left, top, width and height in pixels, as 0,0,160,120";
+    reading->expected = "left, top, width and height in pixels, as 0,0,160,120";
     for (int i = 0; i < 4; i++) {
         char number[8];
         size_t length = strcspn(argument, ",");
@@ -538,7 +510,7 @@ static bool apply_crop(Options *options, const char *argument, const char **expe
         }
         memcpy(number, argument, length);
         number[length] = '\0';
-        if (!parse_integer(number, i < 2 ? 0 : 1, 65535, numbers[i])) {
+        if (!option_parse_integer(number, i < 2 ? 0 : 1, 65535, numbers[i])) {
             return false;
         }
         argument += length + 1;
@@ -640,9 +612,6 @@ static const OptionRow rows[] = {
     {'V', "version", NULL, NULL, "print the version and stop"},
     {'h', "help", "[povray]", NULL, "print this and stop, or with `=povray` POV-Ray's options and what becomes of each"},
 };
-_Static_assert(COUNT_OF(rows) < OPTIONS_MOST, "enlarge OPTIONS_MOST");
+_Static_assert(COUNT_OF(rows) <= OPTIONS_MOST, "enlarge OPTIONS_MOST");
 
-const OptionRow *option_row(size_t i)
-{
-    return i < COUNT_OF(rows) ? &rows[i] : NULL;
-}
+const OptionTable option_table = {rows, COUNT_OF(rows)};

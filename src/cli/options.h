@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "cli/frames.h"
+#include "cli/option_reader.h"
 #include "cli/terminal.h"
 #include "rtlang/rtlang.h"
 
@@ -25,8 +26,6 @@ typedef enum Action {
     ACTION_EXPLAIN_SCENE,
 } Action;
 
-enum { COMPLAINT_SIZE = 512, ADVICE_SIZE = 128 };
-
 typedef struct WarningOption {
     const char *what; // as rt_set_warning takes it
     bool is_letter;   // given by `-W`, which a width may have been meant by
@@ -35,7 +34,7 @@ typedef struct WarningOption {
 enum { LIMIT_COUNT = RT_LIMIT_MESSAGES + 1 };
 
 // Pointers refer to argv.
-typedef struct Options {
+struct Options {
     Action action;
     const char **scenes; // owned list; "-": standard input
     int scene_count;
@@ -78,18 +77,8 @@ typedef struct Options {
     double max_time; // seconds of the whole run; 0: as many as it takes
     bool is_untrusted, is_unconfined;
     bool quiet;
-    char complaint[COMPLAINT_SIZE]; // OPTIONS_WRONG: what is wrong
-    char advice[ADVICE_SIZE];       // and what may have been meant; empty: nothing near
-    const char *const *choices;     // of the option that is being read, whose value is one of these; else NULL
-    bool is_letter;                 // it was given by its letter
-} Options;
-
-typedef enum OptionsResult {
-    OPTIONS_GO,    // run
-    OPTIONS_DONE,  // --help or --version stands in the buffer of stdout
-    OPTIONS_WRONG, // see complaint
-    OPTIONS_NO_MEMORY,
-} OptionsResult;
+    OptionReading reading;
+};
 
 OptionsResult options_parse(int argc, char **argv, Options *options);
 // The options alone, of which `argv` has nothing else: no scene is wanted.

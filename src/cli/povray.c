@@ -26,8 +26,7 @@ static const char *base_name(const char *path)
 // Whether the word behind this one is its argument: then it says nothing of its own.
 static bool takes_next(const char *word)
 {
-    const OptionRow *row;
-    for (size_t i = 0; (row = option_row(i)); i++) {
+    for (const OptionRow *row = option_table.rows; row < option_table.rows + option_table.count; row++) {
         bool takes = row->argument && row->argument[0] != '[';
         bool is_letter = row->letter && word[0] == '-' && word[1] == row->letter && word[2] == '\0';
         if (takes && (is_letter || (strncmp(word, "--", 2) == 0 && strcmp(word + 2, row->name) == 0))) {
@@ -344,7 +343,7 @@ OptionsResult povray_parse(rt_session *session, int argc, char **argv, Povray *p
     options->is_povray = true;
     rt_set_format(session, options->format);
     if (result == OPTIONS_WRONG) {
-        *status = rt_report(session, "E0703", options->complaint, options->advice[0] ? options->advice : NULL);
+        *status = rt_report(session, "E0703", options->reading.complaint, options->reading.advice[0] ? options->reading.advice : NULL);
     }
     if (result == OPTIONS_GO) {
         *status = povray_read(session, &povray->settings, words, count);

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "render/tiles.h"
 
 enum {
@@ -64,13 +64,6 @@ typedef struct Sampling {
     double later_seconds;  // and of those after it
     RenderResult result;   // of the last round
 } Sampling;
-
-static double clock_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static double cost_by_pilot(const Cost *cost, double samples, double pixels)
 {

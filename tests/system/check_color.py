@@ -82,7 +82,7 @@ def test_rtlang(tap, folder):
 def test_rtcheck(tap, folder):
     command = [RTCHECK, "--treshold=1", "s.scn"]
     plain = run(command, folder, False)
-    tap.equal(plain, b"rtcheck: unknown option or needless argument: --treshold=1\ndid you mean `--threshold`?\n",
+    tap.equal(plain, b"rtcheck: unknown option `--treshold=1`\ndid you mean `--threshold`?\n",
               "rtcheck in a pipe")
     colored = RED_NAME + plain[len("rtcheck: "):]
     tap.equal(run(command, folder, True), colored, "rtcheck on a terminal")
@@ -90,9 +90,10 @@ def test_rtcheck(tap, folder):
     tap.equal(run([command[0], "--color=never", *command[1:]], folder, True), plain, "rtcheck --color=never")
     tap.equal(run([command[0], "--color=always", *command[1:]], folder, False), colored, "rtcheck --color=always")
     tap.equal(run([RTCHECK, "--color=nevr", "s.scn"], folder, False),
-              b"rtcheck: option --color wants auto, always or never, found `nevr`\ndid you mean `never`?\n", "a mistyped value")
+              b"rtcheck: option `--color` wants auto, always or never, found `nevr`\ndid you mean `never`?\n",
+              "a mistyped value")
     tap.equal(run([RTCHECK, "-width", "s.scn"], folder, False),
-              b"rtcheck: unknown option or needless argument: -width\ndid you mean `--width`?\n", "one dash")
+              b"rtcheck: unknown option `-w`\ndid you mean `--width`?\n", "one dash")
 
 
 def main():

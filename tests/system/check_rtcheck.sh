@@ -106,7 +106,7 @@ expect 'the clock is given to rtlang' 0 '"clock.scn: "*": ok"' -W 16 -H 8 -K 0.2
 expect 'and is not otherwise' 1 '*"no clock"*' -W 16 -H 8 --povray "$work/same" clock.scn
 expect 'no POV-Ray' 3 '"rtcheck: no program \`nosuch\` found"*' --povray nosuch 'a scene.scn'
 expect 'no scene' 2 '*"no scene given"*' --json
-expect 'a wrong number' 2 '*"--width wants"*"found \`0\`"*' --width 0 'a scene.scn'
+expect 'a wrong number' 2 '*"--width\` wants"*"found \`0\`"*' --width 0 'a scene.scn'
 expect 'an unknown option' 2 '*"--nope"*' --nope 'a scene.scn'
 expect 'a missing folder' 2 '*"nowhere: No such file"*' -I nowhere --povray "$work/same" 'a scene.scn'
 expect 'a report that cannot be written' 2 '*"cannot write the report /dev/null/out: Not a directory"*' \
@@ -183,8 +183,8 @@ fi
 expect 'in JSON' 0 '*"\"agrees\": true, "*"\"beyond\": 2, "*"\"not_elsewhere\": 2"*' \
     --json -W 64 -H 48 --ties 0 --elsewhere 1 --povray "$work/turns" cameras.scn
 other 'POV-Ray need not be able to draw it' 1 '*"beyond 2 "*"/255 2, rtlang "*"x): FAIL"' once 4
-expect 'no number of places' 2 '*"--elsewhere wants a whole number from 1 to 100"*' --elsewhere 101 'a scene.scn'
-expect 'no number of doubts' 2 '*"--doubts wants a whole number from 1 to 1000"*' --doubts 0 'a scene.scn'
+expect 'no number of places' 2 '*"--elsewhere\` wants a whole number from 1 to 100"*' --elsewhere 101 'a scene.scn'
+expect 'no number of doubts' 2 '*"--doubts\` wants a whole number from 1 to 1000"*' --doubts 0 'a scene.scn'
 expect 'help' 0 '"Usage: rtcheck "*' --help
 cd / || exit 99
 expect 'POV-Ray runs in the folder of the scene, with these switches' 1 \
