@@ -328,7 +328,8 @@ static void read_name(Block *block)
 {
     const AstNode *item = cursor_peek(&block->cursor);
     Value value;
-    if (!item || !block_is_name(item)) {
+    bool takes_members = block->kind == KIND_CLIPPED_BY || block->kind == KIND_BOUNDED_BY; // names, too
+    if (!item || !block_is_name(item) || takes_members) {
         return;
     }
     // A misspelt property rather than an identifier: where nothing but a block's name may stand, or where it is near.

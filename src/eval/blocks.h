@@ -229,9 +229,12 @@ bool settings_generator_action(Block *block, const SchemaProperty *property, con
 bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
 
 // extent.c
-// Tells of a transform that is about to be applied; `keeps_spheres`: it moves, turns or scales evenly.
 // The object that the first argument of a call names; false after a fault.
 bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
+// Whether a transform of the object itself is one that need not keep spheres. A sphere of a negative radius has its box
+// inside out unless such a transform is around it.
+bool extent_is_stretched(SchemaKind kind, const void *object);
+// Tells of a transform that is about to be applied; `keeps_spheres`: it moves, turns or scales evenly.
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span) RT_MUST_CHECK;
 
 // object.c

@@ -23,7 +23,9 @@ bool clip_body(Block *block)
     if (cursor_at_word(&block->cursor, other)) {
         cursor_skip(&block->cursor);
         group->is_other_block = true;
-        return true;
+        return !cursor_peek(&block->cursor) ||
+               block_fault(block, DIAG_E0254, cursor_peek(&block->cursor)->span, "nothing may stand behind `%s` in %s",
+                           eval_text(block->ev, (Symbol)other), block_word(block));
     }
     if (!object_members(block)) {
         return false;
@@ -85,18 +87,22 @@ bool clips_transform(Block *block, const Transform *transform)
     return clips_move(block, &part->clips, transform) && clips_move(block, &part->bounds, transform);
 }
 
-static bool add_members(Block *block, const UnionMember *member, const Clip **end, Span span)
+static bool add_members(Block *block, const UnionBlueprint *group, const Clip **end, Span span)
 {
-    for (; member; member = member->next) {
+    for (const UnionMember *member = group->members; member; member = member->next) {
         if (!is_plain_solid(member->kind, member->object)) {
             return block_fault(block, DIAG_E0360, span,
                                "what clips or bounds an object is a solid without a texture of its own");
+        }
+        if (member->kind == KIND_SPHERE && ((const SphereBlueprint *)member->object)->radius < 0.0 &&
+            !extent_is_stretched(member->kind, member->object)) {
+            return block_fault(block, DIAG_E0366, span, "a sphere of a negative radius clips or bounds an object");
         }
         Clip *clip = arena_alloc(block->arena, sizeof *clip);
         if (!clip) {
             return eval_no_memory(block->ev, span);
         }
-        *clip = (Clip){NULL, member->object, member->kind, transform_identity()};
+        *clip = (Clip){NULL, member->object, member->kind, group->part.transform};
         *end = clip;
         end = &clip->next;
     }
@@ -122,7 +128,7 @@ bool clip_action(Block *block, const SchemaProperty *property, const AstNode *it
         return false;
     }
     if (inner.group.is_other_block ? !clips_copy(block, other, NULL, end)
-                                   : !add_members(block, inner.group.members, end, item->span)) {
+                                   : !add_members(block, &inner.group, end, item->span)) {
         return false;
     }
     *list = all;

@@ -357,6 +357,15 @@ bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
 
 // ---- what the boxes need of transforms
 
+bool extent_is_stretched(SchemaKind kind, const void *object)
+{
+    const UnionStep *step = object_is_group(kind) ? ((const UnionBlueprint *)object)->steps : NULL;
+    while (step && step->keeps_spheres) {
+        step = step->earlier;
+    }
+    return step || (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->rigid);
+}
+
 static bool note_sphere(Block *block)
 {
     SphereBlueprint *sphere = &block->record->sphere;
@@ -366,11 +375,11 @@ static bool note_sphere(Block *block)
     return sphere->rigid != NULL;
 }
 
-static bool note_union(Block *block, const Transform *transform)
+static bool note_union(Block *block, const Transform *transform, bool keeps_spheres)
 {
     UnionStep *step = arena_alloc(block->arena, sizeof *step);
     if (step != NULL) {
-        *step = (UnionStep){.transform = *transform, .earlier = block->record->group.steps};
+        *step = (UnionStep){*transform, keeps_spheres, block->record->group.steps};
         block->record->group.steps = step;
     }
     return step != NULL;
@@ -378,7 +387,7 @@ static bool note_union(Block *block, const Transform *transform)
 
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span)
 {
-    bool fine = object_is_group(block->is)                   ? note_union(block, transform)
+    bool fine = object_is_group(block->is)                   ? note_union(block, transform, keeps_spheres)
                 : block->is == KIND_SPHERE && !keeps_spheres ? note_sphere(block)
                                                              : true;
     return fine || eval_no_memory(block->ev, span);

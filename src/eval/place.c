@@ -28,6 +28,8 @@ typedef struct Placement {
     uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
     bool is_inner, is_hollow; // inside of another object, whose word on this counts
+    bool is_stretched;        // extent_is_stretched, of any object around
+    bool is_look;             // of a light
     uint8_t hidden;
     bool is_hidden_fixed; // what members say of no_image and the like does not count
 } Placement;
@@ -41,6 +43,7 @@ typedef struct Branch {
     bool was_turned; // as of an object: it, or a group around it
     bool is_unseen;
     bool is_in_merge;
+    bool is_in_box; // a member of a union or merge of which POV-Ray sees what is in its box
 } Branch;
 
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer);
@@ -119,6 +122,33 @@ static bool is_hollow(SchemaKind kind, const void *object)
 
 // ---- plain spheres and planes
 
+// A sphere of a negative radius has its box inside out in POV-Ray, until a transform turns the corners of that box. No
+// ray meets it, and nothing is in it. What cuts it with others does not look at its box, but a union or merge that is one
+// object is seen in the box of its members, as they were when its block ended.
+static bool has_box_inside_out(SchemaKind kind, const void *object)
+{
+    return kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius < 0.0 && !extent_is_stretched(kind, object);
+}
+
+static bool box_fault(Eval *ev, Span span)
+{
+    return eval_fault(ev, DIAG_E0366, span, "a sphere of a negative radius is a member of a union or merge that is one object");
+}
+
+// Of a sphere that stands for itself. Most transforms of a light stretch what it looks like, in POV-Ray's sense.
+static bool place_inside_out(Eval *ev, const ObjectPart *sphere, const Placement *outer)
+{
+    if (outer->is_look) {
+        return eval_fault(ev, DIAG_E0366, sphere->span, "a sphere of a negative radius is what a light looks like");
+    }
+    if (outer->is_hidden_fixed) {
+        return box_fault(ev, sphere->span);
+    }
+    eval_warn(ev, DIAG_W0348, sphere->span,
+              "a sphere of a negative radius is drawn only where it is stretched or cut with others");
+    return true;
+}
+
 // A sphere that is one after its transforms too. False in *is_round: it is not.
 static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placement *inner, bool *is_round)
 {
@@ -126,7 +156,7 @@ static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placemen
     double image;
     Span span = sphere->part.span;
     MaterialIndex material;
-    *is_round = sphere_image_radius(sphere->radius, transform, &image);
+    *is_round = sphere_image_radius(fabs(sphere->radius), transform, &image);
     if (!*is_round || !may_add(ev, span) || !place_material(ev, inner, 0, span, &material)) {
         return !*is_round;
     }
@@ -276,6 +306,9 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     const Placement *around = &branch->placement;
     const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
     Part part;
+    if (branch->is_in_box && has_box_inside_out(kind, object)) {
+        return box_fault(ev, common->span);
+    }
     ShapeResult result = shape_make(ev, kind, object, &around->outer, &part);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
@@ -306,6 +339,7 @@ static bool grow_members(Eval *ev, SchemaKind kind, const UnionBlueprint *group,
     Branch branch = *outer;
     branch.is_inverse = false;
     branch.is_in_merge = op == NODE_MERGE || (op == NODE_UNION && outer->is_in_merge);
+    branch.is_in_box = op != NODE_INTERSECTION && (group->part.is_inverse || !outer->is_inverse);
     branch.was_turned |= outer->is_inverse || group->part.was_turned;
     // A union that was once turned inside out has lost what is inside of it. Measured.
     op = op == NODE_UNION && branch.was_turned ? NODE_MERGE : op;
@@ -415,8 +449,11 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
 {
     const ObjectPart *common = object;
     bool is_plain = !common->is_inverse && !inner->hidden;
-    bool may_be_round = kind == KIND_SPHERE && is_plain && ((const SphereBlueprint *)object)->radius > 0.0;
+    bool may_be_round = kind == KIND_SPHERE && is_plain && ((const SphereBlueprint *)object)->radius != 0.0;
     bool is_round = false, is_placed = false;
+    if (has_box_inside_out(kind, object) && (outer->is_hidden_fixed || outer->is_look || !inner->is_stretched)) {
+        return place_inside_out(ev, common, outer);
+    }
     if (may_be_round && !inner->clips) {
         is_placed = place_sphere(ev, object, inner, &is_round);
     }
@@ -458,6 +495,7 @@ static bool place_look(Eval *ev, const LightBlueprint *light, const Placement *o
         .texture_outer = light->part.texture ? outer->outer : outer->texture_outer,
         .interior = outer->interior,
         .body = outer->body,
+        .is_look = true,
         .hidden = outer->hidden | (outer->is_hidden_fixed ? 0 : hidden_of(&light->part)) | HIDDEN_SHADOW,
     };
     return place(ev, light->look->kind, light->look->object, &own);
@@ -479,6 +517,8 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .body = outer->body,
         .clips = part->clips ? &own : outer->clips,
         .is_inner = true,
+        .is_look = outer->is_look,
+        .is_stretched = outer->is_stretched || extent_is_stretched(kind, object),
         .is_hollow = outer->is_inner ? outer->is_hollow : is_hollow(kind, object),
         .hidden = outer->hidden | (outer->is_hidden_fixed ? 0 : hidden_of(part)),
         .is_hidden_fixed = outer->is_hidden_fixed || !part->split_union || part->clips || part->bounds,

@@ -25,7 +25,7 @@ struct ProbeNode {
     SchemaKind kind;
     bool is_turned;  // inside out, with all around it
     bool was_turned; // if only to be turned back
-    bool is_moved;
+    bool is_moved, is_stretched;
     Transform to_outer; // from the world to the space that the object's own transform leads to
 };
 
@@ -203,6 +203,7 @@ static bool add_object(Eval *ev, Probe *probe, const ProbeNode *around, const Un
     }
     Transform inner = transform_compose(part->transform, *outer);
     node->is_moved = !transform_is_identity(&inner);
+    node->is_stretched = (around != NULL && around->is_stretched) || extent_is_stretched(kind, object);
     if (!object_is_group(kind)) {
         return add_leaf(ev, probe, node, &inner);
     }
@@ -284,6 +285,12 @@ void probes_fini(Eval *ev)
     ARRAY_FREE(&ev->probes);
 }
 
+// A negative radius turns the normals of a sphere round, until a transform is taken that need not keep it one.
+static bool is_sphere_turned(const ProbeNode *leaf)
+{
+    return leaf->kind == KIND_SPHERE && ((const SphereBlueprint *)leaf->object)->radius < 0.0 && !leaf->is_stretched;
+}
+
 // The first surface that counts, and its shape; false: none.
 static bool meet(const Eval *ev, const Probe *probe, Vec3 origin, Vec3 direction, EvalHit *hit, const ProbeNode **on)
 {
@@ -296,7 +303,7 @@ static bool meet(const Eval *ev, const Probe *probe, Vec3 origin, Vec3 direction
             if (leaf->kind == KIND_TRIANGLE) {
                 hit->normal = vec3_sub(vec3(0.0, 0.0, 0.0), hit->normal); // POV-Ray has it on the other side
             }
-            hit->normal = leaf->is_turned ? vec3_neg(hit->normal) : hit->normal;
+            hit->normal = leaf->is_turned != is_sphere_turned(leaf) ? vec3_neg(hit->normal) : hit->normal;
             *on = leaf;
             return true;
         }

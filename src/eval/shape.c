@@ -70,7 +70,7 @@ static ShapeResult formed(Eval *ev, Span span, const char *why_nothing)
 static ShapeResult sphere_form(Eval *ev, const void *object, Part *part)
 {
     const SphereBlueprint *sphere = object;
-    return formed(ev, sphere->part.span, part_make_ball(part, sphere->centre, sphere->radius));
+    return formed(ev, sphere->part.span, part_make_ball(part, sphere->centre, fabs(sphere->radius)));
 }
 
 static ShapeResult box_form(Eval *ev, const void *object, Part *part)
@@ -154,7 +154,7 @@ static ShapeResult plane_make(Eval *ev, const PlaneBlueprint *plane, const Trans
 static Transform sphere_to_world(const SphereBlueprint *sphere, const Transform *ball, const Transform *transform)
 {
     double radius;
-    if (!sphere_image_radius(sphere->radius, transform, &radius)) {
+    if (!sphere_image_radius(fabs(sphere->radius), transform, &radius)) {
         return transform_compose(*ball, *transform);
     }
     return transform_compose(transform_scale(vec3(radius, radius, radius)),

@@ -142,7 +142,7 @@ typedef struct LightBlueprint {
 typedef struct SphereBlueprint {
     ObjectPart part;
     Vec3 centre;
-    double radius;
+    double radius;          // below 0: the sphere has its box inside out
     const Transform *rigid; // the transform before the first that need not keep a sphere; NULL: there is none
 } SphereBlueprint;
 
@@ -199,6 +199,7 @@ struct UnionMember {
 typedef struct UnionStep UnionStep;
 struct UnionStep {
     Transform transform;
+    bool keeps_spheres; // it moves, turns or scales evenly
     const UnionStep *earlier;
 };
 

@@ -197,8 +197,8 @@ static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {
 
 static const SchemaProperty sphere_arguments[] = {
     {"centre", TYPE_VECTOR, AT(SphereBlueprint, centre), .doc = "its middle"},
-    {"radius", TYPE_NUMBER, AT(SphereBlueprint, radius), .range = {RANGE_FAULT, false, 0.0, INFINITY},
-     .doc = "0: not drawn"},
+    {"radius", TYPE_NUMBER, AT(SphereBlueprint, radius),
+     .doc = "0: not drawn; below 0: only where it is stretched or cut with others"},
 };
 
 static const SphereBlueprint sphere_defaults = {.part = OBJECT_PART, .radius = 1.0};
@@ -217,9 +217,8 @@ static const SchemaProperty box_arguments[] = {
 
 static const BoxBlueprint box_defaults = {.part = OBJECT_PART};
 
-// POV-Ray takes the absolute value of a negative radius of a cylinder or disc, and so do we. It draws a sphere of one
-// in intersections, differences and where it is stretched only, and a cone of one as two that meet in their apex, with
-// wrong surfaces. Measured.
+// POV-Ray takes the absolute value of a negative radius of a cylinder or disc, and so do we. Of a sphere see place.c. It
+// draws a cone of one as two that meet in their apex, with wrong surfaces. Measured.
 #define RADIUS {RANGE_FAULT, false, 0.0, INFINITY}
 
 static const SchemaProperty cylinder_arguments[] = {
@@ -731,11 +730,13 @@ static const SchemaBlock kinds[KIND_COUNT] = {
     [KIND_CLIPPED_BY] = {.word = "clipped_by",
                          .size = sizeof(UnionBlueprint),
                          .defaults = &union_defaults,
-                         .doc =
-                             "In an object: solids without textures, or the word `bounded_by` for what stands there."},
+                         .groups = {TRANSFORMS},
+                         .doc = "In an object: solids without textures, or their names, and transforms of all of them; or "
+                                "the word `bounded_by`."},
     [KIND_BOUNDED_BY] = {.word = "bounded_by",
                          .size = sizeof(UnionBlueprint),
                          .defaults = &union_defaults,
+                         .groups = {TRANSFORMS},
                          .doc = "In an object: likewise, or the word `clipped_by`."},
     [KIND_LOOKS_LIKE] =
         {.word = "looks_like",
