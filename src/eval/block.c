@@ -293,6 +293,8 @@ static void take_name(Block *block, const Value *value, const AstNode *item)
                     value_describe(value));
     } else if (block->kind == KIND_TEXTURE && value->block != KIND_TEXTURE) {
         texture_take_part(&block->record->texture, (SchemaKind)value->block, value->record);
+    } else if (block->kind == KIND_MATERIAL) {
+        block->has_fault = !material_take_name(block, value->record, item->span) || block->has_fault;
     } else {
         block->is = (SchemaKind)value->block;
         memcpy(block->record, value->record, schema_kind(block->is)->size);

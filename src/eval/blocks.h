@@ -178,6 +178,8 @@ const TextureBlueprint *texture_laid_over(Eval *ev, Arena *arena, const TextureB
                                           const TextureBlueprint *below, Span span);
 bool interior_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool material_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+// A leading name: its texture is laid over what there is, its interior, even none, takes the place of what there is.
+bool material_take_name(Block *block, const MaterialBlueprint *material, Span span) RT_MUST_CHECK;
 // Moves a texture with all that lies below it.
 void texture_transform(TextureBlueprint *texture, const Transform *transform);
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;

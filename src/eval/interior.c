@@ -28,24 +28,35 @@ bool interior_action(Block *block, const SchemaProperty *property, const AstNode
     return *place || eval_no_memory(block->ev, item->span);
 }
 
+bool material_take_name(Block *block, const MaterialBlueprint *material, Span span)
+{
+    MaterialBlueprint *record = &block->record->material;
+    const TextureBlueprint *texture = material->texture;
+    if (texture && record->texture) {
+        texture = texture_laid_over(block->ev, block->arena, texture, record->texture, span);
+        if (!texture) {
+            return false;
+        }
+    }
+    record->texture = texture ? texture : record->texture;
+    record->interior = material->interior;
+    return true;
+}
+
+// A material goes on from what the object is: it moves its texture, too.
 bool material_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     (void)property;
     Blueprint record;
     SchemaKind is;
     block_defaults(block->ev, KIND_MATERIAL, &record);
+    ObjectPart *part = &block->record->part;
+    record.material.texture = part->texture;
+    record.material.interior = part->interior;
     if (!block_read(block->ev, item, KIND_MATERIAL, block->arena, &record, &is)) {
         return false;
     }
-    ObjectPart *part = &block->record->part;
-    const TextureBlueprint *texture = record.material.texture;
-    if (texture && part->texture) {
-        texture = texture_laid_over(block->ev, block->arena, texture, part->texture, item->span);
-        if (!texture) {
-            return false;
-        }
-    }
-    part->texture = texture ? texture : part->texture;
-    part->interior = record.material.interior ? record.material.interior : part->interior;
+    part->texture = record.material.texture;
+    part->interior = record.material.interior;
     return true;
 }
