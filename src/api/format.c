@@ -65,10 +65,10 @@ static bool open_text(rt_session *session, const char *path, TextBuffer *text, S
         return false;
     }
     *source = source_open_text(session->sources, path, text_get(text), text->length);
-    if (*source == NULL) {
+    if (!*source) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", path);
     }
-    return *source != NULL;
+    return *source;
 }
 
 // The layout of a file, into the session's dump, and whether the file is in that layout.

@@ -10,7 +10,7 @@
 static void *painter_open(const Scene *pigments, const Noise *noise)
 {
     TextureTable *table = malloc(sizeof *table);
-    if (table != NULL && !texture_table_init(table, pigments, noise, 0, NULL)) {
+    if (table && !texture_table_init(table, pigments, noise, 0, NULL)) {
         free(table);
         return NULL;
     }

@@ -264,7 +264,7 @@ static bool picture_load(rt_session *session, Scene *scene, size_t index)
         trouble = "";
     }
     picture_file_fini(&file);
-    return trouble == NULL;
+    return !trouble;
 }
 
 // Places that `filter` and `transmit` name must be in the palette.

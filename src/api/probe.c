@@ -22,7 +22,7 @@ static bool probe_closest(const void *geometry, Vec3 origin, Vec3 direction, con
     Ray ray = {origin, direction};
     RayStart start = RAY_START_FREE;
     Hit hit;
-    if (from != NULL) {
+    if (from) {
         start = (RayStart){from->shape, vec3_dot(direction, from->normal) < 0.0, 0};
     }
     if (!geometry_closest(geometry, TRACE_PARTS, ray, start, (double)INFINITY, &hit)) {

@@ -59,7 +59,7 @@ static AstNode *new_node(AstBuilder *builder, AstNode content)
         return fail(builder, DIAG_E0601, content.span);
     }
     AstNode *node = arena_alloc(builder->arena, sizeof *node);
-    if (RT_UNLIKELY(node == NULL)) {
+    if (RT_UNLIKELY(!node)) {
         return fail(builder, DIAG_E0602, content.span);
     }
     *node = content;
@@ -69,9 +69,9 @@ static AstNode *new_node(AstBuilder *builder, AstNode content)
 AstNode *ast_node(AstBuilder *builder, AstKind kind, AstOp op, Symbol symbol, Span span, AstNode *a, AstNode *b,
                   AstNode *c)
 {
-    uint32_t depth = a != NULL ? a->depth : 0;
-    depth = b != NULL ? greater(depth, b->depth) : depth;
-    depth = c != NULL ? greater(depth, c->depth) : depth;
+    uint32_t depth = a ? a->depth : 0;
+    depth = b ? greater(depth, b->depth) : depth;
+    depth = c ? greater(depth, c->depth) : depth;
     return new_node(builder, (AstNode){.kind = (uint8_t)kind,
                                        .op = (uint8_t)op,
                                        .symbol = symbol,
@@ -103,7 +103,7 @@ AstNode *ast_number(AstBuilder *builder, double number, Span span)
 
 AstList ast_append(AstList list, AstNode *node)
 {
-    if (list.first == NULL) {
+    if (!list.first) {
         list.first = node;
     } else {
         list.last->next = node;
@@ -121,7 +121,7 @@ AstList ast_append_after_comma(AstList list, AstNode *node)
 
 AstList ast_flag_first(AstList list, unsigned flags)
 {
-    if (list.first != NULL) {
+    if (list.first) {
         ast_flag(list.first, flags);
     }
     return list;
@@ -129,7 +129,7 @@ AstList ast_flag_first(AstList list, unsigned flags)
 
 AstList ast_flag_last(AstList list, unsigned flags)
 {
-    if (list.last != NULL) {
+    if (list.last) {
         ast_flag(list.last, flags);
     }
     return list;
@@ -143,9 +143,9 @@ AstNode *ast_flag(AstNode *node, unsigned flags)
 
 static bool clone_list(const AstNode *from, Arena *arena, AstNode **to)
 {
-    for (; from != NULL; from = from->next) {
+    for (; from; from = from->next) {
         *to = ast_clone(from, arena);
-        if (*to == NULL) {
+        if (!*to) {
             return false;
         }
         to = &(*to)->next;
@@ -156,7 +156,7 @@ static bool clone_list(const AstNode *from, Arena *arena, AstNode **to)
 AstNode *ast_clone(const AstNode *node, Arena *arena)
 {
     AstNode *copy = arena_alloc(arena, sizeof *copy);
-    if (copy == NULL) {
+    if (!copy) {
         return NULL;
     }
     *copy = *node;
@@ -172,7 +172,7 @@ AstNode *ast_clone(const AstNode *node, Arena *arena)
 
 static bool lists_equal(const AstNode *one, const AstNode *other)
 {
-    while (one != NULL && other != NULL) {
+    while (one && other) {
         if (!ast_equal(one, other)) {
             return false;
         }

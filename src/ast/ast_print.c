@@ -16,7 +16,7 @@ static void put_indent(Printer *printer, int indent)
 
 static void print_block(Printer *printer, const AstNode *items, int indent, const char *end)
 {
-    if (items == NULL) {
+    if (!items) {
         text_printf(printer->out, " %s", end);
         return;
     }
@@ -29,16 +29,16 @@ static void print_block(Printer *printer, const AstNode *items, int indent, cons
 static void print_function(Printer *printer, const AstNode *node, int indent)
 {
     printer_put(printer, "function");
-    if (node->a != NULL) {
+    if (node->a) {
         bool sizes = node->a->kind == AST_NUMBER;
         printer_put(printer, sizes ? " " : "(");
         printer_list(printer, node->a, indent);
         printer_put(printer, sizes ? "" : ")");
     }
     printer_put(printer, " { ");
-    if (node->b != NULL && printer_is_expression(node->b)) {
+    if (node->b && printer_is_expression(node->b)) {
         printer_operand(printer, node->b, PRECEDENCE_CHOICE + 1);
-    } else if (node->b != NULL) {
+    } else if (node->b) {
         printer_value(printer, node->b, indent);
     }
     printer_put(printer, " }");
@@ -47,12 +47,12 @@ static void print_function(Printer *printer, const AstNode *node, int indent)
 static void print_array(Printer *printer, const AstNode *node, int indent)
 {
     printer_put(printer, "array");
-    for (const AstNode *size = node->a; size != NULL; size = size->next) {
+    for (const AstNode *size = node->a; size; size = size->next) {
         printer_put(printer, "[");
         printer_operand(printer, size, PRECEDENCE_SUM);
         printer_put(printer, "]");
     }
-    if (node->b != NULL) {
+    if (node->b) {
         printer_put(printer, " ");
         printer_value(printer, node->b, indent);
     }
@@ -74,7 +74,7 @@ void printer_value(Printer *printer, const AstNode *node, int indent)
         print_block(printer, node->a, indent, "]");
         break;
     case AST_SEQUENCE:
-        for (const AstNode *part = node->a; part != NULL; part = part->next) {
+        for (const AstNode *part = node->a; part; part = part->next) {
             printer_put(printer, part == node->a ? "" : " ");
             printer_value(printer, part, indent);
         }
@@ -101,7 +101,7 @@ static void print_condition(Printer *printer, const char *directive, const AstNo
 {
     printer_put(printer, directive);
     printer_put(printer, " (");
-    if (condition != NULL) {
+    if (condition) {
         printer_operand(printer, condition, PRECEDENCE_CHOICE);
     }
     printer_put(printer, ")");
@@ -116,7 +116,7 @@ static void print_branch(Printer *printer, const AstNode *items, int indent)
 // An IF alone is written as #elseif only when nothing about it says otherwise: its flags would have no place.
 static bool is_elseif(const AstNode *rest)
 {
-    return rest->kind == AST_IF && rest->next == NULL && rest->flags == 0;
+    return rest->kind == AST_IF && !rest->next && rest->flags == 0;
 }
 
 static void print_if(Printer *printer, const AstNode *node, int indent)
@@ -124,7 +124,7 @@ static void print_if(Printer *printer, const AstNode *node, int indent)
     print_condition(printer, node->kind == AST_IF ? "#if" : ast_op_spelling((AstOp)node->op), node->a);
     print_branch(printer, node->b, indent);
     const AstNode *rest = node->c;
-    while (rest != NULL) {
+    while (rest) {
         put_indent(printer, indent);
         if (is_elseif(rest)) {
             print_condition(printer, "#elseif", rest->a);
@@ -144,7 +144,7 @@ static void print_switch(Printer *printer, const AstNode *node, int indent)
 {
     print_condition(printer, "#switch", node->a);
     print_branch(printer, node->c, indent);
-    for (const AstNode *branch = node->b; branch != NULL; branch = branch->next) {
+    for (const AstNode *branch = node->b; branch; branch = branch->next) {
         put_indent(printer, indent);
         if (branch->kind == AST_CASE) {
             print_condition(printer, "#case", branch->a);
@@ -177,7 +177,7 @@ static void print_header(Printer *printer, const char *name, const AstNode *firs
 {
     text_printf(printer->out, "%s (", name);
     printer_list(printer, first, indent);
-    printer_put(printer, first != NULL && more != NULL ? ", " : "");
+    printer_put(printer, first && more ? ", " : "");
     printer_list(printer, more, indent);
     printer_put(printer, ")");
 }
@@ -299,21 +299,21 @@ static void print_items(Printer *printer, const AstNode *items, int indent)
 {
     Neighbours neighbours = {0};
     printer->indent = indent;
-    for (const AstNode *node = items; node != NULL; node = node->next) {
+    for (const AstNode *node = items; node; node = node->next) {
         const AstNode *previous = neighbours.previous;
-        bool same_line = previous != NULL && printer_is_expression(node) && is_operand_of_line(previous);
+        bool same_line = previous && printer_is_expression(node) && is_operand_of_line(previous);
         bool comma = node->flags & AST_AFTER_COMMA;
         if (same_line) {
             printer_put(printer, comma ? ", " : " ");
         } else {
-            printer_put(printer, previous != NULL ? (comma ? ",\n" : "\n") : "");
+            printer_put(printer, previous ? (comma ? ",\n" : "\n") : "");
             put_indent(printer, indent);
-            printer_put(printer, previous == NULL && comma ? ", " : "");
+            printer_put(printer, !previous && comma ? ", " : "");
         }
         print_item(printer, node, &neighbours, indent);
         neighbours.previous = node;
     }
-    printer_put(printer, items != NULL ? "\n" : "");
+    printer_put(printer, items ? "\n" : "");
     printer->indent = indent - 1;
 }
 

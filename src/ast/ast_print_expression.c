@@ -74,7 +74,7 @@ static bool needs_closing(const AstNode *node, int precedence)
 void printer_list(Printer *printer, const AstNode *list, int indent)
 {
     const char *separator = "";
-    for (const AstNode *node = list; node != NULL; node = node->next) {
+    for (const AstNode *node = list; node; node = node->next) {
         printer_put(printer, separator);
         printer_value(printer, node, indent);
         separator = node->kind == AST_WORD ? " " : ", ";
@@ -83,10 +83,10 @@ void printer_list(Printer *printer, const AstNode *list, int indent)
 
 static bool ends_in_comma(const AstNode *list)
 {
-    while (list != NULL && list->next != NULL) {
+    while (list && list->next) {
         list = list->next;
     }
-    return list != NULL && (list->flags & AST_BEFORE_COMMA);
+    return list && (list->flags & AST_BEFORE_COMMA);
 }
 
 // The parentheses of a function hold one relation without parentheses of its own.
@@ -94,7 +94,7 @@ static void print_builtin(Printer *printer, const AstNode *node)
 {
     printer_put_symbol(printer, node->symbol);
     printer_put(printer, "(");
-    for (const AstNode *operand = node->a; operand != NULL; operand = operand->next) {
+    for (const AstNode *operand = node->a; operand; operand = operand->next) {
         printer_put(printer, operand == node->a ? "" : ", ");
         printer_operand(printer, operand, operand == node->a ? PRECEDENCE_CHOICE : PRECEDENCE_SUM);
     }
@@ -142,7 +142,7 @@ static void print_expression(Printer *printer, const AstNode *node)
         printer_put(printer, ends_in_comma(node->a) ? ",>" : ">");
         break;
     case AST_CALL:
-        if (node->b != NULL) {
+        if (node->b) {
             print_expression(printer, node->b);
         } else {
             printer_put_symbol(printer, node->symbol);
@@ -191,7 +191,7 @@ void ast_print_expression(const AstNode *node, const InternTable *names, TextBuf
 
 static bool follows_bare(const AstNode *node)
 {
-    return node != NULL && printer_is_expression(node) && !(node->flags & AST_AFTER_COMMA);
+    return node && printer_is_expression(node) && !(node->flags & AST_AFTER_COMMA);
 }
 
 static bool begins_with_sign(const AstNode *node)
@@ -211,7 +211,7 @@ static bool begins_with_parenthesis(const AstNode *node)
     const AstNode *first = node;
     for (;;) {
         const AstNode *operand = first->kind == AST_BINARY || first->kind == AST_MEMBER ? first->a : NULL;
-        if (operand == NULL) {
+        if (!operand) {
             return false;
         }
         int wanted = first->kind == AST_BINARY ? precedence_of(first) : PRECEDENCE_POSTFIX;
@@ -258,7 +258,7 @@ static bool run_is_closed(const AstNode *node, const AstNode **end)
     for (;;) {
         const AstNode *next = node->next;
         *end = next;
-        if (next != NULL && next->kind == AST_ENTRY && !(next->flags & AST_AFTER_COMMA)) {
+        if (next && next->kind == AST_ENTRY && !(next->flags & AST_AFTER_COMMA)) {
             return true;
         }
         if (!follows_bare(next)) {
@@ -292,10 +292,10 @@ bool printer_needs_parentheses(const AstNode *node, Neighbours *neighbours)
     const AstNode *previous = neighbours->previous;
     if (!ends_with_name(node)) {
         neighbours->run_end = NULL;
-    } else if (neighbours->run_end == NULL || neighbours->run_end == node) {
+    } else if (!neighbours->run_end || neighbours->run_end == node) {
         neighbours->run_closed = run_is_closed(node, &neighbours->run_end);
     }
-    bool continued = previous != NULL && follows_bare(node) &&
+    bool continued = previous && follows_bare(node) &&
                      (printer_is_expression(previous) || is_open_ended(previous));
     return (continued && begins_with_sign(node)) || (ends_with_name(node) && neighbours->run_closed);
 }

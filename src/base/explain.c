@@ -63,7 +63,7 @@ void explain_write(DiagCode code, TextBuffer *out)
     const Explanation *explanation = &explanations[code];
     text_printf(out, "%s: %s (%s, exit code %d%s)\n\n", diag_code_name(code), diag_code_summary(code),
                 severity_name(code), (int)diag_code_class(code), diag_code_is_extra(code) ? ", with -Wall only" : "");
-    if (explanation->right != NULL) {
+    if (explanation->right) {
         text_printf(out, "    wrong: %s\n    right: %s\n\n", explanation->wrong, explanation->right);
     } else {
         text_printf(out, "    for example: %s\n\n", explanation->wrong);
@@ -80,7 +80,7 @@ static void append_section(TextBuffer *out, DiagCode code)
                 diag_code_is_extra(code) ? ", with `-Wall` only" : "");
     append_wrapped(out, explanation->text, out->length - start, DOCUMENT_COLUMNS);
     text_append_char(out, '\n');
-    if (explanation->right != NULL) {
+    if (explanation->right) {
         text_printf(out, "```\nwrong: %s\nright: %s\n```\n\n", explanation->wrong, explanation->right);
     } else {
         text_printf(out, "For example: %s.\n\n", explanation->wrong);

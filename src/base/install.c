@@ -42,16 +42,16 @@ static bool file_by_maps(uintptr_t address, char path[static PATH_MAX])
     char line[PATH_MAX + 128];
     const char *name = NULL;
     bool is_found = false;
-    while (maps != NULL && !is_found && fgets(line, sizeof line, maps) != NULL) {
+    while (maps && !is_found && fgets(line, sizeof line, maps)) {
         uintptr_t low, high;
         line[strcspn(line, "\n")] = '\0';
         name = strchr(line, '/');
         is_found = sscanf(line, "%" SCNxPTR "-%" SCNxPTR, &low, &high) == 2 && low <= address && address < high;
     }
-    if (maps != NULL) {
+    if (maps) {
         (void)fclose(maps);
     }
-    return is_found && name != NULL && realpath(name, path) != NULL;
+    return is_found && name && realpath(name, path);
 }
 
 static bool file_of_code(char path[static PATH_MAX])
@@ -59,14 +59,14 @@ static bool file_of_code(char path[static PATH_MAX])
     const void *address = (const void *)(uintptr_t)file_of_code;
     Dl_info info;
     return file_by_maps((uintptr_t)address, path) ||
-           (dladdr(address, &info) != 0 && info.dli_fname != NULL && realpath(info.dli_fname, path) != NULL);
+           (dladdr(address, &info) != 0 && info.dli_fname && realpath(info.dli_fname, path));
 }
 
 // Cuts the last name off a path, which then is that of its folder. False at the root.
 static bool cut_name(char *path)
 {
     char *slash = strrchr(path, '/');
-    bool has_more = slash != NULL && slash[1] != '\0';
+    bool has_more = slash && slash[1] != '\0';
     if (has_more) {
         slash[slash == path] = '\0';
     }
@@ -93,7 +93,7 @@ static bool walk(char folder[static PATH_MAX], const char *from, const char *to)
     bool is_whole = (from[common] == '\0' || from[common] == '/') && (to[common] == '\0' || to[common] == '/');
     common = is_whole ? common : slash;
     bool fine = true;
-    for (const char *up = from + common; fine && (up = strchr(up, '/')) != NULL; up++) {
+    for (const char *up = from + common; fine && (up = strchr(up, '/')); up++) {
         fine = cut_name(folder);
     }
     to += common;

@@ -38,7 +38,7 @@ static bool is_folder(const char *path)
 static void take(Library *library, char *path)
 {
     bool is_new = path != NULL;
-    library->failed = library->failed || path == NULL;
+    library->failed = library->failed || !path;
     for (size_t i = 0; is_new && i < library->folders.count; i++) {
         is_new = strcmp(library->folders.items[i], path) != 0;
     }
@@ -56,7 +56,7 @@ static void add(Library *library, const char *folder)
         return;
     }
     char *real = realpath(folder, NULL);
-    if (real != NULL || errno == ENOMEM) { // otherwise it has just gone
+    if (real || errno == ENOMEM) { // otherwise it has just gone
         take(library, real);
     }
 }
@@ -127,7 +127,7 @@ static bool read_ini(Library *library, const char *path)
     FILE *file = fopen(path, "re");
     char *line = NULL;
     size_t size = 0;
-    while (file != NULL && getline(&line, &size, file) >= 0) {
+    while (file && getline(&line, &size, file) >= 0) {
         char *text = line + strspn(line, blanks);
         if (*text == '[') {
             break;
@@ -137,7 +137,7 @@ static bool read_ini(Library *library, const char *path)
         }
     }
     free(line);
-    if (file != NULL) {
+    if (file) {
         (void)fclose(file);
     }
     return file != NULL;
@@ -147,7 +147,7 @@ static bool read_ini_at_home(Library *library, const char *name)
 {
     const char *home = secure_getenv("HOME");
     char path[PATH_MAX];
-    return home != NULL && home[0] == '/' && snprintf(path, sizeof path, "%s/%s", home, name) < (int)sizeof path &&
+    return home && home[0] == '/' && snprintf(path, sizeof path, "%s/%s", home, name) < (int)sizeof path &&
            read_ini(library, path);
 }
 
@@ -156,7 +156,7 @@ static void add_from_ini(Library *library)
     static const char *const places[] = {"/usr/local/etc/povray/3.7/povray.ini", "/etc/povray/3.7/povray.ini"};
     static const char *const old_places[] = {"/usr/local/etc/povray.ini", "/etc/povray.ini"};
     const char *chosen = secure_getenv("POVINI");
-    if (chosen != NULL && chosen[0] != '\0') {
+    if (chosen && chosen[0] != '\0') {
         (void)read_ini(library, chosen); // POV-Ray reads no other one then
         return;
     }
@@ -229,9 +229,9 @@ bool library_is_standard(const char *name)
         "stoneold"
         " stones stones1 stones2 strings sunpos textures transforms woodmaps woods ";
     const char *ending = strrchr(name, '.');
-    size_t length = ending != NULL && strcmp(ending, ".inc") == 0 ? (size_t)(ending - name) : strlen(name);
+    size_t length = ending && strcmp(ending, ".inc") == 0 ? (size_t)(ending - name) : strlen(name);
     char wanted[32];
     return strcspn(name, " ") >= length && length > 0 &&
            snprintf(wanted, sizeof wanted, " %.*s ", (int)length, name) < (int)sizeof wanted &&
-           strstr(names, wanted) != NULL;
+           strstr(names, wanted);
 }

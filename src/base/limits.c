@@ -35,7 +35,7 @@ size_t limits_memory(const Limits *limits, uint64_t text_bytes)
 bool limits_report_memory(DiagSink *sink, Span span, const MemoryBudget *budget, const char *doing)
 {
     char limit[LIMITS_BYTES_TEXT];
-    if (budget == NULL || !budget->refused) {
+    if (!budget || !budget->refused) {
         return diag_report(sink, DIAG_E0602, span, "out of memory while %s", doing);
     }
     limits_bytes_text(budget->limit, limit);

@@ -34,7 +34,7 @@ static size_t limit_by_file(const char *path, size_t memory)
 {
     uint64_t bytes;
     FILE *file = fopen(path, "re");
-    if (file == NULL) {
+    if (!file) {
         return memory;
     }
     bool is_limited = fscanf(file, "%" SCNu64, &bytes) == 1;
@@ -46,7 +46,7 @@ static size_t limit_by_file(const char *path, size_t memory)
 static size_t limit_by_groups(const char *top, char *group, const char *name, size_t memory)
 {
     char path[PATH_MAX];
-    for (char *end = group + strlen(group); end != NULL; end = strrchr(group, '/')) {
+    for (char *end = group + strlen(group); end; end = strrchr(group, '/')) {
         *end = '\0';
         if (snprintf(path, sizeof path, "%s%s/%s", top, group, name) < (int)sizeof path) {
             memory = limit_by_file(path, memory);
@@ -60,9 +60,9 @@ static size_t limit_by_container(size_t memory)
 {
     char line[PATH_MAX];
     FILE *file = fopen("/proc/self/cgroup", "re");
-    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
-        char *controllers = strchr(line, ':'), *group = controllers != NULL ? strchr(controllers + 1, ':') : NULL;
-        if (group == NULL) {
+    while (file && fgets(line, sizeof line, file)) {
+        char *controllers = strchr(line, ':'), *group = controllers ? strchr(controllers + 1, ':') : NULL;
+        if (!group) {
             continue;
         }
         *group++ = '\0';
@@ -73,7 +73,7 @@ static size_t limit_by_container(size_t memory)
             memory = limit_by_groups("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes", memory);
         }
     }
-    if (file != NULL) {
+    if (file) {
         fclose(file);
     }
     return memory;

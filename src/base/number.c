@@ -202,7 +202,7 @@ NumberResult number_scan(const char *text, size_t length, double *value, size_t 
 {
     Literal literal;
     const char *end = literal_read(text, text + length, &literal);
-    if (end == NULL) {
+    if (!end) {
         return NUMBER_MALFORMED;
     }
     *used = (size_t)(end - text);
@@ -213,7 +213,7 @@ NumberResult number_parse(const char *text, size_t length, double *value)
 {
     Literal literal;
     const char *end = literal_read(text, text + length, &literal);
-    if (end == NULL || end != text + length || (!is_digit(end[-1]) && end[-1] != '.')) {
+    if (!end || end != text + length || (!is_digit(end[-1]) && end[-1] != '.')) {
         return NUMBER_MALFORMED;
     }
     return literal_value(&literal, value);

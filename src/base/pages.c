@@ -25,7 +25,7 @@ void pages_prefer_huge(void *memory, size_t bytes)
 {
     uintptr_t begin = ((uintptr_t)memory + huge_page - 1) & ~(huge_page - 1);
     uintptr_t end = ((uintptr_t)memory + bytes) & ~(huge_page - 1);
-    if (memory != NULL && is_large(bytes) && begin < end) {
+    if (memory && is_large(bytes) && begin < end) {
         int before = errno;
 #ifdef MADV_HUGEPAGE
         (void)madvise((void *)begin, end - begin, MADV_HUGEPAGE); // refused on systems without: nothing is lost
@@ -42,7 +42,7 @@ void *pages_grow(void *memory, size_t old_bytes, size_t bytes)
         return realloc(memory, bytes);
     }
     void *moved = aligned_alloc(huge_page, whole);
-    if (moved == NULL) {
+    if (!moved) {
         return realloc(memory, bytes);
     }
     pages_prefer_huge(moved, whole);

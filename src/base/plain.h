@@ -153,7 +153,7 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
         case 7: after = plain_end_number(point, whole, chunk, 7, is_negative, number); break;
         default: break;
         }
-        if (RT_LIKELY(after != NULL)) {
+        if (RT_LIKELY(after)) {
             return after;
         }
         if (count == DIGITS_FEW) {
@@ -176,7 +176,7 @@ RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, 
 #endif
     double size;
     at = plain_read_any(at, end, &size);
-    if (at == NULL || plain_goes_on(*at)) {
+    if (!at || plain_goes_on(*at)) {
         return NULL;
     }
     *number = is_negative ? -size : size;

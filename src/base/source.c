@@ -152,7 +152,7 @@ static Source *source_add(SourceMap *map, const char *name, int file, char *kept
 
 static bool is_cancelled(const SourceMap *map)
 {
-    return map->cancel != NULL && atomic_load_explicit(map->cancel, memory_order_relaxed);
+    return map->cancel && atomic_load_explicit(map->cancel, memory_order_relaxed);
 }
 
 static ptrdiff_t read_retrying(const SourceMap *map, int file, char *buffer, size_t size)

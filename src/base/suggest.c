@@ -132,7 +132,7 @@ void suggest_offer(Suggest *suggest, const char *candidate)
 {
     size_t wanted_length = suggest->wanted_length;
     unsigned bound = suggest->best_cost - 1;
-    if (wanted_length >= PART && suggest->best == NULL && strncmp(candidate, suggest->wanted, wanted_length) == 0 &&
+    if (wanted_length >= PART && !suggest->best && strncmp(candidate, suggest->wanted, wanted_length) == 0 &&
         candidate[wanted_length] == '_') {
         suggest->best = candidate; // at the highest cost that is accepted
         return;

@@ -297,7 +297,7 @@ static bool parse_hex4(const char *text, unsigned *point)
     for (int i = 0; i < 4; i++) {
         char c = text[i] >= 'A' && text[i] <= 'F' ? (char)(text[i] - 'A' + 'a') : text[i];
         const char *digit = c != '\0' ? strchr(digits, c) : NULL;
-        if (digit == NULL) {
+        if (!digit) {
             return false;
         }
         *point = *point << 4 | (unsigned)(digit - digits);
@@ -310,7 +310,7 @@ size_t text_append_escape(TextBuffer *buffer, const char *text, size_t length)
     static const char letters[] = "abfnrtv\\\"'", meanings[] = "\a\b\f\n\r\t\v\\\"'";
     const char *letter = length >= 2 && text[1] != '\0' ? strchr(letters, text[1]) : NULL;
     unsigned point;
-    if (letter != NULL) {
+    if (letter) {
         text_append_char(buffer, meanings[letter - letters]);
         return 2;
     }

@@ -120,13 +120,13 @@ bool camera_text_write(const char *scene, const char *words, const char *copy)
     bool has_camera = false;
     int c;
 
-    while (walk.in != NULL && walk.out != NULL && (c = fgetc(walk.in)) != EOF) {
+    while (walk.in && walk.out && (c = fgetc(walk.in)) != EOF) {
         has_camera = copy_token(&walk, c, words) || has_camera;
     }
-    bool is_read = walk.in != NULL && !ferror(walk.in);
-    bool is_written = walk.out != NULL && !ferror(walk.out);
-    if (walk.in != NULL) {
+    bool is_read = walk.in && !ferror(walk.in);
+    bool is_written = walk.out && !ferror(walk.out);
+    if (walk.in) {
         fclose(walk.in);
     }
-    return walk.out != NULL && fclose(walk.out) == 0 && is_written && is_read && has_camera;
+    return walk.out && fclose(walk.out) == 0 && is_written && is_read && has_camera;
 }

@@ -57,12 +57,12 @@ static bool place_write(const ElsewhereJob *job, const Place *place, const char 
     FILE *out = NULL;
     World world = world_beside(place->scale, place->beside);
 
-    if (session != NULL && scene_load(session, job->options, job->include_paths, job->scene, &world) == RT_OK &&
+    if (session && scene_load(session, job->options, job->include_paths, job->scene, &world) == RT_OK &&
         rt_dump_scene(session, &text) == RT_OK) {
         out = fopen(path, "wb");
     }
-    bool is_written = out != NULL && fputs(text, out) != EOF;
-    is_written = out != NULL && fclose(out) == 0 && is_written;
+    bool is_written = out && fputs(text, out) != EOF;
+    is_written = out && fclose(out) == 0 && is_written;
     rt_session_free(session);
     return is_written;
 }
@@ -76,7 +76,7 @@ static bool draw(const ElsewhereJob *job, const char *scene, const char *picture
     char **paths = calloc((size_t)job->include_path_count + 1, sizeof *paths);
     ImageError error;
 
-    if (paths == NULL || folder == NULL) {
+    if (!paths || !folder) {
         free(folder);
         free(paths);
         return false;
@@ -112,7 +112,7 @@ static bool is_unsure(const ElsewhereJob *job, const Comparison *pictures, size_
 {
     bool is_ours = image_pixel_difference(pictures->ours, pictures->other, pixel) <= job->threshold;
 
-    if (pictures->written != NULL) {
+    if (pictures->written) {
         return is_ours && image_pixel_difference(pictures->theirs, pictures->written, pixel) <= job->threshold;
     }
     return is_ours || 2.0 * image_pixel_difference(pictures->theirs, pictures->other, pixel) >=
@@ -207,7 +207,7 @@ uint64_t elsewhere_count(const ElsewhereJob *job, const Image *ours, const Image
 
     snprintf(count.scene, sizeof count.scene, "%s/elsewhere.pov", job->folder);
     snprintf(count.picture, sizeof count.picture, "%s/elsewhere.png", job->folder);
-    for (int i = 0; count.marked != NULL && may_suffice && found < apart && i < job->options->elsewhere; i++) {
+    for (int i = 0; count.marked && may_suffice && found < apart && i < job->options->elsewhere; i++) {
         found += i % 2 == 0 ? count_turned(job, &count, ours, theirs, i / 2)
                             : count_written(job, &count, ours, theirs, i / 2);
     }

@@ -64,7 +64,7 @@ static bool files_init(Files *files, const Check *check, int number)
 {
     const char *scene = check->options->scenes[number];
     const char *slash = strrchr(scene, '/');
-    const char *name = slash != NULL ? slash + 1 : scene;
+    const char *name = slash ? slash + 1 : scene;
 
     *files = (Files){0};
     if (asprintf(&files->rtlang, "%s/%02d-%s.rtlang.png", check->folder, number + 1, name) < 0) {
@@ -76,7 +76,7 @@ static bool files_init(Files *files, const Check *check, int number)
     if (asprintf(&files->log, "%s/%02d-%s.povray.log", check->folder, number + 1, name) < 0) {
         files->log = NULL;
     }
-    return files->rtlang != NULL && files->povray != NULL && files->log != NULL;
+    return files->rtlang && files->povray && files->log;
 }
 
 static void files_fini(Files *files)
@@ -139,7 +139,7 @@ static bool rtlang_run(const Check *check, const char *output, Outcome *outcome)
     rt_status status = RT_FAULT_LIMIT;
 
     run.session = rt_session_new(&callbacks);
-    if (run.session != NULL) {
+    if (run.session) {
         status = rtlang_steps(run.session, check, outcome->scene, NULL, output);
     }
     outcome->rtlang_seconds = clock_seconds() - start;
@@ -256,7 +256,7 @@ static bool moved_run(const Check *check, const char *scene, int number, const c
     static const rt_callbacks silent = {0};
     World world = world_beside(1.0, 1.0 + 0.1 * number);
     rt_session *session = rt_session_new(&silent);
-    bool fine = session != NULL && rtlang_steps(session, check, scene, &world, output) == RT_OK;
+    bool fine = session && rtlang_steps(session, check, scene, &world, output) == RT_OK;
 
     rt_session_free(session);
     return fine;
@@ -269,7 +269,7 @@ static void doubts_find(const Check *check, const Image *ours, const Image *thei
     bool *marked = calloc((size_t)ours->width * (size_t)ours->height, sizeof *marked);
 
     snprintf(scratch, sizeof scratch, "%s/again.png", check->folder);
-    for (int i = 0; marked != NULL && i < check->options->doubts && interrupted == 0; i++) {
+    for (int i = 0; marked && i < check->options->doubts && interrupted == 0; i++) {
         if (moved_run(check, outcome->scene, i, scratch)) {
             outcome->decided_by_rounding += doubts_mark(check, ours, theirs, scratch, marked);
         }
@@ -315,7 +315,7 @@ static bool scene_check(const Check *check, int number, Outcome *outcome)
             elsewhere_find(check, &ours, &theirs, outcome);
         }
     }
-    if (check->report != NULL && interrupted == 0) {
+    if (check->report && interrupted == 0) {
         fine = scenes_report_add(check->report, outcome, &ours, &theirs);
     }
     image_fini(&ours);
@@ -361,7 +361,7 @@ static bool report_print_page(const Check *check, const char *path)
     char bar[128];
     bool fine;
 
-    if (page == NULL) {
+    if (!page) {
         return false;
     }
     snprintf(bar, sizeof bar,
@@ -375,7 +375,7 @@ static bool report_print_json(const Check *check, const char *path)
 {
     FILE *out = fopen(path, "wb");
 
-    if (out == NULL) {
+    if (!out) {
         return false;
     }
     scenes_report_json(check->report, out);
@@ -405,7 +405,7 @@ static int scenes_report(Check *check)
     ScenesReport report;
     int exit_code;
 
-    if (folder == NULL) {
+    if (!folder) {
         return scenes_check(check);
     }
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
@@ -456,10 +456,10 @@ static bool folder_make(Check *check)
     bool fine = false;
 
     check->keeps_folder = keep != NULL;
-    if (keep != NULL) {
-        fine = (mkdir(keep, 0777) == 0 || errno == EEXIST) && realpath(keep, check->folder) != NULL;
-    } else if (asprintf(&path, "%s/rtcheck-XXXXXX", base != NULL && base[0] != '\0' ? base : "/tmp") >= 0) {
-        fine = mkdtemp(path) != NULL && realpath(path, check->folder) != NULL;
+    if (keep) {
+        fine = (mkdir(keep, 0777) == 0 || errno == EEXIST) && realpath(keep, check->folder);
+    } else if (asprintf(&path, "%s/rtcheck-XXXXXX", base && base[0] != '\0' ? base : "/tmp") >= 0) {
+        fine = mkdtemp(path) && realpath(path, check->folder);
         free(path);
     }
     if (!fine) {
@@ -474,10 +474,10 @@ static void folder_remove(const Check *check)
     DIR *folder = check->keeps_folder ? NULL : opendir(check->folder);
     const struct dirent *entry;
 
-    if (folder == NULL) {
+    if (!folder) {
         return;
     }
-    while ((entry = readdir(folder)) != NULL) {
+    while ((entry = readdir(folder))) {
         unlinkat(dirfd(folder), entry->d_name, 0); // fails for `.` and `..`, as it should
     }
     closedir(folder);
@@ -492,20 +492,20 @@ static bool stability_write(const Check *check, const Stability *stability)
     ReportPage *page;
     bool fine;
 
-    if (folder == NULL) {
+    if (!folder) {
         return true;
     }
     snprintf(path, sizeof path, "%s/index.html", folder);
     snprintf(scratch, sizeof scratch, "%s/page.png", check->folder);
     page = (mkdir(folder, 0777) == 0 || errno == EEXIST) ? report_page_open(path) : NULL;
-    if (page == NULL) {
+    if (!page) {
         return false;
     }
     fine = stability_page(stability, page, scratch);
     fine = report_page_close(page) && fine;
     snprintf(path, sizeof path, "%s/stability.json", folder);
     FILE *out = fine ? fopen(path, "wb") : NULL;
-    if (out == NULL) {
+    if (!out) {
         return false;
     }
     stability_json(stability, out);
@@ -518,7 +518,7 @@ static int stability_check(Check *check)
     Stability *stability = calloc(1, sizeof *stability);
     int exit_code = EXIT_USAGE;
 
-    if (stability != NULL && stability_measure(stability, check->options, check->povray, check->folder)) {
+    if (stability && stability_measure(stability, check->options, check->povray, check->folder)) {
         check->options->json ? stability_json(stability, stdout) : stability_print(stability, stdout);
         exit_code = stability_holds(stability) ? EXIT_AGREE : EXIT_DIFFER;
         if (!stability_write(check, stability)) {
@@ -527,7 +527,7 @@ static int stability_check(Check *check)
     } else {
         say(check->options, "out of memory");
     }
-    if (stability != NULL) {
+    if (stability) {
         stability_fini(stability);
     }
     free(stability);
@@ -547,12 +547,12 @@ static int run(const Options *options)
     int exit_code = EXIT_USAGE;
 
     check.povray = povray_find(options->povray);
-    if (check.povray == NULL && !options->is_stability && !options->study) {
+    if (!check.povray && !options->is_stability && !options->study) {
         say(options, "no program `%s` found (Debian: apt-get install povray)", options->povray);
         return EXIT_NO_TOOL;
     }
     check.include_paths = include_paths_find(options, &check.include_path_count);
-    if (check.include_paths != NULL && folder_make(&check)) {
+    if (check.include_paths && folder_make(&check)) {
         exit_code = options->is_stability ? stability_check(&check)
                     : options->study      ? scenes_study(&check)
                                           : scenes_report(&check);

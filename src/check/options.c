@@ -270,12 +270,12 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
                          .cases = 20000,
                          .budget = 60.0};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
-    if (options->include_paths == NULL) {
+    if (!options->include_paths) {
         (void)option_complain(&reading, "out of memory");
         return complain(options, &reading);
     }
     OptionsResult result = option_reader_run(&option_table, argc, argv, options, &reading, &stops);
-    if (stops != NULL) {
+    if (stops) {
         stops->letter == 'h' ? print_help() : (void)printf("rtcheck %s\n", rt_version());
         return result;
     }

@@ -40,10 +40,10 @@ char *povray_find(const char *name)
     const char *search = getenv("PATH");
     char *found = NULL;
 
-    if (strchr(name, '/') != NULL) {
+    if (strchr(name, '/')) {
         return is_program(name) ? realpath(name, NULL) : NULL;
     }
-    while (search != NULL && found == NULL) {
+    while (search && !found) {
         int length = (int)strcspn(search, ":");
         char *path;
 
@@ -86,19 +86,19 @@ static bool arguments_make(ArgumentList *list, const PovrayJob *job)
 
     *list = (ArgumentList){0};
     list->items = calloc((size_t)job->include_path_count + FIXED_ARGUMENTS + SWITCHES_MOST + 1, sizeof *list->items);
-    if (list->items == NULL) {
+    if (!list->items) {
         return false;
     }
     argument_add(list, "%s", job->program);
-    argument_add(list, "+I\"./%s\"", slash != NULL ? slash + 1 : job->scene);
+    argument_add(list, "+I\"./%s\"", slash ? slash + 1 : job->scene);
     argument_add(list, "+O\"%s\"", job->output);
     argument_add(list, "+FN16");
     argument_add(list, "File_Gamma=1.0");
     argument_add(list, "-D");
-    for (int i = 0; job->switches != NULL && job->switches[i] != NULL && i < SWITCHES_MOST; i++) {
+    for (int i = 0; job->switches && job->switches[i] && i < SWITCHES_MOST; i++) {
         argument_add(list, "%s", job->switches[i]);
     }
-    if (job->switches == NULL) {
+    if (!job->switches) {
         argument_add(list, "-A");
     }
     argument_add(list, "-P");
@@ -107,7 +107,7 @@ static bool arguments_make(ArgumentList *list, const PovrayJob *job)
     if (job->threads > 0) {
         argument_add(list, "+WT%d", job->threads);
     }
-    if (job->clock != NULL) {
+    if (job->clock) {
         argument_add(list, "+K%.17g", *job->clock);
     }
     for (int i = 0; i < job->include_path_count; i++) {
@@ -121,7 +121,7 @@ static char *scene_folder(const char *scene)
 {
     const char *slash = strrchr(scene, '/');
 
-    return slash == NULL ? strdup(".") : strndup(scene, (size_t)(slash - scene) + 1);
+    return !slash ? strdup(".") : strndup(scene, (size_t)(slash - scene) + 1);
 }
 
 // 0, or an errno value.
@@ -166,7 +166,7 @@ static int process_wait(pid_t process, double *seconds)
             return -1;
         }
     }
-    if (seconds != NULL) {
+    if (seconds) {
         *seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     }
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -179,7 +179,7 @@ static void log_tail(const char *path, char tail[static TAIL_BYTES])
     size_t length = 0;
     char *line;
 
-    if (log != NULL) {
+    if (log) {
         if (fseek(log, 1 - TAIL_BYTES, SEEK_END) != 0) { // a shorter log
             rewind(log);
         }
@@ -188,7 +188,7 @@ static void log_tail(const char *path, char tail[static TAIL_BYTES])
     }
     tail[length] = '\0';
     line = length == TAIL_BYTES - 1 ? strchr(tail, '\n') : NULL;
-    if (line != NULL) {
+    if (line) {
         memmove(tail, line + 1, strlen(line + 1) + 1);
     }
 }
@@ -233,7 +233,7 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     int status = -1;
 
     snprintf(detail, detail_size, "out of memory");
-    if (arguments_make(&arguments, job) && folder != NULL) {
+    if (arguments_make(&arguments, job) && folder) {
         for (int i = 0; i < START_TRIES; i++) {
             code = process_start(job, arguments.items, folder, &process);
             status = code == 0 ? process_wait(process, job->process_seconds) : -1;
@@ -261,24 +261,24 @@ PovrayCost povray_cost(const char *log)
     PovrayCost cost = {0.0, 0.0, 0.0};
     bool is_trace = false;
 
-    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+    while (file && fgets(line, sizeof line, file)) {
         const char *with = strstr(line, " with ");
         double pixels, samples;
 
         if (sscanf(line, "Pixels: %lf Samples: %lf", &pixels, &samples) == 2) {
             cost.rays = pixels + samples;
         }
-        if (strstr(line, "Trace Time:") != NULL) {
+        if (strstr(line, "Trace Time:")) {
             const char *wall = strchr(line, '(');
             is_trace = true;
-            cost.wall = wall != NULL ? strtod(wall + 1, NULL) : 0.0;
+            cost.wall = wall ? strtod(wall + 1, NULL) : 0.0;
         }
-        if (is_trace && with != NULL && strstr(line, "CPU-seconds") != NULL) {
+        if (is_trace && with && strstr(line, "CPU-seconds")) {
             cost.seconds = strtod(with + 6, NULL);
             break;
         }
     }
-    if (file != NULL) {
+    if (file) {
         fclose(file);
     }
     return cost;

@@ -40,7 +40,7 @@ static double ladder_time(const Race *race, bool is_adaptive, double error, Race
         if (rung->errors[judge] <= error) {
             best = fmin(best, rung->seconds[time]);
         }
-        if (before != NULL) {
+        if (before) {
             double high = log(before->errors[judge]), low = log(rung->errors[judge]);
             double share = (log(error) - high) / (low - high);
             if (share >= 0.0 && share <= 1.0) {

@@ -47,15 +47,15 @@ ReportPage *report_page_open(const char *path)
 {
     ReportPage *page = calloc(1, sizeof *page);
 
-    if (page == NULL) {
+    if (!page) {
         return NULL;
     }
     page->path = strdup(path);
     if (asprintf(&page->temporary, "%s.part", path) < 0) {
         page->temporary = NULL;
     }
-    page->out = page->path != NULL && page->temporary != NULL ? fopen(page->temporary, "wb") : NULL;
-    if (page->out == NULL) {
+    page->out = page->path && page->temporary ? fopen(page->temporary, "wb") : NULL;
+    if (!page->out) {
         page_free(page);
         return NULL;
     }
@@ -142,12 +142,12 @@ bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding, 
     bool fine = image_write(image, encoding, scratch, &error) == IMAGE_OK;
     FILE *file = fine ? fopen(scratch, "rb") : NULL;
 
-    if (file != NULL) {
+    if (file) {
         fputs("data:image/png;base64,", out);
         base64_print(out, file);
         fine = ferror(file) == 0;
         fclose(file);
     }
     unlink(scratch);
-    return fine && file != NULL;
+    return fine && file;
 }

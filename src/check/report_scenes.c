@@ -187,12 +187,12 @@ bool scenes_report_init(ScenesReport *report, const char *folder, int scene_coun
     if (asprintf(&report->scratch, "%s/scratch.png", folder) < 0) {
         report->scratch = NULL;
     }
-    return report->outcomes != NULL && report->out != NULL && report->scratch != NULL;
+    return report->outcomes && report->out && report->scratch;
 }
 
 void scenes_report_fini(ScenesReport *report)
 {
-    if (report->out != NULL) {
+    if (report->out) {
         fclose(report->out);
     }
     free(report->outcomes);

@@ -48,7 +48,7 @@ static PictureRow *picture_add(Stability *stability)
     if (stability->picture_count == stability->picture_room) {
         size_t room = 2 * stability->picture_room + 16;
         PictureRow *rows = realloc(stability->pictures, room * sizeof *rows);
-        if (rows == NULL) {
+        if (!rows) {
             return NULL;
         }
         stability->pictures = rows;
@@ -76,7 +76,7 @@ static bool compare(Stability *stability, const Options *options, const StudySce
 {
     float *values = malloc(2 * VALUES * sizeof *values);
     PictureRow *row = picture_add(stability);
-    bool has_memory = values != NULL && row != NULL;
+    bool has_memory = values && row;
     if (has_memory) {
         *row = (PictureRow){.scene = scene->name, .beside = beside};
         snprintf(row->what, sizeof row->what, "%s", what);

@@ -32,34 +32,34 @@ static bool files_open(Files *files, const char *folder)
     char page[PATH_MAX];
 
     *files = (Files){.folder = folder};
-    if (folder == NULL) {
+    if (!folder) {
         return true;
     }
     snprintf(page, sizeof page, "%s/index.html", folder);
-    if ((mkdir(folder, 0777) != 0 && errno != EEXIST) || (files->page = report_page_open(page)) == NULL) {
+    if ((mkdir(folder, 0777) != 0 && errno != EEXIST) || !(files->page = report_page_open(page))) {
         return false;
     }
     files->csv = file_open(files, "study.csv");
     files->json = file_open(files, "study.json");
-    return files->csv != NULL && files->json != NULL;
+    return files->csv && files->json;
 }
 
 static bool stream_close(FILE *out)
 {
-    bool fine = out == NULL || ferror(out) == 0;
+    bool fine = !out || ferror(out) == 0;
 
-    return (out == NULL || fclose(out) == 0) && fine;
+    return (!out || fclose(out) == 0) && fine;
 }
 
 static bool files_close(Files *files)
 {
     bool fine = stream_close(files->csv);
 
-    if (files->json != NULL) {
+    if (files->json) {
         fputs(files->studies > 0 ? "]\n" : "[]\n", files->json);
     }
     fine = stream_close(files->json) && fine;
-    return (files->page == NULL || report_page_close(files->page)) && fine;
+    return (!files->page || report_page_close(files->page)) && fine;
 }
 
 static bool files_add(Files *files, const Study *study)
@@ -67,22 +67,22 @@ static bool files_add(Files *files, const Study *study)
     char name[32];
     int number = ++files->studies;
 
-    if (files->folder == NULL) {
+    if (!files->folder) {
         return true;
     }
     snprintf(name, sizeof name, "study-%d.svg", number);
     FILE *plot = study->has_methods ? file_open(files, name) : NULL;
     snprintf(name, sizeof name, "race-%d.svg", number);
     FILE *race = study->has_race ? file_open(files, name) : NULL;
-    if ((study->has_methods && plot == NULL) || (study->has_race && race == NULL)) {
+    if ((study->has_methods && !plot) || (study->has_race && !race)) {
         stream_close(plot);
         stream_close(race);
         return false;
     }
-    if (plot != NULL) {
+    if (plot) {
         study_plot(study, plot, true);
     }
-    if (race != NULL) {
+    if (race) {
         race_plot(&study->race, race, true);
     }
     study_print_csv(study, files->csv, number == 1);
@@ -107,7 +107,7 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
     StudiesResult result = STUDIES_FINE;
     Study *study = malloc(sizeof *study);
 
-    if (study == NULL) {
+    if (!study) {
         say(options, "out of memory");
         return STUDIES_FAILED;
     }
@@ -127,7 +127,7 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
     if (!options->json) {
         study_print_total(&total, stdout);
     }
-    if (fine && files.page != NULL) {
+    if (fine && files.page) {
         study_print_total_section(&total, files.page);
     }
     fine = files_close(&files) && fine;

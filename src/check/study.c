@@ -220,7 +220,7 @@ static void model_find(Study *study, const StudySettings *settings)
 
     study->model = (double)NAN;
     rtlang_render(study->scene, settings, &one, RT_PRECISION_DOUBLE, 1, &ours);
-    if (settings->povray != NULL && povray_render(study->scene, settings, &povray)) {
+    if (settings->povray && povray_render(study->scene, settings, &povray)) {
         theirs.image = povray.image;
         study->model = distance_of(&theirs, &ours);
     }
@@ -286,7 +286,7 @@ bool study_run(Study *study, const char *scene, const StudySettings *settings)
     *study = (Study){.scene = scene, .width = settings->width, .height = settings->height};
     bool fine = settings->only_race || methods_run(study, settings);
 
-    if (fine && settings->povray != NULL) {
+    if (fine && settings->povray) {
         study->has_race = fine = race_run(&study->race, scene, settings);
         if (!fine) {
             snprintf(study->fault, sizeof study->fault, "%s", study->race.fault);

@@ -25,7 +25,7 @@ bool study_compare(const Image *picture, const Image *reference, StudyMetric *me
     double *greatest = malloc(pixels * sizeof *greatest);
 
     *metric = (StudyMetric){0};
-    if (greatest == NULL || picture->width != reference->width || picture->height != reference->height || step < 3 ||
+    if (!greatest || picture->width != reference->width || picture->height != reference->height || step < 3 ||
         reference_step < 3) {
         free(greatest);
         return false;

@@ -222,7 +222,7 @@ void race_plot(const Race *race, FILE *out, bool is_alone)
                                             {"POV-Ray +AM2 -J", "POV-Ray +AM2 +J"}};
     Study *plot = calloc(1, sizeof *plot);
 
-    if (plot == NULL) {
+    if (!plot) {
         return; // a plot less
     }
     plot->floor = race->floor;

@@ -26,7 +26,7 @@ static bool picture_take(const rt_session *session, Image *image)
     int width, height;
     const float *pixels = rt_pixels(session, &width, &height);
 
-    if (pixels == NULL || !image_init(image, width, height, 3)) {
+    if (!pixels || !image_init(image, width, height, 3)) {
         return false;
     }
     memcpy(image->values, pixels, (size_t)width * (size_t)height * 3 * sizeof *pixels);
@@ -41,7 +41,7 @@ static rt_status session_ready(rt_session *session, const char *scene, const Stu
     for (int i = 0; status == RT_OK && i < settings->include_path_count; i++) {
         status = rt_add_include_path(session, settings->include_paths[i]);
     }
-    status = status != RT_OK || settings->clock == NULL ? status : rt_set_clock(session, *settings->clock);
+    status = status != RT_OK || !settings->clock ? status : rt_set_clock(session, *settings->clock);
     status = status != RT_OK ? status : rt_set_sampling(session, sampling);
     status = status != RT_OK ? status : rt_set_precision(session, precision);
     return status != RT_OK ? status : rt_load_file(session, scene);
@@ -58,7 +58,7 @@ void rtlang_render(const char *scene, const StudySettings *settings, const rt_sa
     double begin = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     rt_session *session = rt_session_new(&callbacks);
 
-    if (session == NULL) {
+    if (!session) {
         return;
     }
     run->status = session_ready(session, scene, settings, sampling, precision);
@@ -69,7 +69,7 @@ void rtlang_render(const char *scene, const StudySettings *settings, const rt_sa
         run->wall = clock_seconds_of(CLOCK_MONOTONIC) - wall_start;
         run->seconds = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID) - start;
     }
-    if (run->status == RT_OK && run->output != NULL) {
+    if (run->status == RT_OK && run->output) {
         run->status = rt_write(session, run->output, &linear);
     }
     run->whole = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID) - begin;

@@ -30,7 +30,7 @@ void povray_print_help(FILE *out)
         print_switch(row, letters, sizeof letters);
         fprintf(out, "  %-24s %-10s %s", row->key, letters,
                 row->is_followed          ? ""
-                : row->refusal == NULL    ? "no effect: "
+                : !row->refusal    ? "no effect: "
                 : row->low > 0.0          ? "off is refused: "
                 : row->kind == POVRAY_BOOL ? "on is refused: "
                                            : "refused: ");

@@ -27,12 +27,12 @@ static uint8_t at_most_two(unsigned newlines)
 static size_t line_end(const Pieces *pieces, size_t at, size_t end)
 {
     const char *found = memchr(pieces->text + at, '\n', end - at);
-    return found != NULL ? (size_t)(found - pieces->text) : end;
+    return found ? (size_t)(found - pieces->text) : end;
 }
 
 static size_t trimmed(const Pieces *pieces, size_t begin, size_t end)
 {
-    while (end > begin && strchr(" \t\r\f\v\x1a", pieces->text[end - 1]) != NULL) {
+    while (end > begin && strchr(" \t\r\f\v\x1a", pieces->text[end - 1])) {
         end--;
     }
     return end;
@@ -82,7 +82,7 @@ static void read_gap(Pieces *pieces, Gap *gap, size_t end)
 static size_t word_begin(const Pieces *pieces, size_t end)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
-    while (end > 0 && pieces->text[end - 1] != '\0' && strchr(letters, pieces->text[end - 1]) != NULL) {
+    while (end > 0 && pieces->text[end - 1] != '\0' && strchr(letters, pieces->text[end - 1])) {
         end--;
     }
     return end;

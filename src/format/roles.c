@@ -46,17 +46,17 @@ static Open *innermost(Reader *reader)
 
 static bool is_mark(const Reader *reader, const Piece *piece, char mark)
 {
-    return piece != NULL && piece->end - piece->begin == 1 && piece_mark(reader->pieces, piece) == mark;
+    return piece && piece->end - piece->begin == 1 && piece_mark(reader->pieces, piece) == mark;
 }
 
 static PieceRole open_role(Reader *reader, const Open *open)
 {
-    return open != NULL ? (PieceRole)piece_at(reader, open->piece)->role : PIECE_PLAIN;
+    return open ? (PieceRole)piece_at(reader, open->piece)->role : PIECE_PLAIN;
 }
 
 static WordClass class_of(const Piece *piece)
 {
-    return piece != NULL && piece->kind == GRAMMAR_TOKEN_WORD ? word_class(piece->symbol) : WORD_DIRECTIVE;
+    return piece && piece->kind == GRAMMAR_TOKEN_WORD ? word_class(piece->symbol) : WORD_DIRECTIVE;
 }
 
 static bool is_after_head(const Reader *reader)
@@ -68,7 +68,7 @@ static bool is_after_head(const Reader *reader)
 static bool follows_operand(Reader *reader)
 {
     const Piece *last = before(reader);
-    if (last == NULL || is_after_head(reader)) {
+    if (!last || is_after_head(reader)) {
         return false;
     }
     switch ((GrammarTokenKind)last->kind) {
@@ -111,7 +111,7 @@ static bool is_vector_function(const Piece *piece)
 
 static bool has_head(const Piece *piece)
 {
-    return piece != NULL && piece->kind == GRAMMAR_TOKEN_DIRECTIVE &&
+    return piece && piece->kind == GRAMMAR_TOKEN_DIRECTIVE &&
            (piece->role == PIECE_OPENS_GROUP || piece->role == PIECE_MIDDLE || piece->role == PIECE_CASE);
 }
 
@@ -172,7 +172,7 @@ static void close_block(Reader *reader)
             join(reader, open->piece, reader->at);
         }
         reader->open.count--;
-    } else if (open != NULL) {
+    } else if (open) {
         open->is_torn = true;
         open->closes++;
     }
@@ -202,10 +202,10 @@ static void end_segment(Reader *reader, Open *group)
 static void middle_of_group(Reader *reader, Symbol word)
 {
     Open *group = find_group(reader);
-    bool is_switch = group != NULL && piece_at(reader, group->piece)->symbol == W_switch;
+    bool is_switch = group && piece_at(reader, group->piece)->symbol == W_switch;
     bool is_case = word == W_case || word == W_range || (word == W_else && is_switch);
     piece_at(reader, reader->at)->role = is_case ? PIECE_CASE : PIECE_MIDDLE;
-    if (group != NULL) {
+    if (group) {
         reader->open.count = (size_t)(group - reader->open.items) + 1;
         end_segment(reader, group);
         group->segment = is_case ? reader->at : NO_PIECE;
@@ -218,7 +218,7 @@ static void end_of_group(Reader *reader)
 {
     Open *group = find_group(reader);
     piece_at(reader, reader->at)->role = PIECE_CLOSES_GROUP;
-    if (group == NULL) {
+    if (!group) {
         return;
     }
     end_segment(reader, group);
@@ -283,7 +283,7 @@ static void read_mark(Reader *reader)
         push(reader, PIECE_OPENS, false);
         break;
     case '<':
-        if (after_operand && open != NULL && open->has_relations) {
+        if (after_operand && open && open->has_relations) {
             piece->role = PIECE_OPERATOR;
         } else {
             push(reader, PIECE_OPENS, false);
@@ -297,7 +297,7 @@ static void read_mark(Reader *reader)
         close_bracket(reader, mark == ')' ? '(' : '[');
         break;
     case '>':
-        if (open != NULL && is_mark(reader, piece_at(reader, open->piece), '<')) {
+        if (open && is_mark(reader, piece_at(reader, open->piece), '<')) {
             close_bracket(reader, '<');
         } else {
             piece->role = PIECE_OPERATOR;
@@ -314,7 +314,7 @@ static void read_mark(Reader *reader)
         piece->role = after_operand ? PIECE_OPERATOR : PIECE_PREFIX;
         break;
     default:
-        piece->role = strchr(",;.", mark) != NULL ? PIECE_PLAIN : PIECE_OPERATOR;
+        piece->role = strchr(",;.", mark) ? PIECE_PLAIN : PIECE_OPERATOR;
         break;
     }
 }
@@ -330,7 +330,7 @@ static bool continues_word(Symbol symbol)
 static bool begins_item(Reader *reader, const Piece *piece, bool after_operand)
 {
     const Piece *last = before(reader);
-    if (last == NULL || piece->after_head) {
+    if (!last || piece->after_head) {
         return true;
     }
     bool is_opener = piece->role == PIECE_OPENS || piece->role == PIECE_OPENS_BLOCK || piece->role == PIECE_OPENS_GROUP;
@@ -382,13 +382,13 @@ static bool must_part(const Reader *reader, const Piece *last, const Piece *piec
         return meets_letter || begin == '.' || begin == '+' || begin == '-';
     }
     return (is_word && meets_letter) || (end == '.' && piece->kind == GRAMMAR_TOKEN_NUMBER) ||
-           (strchr("<>!", end) != NULL && begin == '=') || (end == '/' && (begin == '/' || begin == '*'));
+           (strchr("<>!", end) && begin == '=') || (end == '/' && (begin == '/' || begin == '*'));
 }
 
 static bool wants_space(Reader *reader, const Piece *piece)
 {
     const Piece *last = before(reader);
-    if (last == NULL) {
+    if (!last) {
         return false;
     }
     if (must_part(reader, last, piece)) {
@@ -414,7 +414,7 @@ static bool may_break(Reader *reader, const Piece *piece)
     static const char operators[] = "+-&|?:";
     char mark = piece_mark(reader->pieces, piece);
     return is_mark(reader, before(reader), ',') ||
-           (piece->role == PIECE_OPERATOR && mark != '\0' && strchr(operators, mark) != NULL);
+           (piece->role == PIECE_OPERATOR && mark != '\0' && strchr(operators, mark));
 }
 
 // ---- Widths and line breaks.
@@ -430,7 +430,7 @@ static void measure(Reader *reader, Piece *piece)
     const Piece *last = before(reader);
     bool breaks = has_newline(pieces, piece->begin, piece->end) && piece->kind == GRAMMAR_TOKEN_STRING;
     bool on_new_line = piece->newlines > 0;
-    piece->width = last != NULL ? last->width : 0;
+    piece->width = last ? last->width : 0;
     for (uint32_t i = 0; i < piece->comment_count; i++) {
         const Comment *comment = &pieces->comments.items[piece->comment + i];
         breaks |= comment->newlines > 0 || comment->is_line || has_newline(pieces, comment->begin, comment->end);
@@ -438,7 +438,7 @@ static void measure(Reader *reader, Piece *piece)
         piece->width += 1 + pieces_columns(pieces, comment->begin, comment->end);
     }
     breaks |= piece->after_head && on_new_line;
-    piece->forced = (last != NULL ? last->forced : 0) + breaks;
+    piece->forced = (last ? last->forced : 0) + breaks;
     piece->width += (piece->space || piece->comment_count > 0) + pieces_columns(pieces, piece->begin, piece->end);
 }
 
@@ -446,7 +446,7 @@ static void read_piece(Reader *reader)
 {
     Piece *piece = piece_at(reader, reader->at);
     bool after_operand = follows_operand(reader);
-    piece->after_head = is_after_head(reader) || (before(reader) != NULL && before(reader)->role == PIECE_OPENS_BLOCK);
+    piece->after_head = is_after_head(reader) || (before(reader) && before(reader)->role == PIECE_OPENS_BLOCK);
     size_t depth = reader->open.count;
     if (piece->kind == GRAMMAR_TOKEN_DIRECTIVE) {
         read_directive(reader);

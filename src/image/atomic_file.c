@@ -27,7 +27,7 @@ static size_t folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');
 
-    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
+    return !slash ? 0 : (size_t)(slash - path) + 1;
 }
 
 static uint64_t random_number(void)
@@ -48,7 +48,7 @@ static char *temporary_name(const char *path)
     size_t folder = folder_length(path);
     char *name = malloc(folder + NAME_BYTES);
 
-    if (name != NULL) {
+    if (name) {
         memcpy(name, path, folder);
         snprintf(name + folder, NAME_BYTES, ".rtlang-%016" PRIx64, random_number());
     }
@@ -66,7 +66,7 @@ static int open_unnamed(const char *path)
         return -1;
     }
     folder = length == 0 ? strdup(".") : strndup(path, length);
-    if (folder == NULL) {
+    if (!folder) {
         return -1;
     }
     fd = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
@@ -81,7 +81,7 @@ static int open_named(const char *path, char **name)
         int fd, code;
 
         *name = temporary_name(path);
-        if (*name == NULL) {
+        if (!*name) {
             errno = ENOMEM;
             return -1;
         }
@@ -117,7 +117,7 @@ static bool open_beside(AtomicFile *file)
         file->fd = open_named(file->path, &file->temporary);
     } else {
         file->temporary = strdup("");
-        if (file->temporary == NULL) {
+        if (!file->temporary) {
             close(file->fd);
             errno = ENOMEM;
             return false;
@@ -181,7 +181,7 @@ bool atomic_file_open(AtomicFile *file, const char *path, ImageError *error)
 
 static const char *file_label(const AtomicFile *file)
 {
-    return file->path != NULL ? file->name : "standard output";
+    return file->path ? file->name : "standard output";
 }
 
 bool atomic_file_write(const AtomicFile *file, const void *data, size_t length, ImageError *error)
@@ -204,7 +204,7 @@ bool atomic_file_write(const AtomicFile *file, const void *data, size_t length, 
 
 static void file_release(AtomicFile *file)
 {
-    if (file->temporary != NULL && file->temporary[0] != '\0') {
+    if (file->temporary && file->temporary[0] != '\0') {
         unlink(file->temporary);
     }
     free(file->temporary);
@@ -227,7 +227,7 @@ static bool file_name(AtomicFile *file)
     for (int i = 0; i < NAME_TRIES; i++) {
         char *name = temporary_name(file->path);
 
-        if (name == NULL) {
+        if (!name) {
             errno = ENOMEM;
             return false;
         }

@@ -122,7 +122,7 @@ bool image_compare(const Image *a, const Image *b, const double thresholds[IMAGE
     }
     greatest = malloc(pixels * sizeof *greatest);
     counts = malloc(DIGITS * sizeof *counts);
-    if (greatest != NULL && counts != NULL) {
+    if (greatest && counts) {
         compare_pixels(a, b, thresholds, difference, greatest);
         // Nearest rank: the least value that at least 99.9 % of the pixels do not exceed.
         difference->p999 = (double)select_rank(greatest, pixels, (pixels * 999 + 999) / 1000 - 1, counts);

@@ -325,7 +325,7 @@ bool image_flip(const Image *a, const Image *b, double *mean)
         return false;
     }
     memory = calloc(pixels, ALL * sizeof *memory);
-    if (memory == NULL) {
+    if (!memory) {
         return false;
     }
     for (int i = 0; i < ALL; i++) {

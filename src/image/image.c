@@ -44,9 +44,9 @@ void image_fini(Image *image)
 static bool path_ending(const char *path, char ending[static ENDING_MAX + 1])
 {
     const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
+    const char *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
-    size_t length = dot != NULL ? strlen(dot + 1) : 0;
+    size_t length = dot ? strlen(dot + 1) : 0;
 
     if (dot == name || length == 0 || length > ENDING_MAX) {
         return false;
@@ -61,7 +61,7 @@ static bool path_ending(const char *path, char ending[static ENDING_MAX + 1])
 
 bool image_path_is_stdout(const char *path)
 {
-    return path[0] == '-' && (path[1] == '\0' || (path[1] == '.' && strchr(path, '/') == NULL));
+    return path[0] == '-' && (path[1] == '\0' || (path[1] == '.' && !strchr(path, '/')));
 }
 
 // What atomic_file.h calls it.
@@ -206,7 +206,7 @@ ImageStatus image_encode_png(const Image *image, const ImageEncoding *encoding, 
     Encoder *encoder = malloc(sizeof *encoder);
     ImageStatus status = IMAGE_NO_MEMORY;
 
-    if (encoder != NULL) {
+    if (encoder) {
         encoder_init(encoder, encoding, image->channels);
         status = png_write(image, encoder, (PngSink){&out, memory_put}, error);
         free(encoder);
@@ -224,7 +224,7 @@ bool image_samples(const Image *image, const ImageEncoding *encoding, void *samp
 {
     Encoder *encoder = malloc(sizeof *encoder);
 
-    if (encoder != NULL) {
+    if (encoder) {
         encoder_init(encoder, encoding, image->channels);
         encoder_run(encoder, image->values, (size_t)image->width * (size_t)image->height, samples);
         free(encoder);
@@ -266,7 +266,7 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
         return status;
     }
     source = malloc(sizeof *source);
-    if (source == NULL) {
+    if (!source) {
         return IMAGE_NO_MEMORY;
     }
     source->image = image;
@@ -274,7 +274,7 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
     if (!atomic_file_open(&file, file_path(path), error)) {
         status = IMAGE_IO;
     } else {
-        status = module != NULL               ? write_by_module(module, ending, source, &file, error)
+        status = module               ? write_by_module(module, ending, source, &file, error)
                  : strcmp(ending, "png") == 0 ? png_write(image, &source->encoder, (PngSink){&file, file_put}, error)
                                               : plain_write(ending, image, &source->encoder, &file, error);
         if (status != IMAGE_OK) {

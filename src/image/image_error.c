@@ -39,5 +39,5 @@ void image_error_system(ImageError *error, const char *path, int code)
     const char *text = strerrordesc_np(code); // unlike strerror: safe in threads, and no locale
 
     error->no_memory = error->no_memory || code == ENOMEM;
-    image_error_set(error, "%s: %s", path, text != NULL ? text : "unknown error");
+    image_error_set(error, "%s: %s", path, text ? text : "unknown error");
 }

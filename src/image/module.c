@@ -48,7 +48,7 @@ static bool has_room(size_t bytes)
 static bool is_loaded(const char *path)
 {
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
-    return handle != NULL && dlclose(handle) == 0;
+    return handle && dlclose(handle) == 0;
 }
 
 static ImageStatus module_load_from(const char *folder, const ModuleKind *kind, const void **module, ImageError *error)
@@ -65,18 +65,18 @@ static ImageStatus module_load_from(const char *folder, const ModuleKind *kind, 
     }
     // Not unloaded: OpenImageIO keeps threads, and a handle is counted, not copied.
     handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (handle == NULL) {
+    if (!handle) {
         image_error_set(error, "%s", dlerror());
         return IMAGE_NO_MODULE;
     }
     version = dlsym(handle, kind->symbol);
-    if (version == NULL || *version != kind->version) {
+    if (!version || *version != kind->version) {
         image_error_set(error, "%s: of another version of rtlang", path);
         version = NULL;
     }
     dlclose(handle);
     *module = version;
-    return version != NULL ? IMAGE_OK : IMAGE_NO_MODULE;
+    return version ? IMAGE_OK : IMAGE_NO_MODULE;
 }
 
 static ImageStatus module_load(const ModuleKind *kind, const void **module, ImageError *error)

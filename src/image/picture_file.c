@@ -26,7 +26,7 @@ ImageStatus picture_file_allocate(PictureFile *file, const PictureLimit *limit)
         return IMAGE_TOO_LARGE;
     }
     file->samples = malloc((size_t)(pixels * pixel_bytes));
-    return file->samples != NULL ? IMAGE_OK : IMAGE_NO_MEMORY;
+    return file->samples ? IMAGE_OK : IMAGE_NO_MEMORY;
 }
 
 void picture_file_fini(PictureFile *file)
@@ -48,11 +48,11 @@ static FILE *open_readable(const char *path, ImageError *error)
         image_error_set(error, "%s: not a regular file", path);
     } else {
         stream = fdopen(fd, "rb");
-        if (stream == NULL) {
+        if (!stream) {
             image_error_system(error, path, errno);
         }
     }
-    if (stream == NULL && fd >= 0) {
+    if (!stream && fd >= 0) {
         close(fd);
     }
     return stream;
@@ -108,7 +108,7 @@ static bool begins_as(FILE *stream, size_t place)
     bool is_whole = fread(bytes, 1, length, stream) == length, fits = false;
 
     rewind(stream);
-    for (int i = 0; i < 2 && formats[place].beginnings[i] != NULL; i++) {
+    for (int i = 0; i < 2 && formats[place].beginnings[i]; i++) {
         fits = fits || (is_whole && memcmp(bytes, formats[place].beginnings[i], length) == 0);
     }
     return fits;
@@ -143,20 +143,20 @@ ImageStatus picture_file_read(const char *path, const char *format, const Pictur
     *file = (PictureFile){0};
     image_error_clear(error);
     stream = open_readable(path, error);
-    if (stream == NULL) {
+    if (!stream) {
         return IMAGE_IO;
     }
-    size_t found = place_found(stream), asked = format == NULL ? found : format_place(format);
+    size_t found = place_found(stream), asked = !format ? found : format_place(format);
     bool is_any = asked == RT_COUNT_OF(formats);
     StreamRead read = is_any ? NULL : formats[asked].read;
-    bool fits = is_any || asked == found || (formats[asked].beginnings[0] == NULL && found == RT_COUNT_OF(formats));
-    if (fits && read != NULL) {
+    bool fits = is_any || asked == found || (!formats[asked].beginnings[0] && found == RT_COUNT_OF(formats));
+    if (fits && read) {
         status = read(stream, limit, file, error);
     }
     fclose(stream);
     if (!fits) {
         image_error_set(error, "it does not begin as files of type %s do", format);
-    } else if (read == NULL) {
+    } else if (!read) {
         status = read_by_module(path, is_any ? NULL : formats[asked].module_name, limit, file, error);
     }
     if (status != IMAGE_OK) {

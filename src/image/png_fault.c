@@ -21,7 +21,7 @@ png_voidp png_fault_malloc(png_structp png, png_alloc_size_t size)
 {
     void *memory = malloc(size);
     ImageError *error = png_get_mem_ptr(png);
-    error->no_memory = error->no_memory || memory == NULL;
+    error->no_memory = error->no_memory || !memory;
     return memory;
 }
 

@@ -154,8 +154,8 @@ ImageStatus png_read(FILE *stream, const PictureLimit *limit, PictureFile *file,
     reader.status = IMAGE_NO_MEMORY;
     reader.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning, error,
                                           png_fault_malloc, png_fault_free);
-    reader.info = reader.png != NULL ? png_create_info_struct(reader.png) : NULL;
-    if (reader.info != NULL) {
+    reader.info = reader.png ? png_create_info_struct(reader.png) : NULL;
+    if (reader.info) {
         png_set_read_fn(reader.png, &reader, on_read);
         png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
         png_set_benign_errors(reader.png, 1); // what is wrong beside the pixels

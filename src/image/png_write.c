@@ -151,7 +151,7 @@ ImageStatus png_write(const Image *image, const Encoder *encoder, PngSink sink, 
     PngWriter *writer = calloc(1, sizeof *writer);
     ImageStatus status = IMAGE_NO_MEMORY;
 
-    if (writer == NULL) {
+    if (!writer) {
         return status;
     }
     writer->image = image;
@@ -161,8 +161,8 @@ ImageStatus png_write(const Image *image, const Encoder *encoder, PngSink sink, 
     writer->strips = png_strips_new(image, encoder);
     writer->png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, error, png_fault_error, png_fault_warning, error,
                                             png_fault_malloc, png_fault_free);
-    writer->info = writer->png != NULL ? png_create_info_struct(writer->png) : NULL;
-    if (writer->strips != NULL && writer->info != NULL) {
+    writer->info = writer->png ? png_create_info_struct(writer->png) : NULL;
+    if (writer->strips && writer->info) {
         png_set_write_fn(writer->png, writer, on_write, on_flush);
         int strips = png_strips_count(writer->strips), threads = encoder->encoding.threads;
         parallel_run(threads < strips ? threads : strips, thread_run, writer);
