@@ -56,6 +56,18 @@ enum { LITERAL_PATTERNS = 8 };
 typedef struct GrammarQuick GrammarQuick; // quick.c
 typedef struct GrammarItems GrammarItems; // items.c
 
+// The text from a little before the next byte on (window.c).
+typedef struct Window {
+    char *text; // WINDOW_PADDING zeros stand behind it
+    size_t length, room;
+    uint64_t begin; // global offset of its first byte
+    uint64_t given; // the scanner has all before this
+    size_t piece;   // bytes that it gets next
+    bool is_checked; // the first block was looked at for bytes that no text has
+    bool is_last;    // nothing follows it
+    int fault;       // errno of why nothing follows; 0: the text ends
+} Window;
+
 typedef struct GrammarState {
     const GrammarContext *context;
     void *new_buffer; // of flex, until it has its bytes: they fail by a jump that forgets it
@@ -84,7 +96,8 @@ typedef struct GrammarState {
     void *scanner;
     jmp_buf escape;     // taken when the scanner is out of memory
     uint64_t offset;    // global offset of the next byte
-    bool block_checked; // the first block was looked at for bytes that no text has
+    Window window;
+    bool has_moved;     // `offset` was moved by somebody else: what the scanner has of the text is out of date
     bool is_quiet;      // what cannot be read is a token INVALID, reported when somebody wants to have it
     bool is_unreadable; // so is the token that is being read
     bool file_name;     // the next string is the file name of an #include: backslashes stand for themselves
@@ -149,15 +162,24 @@ typedef struct GrammarState {
 } GrammarState;
 
 // Scanner: the next token into *token.
-int grammar_scan(Token *token, void *scanner);
+int grammar_scan(GrammarState *state, Token *token);
 bool grammar_scan_begin(GrammarState *state) RT_MUST_CHECK;
 void grammar_scan_end(GrammarState *state);
-// Goes back or forth to an offset of the source, among items.
-void grammar_scan_seek(GrammarState *state, uint64_t offset);
 // Whether a fault of the scanner is reported later, see is_quiet; the token is INVALID then.
 bool grammar_scan_defers(GrammarState *state);
 // Reports what is wrong with a token INVALID, if that was deferred.
 void grammar_report_unreadable(GrammarState *state, const Token *token);
+
+// Window: the text at `offset`, and its end. WINDOW_AHEAD bytes or more are at hand unless the text ends before.
+enum { WINDOW_AHEAD = 8192, WINDOW_PADDING = 64 };
+const char *grammar_window(GrammarState *state, const char **end);
+// The next piece for the scanner, which has `pending` bytes of a token that has not ended; returns its length, 0 at the
+// end of the text.
+size_t grammar_window_give(GrammarState *state, char *buffer, size_t size, size_t pending);
+void grammar_window_rewind(GrammarState *state);  // the scanner goes on at `offset`, which is in the window
+// Goes back or forth to an offset of the source, among items.
+void grammar_scan_seek(GrammarState *state, uint64_t offset);
+void grammar_window_restart(GrammarState *state); // nothing is in it: the source goes on at `offset`
 
 // Between two top-level items, with nothing read ahead: hands over the literal spheres that come next.
 void grammar_scan_literals(GrammarState *state);

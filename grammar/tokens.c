@@ -286,7 +286,7 @@ void grammar_read_token(GrammarState *state, Token *token)
         state->ended = true;
     } else if (!state->ended && !state->builder.failed) {
         state->file_name = state->last_read == TOKEN_HASH_INCLUDE;
-        if (grammar_scan(token, state->scanner) == TOKEN_DIRECTIVE_WORD) {
+        if (grammar_scan(state, token) == TOKEN_DIRECTIVE_WORD) {
             supply_hash(state, token, state->last_read);
         }
         token->known = NULL;
