@@ -143,7 +143,8 @@ bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn 
     begin(&state, context, source);
     state.item = item;
     state.client = client;
-    state.takes_literals = context->hooks != NULL && context->hooks->literal != NULL;
+    bool has_plans = context->hooks != NULL && context->hooks->plan_run != NULL;
+    state.statements = has_plans ? grammar_statements_new() : NULL; // without it all is read as well
     return run(&state);
 }
 

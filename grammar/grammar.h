@@ -25,47 +25,35 @@ typedef struct GrammarLoop {
     double end, step;
 } GrammarLoop;
 
-// What the evaluator keeps of statements that differ in the numbers of a GrammarLiteral only. No padding.
-typedef struct GrammarLiteralKind {
-    float colour[5]; // of the pigment: red, green, blue, filter, transmit
-    uint32_t finish;
-} GrammarLiteralKind;
+// Statements of a text that are like an earlier one but for their numbers (grammar/template.h). What becomes of the
+// numbers is the evaluator's plan.
+typedef struct GrammarPlan GrammarPlan;
 
-// A statement `sphere { <n, n, n>, n … }` of nothing but numbers and words of the language.
-typedef struct GrammarLiteral {
+enum { GRAMMAR_SLOTS_MOST = 64 };
+
+// A number of the statement that a plan is made of.
+typedef struct GrammarSlot {
+    Span span; // with its sign
+    double number;
+    bool is_used; // the plan takes it; else it is like any other text
+} GrammarSlot;
+
+typedef struct GrammarStatement {
     Span span;
-    double centre[3], radius;
-    GrammarLiteralKind kind; // with the colour that the text says; while it is being learnt, with nothing else
-    unsigned colours;        // how many numbers of it the text says: 0, 3 or 5
-} GrammarLiteral;
+    const GrammarPlan *plan;
+    const double *numbers; // of the slots that are used, in their order
+} GrammarStatement;
 
-// The transforms that such a statement says of the sphere, in their order: those of nothing but numbers.
-enum { GRAMMAR_MOVES_MOST = 4 };
+typedef struct GrammarStatements {
+    const GrammarStatement *items;
+    size_t count;
+} GrammarStatements;
 
-typedef struct GrammarMove {
-    Symbol word;    // `translate`, `rotate`, `scale` or `matrix`
-    unsigned count; // of the numbers: 1, 3 or, of a matrix, 12
-    double numbers[12];
-} GrammarMove;
-
-typedef struct GrammarMoves {
-    unsigned count;
-    GrammarMove items[GRAMMAR_MOVES_MOST];
-} GrammarMoves;
-
-
-// Some of them, one after the other; spans are from `base` on.
-typedef struct GrammarLiterals {
-    const GrammarLiteral *items;
-    size_t count, changes; // those whose kind is not that of the one before, the first one among them
-    uint64_t base;
-} GrammarLiterals;
-
-typedef enum LiteralResult {
-    LITERAL_TAKEN,
-    LITERAL_LEFT, // nothing was done: to be parsed as any other statement
-    LITERAL_STOP, // taken, and reading is to stop
-} LiteralResult;
+typedef enum GrammarTaken {
+    GRAMMAR_TAKEN,
+    GRAMMAR_LEFT, // nothing was done: to be parsed as any other statement
+    GRAMMAR_STOP, // taken, and reading is to stop
+} GrammarTaken;
 
 // Where a directive holds no whole items, text is read again in a *splice*: conditions, loops and macro calls are
 // resolved token by token, as POV-Ray does it, and what is left is parsed. These functions are the evaluator's part:
@@ -103,18 +91,21 @@ typedef struct GrammarHooks {
     void (*leave)(void *client);
     bool (*is_stopped)(void *client);
     bool is_top; // what stands between items is of the scene and no part of anything
-    // Literal spheres (grammar/literal.c). The next item is one: to be watched. Then: what it gave, which the next one
-    // of its kind would give, too; false: not so. Then others of that kind, without a tree. `literal_state` changes
-    // whenever a kind may give something else than before. NULL in `literal`: all are parsed.
-    const uint64_t *literal_state;
-    void (*literal_watch)(void *client, const GrammarLiteral *literal, const GrammarMoves *moves);
-    bool (*literal_learn)(void *client, GrammarLiteralKind *kind);
-    LiteralResult (*literal)(void *client, const GrammarLiteral *literal, const GrammarMoves *moves);
-    // The same for those that say no transform. Takes `count` >= 1 lists, none of them empty, at once and on
-    // `literal_threads`; it seems that about `more` will follow. False: nothing was done, they are to be given one by one.
-    bool (*literals)(void *client, const GrammarLiterals *lists, size_t count, size_t more);
-    int literal_threads;  // long runs of them are read on so many; 0 and 1: on the caller's alone
-    size_t literal_piece; // bytes of text that each of these takes at a time; 0: as is best
+    // Statements by their plans. Whether one that begins with this word may have one. A statement of these numbers is
+    // the next item: to be watched. Then: its plan; NULL: it has none; *is_batched: those of a text may be handed over
+    // together, as below. Each plan is dropped once. Then others of that kind, without a tree. `plan_state` changes
+    // whenever a plan may not hold any more. NULL in `plan_run`: all are parsed.
+    const uint64_t *plan_state;
+    bool (*plan_is_for)(void *client, Symbol word);
+    void (*plan_watch)(void *client, Span statement, GrammarSlot *slots, unsigned count);
+    const GrammarPlan *(*plan_learn)(void *client, Span statement, bool *is_batched);
+    void (*plan_drop)(void *client, const GrammarPlan *plan);
+    GrammarTaken (*plan_run)(void *client, const GrammarStatement *statement);
+    // Takes `count` >= 1 lists, none of them empty, at once and on `plan_threads`; it seems that about `more` statements
+    // will follow. False: nothing was done, they are to be given one by one.
+    bool (*plan_run_all)(void *client, const GrammarStatements *lists, size_t count, size_t more);
+    int plan_threads;  // long runs of them are read on so many; 0 and 1: on the caller's alone
+    size_t plan_piece; // bytes of text that each of these takes at a time; 0: as is best
 } GrammarHooks;
 
 // Everything a parse needs; plain data, filled by the caller, shared by nested parses (#include).

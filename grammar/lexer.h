@@ -50,9 +50,7 @@ typedef struct Opener {
     const void *callee; // of a `(` in a splice: what the name before it stands for
 } Opener;
 
-typedef struct LiteralPattern LiteralPattern;
-enum { LITERAL_PATTERNS = 8 };
-
+typedef struct StatementReader StatementReader; // statements.c
 typedef struct GrammarQuick GrammarQuick; // quick.c
 typedef struct GrammarItems GrammarItems; // items.c
 
@@ -113,14 +111,8 @@ typedef struct GrammarState {
     AstNode *node;       // of the current token VECTOR
     AstList list;        // of the current token ITEMS
 
-    // Literal spheres.
-    bool takes_literals;
-    LiteralPattern *literals[LITERAL_PATTERNS]; // the one used last first
-    LiteralPattern *learning;  // of the statement that is being parsed, or NULL
-    uint64_t learning_end;     // where that ends
-    uint64_t literal_state;    // of the hooks, when they were learnt
-    unsigned literal_misses;   // in a row
-    bool many_literals;        // a whole buffer was full of them
+    StatementReader *statements; // NULL: all are parsed
+    Token passed; // the last token of what they took while a token was read ahead; 0: none did
 
     // Token stream.
     Token previous, current; // the last two delivered to the parser
@@ -181,14 +173,12 @@ void grammar_window_rewind(GrammarState *state);  // the scanner goes on at `off
 void grammar_scan_seek(GrammarState *state, uint64_t offset);
 void grammar_window_restart(GrammarState *state); // nothing is in it: the source goes on at `offset`
 
-// Between two top-level items, with nothing read ahead: hands over the literal spheres that come next.
-void grammar_scan_literals(GrammarState *state);
-// The same for the scanner's buffer, which ends with a zero: returns where reading goes on, and moves `offset` there.
-const char *grammar_literals_read(GrammarState *state, const char *at, const char *end);
-// After that, where the source is long: goes on from `offset` piece by piece. False: nothing was read. True: reading
-// goes on in the source at `offset`, and the scanner's buffer is out of date.
-bool grammar_literals_read_many(GrammarState *state);
-void grammar_literals_forget(GrammarState *state);
+// Statements like earlier ones: hands those over that come next, between two top-level items. The second one when a token
+// was read ahead, which is forgotten when the answer is true.
+void grammar_read_statements(GrammarState *state);
+bool grammar_reread_statements(GrammarState *state);
+StatementReader *grammar_statements_new(void) RT_MUST_CHECK; // NULL when out of memory
+void grammar_statements_free(GrammarState *state);
 
 // The next token, if it can be read at once from the scanner's buffer (quick.c).
 bool grammar_scan_quick(GrammarState *state, Token *token);

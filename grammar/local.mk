@@ -10,10 +10,6 @@ libgrammar_la_SOURCES = \
   %D%/items.c \
   %D%/lexer.h \
   %D%/lexer.l \
-  %D%/literal.c \
-  %D%/literal.h \
-  %D%/literal_form.c \
-  %D%/literal_many.c \
   %D%/messages.c \
   %D%/parser.y \
   %D%/quick.c \
@@ -22,9 +18,14 @@ libgrammar_la_SOURCES = \
   %D%/splice_directives.c \
   %D%/splice_stream.c \
   %D%/splice_tokens.c \
+  %D%/statements.c \
+  %D%/statements.h \
+  %D%/statements_many.c \
+  %D%/template.c \
+  %D%/template.h \
   %D%/tokens.c \
   %D%/window.c
 # The generated header is included by files of this folder only, so the rule stands here by hand.
-%D%/grammar.lo %D%/hints.lo %D%/items.lo %D%/lexer.lo %D%/literal.lo %D%/literal_form.lo %D%/literal_many.lo %D%/messages.lo %D%/quick.lo %D%/tokens.lo %D%/window.lo: %D%/parser.h
+%D%/grammar.lo %D%/hints.lo %D%/items.lo %D%/lexer.lo %D%/messages.lo %D%/statements_many.lo %D%/quick.lo %D%/statements.lo %D%/tokens.lo %D%/window.lo: %D%/parser.h
 %D%/splice.lo %D%/splice_directives.lo %D%/splice_stream.lo %D%/splice_tokens.lo: %D%/parser.h
 MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

@@ -156,7 +156,16 @@ text:
 top:
   %empty
 | top item
-    { if (!grammar_emit(state, $item, yychar != TOKEN_GRAMMAR_YYEMPTY)) { YYABORT; } }
+    {
+        bool has_lookahead = yychar != TOKEN_GRAMMAR_YYEMPTY;
+        bool may_be_one_of_many = has_lookahead && $item->kind == AST_CALL && state->statements != NULL;
+        if (!grammar_emit(state, $item, has_lookahead)) {
+            YYABORT;
+        }
+        if (may_be_one_of_many && grammar_reread_statements(state)) {
+            yyclearin;
+        }
+    }
 | top ',' item
     { if (!grammar_emit(state, ast_flag($item, AST_AFTER_COMMA), yychar != TOKEN_GRAMMAR_YYEMPTY)) { YYABORT; } }
 | top error RESYNC                  { yyerrok; }

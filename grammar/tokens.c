@@ -555,8 +555,11 @@ static void next_token(GrammarState *state)
         return;
     }
     pass_current(state);
-    if (state->item_begin == 0 && state->takes_literals && state->held_count == 0) {
-        grammar_scan_literals(state);
+    if (RT_UNLIKELY(state->passed.kind != 0)) {
+        state->previous = state->passed;
+        state->passed.kind = 0;
+    } else if (state->item_begin == 0 && state->statements != NULL && state->held_count == 0) {
+        grammar_read_statements(state);
     }
     if (!read_quick(state)) {
         grammar_read_token(state, &state->current);

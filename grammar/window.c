@@ -159,20 +159,6 @@ size_t grammar_window_give(GrammarState *state, char *buffer, size_t size, size_
 
 // ---- those who read it at once
 
-void grammar_scan_literals(GrammarState *state)
-{
-    const char *end, *at = grammar_window(state, &end);
-    if (state->ended) {
-        return; // it is no text
-    }
-    const char *after = grammar_literals_read(state, at, end);
-    state->has_moved = state->has_moved || after != at;
-    if (state->many_literals && grammar_literals_read_many(state)) {
-        state->has_moved = true;
-        grammar_window_restart(state);
-    }
-}
-
 bool grammar_scan_quick(GrammarState *state, Token *token)
 {
     const char *end, *at = grammar_window(state, &end);

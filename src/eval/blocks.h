@@ -58,20 +58,6 @@ typedef struct Block {
     bool has_fault;
 } Block;
 
-// literal.c: notes of the object that is watched whether it is a sphere with nothing but a centre, a radius and a
-// texture.
-bool object_is_plain_sphere(const Eval *ev, SchemaKind kind, const Blueprint *record);
-void literal_note(Eval *ev, SchemaKind kind, const Blueprint *record);
-
-// repeat.c: what is to be done with a statement that is a sphere; what a watched one gave; and placing one that is known:
-// false: nothing was done.
-RepeatStep repeat_step(Eval *ev, const AstNode *sphere) RT_MUST_CHECK;
-void repeat_learn(Eval *ev, const AstNode *sphere, bool is_plain_object);
-bool repeat_place(Eval *ev, const AstNode *sphere, bool *is_fine) RT_MUST_CHECK;
-// At the end of a body of a loop that is spheres and names only: goes on with its turns as long as they are known. The
-// cursor then stands where it would by itself.
-void repeat_turns(Cursor *cursor);
-
 // block.c
 
 // Fills *record with what a block of the kind is before anything is said in it.
@@ -263,11 +249,16 @@ void texture_take_part(TextureBlueprint *texture, SchemaKind kind, const void *p
 bool disc_close(Block *block) RT_MUST_CHECK;
 bool cone_close(Block *block) RT_MUST_CHECK;
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
-// A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. SHAPE_NOTHING,
-// with a warning, for one of no extent.
-ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part);
-// Of a sphere that sphere_image_radius has found to be none after its transforms.
-ShapeResult shape_make_stretched(Eval *ev, const SphereBlueprint *sphere, const Transform *transform, Part *part);
+// A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. Nothing is
+// reported: SHAPE_NOTHING: *why_nothing says why it has no extent; SHAPE_FAULT: the transform leaves nothing of it.
+// `is_stretched`: it is a sphere that sphere_image_radius has found to be none after its transforms.
+ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched, Part *part,
+                       const char **why_nothing) RT_MUST_CHECK;
+// The same with a report of either, a warning or a fault.
+ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, bool is_stretched,
+                       Part *part);
+// When all is said of a shape: signs that do not count are dropped. False: there is no such shape.
+bool shape_settle(SchemaKind kind, Blueprint *record) RT_MUST_CHECK;
 // The radius of a sphere under a transform; false when it is no sphere any more.
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.
@@ -277,9 +268,8 @@ bool shape_flattened(Eval *ev, const ObjectPart *part);
 bool object_place(Eval *ev, SchemaKind kind, const void *object) RT_MUST_CHECK;
 // A sphere of a plain material; false after a fault.
 bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *material, Span span) RT_MUST_CHECK;
-// The same for one that the statement transforms.
-bool sphere_place_moved(Eval *ev, Vec3 centre, double radius, const Transform *transform, const Material *material,
-                        Span span) RT_MUST_CHECK;
+// The same for any other shape, whose material is set.
+bool part_place_plain(Eval *ev, Part *part, const Material *material, Span span) RT_MUST_CHECK;
 // Whether what the scene takes, and so many bytes more, is within the limit of memory.
 bool memory_has(const Eval *ev, size_t bytes);
 

@@ -202,7 +202,7 @@ static void run_default(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
     ev->faulty = !eval_default(ev, node) || ev->faulty;
-    ev->literal.state++;
+    ev->watch.state++;
 }
 
 static void run_version(Cursor *cursor, const AstNode *node)
@@ -242,7 +242,7 @@ static void run_version(Cursor *cursor, const AstNode *node)
     }
     ev->version = version;
     ev->version_given = true;
-    ev->literal.state++;
+    ev->watch.state++;
 }
 
 // ---- branches

@@ -8,6 +8,7 @@
 
 #include "eval/blocks.h"
 #include "eval/painted.h"
+#include "eval/plan.h"
 #include "eval/probe.h"
 
 // Levels of native recursion for each level that a text may nest: room for calls within calls.
@@ -69,6 +70,9 @@ void eval_item(Eval *ev, const AstNode *item)
         place(ev, item);
         return;
     }
+    if (item->kind == AST_CALL) {
+        plan_watch_call(ev, item);
+    }
     Cursor cursor;
     const AstNode *found;
     cursor_open(&cursor, ev, item, item->span);
@@ -78,7 +82,7 @@ void eval_item(Eval *ev, const AstNode *item)
         ev->faulty = (!is_told && !cursor_lacks_comma(&cursor, "the scene")) || ev->faulty;
         place(ev, found);
         cursor_skip(&cursor);
-        repeat_turns(&cursor);
+        plan_turns(&cursor);
     }
     ev->faulty = (!ev->lacks_brace && !cursor_lacks_comma(&cursor, "the scene")) || ev->faulty;
     cursor_close(&cursor);

@@ -10,8 +10,7 @@
 //   directive.c  what each directive does           include.c   #include
 //   files.c      finding and opening files          datafile.c  #fopen, #read and #fclose
 //   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
-//   literal.c    spheres that are read without a tree
-//   repeat.c     spheres that loops and macros place again and again
+//   plan.h       what statements make of the numbers that differ from time to time
 //   quick.c      numbers that are worked out at once
 //   lint.c       what is suspicious in the text
 //   report.c     faults and warnings, once a place  message.c   the text streams of #debug and the like
@@ -129,31 +128,24 @@ typedef struct FileState FileState;     // files.c
 typedef struct Lint Lint;               // lint.c
 typedef struct ObjectState ObjectState; // object.c: default texture, scratch of the objects
 
-// The literal sphere that is evaluated as any other item, to see what it gives (literal.c).
-typedef struct LiteralWatch {
+// The statement of a text that is evaluated next as any other item, to make a plan of it (plan_text.c).
+typedef struct PlanWatch {
     uint64_t state; // changed by whatever changes what such a statement gives
-    GrammarLiteral literal;
-    GrammarMoves moves;
-    size_t shapes, spheres, parts, messages; // before it
-    bool is_watching, is_plain;
-} LiteralWatch;
+    Span statement; // empty: none
+    GrammarSlot *slots;
+    unsigned slot_count;
+    GrammarPlan *plan; // NULL: there is none yet
+    bool is_known;     // it holds
+} PlanWatch;
 
-// A sphere that is placed again and again (repeat.c).
-typedef struct Repeat {
+// The plan of a statement that a loop or a macro comes to again and again (loop_plan.c).
+typedef struct PlanPlace {
     const AstNode *node;
-    uint64_t begin, state; // where it stands; of LiteralWatch
-    const AstNode *centre, *radius, *colour; // its expressions; `colour` may be NULL
-    size_t spheres, shapes, messages;        // before it was watched
-    Material material;                       // but for the colour
+    uint64_t begin, state; // where it stands; of PlanWatch
+    GrammarPlan *plan;     // in the program arena
     bool is_tried, is_known;
-    bool is_quick; // its expressions are worked out by quick.c
-} Repeat;
-enum { REPEATS = 32, REPEAT_STREAMS = 16 };
-typedef enum RepeatStep {
-    REPEAT_NONE,  // to be evaluated like any other
-    REPEAT_WATCH, // so, too; then repeat_learn is to be called
-    REPEAT_KNOWN, // repeat_place can do it
-} RepeatStep;
+} PlanPlace;
+enum { PLAN_PLACES = 32 };
 
 typedef struct Eval {
     EvalOptions options;
@@ -193,8 +185,8 @@ typedef struct Eval {
     bool has_mark;                // which is UTF-8 unless the scene says otherwise
     ARRAY(PastedText) pasted;     // expressions that were read again, by their place
     unsigned call_depth, include_depth, expression_depth, expression_depth_limit;
-    LiteralWatch literal;
-    Repeat repeats[REPEATS];
+    PlanWatch watch;
+    PlanPlace plan_places[PLAN_PLACES];
     bool is_value_made;  // the last function or spline was written where it is used, and has no name
     unsigned scopes_within; // calls and files that began in the text of a #local and are not over: it is none of theirs
     bool takes_end;      // a `;` may end the text of what is worked out: it is the value of a declaration, or its end
@@ -639,8 +631,10 @@ typedef struct SpliceStream SpliceStream;
 void splice_init(Splice *splice, Eval *ev);
 void splice_fini(Splice *splice);
 
-// What the grammar asks and tells of literal spheres (literal.c), put to the other hooks.
-void literal_hooks(Eval *ev, GrammarHooks *hooks);
+// What the grammar asks of plans (plan_text.c), put to the other hooks.
+void plan_hooks(Eval *ev, GrammarHooks *hooks);
+// A call is evaluated next: makes a plan of it when it is the statement that is watched.
+void plan_watch_call(Eval *ev, const AstNode *call);
 
 // Items of a text, on demand, of the top level or not. `owned` (NULL or the text) is freed with it. NULL when out of memory.
 SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool top,

@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
-#include "eval/blocks.h"
+#include "eval/plan.h"
 
 // ---- members of unions and objects
 
@@ -223,9 +223,9 @@ bool eval_place(Eval *ev, const AstNode *item)
     if (!object_is_statement(kind)) {
         return eval_fault(ev, DIAG_E0256, item->span, "expected an object or a directive here");
     }
-    RepeatStep step = kind == KIND_SPHERE && !ev->options.no_literals ? repeat_step(ev, item) : REPEAT_NONE;
+    PlanTrial trial = {.plan = NULL};
     bool is_fine;
-    if (step == REPEAT_KNOWN && repeat_place(ev, item, &is_fine)) {
+    if (plan_is_for(kind) && !ev->options.no_literals && plan_begin(ev, item, kind, &trial, &is_fine)) {
         return is_fine;
     }
     ArenaMark mark = scratch_mark(ev);
@@ -234,13 +234,12 @@ bool eval_place(Eval *ev, const AstNode *item)
     SchemaKind is;
     block_defaults(ev, kind, &record);
     is_fine = block_read(ev, item, kind, arena, &record, &is);
-    bool is_plain = is_fine && step == REPEAT_WATCH && object_is_plain_sphere(ev, is, &record);
-    if (is_fine && ev->literal.is_watching && item->span.begin == ev->literal.literal.span.begin) {
-        literal_note(ev, is, &record);
+    if (trial.plan && is_fine) {
+        plan_note(ev, &trial, is, &record);
     }
     is_fine = is_fine && place_record(ev, item, is, &record);
-    if (step == REPEAT_WATCH) {
-        repeat_learn(ev, item, is_plain);
+    if (trial.plan && is_fine) {
+        plan_try(ev, &trial, item);
     }
     scratch_rewind(ev, mark);
     return is_fine;

@@ -181,26 +181,11 @@ bool sphere_place_plain(Eval *ev, Vec3 centre, double radius, const Material *ma
             eval_no_memory(ev, span));
 }
 
-bool sphere_place_moved(Eval *ev, Vec3 centre, double radius, const Transform *transform, const Material *material,
-                        Span span)
+bool part_place_plain(Eval *ev, Part *part, const Material *material, Span span)
 {
-    SphereBlueprint sphere = {.part = {.span = span}, .centre = centre, .radius = radius};
-    Transform world = world_transform(ev);
-    Transform whole = transform_compose(*transform, world);
-    double image;
-    if (sphere_image_radius(radius, &whole, &image)) {
-        Vec3 place = transform_point(&whole, centre);
-        if (!vec3_is_finite(place) || !isfinite(image) || !(image > 0.0)) {
-            return shape_flattened(ev, &sphere.part);
-        }
-        return sphere_place_plain(ev, place, image, material, span);
-    }
-    Part part;
-    if (!may_add(ev, span) || shape_make_stretched(ev, &sphere, &whole, &part) != SHAPE_MADE) {
-        return false;
-    }
-    return (scene_add_material_record(ev->scene, material, &part.material) && scene_add_part(ev->scene, &part)) ||
-           eval_no_memory(ev, span);
+    return may_add(ev, span) &&
+           ((scene_add_material_record(ev->scene, material, &part->material) && scene_add_part(ev->scene, part)) ||
+            eval_no_memory(ev, span));
 }
 
 static bool place_single(Eval *ev, const ObjectPart *common, bool is_plain, const Placement *inner, const Part *part)
@@ -235,7 +220,7 @@ static bool clip_is_idle(Eval *ev, const Clip *clip, const Transform *outer, con
         return false;
     }
     Transform whole = transform_compose(transform_compose(common->transform, clip->transform), *outer);
-    return shape_make(ev, clip->kind, clip->object, &whole, &part) == SHAPE_MADE && part_contains(&part, shape);
+    return shape_make(ev, clip->kind, clip->object, &whole, false, &part) == SHAPE_MADE && part_contains(&part, shape);
 }
 
 // Whether anything is left to clip `shape`; NULL for what has no end or is not a single shape.
@@ -309,7 +294,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     if (branch->is_in_box && has_box_inside_out(kind, object)) {
         return box_fault(ev, common->span);
     }
-    ShapeResult result = shape_make(ev, kind, object, &around->outer, &part);
+    ShapeResult result = shape_make(ev, kind, object, &around->outer, false, &part);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING && grow_nothing(ev, kind, common, branch);
     }
@@ -404,7 +389,7 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
     Part shape;
     // A clip is not turned round with what it clips: what is outside of a shape reaches beyond any clip.
     bool is_known = !object_is_group(kind) && part->is_inverse == branch.is_inverse &&
-                    shape_make(ev, kind, object, &branch.placement.outer, &shape) == SHAPE_MADE;
+                    shape_make(ev, kind, object, &branch.placement.outer, false, &shape) == SHAPE_MADE;
     const Part *known = is_known ? &shape : NULL;
     if (!clips_matter(ev, clips, known)) {
         return grow_object(ev, kind, object, &branch);
@@ -462,8 +447,7 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     }
     Part shape;
     bool is_stretched = may_be_round && !inner->clips; // it was found not to be round
-    ShapeResult result = is_stretched ? shape_make_stretched(ev, object, &inner->outer, &shape)
-                                      : shape_make(ev, kind, object, &inner->outer, &shape);
+    ShapeResult result = shape_make(ev, kind, object, &inner->outer, is_stretched, &shape);
     if (result != SHAPE_MADE) {
         return result == SHAPE_NOTHING;
     }

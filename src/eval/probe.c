@@ -163,7 +163,7 @@ bool builtin_inside(Eval *ev, const AstNode *node, Value *value)
 static bool add_leaf(Eval *ev, Probe *probe, const ProbeNode *node, const Transform *inner)
 {
     Part part;
-    switch (shape_make(ev, node->kind, node->object, inner, &part)) {
+    switch (shape_make(ev, node->kind, node->object, inner, false, &part)) {
     case SHAPE_NOTHING: return true;
     case SHAPE_FAULT: return false;
     case SHAPE_MADE: break;

@@ -10,40 +10,43 @@
 
 // ---- closing braces; an identifier may have made it any object
 
+bool shape_settle(SchemaKind kind, Blueprint *record)
+{
+    switch (kind) {
+    case KIND_PLANE: return !vec3_equal(record->plane.normal, vec3(0.0, 0.0, 0.0));
+    case KIND_CYLINDER:
+        record->cylinder.radius = fabs(record->cylinder.radius);
+        return !vec3_equal(record->cylinder.base, record->cylinder.cap);
+    case KIND_CONE: return !vec3_equal(record->cone.base, record->cone.cap);
+    case KIND_DISC:
+        record->disc.radius = fabs(record->disc.radius);
+        record->disc.hole = fabs(record->disc.hole);
+        return true;
+    default: return true;
+    }
+}
+
 bool plane_close(Block *block)
 {
-    if (block->is == KIND_PLANE && vec3_equal(block->record->plane.normal, vec3(0.0, 0.0, 0.0))) {
-        return block_fault(block, DIAG_E0342, block->node->span, "the normal of a plane cannot be <0, 0, 0>");
-    }
-    return true;
+    return block->is != KIND_PLANE || shape_settle(KIND_PLANE, block->record) ||
+           block_fault(block, DIAG_E0342, block->node->span, "the normal of a plane cannot be <0, 0, 0>");
 }
 
 bool cylinder_close(Block *block)
 {
-    CylinderBlueprint *cylinder = &block->record->cylinder;
-    if (block->is != KIND_CYLINDER) {
-        return true;
-    }
-    cylinder->radius = fabs(cylinder->radius);
-    return !vec3_equal(cylinder->base, cylinder->cap) ||
+    return block->is != KIND_CYLINDER || shape_settle(KIND_CYLINDER, block->record) ||
            block_fault(block, DIAG_E0361, block->node->span, "the ends of a cylinder cannot be one point");
 }
 
 bool disc_close(Block *block)
 {
-    if (block->is == KIND_DISC) {
-        block->record->disc.radius = fabs(block->record->disc.radius);
-        block->record->disc.hole = fabs(block->record->disc.hole);
-    }
-    return true;
+    return block->is != KIND_DISC || shape_settle(KIND_DISC, block->record);
 }
 
 bool cone_close(Block *block)
 {
-    if (block->is == KIND_CONE && vec3_equal(block->record->cone.base, block->record->cone.cap)) {
-        return block_fault(block, DIAG_E0361, block->node->span, "the ends of a cone cannot be one point");
-    }
-    return true;
+    return block->is != KIND_CONE || shape_settle(KIND_CONE, block->record) ||
+           block_fault(block, DIAG_E0361, block->node->span, "the ends of a cone cannot be one point");
 }
 
 bool sphere_image_radius(double radius, const Transform *transform, double *image)
@@ -57,60 +60,51 @@ bool sphere_image_radius(double radius, const Transform *transform, double *imag
     return transform_is_similarity(&whole, image);
 }
 
-// The tail of a form: a shape without extent is told of, and is nothing.
-static ShapeResult formed(Eval *ev, Span span, const char *why_nothing)
-{
-    if (why_nothing) {
-        eval_warn(ev, DIAG_W0348, span, "%s", why_nothing);
-        return SHAPE_NOTHING;
-    }
-    return SHAPE_MADE;
-}
-
-static ShapeResult sphere_form(Eval *ev, const void *object, Part *part)
+// Each returns why the shape has no extent; NULL: it has one.
+static const char *sphere_form(const void *object, Part *part)
 {
     const SphereBlueprint *sphere = object;
-    return formed(ev, sphere->part.span, part_make_ball(part, sphere->centre, fabs(sphere->radius)));
+    return part_make_ball(part, sphere->centre, fabs(sphere->radius));
 }
 
-static ShapeResult box_form(Eval *ev, const void *object, Part *part)
+static const char *box_form(const void *object, Part *part)
 {
     const BoxBlueprint *box = object;
     part_make_box(part, box->corner, box->other_corner);
-    return formed(ev, box->part.span, NULL);
+    return NULL;
 }
 
-static ShapeResult cylinder_form(Eval *ev, const void *object, Part *part)
+static const char *cylinder_form(const void *object, Part *part)
 {
     const CylinderBlueprint *c = object;
-    return formed(ev, c->part.span, part_make_cylinder(part, c->base, c->cap, c->radius, c->is_open));
+    return part_make_cylinder(part, c->base, c->cap, c->radius, c->is_open);
 }
 
-static ShapeResult cone_form(Eval *ev, const void *object, Part *part)
+static const char *cone_form(const void *object, Part *part)
 {
     const ConeBlueprint *c = object;
-    return formed(ev, c->part.span, part_make_cone(part, c->base, c->base_radius, c->cap, c->cap_radius, c->is_open));
+    return part_make_cone(part, c->base, c->base_radius, c->cap, c->cap_radius, c->is_open);
 }
 
-static ShapeResult disc_form(Eval *ev, const void *object, Part *part)
+static const char *disc_form(const void *object, Part *part)
 {
     const DiscBlueprint *disc = object;
-    return formed(ev, disc->part.span, part_make_disc(part, disc->centre, disc->normal, disc->radius, disc->hole));
+    return part_make_disc(part, disc->centre, disc->normal, disc->radius, disc->hole);
 }
 
-static ShapeResult triangle_form(Eval *ev, const void *object, Part *part)
+static const char *triangle_form(const void *object, Part *part)
 {
     const TriangleBlueprint *triangle = object;
-    return formed(ev, triangle->part.span, part_make_triangle(part, triangle->corners));
+    return part_make_triangle(part, triangle->corners);
 }
 
-static ShapeResult smooth_triangle_form(Eval *ev, const void *object, Part *part)
+static const char *smooth_triangle_form(const void *object, Part *part)
 {
     const SmoothTriangleBlueprint *triangle = object;
-    return formed(ev, triangle->part.span, part_make_smooth_triangle(part, triangle->corners, triangle->normals));
+    return part_make_smooth_triangle(part, triangle->corners, triangle->normals);
 }
 
-typedef ShapeResult (*ShapeForm)(Eval *ev, const void *object, Part *part);
+typedef const char *(*ShapeForm)(const void *object, Part *part);
 
 static const ShapeForm forms[KIND_COUNT] = {
     [KIND_SPHERE] = sphere_form,     [KIND_BOX] = box_form,
@@ -127,11 +121,10 @@ bool shape_flattened(Eval *ev, const ObjectPart *part)
 }
 
 // The image of n·p = d under p' = p M + t is n'·p' = d' with n' = M^-1 n (as a row vector n M^-T) and d' = d + n'·t.
-static ShapeResult plane_make(Eval *ev, const PlaneBlueprint *plane, const Transform *transform, Part *part)
+static ShapeResult plane_form(const PlaneBlueprint *plane, const Transform *transform, Part *part)
 {
     Transform back;
     if (!transform_invert(transform, &back)) {
-        shape_flattened(ev, &plane->part);
         return SHAPE_FAULT;
     }
     Vec3 normal = transform_normal(&back, vector_unit(plane->normal));
@@ -141,7 +134,6 @@ static ShapeResult plane_make(Eval *ev, const PlaneBlueprint *plane, const Trans
     // A length of 1 to rounding was left alone by vector_unit, so it does not divide the distance either.
     double distance = (vec3_equal(unit, normal) ? plane->distance : plane->distance / length) + vec3_dot(unit, origin);
     if (!vec3_is_finite(unit) || !isfinite(distance) || vec3_equal(unit, vec3(0.0, 0.0, 0.0))) {
-        shape_flattened(ev, &plane->part);
         return SHAPE_FAULT;
     }
     part->kind = PART_PLANE;
@@ -161,39 +153,34 @@ static Transform sphere_to_world(const SphereBlueprint *sphere, const Transform 
                              transform_translate(transform_point(transform, sphere->centre)));
 }
 
-// What is left of a part when its to_world is known.
-static ShapeResult shape_finish(Eval *ev, const ObjectPart *common, Part *part)
-{
-    if (!part_finish(part)) {
-        shape_flattened(ev, common);
-        return SHAPE_FAULT;
-    }
-    return SHAPE_MADE;
-}
-
-ShapeResult shape_make_stretched(Eval *ev, const SphereBlueprint *sphere, const Transform *transform, Part *part)
-{
-    *part = part_empty(sphere->part.span.begin);
-    ShapeResult result = sphere_form(ev, sphere, part);
-    if (result == SHAPE_MADE) {
-        part->to_world = transform_compose(part->to_world, *transform);
-        result = shape_finish(ev, &sphere->part, part);
-    }
-    return result;
-}
-
-ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, Part *part)
+ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *transform, bool is_stretched, Part *part,
+                       const char **why_nothing)
 {
     *part = part_empty(((const ObjectPart *)object)->span.begin);
     if (kind == KIND_PLANE) {
-        return plane_make(ev, object, transform, part);
+        return plane_form(object, transform, part);
     }
-    ShapeResult result = forms[kind](ev, object, part);
-    if (result != SHAPE_MADE) {
-        return result;
+    *why_nothing = forms[kind](object, part);
+    if (*why_nothing) {
+        return SHAPE_NOTHING;
     }
-    part->to_world = kind == KIND_BOX      ? *transform
-                     : kind == KIND_SPHERE ? sphere_to_world(object, &part->to_world, transform)
-                                           : transform_compose(part->to_world, *transform);
-    return shape_finish(ev, object, part);
+    bool is_sphere = kind == KIND_SPHERE && !is_stretched;
+    part->to_world = kind == KIND_BOX ? *transform
+                     : is_sphere      ? sphere_to_world(object, &part->to_world, transform)
+                                      : transform_compose(part->to_world, *transform);
+    return part_finish(part) ? SHAPE_MADE : SHAPE_FAULT;
+}
+
+ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, bool is_stretched,
+                       Part *part)
+{
+    const ObjectPart *common = object;
+    const char *why_nothing;
+    ShapeResult result = shape_form(kind, object, transform, is_stretched, part, &why_nothing);
+    if (result == SHAPE_NOTHING) {
+        eval_warn(ev, DIAG_W0348, common->span, "%s", why_nothing);
+    } else if (result == SHAPE_FAULT) {
+        shape_flattened(ev, common);
+    }
+    return result;
 }

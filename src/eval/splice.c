@@ -271,7 +271,7 @@ void splice_init(Splice *splice, Eval *ev)
                   .is_stopped = is_stopped,
                   .is_top = true},
     };
-    literal_hooks(ev, &splice->hooks);
+    plan_hooks(ev, &splice->hooks);
 }
 
 void splice_fini(Splice *splice)

@@ -1,0 +1,295 @@
+// Long runs of statements like earlier ones, read piece by piece on all threads, if only one.
+//
+// The source's text is cut into pieces, one for each thread. A piece begins where the first statement of the word that
+// they all begin with stands, and each is read as if all before it were fine; then the pieces' statements are handed to
+// the evaluator in order, up to the first that is not what it was taken for. What comes of it is what comes of reading
+// them one by one: where a piece before did not end where the next one began, or something else stands, the rest is
+// read again.
+//
+// SPDX-License-Identifier: MIT
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE // memmem
+#endif
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/plain.h"
+#include "grammar/statements.h"
+
+enum {
+    PIECE_BYTES = 1 << 20,
+    PIECE_BYTES_ALONE = 256 << 10, // of one thread: text and statements stay in its cache
+    READERS_MOST = 64,
+    STATEMENT_LEAST = 16, // bytes; `sphere{<0,0,0>,1}` has 17
+    NUMBER_LEAST = 2,     // with what stands before it
+    WORD_LONGEST = 32,
+};
+
+typedef struct Piece {
+    char *text;                // of `bytes` + STATEMENT_LONGEST + WINDOW_PADDING
+    GrammarStatement *statements;
+    double *numbers;           // of them
+    size_t count;
+    uint64_t begin, end; // of the first statement and after the last
+    bool is_read;        // else nothing of it is known
+} Piece;
+
+typedef struct Readers {
+    const GrammarState *state;
+    char word[WORD_LONGEST]; // that statements begin with
+    size_t word_length;
+    uint64_t begin, end; // of the first piece and the source
+    size_t bytes;        // of a piece
+    int count;           // pieces that there is room for, or text
+    Piece pieces[READERS_MOST];
+} Readers;
+
+static const char *find_statement(const Readers *readers, const char *at, const char *end)
+{
+    for (; (at = memmem(at, (size_t)(end - at), readers->word, readers->word_length)) != NULL; at++) {
+        if (*plain_skip_blanks(at + readers->word_length) == '{') {
+            return at;
+        }
+    }
+    return end;
+}
+
+// The templates whose statements are handed over together, each thread its own.
+typedef struct Templates {
+    Template *items[TEMPLATES_MOST]; // the one used last first
+    unsigned count;
+} Templates;
+
+static void templates_begin(Templates *templates, const StatementReader *reader)
+{
+    templates->count = 0;
+    for (unsigned i = 0; i < TEMPLATES_MOST && reader->templates[i] != NULL; i++) {
+        Template *copy = reader->templates[i]->is_batched ? template_copy(reader->templates[i]) : NULL;
+        if (copy != NULL) {
+            templates->items[templates->count++] = copy;
+        }
+    }
+}
+
+// Where the statement that begins here ends; NULL: it is no such one.
+static const char *templates_match(Templates *templates, const char *at, const char *end, double *numbers)
+{
+    for (unsigned i = 0; i < templates->count; i++) {
+        Template *template = templates->items[i];
+        const char *after = template_match(template, at, end, numbers);
+        if (RT_LIKELY(after != NULL)) {
+            templates->items[i] = templates->items[0];
+            templates->items[0] = template;
+            return after;
+        }
+    }
+    return NULL;
+}
+
+// Reads the statements that begin in a piece of text at an offset, up to `limit`. Counted apart, since pieces lie side
+// by side and each has its own thread.
+static void piece_scan(const Readers *readers, Piece *piece, uint64_t offset, size_t length, size_t limit)
+{
+    const char *end = piece->text + length, *at = plain_skip_blanks(piece->text);
+    at = offset == readers->begin ? at : find_statement(readers, at, end);
+    Templates templates;
+    templates_begin(&templates, readers->state->statements);
+    GrammarStatement *statement = piece->statements;
+    double *numbers = piece->numbers;
+    piece->begin = offset + (uint64_t)(at - piece->text);
+    while (at < piece->text + limit) {
+        const char *after = templates_match(&templates, at, end, numbers);
+        if (after == NULL) {
+            break;
+        }
+        *statement++ = (GrammarStatement){
+            .span = {offset + (uint64_t)(at - piece->text), offset + (uint64_t)(after - piece->text)},
+            .plan = templates.items[0]->plan,
+            .numbers = numbers,
+        };
+        numbers += templates.items[0]->slots;
+        at = plain_skip_blanks(after);
+    }
+    piece->count = (size_t)(statement - piece->statements);
+    piece->end = offset + (uint64_t)(at - piece->text);
+    for (unsigned i = 0; i < templates.count; i++) {
+        free(templates.items[i]);
+    }
+}
+
+static void readers_work(void *client, size_t begin, size_t end)
+{
+    Readers *readers = client;
+    const Source *source = readers->state->source;
+    for (size_t i = begin; i < end; i++) {
+        Piece *piece = &readers->pieces[i];
+        uint64_t offset = readers->begin + i * readers->bytes, left = readers->end - offset;
+        size_t wanted = readers->bytes + STATEMENT_LONGEST, length = left < wanted ? (size_t)left : wanted;
+        piece->is_read = source_read_at(source, offset - source_base(source), piece->text, length);
+        if (piece->is_read) {
+            memset(piece->text + length, 0, WINDOW_PADDING);
+            piece_scan(readers, piece, offset, length, readers->bytes < length ? readers->bytes : length);
+        }
+    }
+}
+
+static void readers_free(Readers *readers)
+{
+    for (int i = 0; i < READERS_MOST; i++) {
+        free(readers->pieces[i].text);
+        free(readers->pieces[i].statements);
+        free(readers->pieces[i].numbers);
+    }
+    free(readers);
+}
+
+static bool set_word(Readers *readers, const char *text)
+{
+    while (readers->word_length < WORD_LONGEST && plain_is_in_word(text[readers->word_length])) {
+        readers->word[readers->word_length] = text[readers->word_length];
+        readers->word_length++;
+    }
+    return readers->word_length < WORD_LONGEST;
+}
+
+static Readers *readers_new(const GrammarState *state, size_t bytes, int count)
+{
+    Readers *readers = calloc(1, sizeof *readers);
+    if (readers == NULL || !set_word(readers, state->statements->templates[0]->text)) {
+        free(readers);
+        return NULL;
+    }
+    readers->state = state;
+    readers->bytes = bytes;
+    readers->count = count;
+    readers->end = source_extent(state->source).end;
+    bool is_fine = true;
+    for (int i = 0; i < readers->count; i++) {
+        Piece *piece = &readers->pieces[i];
+        piece->text = malloc(bytes + STATEMENT_LONGEST + WINDOW_PADDING);
+        piece->statements = malloc((bytes / STATEMENT_LEAST + 2) * sizeof *piece->statements);
+        // The last statement may end beyond the piece.
+        piece->numbers = malloc((bytes / NUMBER_LEAST + 2 * GRAMMAR_SLOTS_MOST) * sizeof *piece->numbers);
+        is_fine = is_fine && piece->text != NULL && piece->statements != NULL && piece->numbers != NULL;
+    }
+    if (!is_fine) {
+        readers_free(readers);
+        return NULL;
+    }
+    return readers;
+}
+
+// Hands a piece's statements over one by one. False when what follows the last one taken is something else.
+static bool piece_take(GrammarState *state, const Piece *piece)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    for (size_t i = 0; i < piece->count; i++) {
+        GrammarTaken taken = hooks->plan_run(hooks->client, &piece->statements[i]);
+        if (taken == GRAMMAR_LEFT) {
+            return false;
+        }
+        statements_pass(state, '}', piece->statements[i].span.end);
+        if (taken == GRAMMAR_STOP) {
+            state->client_ended = state->ended = true;
+            return false;
+        }
+    }
+    state->offset = piece->end;
+    return true;
+}
+
+// The pieces up to the first that did not begin where the one before ended; *is_whole: these are all, and the last one
+// ended where it was cut.
+static int pieces_fitting(const Readers *readers, bool *is_whole)
+{
+    int count = 0;
+    *is_whole = true;
+    while (*is_whole && count < readers->count && readers->pieces[count].is_read) {
+        const Piece *piece = &readers->pieces[count];
+        if (count > 0 && piece->begin != readers->pieces[count - 1].end) {
+            break;
+        }
+        *is_whole = piece->end >= readers->begin + (uint64_t)(count + 1) * readers->bytes;
+        count++;
+    }
+    *is_whole = *is_whole && count == readers->count;
+    return count;
+}
+
+static bool pieces_take_together(GrammarState *state, const Readers *readers, int count)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    GrammarStatements lists[READERS_MOST];
+    uint64_t end = 0;
+    size_t kept = 0, statements = 0;
+    for (int i = 0; i < count; i++) {
+        const Piece *piece = &readers->pieces[i];
+        if (piece->count > 0) {
+            lists[kept++] = (GrammarStatements){piece->statements, piece->count};
+            end = piece->statements[piece->count - 1].span.end;
+            statements += piece->count;
+        }
+    }
+    if (kept == 0) {
+        return false;
+    }
+    double more = (double)statements * (double)(readers->end - end) / (double)(end - readers->begin);
+    if (!hooks->plan_run_all(hooks->client, lists, kept, (size_t)more)) {
+        return false;
+    }
+    statements_pass(state, '}', end);
+    state->offset = readers->pieces[count - 1].end;
+    return true;
+}
+
+// How many whole pieces are left from a position on, up to `most`.
+static int pieces_left(uint64_t end, uint64_t offset, size_t bytes, int most)
+{
+    uint64_t left = (end - offset) / bytes;
+    return left < (uint64_t)most ? (int)left : most;
+}
+
+// One round of all threads. False when there is something else, or too little is left.
+static bool read_round(GrammarState *state, Readers *readers)
+{
+    readers->begin = state->offset;
+    readers->count = pieces_left(readers->end, readers->begin, readers->bytes, readers->count);
+    if (readers->count == 0) {
+        return false;
+    }
+    parallel_share(readers->count, (size_t)readers->count, 1, readers_work, readers);
+    bool is_whole;
+    int count = pieces_fitting(readers, &is_whole);
+    if (count > 0 && pieces_take_together(state, readers, count)) {
+        return is_whole;
+    }
+    for (int i = 0; i < count; i++) {
+        if (!piece_take(state, &readers->pieces[i])) {
+            return false;
+        }
+    }
+    return is_whole;
+}
+
+bool statements_read_many(GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    uint64_t before = state->offset;
+    int threads = hooks->plan_threads < READERS_MOST ? hooks->plan_threads : READERS_MOST;
+    threads = threads < 1 ? 1 : threads;
+    size_t bytes = hooks->plan_piece > 0 ? hooks->plan_piece : threads > 1 ? PIECE_BYTES : PIECE_BYTES_ALONE;
+    int count = pieces_left(source_extent(state->source).end, before, bytes, threads);
+    Readers *readers = count == 0 ? NULL : readers_new(state, bytes, count);
+    if (readers == NULL) {
+        return false; // they are read one by one
+    }
+    while (read_round(state, readers)) {
+    }
+    readers_free(readers);
+    if (state->offset == before) {
+        return false;
+    }
+    grammar_scan_seek(state, state->offset);
+    return true;
+}
