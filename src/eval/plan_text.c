@@ -231,7 +231,7 @@ static bool call_compile(PlanCall *plan, const AstNode *call, GrammarSlot *slots
 
 void plan_watch_call(Eval *ev, const AstNode *call)
 {
-    GrammarPlan *plan = is_watched(ev, call) && !ev->lint ? calloc(1, sizeof *plan) : NULL;
+    GrammarPlan *plan = is_watched(ev, call) ? calloc(1, sizeof *plan) : NULL;
     if (plan) {
         ev->watch.plan = plan;
         plan->call = calloc(1, sizeof *plan->call);
@@ -251,6 +251,7 @@ static GrammarTaken run_call(Eval *ev, PlanCall *plan, const GrammarStatement *s
         plan->numbers[i]->number = statement->numbers[i];
     }
     plan->call.span = statement->span;
+    lint_items(ev, &plan->call);
     eval_item(ev, &plan->call);
     return eval_cancelled(ev) ? GRAMMAR_STOP : GRAMMAR_TAKEN;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Spheres that are read by their text alone, or placed again and again by a loop, are those of the usual way: random
-texts, each read in both ways, with files of numbers that they read.
+"""Statements that follow a plan, by their text alone or again and again in a loop or macro, give what they give the usual
+way: random texts of shapes and calls, each read in both ways, with files of numbers that they read.
 
 Usage: check_literals.py [COUNT [SEED]]   Prints TAP, a line for each batch of texts; `check_literals.py -SEED` prints one,
 and writes the files that it reads.
@@ -16,11 +16,19 @@ import tempfile
 
 COUNT, SEED, BATCH = 400, 1, 50
 # What makes a text faulty; one in two has none of it.
-FAULTY = {"<{c}>", "finish { phnog 1 }", "finish { diffuse -1 }", "torus", "3", "alpha 1", "srgb <{c}>", "}", ";", ",", "}\n", "#end",
+FAULTY = {"#macro D(A) box { A, 2 #end", "#undef E", "#declare C = 5;", "#macro E(A) sphere { A, 1 } #end", "<1, 2>", " + 1", ".x", "*2", ", ",
+          "<{c}>", "finish { phnog 1 }", "finish { diffuse -1 }", "torus", "3", "alpha 1", "srgb <{c}>", "}", ";", ",", "}\n", "#end",
           "sphere", "5", "sphere { <1, 2, 3", "union { sphere { 0, 1 } ", "0", "-1", "", ",,", "interior { ior 1.5 }",
           "clipped_by { plane { y, 9 } }", "scale 1 > {m}", "translate {m},", "matrix {m}", "translate -{m}",
           "translate <{m}, 1>",
           "matrix <1, 0, 0, 0, 1, 0, 0, 0, 0, {m3}>", "matrix <{m12}>"}
+# What stands before the properties of a shape: vectors and numbers.
+SHAPES = {"sphere": ["vn"], "box": ["vv"], "cylinder": ["vvn"], "cone": ["vnvn"], "disc": ["vvn", "vvnn"], "triangle": ["vvv"],
+          "smooth_triangle": ["vvvvvv"], "plane": ["vn"]}
+CALLS = """#macro C(A, B) sphere { A, B pigment { rgb A/9 } } #end
+#macro D(X, Y, Z, R) cylinder { <X, Y, Z>, <Z, X, Y>, R pigment { rgb <0.5, X/9, 1> } finish { phong 0.5 } } box { X, <Y, Z, R> } #end
+#macro E(A) #debug str(A, 0, 2) #if (A > 1) triangle { A*x, A*y, A*z } #end #end
+"""
 SCANNER_BLOCK = 256 * 1024
 DATA_BLOCK = 64 * 1024
 # What a turn of a loop over a file tells of what it has read; nothing, most of the time.
@@ -33,7 +41,8 @@ class Text:
     def __init__(self, seed):
         self.dice = random.Random(seed)
         self.is_sane = self.dice.random() < 0.5
-        self.kinds = [self.rest() for _ in range(self.dice.randrange(1, 6))]
+        self.kinds = [(self.head(), self.rest()) for _ in range(self.dice.randrange(1, 6))]
+        self.calls = self.dice.choice([0, 0.1, 0.5])  # their share among statements
         self.files = {}  # name -> what #read finds there
 
     def pick(self, *choices):
@@ -87,17 +96,44 @@ class Text:
                          "scale <{m3}> / 2", "translate <{m}, 1>", "translate {m},",
                          "matrix <1, 0, 0, 0, 1, 0, 0, 0, 0, {m3}>", "rotate {m}", "scale 1 > {m}", "matrix {m}")
 
-    def sphere(self, odd):
-        rest = self.dice.choice(self.kinds) if self.dice.random() > odd else self.rest()
+    def head(self):
+        kind = self.dice.choice(["sphere", "sphere", *SHAPES])
+        return kind, self.dice.choice(SHAPES[kind])
+
+    def vector(self, odd):
+        return f"<{self.numbers(3, odd / 8)}>" if self.dice.random() > odd / 8 else \
+            self.pick("0", ".5", "-2", "<1, 2>", "<1 2 3>", "x", "<1, 2, 3>", "<0, 0, 0>")
+
+    def size(self, odd):
+        return self.pick("0", "-1", "1e-320", self.odd_number()) if self.dice.random() < odd / 4 else \
+            f"{self.dice.uniform(0.01, 3):.6f}"
+
+    def shape(self, odd):
+        is_known = self.dice.random() > odd
+        (kind, arguments), rest = self.dice.choice(self.kinds) if is_known else (self.head(), self.rest())
         for gap, count in ("{m12}", 12), ("{m3}", 3), ("{m}", 1), ("{c5}", 5), ("{c4}", 4), ("{c}", 3):
             rest = rest.replace(gap, self.numbers(count, odd / 4))
-        radius = self.pick("0", "-1", "1e-320", self.odd_number()) if self.dice.random() < odd / 4 else \
-            f"{self.dice.uniform(0.01, 3):.6f}"
-        centre = f"<{self.numbers(3, odd / 8)}>" if self.dice.random() > odd / 8 else \
-            self.pick("0", ".5", "-2", "<1, 2>", "<1 2 3>", "x")
-        between = ", " if self.dice.random() > odd / 8 else self.pick(" ", ",", ",,", "")
-        blank = self.pick("", " ", "\n")
-        return f"sphere {{{blank}{centre}{between}{radius}{rest}"
+        head = ""
+        for i, argument in enumerate(arguments):
+            between = ", " if self.dice.random() > odd / 8 else self.pick(" ", ",", ",,", "")
+            head += (between if i else "") + (self.vector(odd) if argument == "v" else self.size(odd))
+        flag = " open" if kind in ("cylinder", "cone") and self.dice.random() < odd else ""
+        return f"{kind} {{{self.pick('', ' ', chr(10))}{head}{flag}{rest}"
+
+    def call(self, odd):
+        """A call of a macro, most of the time with numbers for its arguments."""
+        arguments = {"C": "vn", "D": "nnnn", "E": "n"}
+        name = self.dice.choice(sorted(arguments))
+        given = [self.vector(odd) if argument == "v" else self.size(odd) for argument in arguments[name]]
+        if self.dice.random() < odd / 4:
+            given.append(self.pick("1", "A", "x", "(2)", "rgb <1, 0.5, 0>"))
+        if self.dice.random() < odd / 4:
+            given[self.dice.randrange(len(given))] = self.pick("A", "(1)", "rand(S)", "V", "2*0.5", "1 + 1")
+        after = self.pick(" + 1", ".x", ";", "*2", ", ", "// so", "#declare I = 3;") if self.dice.random() < odd / 8 else ""
+        return f"{name}({', '.join(given)}){after}"
+
+    def statement(self, odd):
+        return self.call(odd) if self.dice.random() < self.calls else self.shape(odd)
 
     def other(self):
         return self.pick("#default { pigment { rgb <1, 0, 0> } }", "#default { finish { ambient 0.5 } }", "#declare A = 1.5;",
@@ -105,7 +141,8 @@ class Text:
                          "#declare Red = rgb <1, 0, 0>;", "#declare Shiny = finish { phong 1 }", "union { sphere { 0, 1 } ",
                          "light_source { 9, 1 }", "#version 3.6;", "global_settings { assumed_gamma 1 }", ";", ",", "}", "sphere",
                          "#if (A) sphere { <0, 0, 0>, 1 } #end", "#declare T = texture { pigment { rgb 1 } }", "}\n", "#end", "5",
-                         "#for (I, 1, 3) sphere { I*x, 1 } #end", "/* " + "x" * 300 + " */", "sphere { <1, 2, 3", "#local A = 2;")
+                         "#for (I, 1, 3) sphere { I*x, 1 } #end", "#macro E(A) sphere { A, 1 } #end", "#declare C = 5;",
+                         "#macro D(A) box { A, 2 #end", "#undef E", "/* " + "x" * 300 + " */", "sphere { <1, 2, 3", "#local A = 2;")
 
     def datum(self, odd):
         if self.dice.random() < odd:
@@ -142,7 +179,7 @@ class Text:
                                                     "(I = 1 + 3e-10)", "W", "pow(0, I - 3)", "I = 2", "sin(I = 2)", "max(I < 2, 1)", "V.w", "P[I]", "rand(99)"]))
 
     def loop_body(self, odd):
-        body = "\n".join(self.sphere(odd) for _ in range(self.dice.randrange(1, 4)))
+        body = "\n".join(self.shape(odd) for _ in range(self.dice.randrange(1, 4)))
         body = re.sub(r"(?<=[<,\s{])-?\d+\.\d+(?=[,>])", lambda found: self.expression(found[0]), body)
         return re.sub(r"(?<={)<[^<>]*>(?=,)", lambda found: self.pick(found[0], found[0], "V", "I*x + V", "rand(S)*y", "P[1]", "-V", "V*<1, 2, I>", "2*P[I - 1]", "I*z/2"), body)
 
@@ -162,12 +199,12 @@ class Text:
         odd = self.pick(0.0, 0.05, 0.05, 0.4)
         text = self.pick("0" if self.is_sane else "", "#declare A = 1; #declare Red = rgb x; #declare Shiny = finish { phong 1 }\n"
                              "#declare T = texture { pigment { rgb 1 } } #macro M() scale 2 #end\n")
-        text += "#declare S = seed(5); #declare V = <1, 2, 3>; #declare W = array[7] {0, 1, 2.5, 3, -4, 5, 6}; #declare P = array[2] {<1, 2, 3>, <0, 0, 4>};\n"
+        text += CALLS + "#declare S = seed(5); #declare V = <1, 2, 3>; #declare W = array[7] {0, 1, 2.5, 3, -4, 5, 6}; #declare P = array[2] {<1, 2, 3>, <0, 0, 4>};\n"
         if self.dice.random() < 0.05:  # statements across the end of the scanner's block
             text += "// " + "-" * (SCANNER_BLOCK - len(text) - self.dice.randrange(600)) + "\n"
         for _ in range(self.dice.randrange(1, 60)):
             text += (self.other() if self.dice.random() < odd else self.loop(odd) if self.dice.random() < 0.05 else
-                     self.reading(odd) if self.dice.random() < 0.03 else self.sphere(odd)) + self.pick("\n", "\n", " ", "", "\r\n\n")
+                     self.reading(odd) if self.dice.random() < 0.03 else self.statement(odd)) + self.pick("\n", "\n", " ", "", "\r\n\n")
         return text
 
 
