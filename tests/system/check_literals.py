@@ -129,7 +129,7 @@ class Text:
             given.append(self.pick("1", "A", "x", "(2)", "rgb <1, 0.5, 0>"))
         if self.dice.random() < odd / 4:
             given[self.dice.randrange(len(given))] = self.pick("A", "(1)", "rand(S)", "V", "2*0.5", "1 + 1")
-        after = self.pick(" + 1", ".x", ";", "*2", ", ", "// so", "#declare I = 3;") if self.dice.random() < odd / 8 else ""
+        after = self.pick(" + 1", ".x", ";", "*2", ", ", "// so", "#declare I = 3;") if self.dice.random() < odd / 2 else ""
         return f"{name}({', '.join(given)}){after}"
 
     def statement(self, odd):
