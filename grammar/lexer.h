@@ -52,7 +52,7 @@ typedef struct Opener {
 
 typedef struct StatementReader StatementReader; // statements.c
 typedef struct GrammarQuick GrammarQuick; // quick.c
-typedef struct GrammarItems GrammarItems; // items.c
+typedef struct GrammarBlocks GrammarBlocks; // block_template.c
 
 // The text from a little before the next byte on (window.c).
 typedef struct Window {
@@ -193,10 +193,10 @@ void grammar_quick_free(GrammarQuick *quick);
 void grammar_learn_items(GrammarState *state, Span braces, AstList list);
 // The same, for what quick.c owns; and items after the previous token, a word, that are like some that were learnt:
 // their nodes into `list`, and where reading goes on; NULL: there are none, or they are perhaps learnt now.
-GrammarItems *grammar_items_new(void) RT_MUST_CHECK; // NULL when out of memory
-void grammar_items_free(GrammarItems *items);
-void grammar_items_learn(GrammarItems *items, const GrammarState *state, Span braces, AstList list);
-const char *grammar_items_read(GrammarItems *items, GrammarState *state, const char *at, const char *end);
+GrammarBlocks *grammar_blocks_new(void) RT_MUST_CHECK; // NULL when out of memory
+void grammar_blocks_free(GrammarBlocks *blocks);
+void grammar_blocks_learn(GrammarBlocks *blocks, const GrammarState *state, Span braces, AstList list);
+const char *grammar_blocks_read(GrammarBlocks *blocks, GrammarState *state, const char *at, const char *end);
 
 // Token stream: the symbol and directive tables.
 int grammar_word_token(Symbol symbol);

@@ -1,6 +1,6 @@
 // Tokens that are read at once: what scenes are mostly made of is taken from the scanner's buffer without its tables,
 // and a vector of numbers as one token; items that differ from earlier ones in their numbers only are the matter of
-// items.c.
+// block_template.c.
 //
 // Turns text into a token with its nodes, or leaves it to the scanner: whatever is not wholly in the buffer, begins a
 // comment or a string, or is not written in the most usual way. The nodes are those that the parser would have made.
@@ -29,14 +29,14 @@ typedef struct QuickWord {
 
 struct GrammarQuick {
     QuickWord words[WORDS];
-    GrammarItems *items;
+    GrammarBlocks *blocks;
 };
 
 GrammarQuick *grammar_quick_new(void)
 {
     GrammarQuick *quick = calloc(1, sizeof(GrammarQuick));
     if (quick != NULL) {
-        quick->items = grammar_items_new(); // without it all is read as well
+        quick->blocks = grammar_blocks_new(); // without it all is read as well
     }
     return quick;
 }
@@ -44,15 +44,15 @@ GrammarQuick *grammar_quick_new(void)
 void grammar_quick_free(GrammarQuick *quick)
 {
     if (quick != NULL) {
-        grammar_items_free(quick->items);
+        grammar_blocks_free(quick->blocks);
         free(quick);
     }
 }
 
 void grammar_learn_items(GrammarState *state, Span braces, AstList list)
 {
-    if (state->quick != NULL && state->quick->items != NULL) {
-        grammar_items_learn(state->quick->items, state, braces, list);
+    if (state->quick != NULL && state->quick->blocks != NULL) {
+        grammar_blocks_learn(state->quick->blocks, state, braces, list);
     }
 }
 
@@ -177,11 +177,11 @@ static const char *read_vector(GrammarState *state, const char *at, const char *
 static const char *read_items(GrammarState *state, const char *at, const char *end, Token *token)
 {
     bool follows_word = state->previous.kind == TOKEN_WORD || state->previous.kind == TOKEN_TEXTURE;
-    if (!follows_word || state->after_dot || state->quick->items == NULL) {
+    if (!follows_word || state->after_dot || state->quick->blocks == NULL) {
         return NULL;
     }
     token->kind = TOKEN_ITEMS;
-    return grammar_items_read(state->quick->items, state, at, end);
+    return grammar_blocks_read(state->quick->blocks, state, at, end);
 }
 
 // Marks that are tokens whatever follows them.

@@ -61,7 +61,7 @@ size_t template_survey(const GrammarContext *context, const char *text, const ch
                 return 0;
             }
             slots[(*count)++] = (GrammarSlot){
-                .span = {offset + (uint64_t)(begin - text), offset + (uint64_t)(at - text)}, .number = number};
+                .span = {offset + (uint64_t)(begin - text), offset + (uint64_t)(at - text)}, .number = number, .is_used = true};
             last = '.'; // no number may follow
         } else if (*at != '\0' && strchr("{}()<>, \n\t\r", *at) != NULL) {
             depth += (*at == opens) - (unsigned)(*at == closes);
@@ -227,16 +227,30 @@ RT_ALWAYS_INLINE const char *match_piece(const TemplatePiece *piece, const char 
     return match_loosely(piece, at, end, is_last);
 }
 
-const char *template_match(Template *template, const char *at, const char *end, double *numbers)
+RT_ALWAYS_INLINE const char *match(Template *template, const char *at, const char *end, double *numbers,
+                                   TemplatePlace *places)
 {
     TemplatePiece *piece = template->pieces;
     for (unsigned i = 0; i < template->slots; i++, piece++) {
-        at = match_piece(piece, at, end, false);
-        at = at != NULL ? number_read(&piece->digits, at, end, &numbers[i]) : NULL;
+        const char *begin = match_piece(piece, at, end, false);
+        at = begin != NULL ? number_read(&piece->digits, begin, end, &numbers[i]) : NULL;
         if (at == NULL) {
             return NULL;
+        }
+        if (places != NULL) {
+            places[i] = (TemplatePlace){begin, at};
         }
     }
     at = match_piece(piece, at, end, true);
     return at != NULL && template->is_call && !plain_is_letter(*plain_skip_blanks(at)) ? NULL : at;
+}
+
+const char *template_match(Template *template, const char *at, const char *end, double *numbers)
+{
+    return match(template, at, end, numbers, NULL);
+}
+
+const char *template_find(Template *template, const char *at, const char *end, double *numbers, TemplatePlace *places)
+{
+    return match(template, at, end, numbers, places);
 }

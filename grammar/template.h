@@ -53,4 +53,10 @@ Template *template_copy(const Template *template) RT_MUST_CHECK; // shares the t
 // behind `end`.
 const char *template_match(Template *template, const char *at, const char *end, double *numbers);
 
+// The same, and where each number stands.
+typedef struct TemplatePlace {
+    const char *begin, *end; // with its sign
+} TemplatePlace;
+const char *template_find(Template *template, const char *at, const char *end, double *numbers, TemplatePlace *places);
+
 #endif

@@ -249,6 +249,9 @@ bool plan_compile(Eval *ev, const AstNode *item, SchemaKind kind, GrammarSlot *s
     plan->has_moves = plan->has_colour = false;
     plan->is_quick = true;
     plan->call = NULL;
+    for (unsigned i = 0; i < count; i++) {
+        slots[i].is_used = false;
+    }
     const AstNode *rest = item->a ? add_arguments(&compiler, item->a, kind) : NULL;
     if (!rest || !add_items(&compiler, rest, false)) {
         return false;
