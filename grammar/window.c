@@ -20,21 +20,27 @@ enum {
     LONGEST_TOKEN = 64 * 1024, // bytes of one name or number; the text is given up beyond
 };
 
+// No text has them.
+static const bool strange[256] = {
+    ['\0' ... '\b'] = true, [0x0e ... 0x19] = true, [0x1b ... 0x1f] = true, [0x7f] = true,
+};
+
 // A text has no zeros and no control characters; the first block tells a picture or a program from a scene. Of such a
 // file no line is shown.
 static bool block_is_text(GrammarState *state, const char *block, size_t length)
 {
     Span whole = SPAN_WHOLE(state->offset);
     const Magic *magic = magic_of_text(block, length);
-    for (size_t i = 0; i < length && magic == NULL; i++) {
-        unsigned char c = (unsigned char)block[i];
-        if ((c < ' ' && strchr("\t\r\n\f\v\x1a", c) == NULL) || c == '\0' || c == 0x7f) {
-            magic = magic_of_bytes(block, length);
-            if (magic == NULL) {
-                grammar_fault(state, DIAG_E0108, whole, "byte %zu is 0x%02x: this is not the text of a scene", i + 1,
-                              c);
-                return false;
-            }
+    size_t i = 0;
+    while (magic == NULL && i < length && !strange[(unsigned char)block[i]]) {
+        i++;
+    }
+    if (magic == NULL && i < length) {
+        magic = magic_of_bytes(block, length);
+        if (magic == NULL) {
+            grammar_fault(state, DIAG_E0108, whole, "byte %zu is 0x%02x: this is not the text of a scene", i + 1,
+                          (unsigned char)block[i]);
+            return false;
         }
     }
     size_t kept = state->context->diags->count;

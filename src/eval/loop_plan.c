@@ -24,7 +24,13 @@ bool plan_turn(Eval *ev, PlanPlace *place, const AstNode *item, bool *is_fine)
     if (ev->streams.count > PLAN_STREAMS_MOST) {
         return false;
     }
-    if (!plan_fetch(ev, place->plan, &numbers, &kept) || !plan_make(ev, place->plan, &numbers, item->span, &made)) {
+    bool is_usual = plan_fetch(ev, place->plan, &numbers, &kept);
+    if (RT_LIKELY(is_usual && place->plan->is_at_place)) {
+        plan_make_at_place(place->plan, &numbers, &made);
+        *is_fine = sphere_place_plain(ev, made.centre, made.radius, &made.material, item->span);
+        return true;
+    }
+    if (!is_usual || !plan_make(ev, place->plan, &numbers, item->span, &made)) {
         place->is_known = false;
         plan_streams_take_back(ev, &kept);
         return false;

@@ -281,21 +281,19 @@ static unsigned usual_value(Eval *ev, const AstNode *node, bool is_number, doubl
     return width;
 }
 
-// The value of an expression: 3 numbers, also of one that stands for all, or, where one is wanted, 1.
-static unsigned value_of(Eval *ev, const PlanInput *input, bool is_quick, double *to)
+static inline bool is_between(const PlanInput *input, double number)
 {
-    return !is_quick          ? usual_value(ev, input->node, input->is_number, to)
-           : input->is_number ? quick_number_of(ev, input->node, true, to)
-                              : quick_three_of(ev, input->node, true, to);
+    return number >= input->low && number <= input->high;
 }
 
-static inline bool is_usual(const PlanInput *input, const double *numbers, unsigned width)
+// Numbers that are wanted where one stands for three are three.
+static inline bool are_usual(const PlanInput *input, const double *numbers, unsigned width)
 {
-    bool is_fine = width == 1 || !input->is_number;
-    for (unsigned i = 0; i < width; i++) {
-        is_fine = is_fine && numbers[i] >= input->low && numbers[i] <= input->high;
+    bool is_fine = is_between(input, numbers[0]) && is_between(input, numbers[1]) && is_between(input, numbers[2]);
+    for (unsigned i = 3; i < width; i++) {
+        is_fine = is_fine && is_between(input, numbers[i]);
     }
-    return is_fine && width > 0;
+    return is_fine;
 }
 
 bool plan_fetch_slots(const GrammarPlan *plan, const double *slots, PlanNumbers *numbers)
@@ -312,21 +310,29 @@ bool plan_fetch_slots(const GrammarPlan *plan, const double *slots, PlanNumbers 
         if (width == 1 && !input->is_number) {
             to[1] = to[2] = to[0];
         }
-        is_fine = is_fine && is_usual(input, to, width);
+        is_fine = is_fine && (input->is_number ? is_between(input, *to) : are_usual(input, to, width));
     }
     return is_fine;
 }
 
 // Nothing is evaluated after what is not as usual: the statement itself is to say first what is wrong with that.
-static bool fetch(Eval *ev, const GrammarPlan *plan, bool is_quick, PlanNumbers *numbers)
+RT_ALWAYS_INLINE bool fetch(Eval *ev, const GrammarPlan *plan, bool is_quick, PlanNumbers *numbers)
 {
-    for (unsigned i = 0; i < plan->input_count; i++) {
-        const PlanInput *input = &plan->inputs[i];
+    const PlanInput *input = plan->inputs, *end = input + plan->input_count;
+    for (uint8_t *width = numbers->width; input < end; input++, width++) {
         double *to = numbers->items + input->first;
-        unsigned width = value_of(ev, input, is_quick, to);
-        numbers->width[i] = (uint8_t)width;
-        if (!is_usual(input, to, width)) {
-            return false;
+        if (input->is_number) {
+            *width = is_quick ? quick_number_of(ev, input->node, true, to)
+                              : usual_value(ev, input->node, true, to) == 1;
+            if (*width == 0 || !is_between(input, *to)) {
+                return false;
+            }
+        } else {
+            *width = (uint8_t)(is_quick ? quick_three_of(ev, input->node, true, to)
+                                        : usual_value(ev, input->node, false, to));
+            if (*width == 0 || !are_usual(input, to, 3)) {
+                return false;
+            }
         }
     }
     return true;
@@ -383,18 +389,6 @@ static bool compose(const PlanInput *input, const double *numbers, unsigned widt
     return true;
 }
 
-static bool make_at_place(const GrammarPlan *plan, const double *numbers, PlanMade *made)
-{
-    // A zero is positive, as it is behind any transform.
-    made->is_sphere = true;
-    made->centre = vec3(numbers[0] + 0.0, numbers[1] + 0.0, numbers[2] + 0.0);
-    made->radius = numbers[3];
-    if (plan->has_colour) {
-        plan_set_colour(&made->material, plan->inputs[2].word, numbers + 4);
-    }
-    return true;
-}
-
 static bool make_sphere(const SphereBlueprint *sphere, const Transform *whole, PlanMade *made)
 {
     made->is_sphere = sphere_image_radius(sphere->radius, whole, &made->radius);
@@ -408,7 +402,8 @@ bool plan_make(const Eval *ev, const GrammarPlan *plan, const PlanNumbers *numbe
     Transform whole = transform_identity();
     made->material = plan->material;
     if (plan->is_at_place) {
-        return make_at_place(plan, numbers->items, made);
+        plan_make_at_place(plan, numbers, made);
+        return true;
     }
     memcpy(&record, &plan->record, schema_kind(plan->kind)->size);
     record.part.span = span;

@@ -100,6 +100,20 @@ static inline void plan_set_colour(Material *material, Symbol word, const double
     }
 }
 
+// Of one that is_at_place.
+static inline void plan_make_at_place(const GrammarPlan *plan, const PlanNumbers *numbers, PlanMade *made)
+{
+    // A zero is positive, as it is behind any transform.
+    const double *at = numbers->items;
+    made->is_sphere = true;
+    made->centre = vec3(at[0] + 0.0, at[1] + 0.0, at[2] + 0.0);
+    made->radius = at[3];
+    made->material = plan->material;
+    if (plan->has_colour) {
+        plan_set_colour(&made->material, plan->inputs[2].word, at + 4);
+    }
+}
+
 // That of a sphere that is_direct; false: it is not as usual.
 static inline bool plan_direct(const GrammarPlan *plan, const double *slots, Vec3 *centre, double *radius,
                                Material *material)
