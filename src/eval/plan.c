@@ -103,9 +103,11 @@ static void set_bounds(PlanInput *input, SchemaKind kind)
     input->high = is_colour ? COLOUR_USUAL : DBL_MAX;
     input->low = -input->high;
     if (range && range->policy != RANGE_ANY) {
-        bool is_open = range->low_is_open || kind == KIND_SPHERE; // one of radius 0 is not drawn
-        input->low = is_open ? nextafter(range->low, INFINITY) : range->low;
+        input->low = range->low_is_open ? nextafter(range->low, INFINITY) : range->low;
         input->high = range->high < DBL_MAX ? range->high : DBL_MAX;
+    }
+    if (kind == KIND_SPHERE && input->is_number) {
+        input->low = nextafter(0.0, INFINITY); // others are drawn in some places only
     }
 }
 
