@@ -127,18 +127,6 @@ static int row_exponent(Vec3 row)
     return exponent;
 }
 
-// Multiplied with the power where that is a number, which rounds as ldexp does.
-static Vec3 vec3_ldexp(Vec3 a, int exponent)
-{
-    if (RT_LIKELY(exponent > -1000 && exponent < 1000)) {
-        uint64_t bits = (uint64_t)(exponent + 1023) << 52;
-        double power;
-        memcpy(&power, &bits, sizeof power);
-        return vec3_scale(power, a);
-    }
-    return vec3(ldexp(a.x, exponent), ldexp(a.y, exponent), ldexp(a.z, exponent));
-}
-
 // The exponent of a positive number as frexp has it.
 static int exponent_of(double x)
 {

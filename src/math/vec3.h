@@ -6,6 +6,8 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "math/extreme.h"
 
@@ -110,6 +112,18 @@ static inline bool vec3_is_finite(Vec3 a)
 static inline bool vec3_equal(Vec3 a, Vec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+// Multiplied with the power where that is a number, which rounds as ldexp does.
+static inline Vec3 vec3_ldexp(Vec3 a, int exponent)
+{
+    if (exponent > -1000 && exponent < 1000) {
+        uint64_t bits = (uint64_t)(exponent + 1023) << 52;
+        double power;
+        memcpy(&power, &bits, sizeof power);
+        return vec3_scale(power, a);
+    }
+    return vec3(ldexp(a.x, exponent), ldexp(a.y, exponent), ldexp(a.z, exponent));
 }
 
 #endif

@@ -14,11 +14,6 @@
 
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
 
-static Vec3 vec3_ldexp(Vec3 a, int exponent)
-{
-    return vec3(ldexp(a.x, exponent), ldexp(a.y, exponent), ldexp(a.z, exponent));
-}
-
 // A unit vector along a, safe from overflow and underflow of its squares; zero stays zero.
 static Vec3 unit(Vec3 a)
 {

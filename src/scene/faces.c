@@ -389,6 +389,31 @@ static bool collect(Faces *faces)
     return true;
 }
 
+// Drops the faces whose plane no other has: sorting is for those that are left. A bit for each hash of a key that was
+// seen once, and one for those that were seen again; without memory for them all are kept.
+static void keep_shared(Faces *faces)
+{
+    size_t bits = 64;
+    while (bits < 8 * faces->count) {
+        bits *= 2;
+    }
+    uint64_t *once = calloc(bits / 32, sizeof *once), *again = once ? once + bits / 64 : NULL;
+    for (size_t i = 0; once && i < faces->count; i++) {
+        size_t at = faces->refs[i].key & (bits - 1);
+        uint64_t bit = UINT64_C(1) << at % 64;
+        again[at / 64] |= once[at / 64] & bit;
+        once[at / 64] |= bit;
+    }
+    size_t kept = 0;
+    for (size_t i = 0; once && i < faces->count; i++) {
+        size_t at = faces->refs[i].key & (bits - 1);
+        faces->refs[kept] = faces->refs[i];
+        kept += again[at / 64] >> at % 64 & 1;
+    }
+    faces->count = once ? kept : faces->count;
+    free(once);
+}
+
 bool scene_warn_of_faces(const Scene *scene, DiagSink *diags)
 {
     Faces faces = {.scene = scene};
@@ -397,6 +422,7 @@ bool scene_warn_of_faces(const Scene *scene, DiagSink *diags)
     }
     bool fine = collect(&faces);
     if (fine && faces.count > 1) {
+        keep_shared(&faces);
         qsort(faces.refs, faces.count, sizeof *faces.refs, by_key);
     }
     for (size_t begin = 0, end; fine && begin < faces.count; begin = end) {

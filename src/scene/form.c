@@ -12,7 +12,7 @@ double vector_length(Vec3 vector)
 {
     int exponent;
     frexp(vec3_max_abs(vector), &exponent);
-    Vec3 scaled = vec3(ldexp(vector.x, -exponent), ldexp(vector.y, -exponent), ldexp(vector.z, -exponent));
+    Vec3 scaled = vec3_ldexp(vector, -exponent);
     return ldexp(vec3_length(scaled), exponent);
 }
 
@@ -25,7 +25,7 @@ Vec3 vector_unit(Vec3 vector)
     }
     int exponent;
     frexp(vec3_max_abs(vector), &exponent);
-    Vec3 scaled = vec3(ldexp(vector.x, -exponent), ldexp(vector.y, -exponent), ldexp(vector.z, -exponent));
+    Vec3 scaled = vec3_ldexp(vector, -exponent);
     double length = vec3_length(scaled);
     return vec3(scaled.x / length, scaled.y / length, scaled.z / length);
 }
