@@ -44,11 +44,6 @@ typedef struct GrammarStatement {
     const double *numbers; // of the slots that are used, in their order
 } GrammarStatement;
 
-typedef struct GrammarStatements {
-    const GrammarStatement *items;
-    size_t count;
-} GrammarStatements;
-
 typedef enum GrammarTaken {
     GRAMMAR_TAKEN,
     GRAMMAR_LEFT, // nothing was done: to be parsed as any other statement
@@ -101,9 +96,13 @@ typedef struct GrammarHooks {
     const GrammarPlan *(*plan_learn)(void *client, Span statement, bool *is_batched);
     void (*plan_drop)(void *client, const GrammarPlan *plan);
     GrammarTaken (*plan_run)(void *client, const GrammarStatement *statement);
-    // Takes `count` >= 1 lists, none of them empty, at once and on `plan_threads`; it seems that about `more` statements
-    // will follow. False: nothing was done, they are to be given one by one.
-    bool (*plan_run_all)(void *client, const GrammarStatements *lists, size_t count, size_t more);
+    // The same for those that are batched: makes a record of one that begins at an offset, on any thread; false: it is
+    // left. Then takes `count`
+    // >= 1 records at once; it seems that about `more` will follow. False: nothing was done, they are to be given one by
+    // one.
+    size_t plan_record_bytes;
+    bool (*plan_prepare)(const GrammarPlan *plan, const double *numbers, uint64_t begin, void *record);
+    bool (*plan_keep)(void *client, const void *records, size_t count, size_t more);
     int plan_threads;  // long runs of them are read on so many; 0 and 1: on the caller's alone
     size_t plan_piece; // bytes of text that each of these takes at a time; 0: as is best
 } GrammarHooks;

@@ -1,10 +1,9 @@
 // Long runs of statements like earlier ones, read piece by piece on all threads, if only one.
 //
 // The source's text is cut into pieces, one for each thread. A piece begins where the first statement of the word that
-// they all begin with stands, and each is read as if all before it were fine; then the pieces' statements are handed to
-// the evaluator in order, up to the first that is not what it was taken for. What comes of it is what comes of reading
-// them one by one: where a piece before did not end where the next one began, or something else stands, the rest is
-// read again.
+// they all begin with stands, and each is read as if all before it were fine, to records of the evaluator; then these are
+// handed over in order, up to the first piece that did not begin where the one before ended. What comes of it is what
+// comes of reading statements one by one: the rest is read again.
 //
 // SPDX-License-Identifier: MIT
 #ifndef _GNU_SOURCE
@@ -22,16 +21,15 @@ enum {
     PIECE_BYTES_ALONE = 256 << 10, // of one thread: text and statements stay in its cache
     READERS_MOST = 64,
     STATEMENT_LEAST = 16, // bytes; `sphere{<0,0,0>,1}` has 17
-    NUMBER_LEAST = 2,     // with what stands before it
     WORD_LONGEST = 32,
 };
 
 typedef struct Piece {
-    char *text;                // of `bytes` + STATEMENT_LONGEST + WINDOW_PADDING
-    GrammarStatement *statements;
-    double *numbers;           // of them
+    char *text;          // of `bytes` + STATEMENT_LONGEST + WINDOW_PADDING
+    char *records;
     size_t count;
-    uint64_t begin, end; // of the first statement and after the last
+    uint64_t begin, end; // of the first statement and where the next one begins
+    uint64_t last;       // where the last one ends
     bool is_read;        // else nothing of it is known
 } Piece;
 
@@ -87,31 +85,28 @@ static const char *templates_match(Templates *templates, const char *at, const c
     return NULL;
 }
 
-// Reads the statements that begin in a piece of text at an offset, up to `limit`. Counted apart, since pieces lie side
-// by side and each has its own thread.
+// Reads the statements that begin in a piece of text at an offset, up to `limit`.
 static void piece_scan(const Readers *readers, Piece *piece, uint64_t offset, size_t length, size_t limit)
 {
+    const GrammarHooks *hooks = readers->state->context->hooks;
     const char *end = piece->text + length, *at = plain_skip_blanks(piece->text);
-    at = offset == readers->begin ? at : find_statement(readers, at, end);
+    double numbers[GRAMMAR_SLOTS_MOST];
     Templates templates;
+    char *record = piece->records;
     templates_begin(&templates, readers->state->statements);
-    GrammarStatement *statement = piece->statements;
-    double *numbers = piece->numbers;
-    piece->begin = offset + (uint64_t)(at - piece->text);
+    at = offset == readers->begin ? at : find_statement(readers, at, end);
+    piece->begin = piece->last = offset + (uint64_t)(at - piece->text);
     while (at < piece->text + limit) {
         const char *after = templates_match(&templates, at, end, numbers);
-        if (after == NULL) {
+        uint64_t begin = offset + (uint64_t)(at - piece->text);
+        if (after == NULL || !hooks->plan_prepare(templates.items[0]->plan, numbers, begin, record)) {
             break;
         }
-        *statement++ = (GrammarStatement){
-            .span = {offset + (uint64_t)(at - piece->text), offset + (uint64_t)(after - piece->text)},
-            .plan = templates.items[0]->plan,
-            .numbers = numbers,
-        };
-        numbers += templates.items[0]->slots;
+        record += hooks->plan_record_bytes;
+        piece->last = offset + (uint64_t)(after - piece->text);
         at = plain_skip_blanks(after);
     }
-    piece->count = (size_t)(statement - piece->statements);
+    piece->count = (size_t)(record - piece->records) / hooks->plan_record_bytes;
     piece->end = offset + (uint64_t)(at - piece->text);
     for (unsigned i = 0; i < templates.count; i++) {
         free(templates.items[i]);
@@ -138,8 +133,7 @@ static void readers_free(Readers *readers)
 {
     for (int i = 0; i < READERS_MOST; i++) {
         free(readers->pieces[i].text);
-        free(readers->pieces[i].statements);
-        free(readers->pieces[i].numbers);
+        free(readers->pieces[i].records);
     }
     free(readers);
 }
@@ -168,35 +162,14 @@ static Readers *readers_new(const GrammarState *state, size_t bytes, int count)
     for (int i = 0; i < readers->count; i++) {
         Piece *piece = &readers->pieces[i];
         piece->text = malloc(bytes + STATEMENT_LONGEST + WINDOW_PADDING);
-        piece->statements = malloc((bytes / STATEMENT_LEAST + 2) * sizeof *piece->statements);
-        // The last statement may end beyond the piece.
-        piece->numbers = malloc((bytes / NUMBER_LEAST + 2 * GRAMMAR_SLOTS_MOST) * sizeof *piece->numbers);
-        is_fine = is_fine && piece->text != NULL && piece->statements != NULL && piece->numbers != NULL;
+        piece->records = malloc((bytes / STATEMENT_LEAST + 2) * state->context->hooks->plan_record_bytes);
+        is_fine = is_fine && piece->text != NULL && piece->records != NULL;
     }
     if (!is_fine) {
         readers_free(readers);
         return NULL;
     }
     return readers;
-}
-
-// Hands a piece's statements over one by one. False when what follows the last one taken is something else.
-static bool piece_take(GrammarState *state, const Piece *piece)
-{
-    const GrammarHooks *hooks = state->context->hooks;
-    for (size_t i = 0; i < piece->count; i++) {
-        GrammarTaken taken = hooks->plan_run(hooks->client, &piece->statements[i]);
-        if (taken == GRAMMAR_LEFT) {
-            return false;
-        }
-        statements_pass(state, '}', piece->statements[i].span.end);
-        if (taken == GRAMMAR_STOP) {
-            state->client_ended = state->ended = true;
-            return false;
-        }
-    }
-    state->offset = piece->end;
-    return true;
 }
 
 // The pieces up to the first that did not begin where the one before ended; *is_whole: these are all, and the last one
@@ -217,29 +190,19 @@ static int pieces_fitting(const Readers *readers, bool *is_whole)
     return count;
 }
 
-static bool pieces_take_together(GrammarState *state, const Readers *readers, int count)
+// Hands a piece's records over. False: they are to be read again.
+static bool piece_take(GrammarState *state, const Readers *readers, const Piece *piece)
 {
     const GrammarHooks *hooks = state->context->hooks;
-    GrammarStatements lists[READERS_MOST];
-    uint64_t end = 0;
-    size_t kept = 0, statements = 0;
-    for (int i = 0; i < count; i++) {
-        const Piece *piece = &readers->pieces[i];
-        if (piece->count > 0) {
-            lists[kept++] = (GrammarStatements){piece->statements, piece->count};
-            end = piece->statements[piece->count - 1].span.end;
-            statements += piece->count;
+    if (piece->count > 0) {
+        uint64_t left = readers->end - piece->last, done = piece->last - piece->begin;
+        size_t more = (size_t)((double)piece->count * (double)left / (double)done);
+        if (!hooks->plan_keep(hooks->client, piece->records, piece->count, more)) {
+            return false;
         }
+        statements_pass(state, '}', piece->last);
+        state->offset = piece->end;
     }
-    if (kept == 0) {
-        return false;
-    }
-    double more = (double)statements * (double)(readers->end - end) / (double)(end - readers->begin);
-    if (!hooks->plan_run_all(hooks->client, lists, kept, (size_t)more)) {
-        return false;
-    }
-    statements_pass(state, '}', end);
-    state->offset = readers->pieces[count - 1].end;
     return true;
 }
 
@@ -261,11 +224,8 @@ static bool read_round(GrammarState *state, Readers *readers)
     parallel_share(readers->count, (size_t)readers->count, 1, readers_work, readers);
     bool is_whole;
     int count = pieces_fitting(readers, &is_whole);
-    if (count > 0 && pieces_take_together(state, readers, count)) {
-        return is_whole;
-    }
     for (int i = 0; i < count; i++) {
-        if (!piece_take(state, &readers->pieces[i])) {
+        if (!piece_take(state, readers, &readers->pieces[i])) {
             return false;
         }
     }

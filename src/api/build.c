@@ -140,7 +140,7 @@ static bool spheres_fill(const List *list, const rt_spheres *spheres, size_t beg
     }
     group->has_gaps = group->has_gaps || made < end - begin;
     if (made > 0) {
-        scene_commit_spheres(scene, made, 0, list->base + begin);
+        scene_commit_spheres(scene, made, list->base + begin);
     }
     return scene_memory_has(scene, 0, 0, session_memory_granted(list->session));
 }

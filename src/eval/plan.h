@@ -154,7 +154,9 @@ bool plan_turn(Eval *ev, PlanPlace *place, const AstNode *item, bool *is_fine) R
 // cursor then stands where it would by itself.
 void plan_turns(Cursor *cursor);
 
-// plan_many.c
-bool plan_run_all(void *client, const GrammarStatements *lists, size_t count, size_t more) RT_MUST_CHECK;
+// plan_many.c, see GrammarHooks
+extern const size_t plan_record_bytes;
+bool plan_prepare(const GrammarPlan *plan, const double *numbers, uint64_t begin, void *record) RT_MUST_CHECK;
+bool plan_keep(void *client, const void *list, size_t count, size_t more) RT_MUST_CHECK;
 
 #endif

@@ -323,7 +323,9 @@ void plan_hooks(Eval *ev, GrammarHooks *hooks)
     hooks->plan_learn = learn;
     hooks->plan_drop = drop_plan;
     hooks->plan_run = ev->options.no_literals ? NULL : run;
-    hooks->plan_run_all = plan_run_all;
+    hooks->plan_record_bytes = plan_record_bytes;
+    hooks->plan_prepare = plan_prepare;
+    hooks->plan_keep = plan_keep;
     hooks->plan_threads = ev->options.threads;
     hooks->plan_piece = ev->options.literal_piece;
 }

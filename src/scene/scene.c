@@ -335,15 +335,11 @@ bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials)
            ARRAY_RESERVE(&scene->materials, scene->materials.count + materials);
 }
 
-void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials, uint64_t source)
+void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source)
 {
     (void)add_run(scene, source); // there is room for it
     scene->spheres.count += spheres;
     scene->shape_count += (uint32_t)spheres;
-    scene->materials.count += materials;
-    if (materials > 0) {
-        scene->material_index.last = (uint32_t)scene->materials.count - 1;
-    }
 }
 
 bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first)
@@ -356,12 +352,6 @@ bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first)
     scene->materials.count += count;
     unique_give_up(&scene->material_index);
     return true;
-}
-
-const Material *scene_last_material(const Scene *scene, MaterialIndex *index)
-{
-    *index = scene->material_index.last;
-    return *index < scene->materials.count ? &scene->materials.items[*index] : NULL;
 }
 
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material, uint64_t source)

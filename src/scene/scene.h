@@ -465,18 +465,15 @@ bool scene_add_sphere(Scene *scene, Vec3 centre, double radius, MaterialIndex ma
 uint32_t scene_sphere_order(const Scene *scene, size_t sphere);
 uint64_t scene_sphere_source(const Scene *scene, size_t sphere);
 uint32_t scene_sphere_at(const Scene *scene, uint32_t order);
-// Many plain spheres at once. When it no longer pays to look for equal materials, each that differs from the one before
-// is added, and that can be done for many spheres side by side: behind the lists' ends, after `scene_reserve_spheres`,
-// until scene_commit_spheres says that they are there. The last of these materials, if any, is that of the last sphere.
-// Their sources have one upper half, which is that of `source`.
+// Many plain spheres at once: they are written behind the list's end, after `scene_reserve_spheres`, until
+// scene_commit_spheres says that they are there. Their sources have one upper half, which is that of `source`.
+// scene_materials_add_up: it no longer pays to look for equal materials, each that differs from the one before is added.
 bool scene_materials_add_up(const Scene *scene);
 bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials) RT_MUST_CHECK;
-void scene_commit_spheres(Scene *scene, size_t spheres, size_t materials, uint64_t source);
+void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source);
 // Room for materials of one's own, one after the other, from *first on: they may change later, so no other shape shares
 // them, and from now on equal materials are looked for next to each other only. False when out of memory.
 bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first) RT_MUST_CHECK;
-// The one that the next material is compared with, and where it stands; NULL: none.
-const Material *scene_last_material(const Scene *scene, MaterialIndex *index);
 
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material,
                      uint64_t source) RT_MUST_CHECK;

@@ -219,7 +219,7 @@ static void test_runs(void)
     if (is_fine) {
         Sphere *sphere = &scene.spheres.items[SPHERES];
         sphere[0] = sphere[1] = (Sphere){{0.0, 0.0, 0.0}, 2.0, 0, 77};
-        scene_commit_spheres(&scene, 2, 0, (UINT64_C(9) << 32) + 5);
+        scene_commit_spheres(&scene, 2, (UINT64_C(9) << 32) + 5);
     }
     tap_ok(is_fine && scene_sphere_source(&scene, SPHERES + 1) == (UINT64_C(9) << 32) + 77 &&
                scene_sphere_order(&scene, SPHERES + 1) == scene.shape_count - 1,
