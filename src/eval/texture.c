@@ -207,7 +207,8 @@ static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlue
     if (!read_new_finish(ev, item, arena, texture)) {
         return false;
     }
-    if (count > 0 && ev->options.diags->error_count + ev->options.diags->warning_count == messages) {
+    bool is_silent = ev->options.diags->error_count + ev->options.diags->warning_count == messages;
+    if (count > 0 && is_silent && !ev->objects->has_deferred) {
         memcpy(memo->words, words, count * sizeof *words);
         memo->count = count;
         memo->version = ev->version;
