@@ -219,6 +219,10 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_
 // extent.c
 // The object that the first argument of a call names; false after a fault.
 bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
+// Whether the inside of an object is more than what is in its box or what its surface is around, or that of a member is.
+bool extent_reaches_out(SchemaKind kind, const void *object);
+// The box of an object that is moved once more.
+void extent_box(SchemaKind kind, const void *object, const Transform *outer, Vec3 *low, Vec3 *high);
 // Whether a transform of the object itself is one that need not keep spheres. A sphere of a negative radius has its box
 // inside out unless such a transform is around it.
 bool extent_is_stretched(SchemaKind kind, const void *object);

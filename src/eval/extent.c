@@ -324,6 +324,31 @@ static Extent object_extent(SchemaKind kind, const void *object)
     return extent;
 }
 
+bool extent_reaches_out(SchemaKind kind, const void *object)
+{
+    const ObjectPart *part = object;
+    if (kind == KIND_LIGHT_SOURCE) {
+        return false;
+    }
+    bool does = kind == KIND_DISC || part->clips || (part->is_inverse && kind != KIND_PLANE);
+    const UnionMember *member = object_is_group(kind) ? ((const UnionBlueprint *)object)->members : NULL;
+    for (; member && !does; member = member->next) {
+        does = extent_reaches_out(member->kind, member->object);
+    }
+    return does;
+}
+
+void extent_box(SchemaKind kind, const void *object, const Transform *outer, Vec3 *low, Vec3 *high)
+{
+    const ObjectPart *part = object;
+    Clip placed = {.object = object, .kind = kind, .transform = *outer};
+    bool is_plain = kind != KIND_PLANE && !part->clips && !part->bounds && !transform_is_identity(outer);
+    Extent extent = is_plain ? moved_extent(&placed) : object_extent(kind, object);
+    extent = is_plain || is_boundless(&extent) ? extent : turned(&extent, outer);
+    *low = vec3(extent.corner[0], extent.corner[1], extent.corner[2]);
+    *high = vec3(upper(&extent, 0), upper(&extent, 1), upper(&extent, 2));
+}
+
 bool extent_object(Eval *ev, const AstNode *node, Value *object)
 {
     const AstNode *name = node->a;

@@ -18,7 +18,14 @@ struct ClipChain {
     const ClipChain *next;
     const Clip *clips;
     const Transform *outer; // of all around the object that they clip
+    bool clips_all;         // and not a member of a union that is one object
 };
+
+// A union that is one object, and what is done to it from outside.
+typedef struct WholeUnion {
+    const void *object;
+    Transform outer;
+} WholeUnion;
 
 typedef struct Placement {
     Transform outer;
@@ -27,6 +34,7 @@ typedef struct Placement {
     const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
     uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
+    const WholeUnion *whole; // the outermost around, or NULL
     bool is_inner, is_hollow; // inside of another object, whose word on this counts
     bool is_stretched;        // extent_is_stretched, of any object around
     bool is_look;             // of a light
@@ -254,7 +262,11 @@ static bool add_node(Eval *ev, NodeOp op, bool is_inverse, const Branch *branch,
 
 static bool grow_clips(Eval *ev, const ClipChain *chain, const Part *shape, const Branch *object_branch, uint32_t node)
 {
+    Scene *scene = ev->scene;
     for (; chain; chain = chain->next) {
+        if (chain->clips_all && scene->nodes.items[node].parent == NODE_NONE) {
+            scene->composites.items[scene->composites.count - 1].start_clips = scene->nodes.items[node].child_count;
+        }
         for (const Clip *clip = chain->clips; clip; clip = clip->next) {
             if (shape && clip_is_idle(ev, clip, chain->outer, shape)) {
                 continue;
@@ -369,7 +381,7 @@ static bool grow(Eval *ev, SchemaKind kind, const void *object, const Branch *ou
         return eval_fault(ev, DIAG_E0365, part->span,
                           "a member of a merge that some rays do not see is not supported by rtlang");
     }
-    ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer};
+    ClipChain own = {outer->placement.clips, part->clips, &outer->placement.outer, !outer->placement.whole};
     const ClipChain *clips = part->clips ? &own : outer->placement.clips;
     branch.placement.clips = NULL;
     branch.placement.outer = transform_compose(part->transform, outer->placement.outer);
@@ -460,11 +472,47 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     return is_round ? is_placed : place_single(ev, common, is_plain, inner, &shape);
 }
 
+// Of what fills a shape: from a part that its own interior is in, if there is one, else from any that is seen.
+static void start_material(const Scene *scene, StartShape *start, size_t first_part)
+{
+    for (size_t i = first_part; i < scene->parts.count && !start->is_filled; i++) {
+        const Part *part = &scene->parts.items[i];
+        if (!(part->flags & PART_UNSEEN)) {
+            start->material = part->material;
+            start->is_filled = part->body == 0;
+        }
+    }
+}
+
+// Where a ray may start inside of the shape that was placed last, if that is not all of its inside.
+static bool note_start(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner,
+                       size_t first_part)
+{
+    Scene *scene = ev->scene;
+    const WholeUnion *whole = inner->whole;
+    size_t last = scene->composites.count - 1; // wraps where there is none
+    StartShape start = {.order = scene->shape_count - 1};
+    if (scene->parts.count == first_part || !(inner->clips || extent_reaches_out(kind, object))) {
+        return true;
+    }
+    start.is_composite = scene->composites.count > 0 && scene->composites.items[last].order == start.order;
+    start.index = (uint32_t)(start.is_composite ? last : scene->parts.count - 1);
+    start_material(scene, &start, first_part);
+    if (whole) {
+        extent_box(KIND_UNION, whole->object, &whole->outer, &start.low, &start.high);
+    } else {
+        extent_box(kind, object, &outer->outer, &start.low, &start.high);
+    }
+    return ARRAY_PUSH(&scene->start_shapes, start) || eval_no_memory(ev, ((const ObjectPart *)object)->span);
+}
+
 // A shape, or a group that is cut.
 static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
 {
-    return object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
-                                 : place_shape(ev, kind, object, outer, inner);
+    size_t first_part = ev->scene->parts.count;
+    bool is_placed = object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
+                                           : place_shape(ev, kind, object, outer, inner);
+    return is_placed && note_start(ev, kind, object, outer, inner, first_part);
 }
 
 // What a light looks like: an object by itself, but for the texture and interior of what is around.
@@ -492,7 +540,8 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         return light_place(ev, object, &outer->outer) && place_look(ev, object, outer);
     }
     const ObjectPart *part = object;
-    ClipChain own = {outer->clips, part->clips, &outer->outer};
+    ClipChain own = {outer->clips, part->clips, &outer->outer, !outer->whole};
+    WholeUnion whole = {object, outer->outer};
     Placement inner = {
         .outer = transform_compose(part->transform, outer->outer),
         .texture = part->texture ? part->texture : outer->texture,
@@ -508,6 +557,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
         .is_hidden_fixed = outer->is_hidden_fixed || !part->split_union || part->clips || part->bounds,
     };
     bool is_union = kind == KIND_UNION && !part->was_turned;
+    inner.whole = outer->whole || !is_union || !inner.is_hidden_fixed ? outer->whole : &whole;
     bool is_body = is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
     if (!is_body) {
         return is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);

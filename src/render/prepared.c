@@ -280,6 +280,7 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
         return NULL;
     }
     geometry_set_abandon(p->geometry, p->abandon);
+    p->length = ldexp(1.0, exponent);
     p->camera = prepare_camera(&scene->camera, exponent);
     p->background = rgb_scale(1.0 - scene->background.transmit, rgbft_rgb(scene->background));
     p->is_old = scene->settings.version < 3.7;

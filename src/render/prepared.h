@@ -83,6 +83,7 @@ struct Prepared {
     PreparedFinish *finishes;
     size_t finish_count;
     const Scene *scene;
+    double length;    // of 1 here in the scene, a power of two
     MediumList start; // what the eye is inside of; orthographic: of no use
     int max_trace_level;
     double adc_bailout;

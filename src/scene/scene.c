@@ -75,6 +75,7 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->parts);
     ARRAY_FREE(&scene->nodes);
     ARRAY_FREE(&scene->composites);
+    ARRAY_FREE(&scene->start_shapes);
     ARRAY_FREE(&scene->bodies);
     unique_fini(&scene->finish_index);
     unique_fini(&scene->material_index);
@@ -231,7 +232,7 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) + LIST_BYTES(scene->planes) +
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
-           LIST_BYTES(scene->bodies) +
+           LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
            LIST_BYTES(scene->pictures) + scene_picture_bytes(scene);
 #undef LIST_BYTES
@@ -380,6 +381,7 @@ bool scene_begin_composite(Scene *scene, uint8_t hidden, uint64_t source)
     Composite composite = {
         .first_node = (uint32_t)scene->nodes.count,
         .first_part = (uint32_t)scene->parts.count,
+        .start_clips = UINT32_MAX,
         .hidden = hidden,
         .order = scene->shape_count,
         .source = source,

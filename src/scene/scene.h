@@ -299,10 +299,22 @@ enum { COMPOSITE_PARTS_MOST = 100000, COMPOSITE_NODES_MOST = 200000, COMPOSITE_P
 typedef struct Composite {
     uint32_t first_node, node_count; // the root first
     uint32_t first_part, part_count;
+    uint32_t start_clips; // children of a NODE_CLIP root, from this one on, that do not count where a ray starts
     uint8_t hidden; // HiddenFrom bits
     uint32_t order;
     uint64_t source;
 } Composite;
+
+// A part or composite of which a ray may start inside in a box only: one that is clipped, turned inside out or a disc. What
+// clips all of it does not count there. As in POV-Ray.
+typedef struct StartShape {
+    Vec3 low, high; // of the box
+    uint32_t order;
+    uint32_t index; // of the part, or of the composite
+    bool is_composite;
+    bool is_filled;         // with what `material` holds, and not only its members are
+    MaterialIndex material; // of a part of it
+} StartShape;
 
 // Shapes that are one body, which has one interior: a ray that is inside of one and meets the next leaves the body.
 // Bodies that hold others stand before them, and each shape is in the innermost around it; what is in none is a body by
@@ -381,6 +393,7 @@ typedef struct Scene {
     ARRAY(Part) parts;
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
+    ARRAY(StartShape) start_shapes; // in the order of shapes
     ARRAY(Body) bodies;
     uint32_t inner_body_count; // bodies within composites
     uint32_t shape_count; // spheres, planes, composites and parts that stand alone

@@ -1,0 +1,73 @@
+// A part is asked in its own space, a composite by its tree, from the root down.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/within.h"
+
+static bool is_between(double low, double value, double high)
+{
+    return low <= value && value <= high;
+}
+
+bool within_part(const Part *part, Vec3 point)
+{
+    const Vec3 *low = &part->data[0], *high = &part->data[1];
+    Vec3 p = part->kind == PART_PLANE ? point : transform_point(&part->to_object, point);
+    double radius = 1.0 + (part->data[0].x - 1.0) * p.z; // of a cone
+    bool is_inside = false;
+    switch (part->kind) {
+    case PART_BALL: is_inside = vec3_dot(p, p) < 1.0; break;
+    case PART_PLANE: is_inside = vec3_dot(p, part->data[0]) < part->data[1].x; break;
+    case PART_BOX:
+        is_inside = is_between(low->x, p.x, high->x) && is_between(low->y, p.y, high->y) && is_between(low->z, p.z, high->z);
+        break;
+    case PART_CONE: is_inside = is_between(0.0, p.z, 1.0) && p.x * p.x + p.y * p.y < radius * radius; break;
+    case PART_DISC: is_inside = p.z < 0.0; break;
+    case PART_TRIANGLE:
+    case PART_SMOOTH_TRIANGLE: return false;
+    }
+    return is_inside != ((part->flags & PART_INVERSE) != 0);
+}
+
+// Where a tree is being read: the next node and part, and the ends of both.
+typedef struct TreeCursor {
+    const Scene *scene;
+    uint32_t node, node_end, part;
+    uint32_t start_clips;
+} TreeCursor;
+
+static bool within_node(TreeCursor *at, Vec3 point);
+
+// A node stands before what is in it, so that of a node and a part with the same number of parts before it is the first.
+static bool within_child(TreeCursor *at, Vec3 point)
+{
+    bool is_node = at->node < at->node_end && at->scene->nodes.items[at->node].first_part <= at->part;
+    return is_node ? within_node(at, point) : within_part(&at->scene->parts.items[at->part++], point);
+}
+
+// Recursive, as deep as objects are in one another. All children are read, so that the cursor is behind them.
+static bool within_node(TreeCursor *at, Vec3 point)
+{
+    const Node *node = &at->scene->nodes.items[at->node++];
+    bool needs_all = node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
+    bool is_root_clip = node->op == NODE_CLIP && node->parent == NODE_NONE;
+    bool is_inside = needs_all;
+    for (uint32_t i = 0; i < node->child_count; i++) {
+        bool is_in_child = within_child(at, point);
+        if (!is_root_clip || i < at->start_clips) {
+            is_inside = needs_all ? is_inside && is_in_child : is_inside || is_in_child;
+        }
+    }
+    return is_inside != node->is_inverse;
+}
+
+bool within_composite(const Scene *scene, const Composite *composite, Vec3 point)
+{
+    TreeCursor at = {
+        .scene = scene,
+        .node = composite->first_node,
+        .node_end = composite->first_node + composite->node_count,
+        .part = composite->first_part,
+        .start_clips = composite->start_clips,
+    };
+    return within_node(&at, point);
+}

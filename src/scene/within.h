@@ -1,0 +1,15 @@
+// Whether a point is inside of a shape, by its numbers alone.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_WITHIN_H
+#define SCENE_WITHIN_H
+
+#include "scene/scene.h"
+
+// Of a part that stands alone. A disc has all that is below it for its inside, a triangle nothing.
+bool within_part(const Part *part, Vec3 point);
+
+// Of a composite, as where a ray starts (StartShape).
+bool within_composite(const Scene *scene, const Composite *composite, Vec3 point);
+
+#endif
