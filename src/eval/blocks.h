@@ -221,8 +221,13 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_
 bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
 // Whether the inside of an object is more than what is in its box or what its surface is around, or that of a member is.
 bool extent_reaches_out(SchemaKind kind, const void *object);
-// The box of an object that is moved once more.
-void extent_box(SchemaKind kind, const void *object, const Transform *outer, Vec3 *low, Vec3 *high);
+// An object with a box, and what is done to it from outside.
+typedef struct BoxOwner {
+    SchemaKind kind;
+    const void *object;
+    Transform outer;
+} BoxOwner;
+void extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high);
 // Whether a transform of the object itself is one that need not keep spheres. A sphere of a negative radius has its box
 // inside out unless such a transform is around it.
 bool extent_is_stretched(SchemaKind kind, const void *object);
@@ -267,6 +272,18 @@ bool shape_settle(SchemaKind kind, Blueprint *record) RT_MUST_CHECK;
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.
 bool shape_flattened(Eval *ev, const ObjectPart *part);
+
+// boxes.c
+// Whether an object is a sphere of a negative radius that is not stretched.
+bool box_is_inside_out(SchemaKind kind, const void *object);
+// Such a sphere where it is refused: in a union or merge that is one object, and as what a light looks like.
+bool box_fault(Eval *ev, Span span);
+bool box_fault_of_look(Eval *ev, Span span);
+// Such a sphere alone is not drawn, with a warning; at the end of a scene it is told whether that was right.
+bool box_leave_out(Eval *ev, Span span) RT_MUST_CHECK;
+bool box_left_out_rightly(Eval *ev) RT_MUST_CHECK;
+// Where a ray may start inside of the shape that was placed last, with parts from `first_part` on: in the owner's box.
+bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_part) RT_MUST_CHECK;
 
 // place.c: an object and all that is in it become scene records.
 bool object_place(Eval *ev, SchemaKind kind, const void *object) RT_MUST_CHECK;

@@ -244,6 +244,7 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
         }
         read_items(&ev, source);
         settle_version(&ev);
+        ev.faulty = !box_left_out_rightly(&ev) || ev.faulty;
         ev.faulty = !objects_finish(&ev) || ev.faulty;
         lint_finish(&ev);
     }

@@ -338,13 +338,14 @@ bool extent_reaches_out(SchemaKind kind, const void *object)
     return does;
 }
 
-void extent_box(SchemaKind kind, const void *object, const Transform *outer, Vec3 *low, Vec3 *high)
+void extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high)
 {
-    const ObjectPart *part = object;
-    Clip placed = {.object = object, .kind = kind, .transform = *outer};
-    bool is_plain = kind != KIND_PLANE && !part->clips && !part->bounds && !transform_is_identity(outer);
-    Extent extent = is_plain ? moved_extent(&placed) : object_extent(kind, object);
-    extent = is_plain || is_boundless(&extent) ? extent : turned(&extent, outer);
+    const ObjectPart *part = owner->object;
+    Clip placed = {.object = owner->object, .kind = owner->kind, .transform = owner->outer};
+    bool is_plain =
+        owner->kind != KIND_PLANE && !part->clips && !part->bounds && !transform_is_identity(&owner->outer);
+    Extent extent = is_plain ? moved_extent(&placed) : object_extent(owner->kind, owner->object);
+    extent = is_plain || is_boundless(&extent) ? extent : turned(&extent, &owner->outer);
     *low = vec3(extent.corner[0], extent.corner[1], extent.corner[2]);
     *high = vec3(upper(&extent, 0), upper(&extent, 1), upper(&extent, 2));
 }

@@ -175,6 +175,9 @@ typedef struct Eval {
     uint64_t steps;
     uint64_t message_bytes; // that were passed on
     uint64_t clear_count; // shapes that some light may go through
+    Span inside_out;      // a sphere of a negative radius that was not drawn for its box, or SPAN_NONE
+    // As POV-Ray counts: of a union each member, unless it is one object. Spheres that were read quickly come on top.
+    uint64_t object_count, slow_spheres;
     bool has_unbalanced;          // a macro that is_unbalanced was defined
     unsigned splice_nesting;      // of fragments that are being parsed
     uint64_t steps_reported;         // at the last message that said something new

@@ -21,12 +21,6 @@ struct ClipChain {
     bool clips_all;         // and not a member of a union that is one object
 };
 
-// A union that is one object, and what is done to it from outside.
-typedef struct WholeUnion {
-    const void *object;
-    Transform outer;
-} WholeUnion;
-
 typedef struct Placement {
     Transform outer;
     const TextureBlueprint *texture; // of the nearest object around that has one, else #default's
@@ -34,7 +28,7 @@ typedef struct Placement {
     const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
     uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
-    const WholeUnion *whole; // the outermost around, or NULL
+    const BoxOwner *whole; // the outermost union around that is one object, or NULL
     bool is_inner, is_hollow; // inside of another object, whose word on this counts
     bool is_stretched;        // extent_is_stretched, of any object around
     bool is_look;             // of a light
@@ -130,33 +124,6 @@ static bool is_hollow(SchemaKind kind, const void *object)
 
 // ---- plain spheres and planes
 
-// A sphere of a negative radius has its box inside out in POV-Ray, until a transform turns the corners of that box. No
-// ray meets it, and nothing is in it. What cuts it with others does not look at its box, but a union or merge that is one
-// object is seen in the box of its members, as they were when its block ended.
-static bool has_box_inside_out(SchemaKind kind, const void *object)
-{
-    return kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius < 0.0 && !extent_is_stretched(kind, object);
-}
-
-static bool box_fault(Eval *ev, Span span)
-{
-    return eval_fault(ev, DIAG_E0366, span, "a sphere of a negative radius is a member of a union or merge that is one object");
-}
-
-// Of a sphere that stands for itself. Most transforms of a light stretch what it looks like, in POV-Ray's sense.
-static bool place_inside_out(Eval *ev, const ObjectPart *sphere, const Placement *outer)
-{
-    if (outer->is_look) {
-        return eval_fault(ev, DIAG_E0366, sphere->span, "a sphere of a negative radius is what a light looks like");
-    }
-    if (outer->is_hidden_fixed) {
-        return box_fault(ev, sphere->span);
-    }
-    eval_warn(ev, DIAG_W0348, sphere->span,
-              "a sphere of a negative radius is drawn only where it is stretched or cut with others");
-    return true;
-}
-
 // A sphere that is one after its transforms too. False in *is_round: it is not.
 static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placement *inner, bool *is_round)
 {
@@ -172,6 +139,7 @@ static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placemen
     if (!vec3_is_finite(centre) || !isfinite(image) || !(image > 0.0)) {
         return shape_flattened(ev, &sphere->part);
     }
+    ev->slow_spheres++;
     return scene_add_sphere(ev->scene, centre, image, material, span.begin) || eval_no_memory(ev, span);
 }
 
@@ -303,7 +271,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     const Placement *around = &branch->placement;
     const Composite *composite = &ev->scene->composites.items[ev->scene->composites.count - 1];
     Part part;
-    if (branch->is_in_box && has_box_inside_out(kind, object)) {
+    if (branch->is_in_box && box_is_inside_out(kind, object)) {
         return box_fault(ev, common->span);
     }
     ShapeResult result = shape_make(ev, kind, object, &around->outer, false, &part);
@@ -448,8 +416,10 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     bool is_plain = !common->is_inverse && !inner->hidden;
     bool may_be_round = kind == KIND_SPHERE && is_plain && ((const SphereBlueprint *)object)->radius != 0.0;
     bool is_round = false, is_placed = false;
-    if (has_box_inside_out(kind, object) && (outer->is_hidden_fixed || outer->is_look || !inner->is_stretched)) {
-        return place_inside_out(ev, common, outer);
+    if (box_is_inside_out(kind, object) && (outer->is_hidden_fixed || outer->is_look || !inner->is_stretched)) {
+        return outer->is_look           ? box_fault_of_look(ev, common->span)
+               : outer->is_hidden_fixed ? box_fault(ev, common->span)
+                                        : box_leave_out(ev, common->span);
     }
     if (may_be_round && !inner->clips) {
         is_placed = place_sphere(ev, object, inner, &is_round);
@@ -472,47 +442,15 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
     return is_round ? is_placed : place_single(ev, common, is_plain, inner, &shape);
 }
 
-// Of what fills a shape: from a part that its own interior is in, if there is one, else from any that is seen.
-static void start_material(const Scene *scene, StartShape *start, size_t first_part)
-{
-    for (size_t i = first_part; i < scene->parts.count && !start->is_filled; i++) {
-        const Part *part = &scene->parts.items[i];
-        if (!(part->flags & PART_UNSEEN)) {
-            start->material = part->material;
-            start->is_filled = part->body == 0;
-        }
-    }
-}
-
-// Where a ray may start inside of the shape that was placed last, if that is not all of its inside.
-static bool note_start(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner,
-                       size_t first_part)
-{
-    Scene *scene = ev->scene;
-    const WholeUnion *whole = inner->whole;
-    size_t last = scene->composites.count - 1; // wraps where there is none
-    StartShape start = {.order = scene->shape_count - 1};
-    if (scene->parts.count == first_part || !(inner->clips || extent_reaches_out(kind, object))) {
-        return true;
-    }
-    start.is_composite = scene->composites.count > 0 && scene->composites.items[last].order == start.order;
-    start.index = (uint32_t)(start.is_composite ? last : scene->parts.count - 1);
-    start_material(scene, &start, first_part);
-    if (whole) {
-        extent_box(KIND_UNION, whole->object, &whole->outer, &start.low, &start.high);
-    } else {
-        extent_box(kind, object, &outer->outer, &start.low, &start.high);
-    }
-    return ARRAY_PUSH(&scene->start_shapes, start) || eval_no_memory(ev, ((const ObjectPart *)object)->span);
-}
-
 // A shape, or a group that is cut.
 static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Placement *outer, const Placement *inner)
 {
     size_t first_part = ev->scene->parts.count;
     bool is_placed = object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
                                            : place_shape(ev, kind, object, outer, inner);
-    return is_placed && note_start(ev, kind, object, outer, inner, first_part);
+    BoxOwner own = {kind, object, outer->outer};
+    bool is_noted = inner->clips || extent_reaches_out(kind, object);
+    return is_placed && (!is_noted || box_note_start(ev, inner->whole ? inner->whole : &own, first_part));
 }
 
 // What a light looks like: an object by itself, but for the texture and interior of what is around.
@@ -536,12 +474,14 @@ static bool place_look(Eval *ev, const LightBlueprint *light, const Placement *o
 // Recursive: object_members and light_look_action keep trees from growing deeper than the limit.
 static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement *outer)
 {
+    bool is_counted = !outer->whole && !outer->is_look;
     if (kind == KIND_LIGHT_SOURCE) {
+        ev->object_count += is_counted;
         return light_place(ev, object, &outer->outer) && place_look(ev, object, outer);
     }
     const ObjectPart *part = object;
     ClipChain own = {outer->clips, part->clips, &outer->outer, !outer->whole};
-    WholeUnion whole = {object, outer->outer};
+    BoxOwner whole = {kind, object, outer->outer};
     Placement inner = {
         .outer = transform_compose(part->transform, outer->outer),
         .texture = part->texture ? part->texture : outer->texture,
@@ -558,6 +498,7 @@ static bool place(Eval *ev, SchemaKind kind, const void *object, const Placement
     };
     bool is_union = kind == KIND_UNION && !part->was_turned;
     inner.whole = outer->whole || !is_union || !inner.is_hidden_fixed ? outer->whole : &whole;
+    ev->object_count += is_counted && (!is_union || inner.whole);
     bool is_body = is_union ? part->interior || outer->body == RECORD_NONE : part->interior && outer->body != RECORD_NONE;
     if (!is_body) {
         return is_union ? place_members(ev, object, &inner) : place_one(ev, kind, object, outer, &inner);

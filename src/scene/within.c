@@ -18,7 +18,8 @@ bool within_part(const Part *part, Vec3 point)
     case PART_BALL: is_inside = vec3_dot(p, p) < 1.0; break;
     case PART_PLANE: is_inside = vec3_dot(p, part->data[0]) < part->data[1].x; break;
     case PART_BOX:
-        is_inside = is_between(low->x, p.x, high->x) && is_between(low->y, p.y, high->y) && is_between(low->z, p.z, high->z);
+        is_inside = is_between(low->x, p.x, high->x) && is_between(low->y, p.y, high->y) &&
+                    is_between(low->z, p.z, high->z);
         break;
     case PART_CONE: is_inside = is_between(0.0, p.z, 1.0) && p.x * p.x + p.y * p.y < radius * radius; break;
     case PART_DISC: is_inside = p.z < 0.0; break;
@@ -37,7 +38,7 @@ typedef struct TreeCursor {
 
 static bool within_node(TreeCursor *at, Vec3 point);
 
-// A node stands before what is in it, so that of a node and a part with the same number of parts before it is the first.
+// A node stands before what is in it: of a node and a part with as many parts before them the node is the first.
 static bool within_child(TreeCursor *at, Vec3 point)
 {
     bool is_node = at->node < at->node_end && at->scene->nodes.items[at->node].first_part <= at->part;
