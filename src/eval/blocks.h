@@ -219,7 +219,8 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_
 // extent.c
 // The object that the first argument of a call names; false after a fault.
 bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
-// Whether the inside of an object is more than what is in its box or what its surface is around, or that of a member is.
+// Whether the inside of an object that is no union is more than what is in its box, or not what its surface is around;
+// or whether that of a member is.
 bool extent_reaches_out(SchemaKind kind, const void *object);
 // An object with a box, and what is done to it from outside.
 typedef struct BoxOwner {

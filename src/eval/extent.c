@@ -330,7 +330,8 @@ bool extent_reaches_out(SchemaKind kind, const void *object)
     if (kind == KIND_LIGHT_SOURCE) {
         return false;
     }
-    bool does = kind == KIND_DISC || part->clips || (part->is_inverse && kind != KIND_PLANE);
+    // What cuts a union leaves the surfaces that its members have in one another, but one surface of the cut for all.
+    bool does = kind == KIND_DISC || kind == KIND_UNION || part->clips || (part->is_inverse && kind != KIND_PLANE);
     const UnionMember *member = object_is_group(kind) ? ((const UnionBlueprint *)object)->members : NULL;
     for (; member && !does; member = member->next) {
         does = extent_reaches_out(member->kind, member->object);

@@ -305,8 +305,8 @@ typedef struct Composite {
     uint64_t source;
 } Composite;
 
-// A part or composite of which a ray may start inside in a box only: one that is clipped, turned inside out or a disc. What
-// clips all of it does not count there. As in POV-Ray.
+// A part or composite of which the surface does not tell whether a ray starts inside: one that is clipped, turned inside
+// out, a disc, or with a union in it. It does in a box only; what clips all of it does not count. As in POV-Ray.
 typedef struct StartShape {
     Vec3 low, high; // of the box
     uint32_t order;
