@@ -404,9 +404,11 @@ conditional:
     { $$ = LISTS(SWITCH, NONE, SYMBOL_NONE, @$, ONE($condition), $cases, $body); }
 ;
 
-// A reserved word may be asked for, too: it is not defined.
+// A reserved word, a number or a string may be asked for, too: it is not defined.
 subject:
   target                            { $$ = $target; }
+| NUMBER                            { $$ = ast_number(&state->builder, $NUMBER, @$); }
+| STRING                            { $$ = LEAF(STRING, $STRING, @$); }
 | reserved                          { $$ = LEAF(NAME, $reserved, @$); }
 ;
 

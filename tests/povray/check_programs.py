@@ -41,7 +41,9 @@ DECISIONS = [
     (r"E0205 .* of a (function|spline)", r"#version 3\.[01]", "a copy of a function or spline without `;`"),
     (r"E0106", r"#default", "`#default` with a directive before its brace"),
     (r"E0(110|111)", r"", "(E0110)"),
-    (r"E0106 .*(in the head of another|without the directive that it belongs to)", r"#(for|ifdef|ifndef)\b",
+    (r"E0106 .*after `#fopen`, found `#", r"#fopen\s*#", "a directive that gives the name behind `#fopen` (E0106)"),
+    (r"E0106 unexpected `$", r"#macro [^\n]*}[^\n]*#end", "a second `;` behind the value in a macro's text"),
+    (r"E0106 .*(in the head of another|without the directive that it belongs to)|E0109", r"#(for|ifdef|ifndef)\b",
      "the head of a directive in which another ends that began before it, or begins and does not end (E0106)"),
     (r"E0260 .*twice", r"function", "a parameter may stand twice in the list"),
     (r"E0215", r"#read|#macro", "must be of the kind of the others, and so must what a parameter becomes that stands for"),
@@ -54,6 +56,11 @@ DECISIONS = [
     (r"E0204", r"[*/]\s*\w+\s*\.\s*[tw]\w*|[*/]\s*\w+\s*\.\s*(filter|transmit)",
      "a component that a vector does not have (E0204) at the end of a product with a colour"),
 ]
+# What rtlang takes and POV-Ray refuses: its message, what the program holds, and the words of docs/language.md.
+TAKEN = [
+    (r"uninitialized array", r"\[[^\]\n]*(#(local|declare)|\w\()", "even where something is declared within its index"),
+    (r"Expected 'x, y, z or color component'", r"\.\s*#(while|for)", "of a component may stand in a loop"),
+]
 # Where both take a program and print other values; the words of docs/language.md.
 LEFT_BEHIND = "keeps what the operand before it had as components 4 and 5"
 NAMED_WITHIN = "a directive within its own value declares keeps the directive's value"
@@ -65,6 +72,8 @@ KNOWN = [
     ('#debug str(defined(sphere), 0, 6)', "`defined` of a reserved word (E0106)"),
     ('#declare C = rgb 1; #debug str((C*x.t).red, 0, 6)',
      "a component that a vector does not have (E0204) at the end of a product with a colour"),
+    ('#declare A = array[3]; #declare A[#local Z = 1; 1] = 3;', TAKEN[0][2]),
+    ('#declare V = x; #macro M(P) #end M(V. #while (1) x) #break #end', TAKEN[1][2]),
     ('#macro N() #end #declare A = N() 3; #debug str(A, 0, 6)', "a directive without a value in the place of one (E0213, E0221)"),
 ]
 DECIDED_MOST = 0.03   # of all odd programs
@@ -149,7 +158,9 @@ def verdict(statements, files):
         number = decision(text + "".join(files.values()), wrong_too)
         return ("refused", wrong_too) if number is None else ("decided", DECISIONS[number][2])
     if wrong:
-        return "taken", wrong
+        words = [words for said, holds, words in TAKEN
+                 if re.search(said, " ".join(wrong.split())) and re.search(holds, text + "".join(files.values()))]
+        return ("decided", words[0]) if words else ("taken", wrong)
     if re.search("quadratic_spline|rotate", text):
         theirs, ours = ([ZERO.sub(r"\1", line) for line in lines] for lines in (theirs, ours))
     pair = next(((a, b) for a, b in zip(theirs + [None], ours + [None]) if a != b), None)
@@ -226,7 +237,8 @@ def undocumented():
     """Words of DECISIONS that docs/language.md does not have."""
     with open(os.path.join(os.environ.get("top_srcdir", "."), "docs/language.md"), encoding="utf-8") as document:
         text = " ".join(document.read().split())
-    return [words for words in [ZERO_DOCUMENTED, LEFT_BEHIND, NAMED_WITHIN, UNREAD] + [words for _, _, words in DECISIONS] if words not in text]
+    return [words for words in [ZERO_DOCUMENTED, LEFT_BEHIND, NAMED_WITHIN, UNREAD] +
+            [words for _, _, words in DECISIONS + TAKEN] if words not in text]
 
 
 def coverage(seeds):
