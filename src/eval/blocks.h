@@ -221,14 +221,15 @@ bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_
 bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
 // Whether the inside of an object that is no union is more than what is in its box, or not what its surface is around;
 // or whether that of a member is.
-bool extent_reaches_out(SchemaKind kind, const void *object);
+bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member);
 // An object with a box, and what is done to it from outside.
 typedef struct BoxOwner {
     SchemaKind kind;
     const void *object;
     Transform outer;
 } BoxOwner;
-void extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high);
+// Its box; true: it has no end.
+bool extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high);
 // Whether a transform of the object itself is one that need not keep spheres. A sphere of a negative radius has its box
 // inside out unless such a transform is around it.
 bool extent_is_stretched(SchemaKind kind, const void *object);

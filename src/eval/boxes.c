@@ -69,6 +69,6 @@ bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_part)
     start.is_composite = scene->composites.count > 0 && scene->composites.items[last].order == start.order;
     start.index = (uint32_t)(start.is_composite ? last : scene->parts.count - 1);
     start_material(scene, &start, first_part);
-    extent_box(owner, &start.low, &start.high);
+    start.is_endless = extent_box(owner, &start.low, &start.high);
     return ARRAY_PUSH(&scene->start_shapes, start) || eval_no_memory(ev, ((const ObjectPart *)owner->object)->span);
 }

@@ -324,22 +324,23 @@ static Extent object_extent(SchemaKind kind, const void *object)
     return extent;
 }
 
-bool extent_reaches_out(SchemaKind kind, const void *object)
+bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member)
 {
     const ObjectPart *part = object;
     if (kind == KIND_LIGHT_SOURCE) {
         return false;
     }
+    // A member that has no end may leave the whole without one.
     // What cuts a union leaves the surfaces that its members have in one another, but one surface of the cut for all.
-    bool does = kind == KIND_DISC || kind == KIND_UNION || part->clips || (part->is_inverse && kind != KIND_PLANE);
+    bool does = kind == KIND_DISC || kind == KIND_UNION || part->clips || part->is_inverse || (kind == KIND_PLANE && is_member);
     const UnionMember *member = object_is_group(kind) ? ((const UnionBlueprint *)object)->members : NULL;
     for (; member && !does; member = member->next) {
-        does = extent_reaches_out(member->kind, member->object);
+        does = extent_reaches_out(member->kind, member->object, true);
     }
     return does;
 }
 
-void extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high)
+bool extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high)
 {
     const ObjectPart *part = owner->object;
     Clip placed = {.object = owner->object, .kind = owner->kind, .transform = owner->outer};
@@ -349,6 +350,7 @@ void extent_box(const BoxOwner *owner, Vec3 *low, Vec3 *high)
     extent = is_plain || is_boundless(&extent) ? extent : turned(&extent, &owner->outer);
     *low = vec3(extent.corner[0], extent.corner[1], extent.corner[2]);
     *high = vec3(upper(&extent, 0), upper(&extent, 1), upper(&extent, 2));
+    return is_boundless(&extent);
 }
 
 bool extent_object(Eval *ev, const AstNode *node, Value *object)

@@ -449,7 +449,7 @@ static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Place
     bool is_placed = object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
                                            : place_shape(ev, kind, object, outer, inner);
     BoxOwner own = {kind, object, outer->outer};
-    bool is_noted = inner->clips || extent_reaches_out(kind, object);
+    bool is_noted = inner->clips || extent_reaches_out(kind, object, false);
     return is_placed && (!is_noted || box_note_start(ev, inner->whole ? inner->whole : &own, first_part));
 }
 

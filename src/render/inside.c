@@ -1,7 +1,7 @@
 // What a ray that starts at a point is inside of.
 //
 // Follows a line from the point to where there is nothing more: what it leaves without having entered it is what the
-// point is in, the innermost first. Shapes that are clipped, turned inside out or flat are asked by themselves
+// point is in. Shapes that are clipped, turned inside out or flat are asked by themselves
 // (StartShape). One function with all features, for it runs once for each place of the eye.
 //
 // SPDX-License-Identifier: MIT
@@ -24,19 +24,31 @@ static void go_through(const Prepared *prepared, Ray *ray, RayStart *start, cons
     *start = (RayStart){hit->shape, !hit->inside, 0};
 }
 
-// Below all others with an interior; what has none is below all of those, for it does not count as what the ray is in.
-static void put_below(MediumList *list, MediumRegion region)
+// What a point is in, in POV-Ray's order, as measured: first what has no end, then all else, each in the order of the
+// text. The last one counts as what the ray is in, with an interior or without.
+typedef struct Found {
+    MediumList *list;
+    uint64_t ranks[MEDIUM_DEPTH_MAX]; // of its regions, rising
+} Found;
+
+static uint64_t rank_of(uint32_t order, bool is_endless)
 {
-    uint32_t place = 0;
-    while (region.interior != RECORD_NONE && place < list->count && list->regions[place].interior == RECORD_NONE) {
-        place++;
+    return (uint64_t)!is_endless << 32 | order;
+}
+
+static void put_in(Found *found, MediumRegion region, uint64_t rank)
+{
+    MediumList *list = found->list;
+    if (list->count == MEDIUM_DEPTH_MAX) {
+        return;
     }
-    if (list->count < MEDIUM_DEPTH_MAX) {
-        for (uint32_t i = list->count++; i > place; i--) {
-            list->regions[i] = list->regions[i - 1];
-        }
-        list->regions[place] = region;
+    uint32_t place = list->count++;
+    for (; place > 0 && found->ranks[place - 1] > rank; place--) {
+        list->regions[place] = list->regions[place - 1];
+        found->ranks[place] = found->ranks[place - 1];
     }
+    list->regions[place] = region;
+    found->ranks[place] = rank;
 }
 
 // The place of a body, or the count when it is not there.
@@ -79,8 +91,8 @@ static bool has_start(const Scene *scene, uint32_t order)
     return low < scene->start_shapes.count && scene->start_shapes.items[low].order == order;
 }
 
-// What is left along one way from the point, put below what is known already.
-static void walk(const Prepared *prepared, Ray ray, MediumList *list)
+// What is left along one way from the point, if it is not known already.
+static void walk(const Prepared *prepared, Ray ray, Found *found)
 {
     RayStart start = RAY_START_FREE;
     MediumList entered = {.count = 0};
@@ -102,9 +114,9 @@ static void walk(const Prepared *prepared, Ray ray, MediumList *list)
             entered.regions[entered.count++] = region;
         } else if (hit.inside && place < entered.count) {
             list_remove(&entered, place);
-        } else if (hit.inside && place_of(list, body) == list->count) {
+        } else if (hit.inside && place_of(found->list, body) == found->list->count) {
             // Without an interior, too: such a shape is left on the way out, and not entered. Measured.
-            put_below(list, region);
+            put_in(found, region, rank_of(order, shape_kind(hit.shape) == SHAPE_PLANE));
         }
     }
 }
@@ -118,7 +130,7 @@ static bool starts_inside(const Scene *scene, const StartShape *shape, Vec3 p)
 }
 
 // Those whose surface does not tell.
-static void ask_start_shapes(const Prepared *prepared, Vec3 point, MediumList *list)
+static void ask_start_shapes(const Prepared *prepared, Vec3 point, Found *found)
 {
     const Scene *scene = prepared->scene;
     Vec3 scene_point = vec3_scale(prepared->length, point);
@@ -127,7 +139,7 @@ static void ask_start_shapes(const Prepared *prepared, Vec3 point, MediumList *l
         if (starts_inside(scene, shape, scene_point)) {
             MediumRegion region = region_of(prepared, scene_shape_key(shape->order, 0), shape->material);
             region.interior = shape->is_filled ? region.interior : RECORD_NONE;
-            put_below(list, region);
+            put_in(found, region, rank_of(shape->order, shape->is_endless));
         }
     }
 }
@@ -138,9 +150,10 @@ void prepared_inside(const Prepared *prepared, Vec3 point, MediumList *list)
 {
     list->count = 0;
     if (prepared->scene->interiors.count > 0 || prepared->scene->fogs.count > 0) {
-        walk(prepared, (Ray){point, odd_direction}, list);
-        walk(prepared, (Ray){point, vec3_neg(odd_direction)}, list);
-        ask_start_shapes(prepared, point, list);
+        Found found = {.list = list};
+        walk(prepared, (Ray){point, odd_direction}, &found);
+        walk(prepared, (Ray){point, vec3_neg(odd_direction)}, &found);
+        ask_start_shapes(prepared, point, &found);
         for (uint32_t i = 0; i < list->count; i++) {
             uint64_t *body = &list->regions[i].body;
             *body = scene_shape_is_key(*body) ? scene_body_key(prepared->scene, (uint32_t)*body, 0) : *body;

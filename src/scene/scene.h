@@ -312,6 +312,7 @@ typedef struct StartShape {
     uint32_t order;
     uint32_t index; // of the part, or of the composite
     bool is_composite;
+    bool is_endless;        // its box is
     bool is_filled;         // with what `material` holds, and not only its members are
     MaterialIndex material; // of a part of it
 } StartShape;
