@@ -12,8 +12,12 @@ WAVES = ["ramp_wave", "triangle_wave", "sine_wave", "scallop_wave", "cubic_wave"
 PATTERNS = ["gradient x", "gradient -y", "gradient <1, 2, -1>", "onion", "radial", "leopard", "spherical", "boxed",
             "planar", "cylindrical", "bozo", "spotted", "bumps", "granite", "agate", "marble", "wood", "wrinkles",
             "dents", "ripples", "waves", "cells", "crackle", "spiral1 3", "mandel 9", "julia <0.353, 0.288>, 8"]
+PATTERN_WORDS = {"crackle": ["form <-1, 1, 0>", "form <0.4, 0.2, -0.1>", "metric 1.3", "metric 3", "offset 0.3", "solid"],
+                 "agate": ["agate_turb 0.4"], "bozo": ["noise_generator 1"], "wood": ["noise_generator 3"],
+                 "granite": ["noise_generator 2"]}
 FINISH = {"ambient": (0, 0.4), "diffuse": (0.3, 1), "phong": (0, 1), "phong_size": (3, 60), "specular": (0, 1),
-          "roughness": (0.02, 0.3), "brilliance": (0.5, 3), "metallic": (0, 1), "diffuse albedo": (0.3, 1)}
+          "roughness": (0.02, 0.3), "brilliance": (0.5, 3), "metallic": (0, 1), "diffuse albedo": (0.3, 1),
+          "emission": (0, 0.2), "phong albedo": (0, 0.2), "specular albedo": (0, 0.2), "diffuse 0.6,": (0, 0.5)}
 
 
 class Block:
@@ -53,7 +57,7 @@ class Writer:
         self.number_ = number
         self.count = 0
         self.names = {kind: [] for kind in ("number", "vector", "colour", "pigment", "normal", "finish", "texture",
-                                            "map", "transform", "object", "interior", "loop")}
+                                            "map", "transform", "object", "interior", "material", "loop")}
         self.has_fog = self.chance(0.2)
         self.is_solid = False  # what is written lets no light through
         self.before = []  # definitions that must stand before the statement that is being written
@@ -83,7 +87,7 @@ class Writer:
     def known(self, kind):
         """The name of something declared, or None."""
         # Up to 3.1 POV-Ray makes `transmit` of the filters of what lies over something, of a name's own map, too.
-        if (self.is_solid or self.version in ("3.0", "3.1")) and kind in ("pigment", "texture", "map"):
+        if (self.is_solid or self.version in ("3.0", "3.1")) and kind in ("pigment", "texture", "map", "material"):
             return None
         return self.dice.choice(self.names[kind])[0] if self.names[kind] and self.chance(0.4) else None
 
@@ -220,7 +224,8 @@ class Writer:
 
     def value_pattern(self, maps):
         pattern = self.dice.choice(PATTERNS)
-        return [pattern] + self.shuffled(self.modifiers(0.15) + maps)
+        own = [word for word in PATTERN_WORDS.get(pattern, []) if self.chance(0.25)]
+        return [pattern] + self.shuffled(self.modifiers(0.15) + own + maps)
 
     def entries(self, make):
         """Entries `[value items]` of a map of blocks."""
@@ -291,7 +296,10 @@ class Writer:
         if mirrors and self.chance(0.2):
             words.append(self.one_of(
                 lambda: f"reflection {self.number(0.1, 0.6)}", lambda: f"reflection {self.colour()}",
-                lambda: f"reflection {{ {self.number(0, 0.2)}, {self.number(0.4, 0.9)} falloff {self.number(0.5, 3)} }}"))
+                lambda: Block("reflection {", [f"{self.number(0, 0.2)}, {self.number(0.4, 0.9)}"] + self.shuffled(
+                    [word for word in (f"falloff {self.number(0.5, 3)}", f"metallic {self.number(0, 1)}",
+                                       f"exponent {self.number(0.7, 1.5)}") if self.chance(0.4)]))))
+            words += ["conserve_energy"] * self.chance(0.2)
         known = self.known("finish") if mirrors else None
         return Block("finish {", ([known] if known else []) + self.torn(self.shuffled(words)))
 
@@ -335,8 +343,13 @@ class Writer:
         if choice < 0.5:
             return [Block("texture {", self.texture_parts(False))] + [self.layer() for _ in self.some(2, 1)]
         if choice < 0.6:
-            return [Block("material {", [self.texture(mirrors)] + [self.transform(1) for _ in self.some(1)])]
+            known = self.known("material")
+            return [Block("material {", [known] if known else self.material_items(mirrors))]
         return self.texture_parts(mirrors)
+
+    def material_items(self, mirrors=True):
+        interior = [Block("interior {", self.interior_items())] * (not self.is_solid and self.chance(0.3))
+        return self.shuffled([self.texture(mirrors)] + interior) + [self.transform(1) for _ in self.some(1)]
 
     # ---- directives around items
 
@@ -391,10 +404,28 @@ class Writer:
             lambda: f"cylinder {{ <{n(-0.9, -0.6)}, 0, 0>, <{n(0.6, 0.9)}, 0.1, 0>, {n(0.4, 0.7)}{ends}",
             lambda: f"cone {{ {n(-0.9, -0.6)} * y, {n(0.6, 0.9)}, {n(0.6, 0.9)} * y, {n(0.2, 0.4)}{ends}")
 
-    def member(self, share):
-        """A solid of a group, with or without a surface of its own."""
+    def member(self, share, is_cut=False, depth=0):
+        """A solid of a group that cuts it with others, or not, with or without a surface of its own."""
+        if depth < 2 and self.chance(0.15):
+            return self.inner_group(share, is_cut, depth)
         items = self.solid_of(lambda: self.surface(False, True)) if self.chance(share) else []
         return Block(self.solid(), self.shuffled_in([f"translate {self.vector(-0.5, 0.5)}"], items))
+
+    def inner_group(self, share, is_cut, depth):
+        """language.md: POV-Ray shows a union of what is inside out in the boxes of its members."""
+        head = self.dice.choice(["union {", "merge {", "difference {", "intersection {"])
+        items = [self.member(share, head in ("difference {", "intersection {"), depth + 1) for _ in range(2)]
+        items += self.solid_of(lambda: self.surface(False, True)) if self.chance(share) else []
+        return Block(head, items + [f"translate {self.vector(-0.3, 0.3)}"] + ["inverse"] * (is_cut and self.chance(0.1)))
+
+    def clip(self):
+        """What clips an object: something that no ray meets along a surface of the object's."""
+        return Block("clipped_by {", self.one_of(
+            lambda: [f"plane {{ {self.vector(0.1, 1)}, {self.number(0.1, 0.3)} }}"],
+            lambda: [f"sphere {{ {self.vector(-0.2, 0.2)}, {self.number(0.7, 0.9)}" + " inverse" * self.chance(0.3) + " }"],
+            lambda: [f"box {{ {self.vector(-0.9, -0.4)}, {self.vector(0.4, 0.9)}" + " inverse" * self.chance(0.3) + " }"],
+            lambda: [f"plane {{ {self.vector(0.1, 1)}, {self.number(0.1, 0.3)} }}",
+                     f"plane {{ {self.vector(-1, -0.1)}, {self.number(0.1, 0.3)} }}"]))
 
     def shuffled_in(self, some, items):
         """`items` in their order with `some` put somewhere among them."""
@@ -406,6 +437,8 @@ class Writer:
     def shape(self):
         """(head, items that come first, tail, is simple, is flat)."""
         choice = self.dice.random()
+        if choice < 0.03:  # with its sign it is seen where it is stretched
+            return f"sphere {{ 0, {self.number(-0.95, -0.7)}", [f"scale <1, 1.1, {self.number(0.8, 1)}>"], "}", False, False
         if choice < 0.45:
             return self.solid(), [], "}", True, False
         if choice < 0.55:
@@ -419,18 +452,23 @@ class Writer:
             head = self.dice.choice(["union {", "union {", "#if (1) union { #else merge { #end", "merge {"])
             return head, self.torn([self.member(0.4) for _ in self.some(3, 2)], 0.3), "}", False, False
         if choice < 0.9:
-            other = Block(self.solid(), ["scale 0.7", f"translate {self.vector(0.2, 0.6)}"])
-            return "difference {", [self.member(0.3), other], "}", False, False
+            other = Block(self.one_of(self.solid, lambda: f"sphere {{ 0, {self.number(-1, -0.8)}"),
+                          ["scale 0.7", f"translate {self.vector(0.2, 0.6)}"])
+            return "difference {", [self.member(0.3, True), other], "}", False, False
         other = self.dice.choice([Block(f"plane {{ {self.vector(0.1, 1)}, {self.number(0.1, 0.3)}", []),
-                                  self.member(0.3)])
-        return "intersection {", self.shuffled([self.member(0.3), other]), "}", False, False
+                                  self.member(0.3, True)])
+        return "intersection {", self.shuffled([self.member(0.3, True), other]), "}", False, False
 
-    def interior(self):
+    def interior_items(self):
         items = [f"ior {self.number(1, 1.6)}"] * self.chance(0.8) + [f"caustics {self.number(0.1, 0.5)}"] * self.chance(0.2)
         if self.chance(0.4):
             items += [f"fade_distance {self.enlarged(self.number(0.3, 2))}", f"fade_power {self.number(0.5, 3)}"]
             items += [f"fade_color {self.colour()}"] * self.chance(0.3)
-        return Block("interior {", self.shuffled(items))
+        return self.shuffled(items)
+
+    def interior(self):
+        known = self.known("interior")
+        return Block("interior {", ([known] if known else []) + (self.interior_items() if not known or self.chance(0.3) else []))
 
     def object(self, place):
         head, first, tail, is_simple, is_flat = self.shape()
@@ -440,10 +478,10 @@ class Writer:
             items = self.shuffled_in([self.interior()], items)
         items = self.shuffled_in([self.transform(0.2) for _ in self.some(2)], items)
         early = []
-        if is_simple and self.chance(0.15) and not self.has_fog:  # language.md: what POV-Ray takes the eye to be inside of
-            early = [Block("clipped_by {", [f"plane {{ {self.vector(0.1, 1)}, {self.number(0.1, 0.3)} }}"])]
-        flags = [word for word in ("no_shadow", "no_reflection", "hollow", "bounded_by { sphere { 0, 9 } }")
-                 if self.chance(0.05)]
+        if is_simple and self.chance(0.15):
+            early = [self.clip()]
+        flags = [word for word in ("no_shadow", "no_reflection", "hollow", "bounded_by { sphere { 0, 9 } }", "no_image",
+                                   "inverse", "no_radiosity") if self.chance(0.05) and not (word == "inverse" and is_flat)]
         if head.startswith("Object_"):
             head, first = "object {", [head]
         items = first + early + self.shuffled_in([f"translate <{place[0]}, {place[1]}, {place[2]}>"] + flags, items)
@@ -495,6 +533,9 @@ class Writer:
                                                   f"falloff {self.enlarged(self.number(3, 5))}",
                                                   "point_at 0"]),
             lambda: ["parallel", f"point_at {self.vector(-1, 1)}"],
+            lambda: [f"looks_like {{ sphere {{ 0, {self.number(0.2, 0.5)} pigment {{ {self.colour()} }} }} }}"],
+            lambda: [f"area_light {self.vector(0.3, 1)}, {self.vector(-1, -0.3)}, {self.dice.randint(1, 4)}, 3"] +
+            self.shuffled([f"adaptive {self.dice.randint(0, 2)}"] * self.chance(0.5) + ["circular"] * self.chance(0.3)),
             lambda: self.shuffled([f"fade_distance {self.enlarged(self.number(3, 8))}", f"fade_power {self.number(1, 2)}"]))
         moves = [f"rotate {self.vector(-30, 30)}", f"translate {self.vector(-0.5, 0.5)}"]
         items = words[:1] + self.torn(words[1:], 0.1) + [move for move in moves if self.chance(0.15)]
@@ -513,8 +554,17 @@ class Writer:
         if not self.has_fog:
             return self.one_of(lambda: [Block("sky_sphere {", layers + [self.transform(1) for _ in self.some(1)])],
                                lambda: [sphere], lambda: [f"background {{ {self.colour()} }}"])
-        return [sphere, Block("fog {", self.shuffled([
-                f"distance {self.enlarged(self.number(10, 30))}", self.dice.choice(["", "color "]) + f"rgb {self.number(0, 1)}"]))]
+        return [sphere] + [self.fog() for _ in self.some(2, 1)]
+
+    def fog(self):
+        words = [f"distance {self.enlarged(self.number(10, 30))}",
+                 self.dice.choice(["", "color "]) + self.dice.choice(["rgb ", "rgb ", "rgbt <0.2, 0.1, 0.1, 0.1> + "]) +
+                 self.number(0, 1)]
+        if self.chance(0.4):
+            words += ["fog_type 2", f"fog_alt {self.enlarged(self.number(0.5, 2))}",
+                      f"fog_offset {self.enlarged(self.number(-2, 1))}"]
+            words += [f"up {self.vector(0.1, 1)}"] * self.chance(0.3)
+        return Block("fog {", self.shuffled(words))
 
     def floor(self):
         is_whole = self.chance(0.4)
@@ -546,7 +596,7 @@ class Writer:
     def declaration(self):
         """Something with a name, of which the rest may be made."""
         kind = self.dice.choice(["number", "vector", "colour", "pigment", "normal", "finish", "texture", "map",
-                                 "transform", "object"])
+                                 "transform", "object", "interior", "material"])
         name = self.name(kind.capitalize())
         make = {
             "vector": lambda: f"#declare {name} = {self.vector(-1, 1)};",
@@ -555,6 +605,8 @@ class Writer:
             "normal": lambda: Block(f"#declare {name} = normal {{", self.normal_items()),
             "finish": lambda: Block(f"#declare {name} = finish {{", self.finish().items),
             "texture": lambda: Block(f"#declare {name} = texture {{", self.texture_parts()),
+            "interior": lambda: Block(f"#declare {name} = interior {{", self.interior_items()),
+            "material": lambda: Block(f"#declare {name} = material {{", self.material_items()),
             "map": lambda: Block(f"#declare {name} = color_map {{",
                                  [f"[{at} {self.colour(True)}]" for at in self.positions()]),
             "transform": lambda: Block(f"#declare {name} = transform {{", [self.transform(0.2) for _ in self.some(2,
@@ -593,6 +645,7 @@ class Writer:
                                                                                                  if self.version == "3.7" else 0.3)
         words += [f"ambient_light {self.colour()}"] * self.chance(0.2) + [f"max_trace_level {self.dice.randint(3, 7)}"] * self.chance(0.3)
         words += [f"noise_generator {self.dice.randint(1, 3)}"] * self.chance(0.1)
+        words += [f"number_of_waves {self.dice.randint(1, 12)}"] * self.chance(0.1)
         # POV-Ray follows a ray for each texture of a map and for each mirror of a layer, and gives up each by its own weight.
         return [Block("global_settings {", self.shuffled(words + ["adc_bailout 0.00001"]))]
 
