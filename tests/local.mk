@@ -33,6 +33,7 @@ unit_programs = \
   tests/unit/test_base_text \
   tests/unit/test_math \
   tests/unit/test_noise \
+  tests/unit/test_along \
   tests/unit/test_crackle \
   tests/unit/test_trace_sphere \
   tests/unit/test_trace_certified \
@@ -90,6 +91,8 @@ tests_unit_test_base_text_SOURCES = %D%/unit/test_base_text.c
 tests_unit_test_base_text_LDADD = $(UNIT_BASE)
 tests_unit_test_noise_SOURCES = %D%/unit/test_noise.c
 tests_unit_test_noise_LDADD = $(UNIT_TRACE)
+tests_unit_test_along_SOURCES = %D%/unit/test_along.c $(unit_headers)
+tests_unit_test_along_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_crackle_SOURCES = %D%/unit/test_crackle.c $(unit_headers)
 tests_unit_test_crackle_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_math_SOURCES = %D%/unit/test_math.c

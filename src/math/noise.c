@@ -169,6 +169,19 @@ double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p)
     return noise->kernel->spread(noise, generator, p);
 }
 
+void noise_spreads(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *spreads)
+{
+    noise->kernel->values(noise, generator, count, points, spreads);
+    for (unsigned i = 0; i < count; i++) {
+        spreads[i] = noise_spread_of(generator, spreads[i]);
+    }
+}
+
+void noise_vectors(const Noise *noise, unsigned count, const Vec3 *points, Vec3 *vectors)
+{
+    noise->kernel->vectors(noise, count, points, vectors);
+}
+
 Vec3 noise_vector(const Noise *noise, Vec3 p)
 {
     return noise->kernel->vector(noise, p);

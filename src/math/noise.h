@@ -13,8 +13,8 @@
 #include "math/vec3.h"
 
 enum {
-    NOISE_CELLS = 4096,      // period of the first two generators, of the shuffled numbers below it
-    NOISE_GRADIENTS = 2048,  // period of the third
+    NOISE_CELLS = 4096,     // period of the first two generators, of the shuffled numbers below it
+    NOISE_GRADIENTS = 2048, // period of the third
     NOISE_SITES = NOISE_CELLS + 2,
     NOISE_LATTICE = 256 + 3, // numbers of the first two generators at their lattice points
 };
@@ -33,7 +33,7 @@ typedef struct Noise {
     uint16_t hash[NOISE_CELLS];
     uint16_t order[NOISE_GRADIENTS];
     Vec3 gradients[NOISE_GRADIENTS]; // of unit length
-    double sites[NOISE_SITES]; // from 0 to 1, see noise_site
+    double sites[NOISE_SITES];       // from 0 to 1, see noise_site
 } Noise;
 
 // `isa`: the name of the instruction set to use, which this processor must have; NULL for the plain one.
@@ -48,8 +48,13 @@ double noise_value(const Noise *noise, NoiseGenerator generator, Vec3 p);
 // The same with its middle half stretched to fill 0 to 1, but for the first generator, which is as it is.
 double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p);
 
+// noise_spread of many points, four at a time.
+void noise_spreads(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *spreads);
+
 // Three independent numbers around 0, the first generator's first.
 Vec3 noise_vector(const Noise *noise, Vec3 p);
+// Of many points, likewise.
+void noise_vectors(const Noise *noise, unsigned count, const Vec3 *points, Vec3 *vectors);
 
 // Of the unit cube from `corner`, whose coordinates are whole, to <1, 1, 1> beyond: a number from 0 to 1, and a point
 // in it.

@@ -1,12 +1,13 @@
 // Noise at points: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
 //
-// What lies at the lattice points around a point is worked out for four coordinates, points or components at once; sums
-// run in the order of the points, so the bits are the same.
+// What lies at the lattice points around a point is computed for four coordinates, points or components at once;
+// octaves and rows of points go four at a time. Sums run in the order of the lattice points, so the bits are the same.
 //
 // SPDX-License-Identifier: MIT
 #include "math/noise_kernel.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/attributes.h"
 #include "base/isa.h"
@@ -16,11 +17,6 @@ typedef double Four __attribute__((vector_size(32), aligned(16)));
 typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
 typedef int64_t FourMask __attribute__((vector_size(32), aligned(16)));
 typedef int32_t FourInts __attribute__((vector_size(16)));
-
-RT_ALWAYS_INLINE double cut(double x)
-{
-    return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
-}
 
 // A point among its eight lattice points: per coordinate, and for the lattice point before it and that after it.
 typedef struct Lattice {
@@ -145,8 +141,7 @@ RT_ALWAYS_INLINE Vec3 components(const Noise *noise, const Lattice *at)
 #pragma GCC unroll 2
             for (int k = 0; k < 2; k++) {
                 const Four *row = (const Four *)noise->lattice[at->hash[i][j][k]];
-                Four value =
-                    0.5 * row[0] + row[1] * at->way[i][0] + row[2] * at->way[j][1] + row[3] * at->way[k][2];
+                Four value = 0.5 * row[0] + row[1] * at->way[i][0] + row[2] * at->way[j][1] + row[3] * at->way[k][2];
                 sum += weight * at->weight[k][2] * value;
             }
         }
@@ -187,16 +182,18 @@ static double perlin(const Noise *noise, Vec3 p)
 static double value_at(const Noise *noise, NoiseGenerator generator, Vec3 p)
 {
     switch (generator) {
-    case NOISE_PERLIN: return cut(0.4925 + 0.795 * perlin(noise, p));
-    case NOISE_CORRECTED: return cut(0.48985582 * (original(noise, p) + 1.05242));
-    default: return cut(original(noise, p) + 0.5);
+    case NOISE_PERLIN:
+        return noise_cut(0.4925 + 0.795 * perlin(noise, p));
+    case NOISE_CORRECTED:
+        return noise_cut(0.48985582 * (original(noise, p) + 1.05242));
+    default:
+        return noise_cut(original(noise, p) + 0.5);
     }
 }
 
 static double spread_at(const Noise *noise, NoiseGenerator generator, Vec3 p)
 {
-    double value = value_at(noise, generator, p);
-    return generator == NOISE_ORIGINAL ? value : cut(2.0 * value - 0.5);
+    return noise_spread_of(generator, value_at(noise, generator, p));
 }
 
 static Vec3 vector_at(const Noise *noise, Vec3 p)
@@ -206,32 +203,277 @@ static Vec3 vector_at(const Noise *noise, Vec3 p)
     return components(noise, &at);
 }
 
+// ---- four points at once
+
+enum { SIDE = 4 };
+
+typedef struct FourPoints {
+    Four axis[3];
+} FourPoints;
+
+// As Lattice, of each of four points; corners are counted in the order of x, y and z.
+typedef struct Lattices {
+    Four way[3][2];
+    Four weight[8];
+    uint8_t hash[SIDE][8];
+} Lattices;
+
+RT_ALWAYS_INLINE bool all_are_near(const FourPoints *p)
+{
+    const Four most = (Four){0.0} + 0x1p30; // as in find_lattice
+    FourMask is_near = (p->axis[0] < most) & (p->axis[0] > -most);
+#pragma GCC unroll 2
+    for (int axis = 1; axis < 3; axis++) {
+        is_near &= (p->axis[axis] < most) & (p->axis[axis] > -most);
+    }
+    return (is_near[0] & is_near[1] & is_near[2] & is_near[3]) != 0;
+}
+
+// Of the first `count` points; the others' are set so that something is there.
+RT_ALWAYS_INLINE void hash_corners(const Noise *noise, const uint32_t index[3][2][SIDE], unsigned count, Lattices *at)
+{
+    for (unsigned n = 0; n < count; n++) {
+#pragma GCC unroll 2
+        for (int i = 0; i < 2; i++) {
+            uint32_t of_x = noise->hash[index[0][i][n]];
+#pragma GCC unroll 2
+            for (int j = 0; j < 2; j++) {
+                uint32_t of_y = noise->hash[of_x ^ index[1][j][n]];
+#pragma GCC unroll 2
+                for (int k = 0; k < 2; k++) {
+                    at->hash[n][4 * i + 2 * j + k] = (uint8_t)noise->hash[of_y ^ index[2][k][n]];
+                }
+            }
+        }
+    }
+    for (unsigned n = count; n < SIDE; n++) {
+        memset(at->hash[n], 0, sizeof at->hash[n]);
+    }
+}
+
+// The operations of find_cells and of the weights of component, a lane a point.
+RT_ALWAYS_INLINE void find_lattices(const Noise *noise, const FourPoints *p, unsigned count, Lattices *at)
+{
+    const FourInts last = (FourInts){0} + (int32_t)(NOISE_CELLS - 1);
+    uint32_t index[3][2][SIDE];
+    Four weight[3][2];
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; axis++) {
+        Four moved = p->axis[axis] + (Four){0.0};
+        Four below = __builtin_convertvector(__builtin_convertvector(moved, FourInts), Four);
+        FourMask is_above = below > moved;
+        below -= (Four)(is_above & (FourMask)(Four){1.0, 1.0, 1.0, 1.0});
+        FourInts before = __builtin_convertvector(below, FourInts) + (int32_t)hash_offset;
+        FourInts of_before = before & last, of_after = (before + 1) & last;
+        memcpy(index[axis][0], &of_before, sizeof of_before);
+        memcpy(index[axis][1], &of_after, sizeof of_after);
+        Four t = moved - below, after = t * t * (3.0 - 2.0 * t);
+        at->way[axis][0] = t;
+        at->way[axis][1] = t - 1.0;
+        weight[axis][0] = 1.0 - after;
+        weight[axis][1] = after;
+    }
+#pragma GCC unroll 8
+    for (int corner = 0; corner < 8; corner++) {
+        at->weight[corner] = weight[0][corner >> 2] * weight[1][corner >> 1 & 1] * weight[2][corner & 1];
+    }
+    hash_corners(noise, index, count, at);
+}
+
+// The first component of each.
+RT_ALWAYS_INLINE void four_originals(const Lattices *at, Four *values)
+{
+    Four sum = {0.0};
+#pragma GCC unroll 8
+    for (int corner = 0; corner < 8; corner++) {
+        Four a = *numbers_at(at->hash[0][corner]), b = *numbers_at(at->hash[1][corner]);
+        Four c = *numbers_at(at->hash[2][corner]), d = *numbers_at(at->hash[3][corner]);
+        Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+        Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        Four value = 0.5 * __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5) +
+                     __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5) * at->way[0][corner >> 2] +
+                     __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7) * at->way[1][corner >> 1 & 1] +
+                     __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7) * at->way[2][corner & 1];
+        sum += at->weight[corner] * value;
+    }
+    *values = sum;
+}
+
+// All components of the point in one lane.
+RT_ALWAYS_INLINE void components_of(const Noise *noise, const Lattices *at, unsigned lane, Four *vector)
+{
+    Four sum = {0.0};
+#pragma GCC unroll 8
+    for (int corner = 0; corner < 8; corner++) {
+        const Four *row = (const Four *)noise->lattice[at->hash[lane][corner]];
+        Four value = 0.5 * row[0] + row[1] * at->way[0][corner >> 2][lane] +
+                     row[2] * at->way[1][corner >> 1 & 1][lane] + row[3] * at->way[2][corner & 1][lane];
+        sum += at->weight[corner][lane] * value;
+    }
+    *vector = sum;
+}
+
+RT_ALWAYS_INLINE void four_cut(Four *values)
+{
+    const Four x = *values;
+    const Four one = {1.0, 1.0, 1.0, 1.0};
+    FourMask is_less = x<one, is_some = x>(Four){0.0};
+    *values = (Four)(is_some & ((is_less & (FourMask)x) | (~is_less & (FourMask)one)));
+}
+
+static Vec3 point_of(const FourPoints *p, unsigned lane)
+{
+    return vec3(p->axis[0][lane], p->axis[1][lane], p->axis[2][lane]);
+}
+
+// As value_at. Lanes from `count` on mean nothing.
+RT_ALWAYS_INLINE void four_values(const Noise *noise, NoiseGenerator generator, const FourPoints *p, unsigned count,
+                                  Four *values)
+{
+    if (RT_UNLIKELY(generator == NOISE_PERLIN || !all_are_near(p))) {
+        *values = (Four){0.0};
+        for (unsigned n = 0; n < count; n++) {
+            (*values)[n] = value_at(noise, generator, point_of(p, n));
+        }
+        return;
+    }
+    Lattices at;
+    Four original;
+    find_lattices(noise, p, count, &at);
+    four_originals(&at, &original);
+    *values = generator == NOISE_CORRECTED ? 0.48985582 * (original + 1.05242) : original + 0.5;
+    four_cut(values);
+}
+
+// As vector_at, of the first `count`.
+RT_ALWAYS_INLINE void four_vectors(const Noise *noise, const FourPoints *p, unsigned count, Four *vectors)
+{
+    if (RT_UNLIKELY(!all_are_near(p))) {
+        for (unsigned n = 0; n < count; n++) {
+            Vec3 vector = vector_at(noise, point_of(p, n));
+            vectors[n] = (Four){vector.x, vector.y, vector.z, 0.0};
+        }
+        return;
+    }
+    Lattices at;
+    find_lattices(noise, p, count, &at);
+    for (unsigned n = 0; n < count; n++) {
+        components_of(noise, &at, n, &vectors[n]);
+    }
+}
+
+// The next points of a row, as many as there are; lanes behind the last are 0.
+static unsigned next_points(const Vec3 *points, unsigned from, unsigned count, FourPoints *p)
+{
+    unsigned left = count - from < SIDE ? count - from : SIDE;
+    *p = (FourPoints){{{0.0}, {0.0}, {0.0}}};
+    for (unsigned n = 0; n < left; n++) {
+        p->axis[0][n] = points[from + n].x;
+        p->axis[1][n] = points[from + n].y;
+        p->axis[2][n] = points[from + n].z;
+    }
+    return left;
+}
+
+static void values_at(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *values)
+{
+    for (unsigned from = 0; from < count; from += SIDE) {
+        FourPoints p;
+        Four four;
+        unsigned left = next_points(points, from, count, &p);
+        four_values(noise, generator, &p, left, &four);
+        for (unsigned n = 0; n < left; n++) {
+            values[from + n] = four[n];
+        }
+    }
+}
+
+static void vectors_at(const Noise *noise, unsigned count, const Vec3 *points, Vec3 *vectors)
+{
+    for (unsigned from = 0; from < count; from += SIDE) {
+        FourPoints p;
+        Four four[SIDE];
+        unsigned left = next_points(points, from, count, &p);
+        four_vectors(noise, &p, left, four);
+        for (unsigned n = 0; n < left; n++) {
+            vectors[from + n] = vec3(four[n][0], four[n][1], four[n][2]);
+        }
+    }
+}
+
 // ---- sums
+
+// The next four octaves: where they are asked for and what they count. Lanes behind the last ones are of no use.
+typedef struct OctaveWalk {
+    double scale, weight;
+} OctaveWalk;
+
+RT_ALWAYS_INLINE void next_octaves(const Octaves *octaves, Vec3 p, OctaveWalk *walk, FourPoints *points, Four *weights)
+{
+    Four scales;
+#pragma GCC unroll 4
+    for (int i = 0; i < SIDE; i++) {
+        scales[i] = walk->scale;
+        (*weights)[i] = walk->weight;
+        walk->scale *= octaves->lambda;
+        walk->weight *= octaves->omega;
+    }
+    points->axis[0] = scales * p.x;
+    points->axis[1] = scales * p.y;
+    points->axis[2] = scales * p.z;
+}
+
+RT_ALWAYS_INLINE unsigned octaves_left(const Octaves *octaves, unsigned from)
+{
+    return octaves->count - from < SIDE ? octaves->count - from : SIDE;
+}
 
 // Only the first octave of the spread generators is cut.
 static double sum_at(const Noise *noise, NoiseGenerator generator, const Octaves *octaves, Vec3 p)
 {
-    double sum = spread_at(noise, generator, p), scale = octaves->lambda, weight = octaves->omega;
-    for (unsigned i = 1; i < octaves->count; i++) {
-        double value = value_at(noise, generator, vec3_scale(scale, p));
-        sum += weight * (generator == NOISE_ORIGINAL ? value : 2.0 * value - 0.5);
-        scale *= octaves->lambda;
-        weight *= octaves->omega;
+    if (octaves->count == 1) {
+        return spread_at(noise, generator, p);
+    }
+    OctaveWalk walk = {1.0, 1.0};
+    double sum = 0.0;
+    for (unsigned from = 0; from < octaves->count; from += SIDE) {
+        FourPoints points;
+        Four weights;
+        unsigned count = octaves_left(octaves, from);
+        next_octaves(octaves, p, &walk, &points, &weights);
+        Four values;
+        four_values(noise, generator, &points, count, &values);
+        Four spread = generator == NOISE_ORIGINAL ? values : 2.0 * values - 0.5;
+        Four parts = weights * spread;
+        sum = from == 0 ? (generator == NOISE_ORIGINAL ? spread[0] : noise_cut(spread[0])) : sum + parts[0];
+        for (unsigned n = 1; n < count; n++) {
+            sum += parts[n];
+        }
     }
     return sum;
 }
 
 static Vec3 vector_sum_at(const Noise *noise, const Octaves *octaves, Vec3 p)
 {
-    Vec3 sum = vector_at(noise, p);
-    double scale = octaves->lambda, weight = octaves->omega;
-    for (unsigned i = 1; i < octaves->count; i++) {
-        sum = vec3_add_scaled(sum, weight, vector_at(noise, vec3_scale(scale, p)));
-        scale *= octaves->lambda;
-        weight *= octaves->omega;
+    if (octaves->count == 1) {
+        return vector_at(noise, p);
     }
-    return sum;
+    OctaveWalk walk = {1.0, 1.0};
+    Four sum = {0.0};
+    for (unsigned from = 0; from < octaves->count; from += SIDE) {
+        FourPoints points;
+        Four weights, vectors[SIDE];
+        unsigned count = octaves_left(octaves, from);
+        next_octaves(octaves, p, &walk, &points, &weights);
+        four_vectors(noise, &points, count, vectors);
+        sum = from == 0 ? vectors[0] : sum + weights[0] * vectors[0];
+        for (unsigned n = 1; n < count; n++) {
+            sum += weights[n] * vectors[n];
+        }
+    }
+    return vec3(sum[0], sum[1], sum[2]);
 }
 
 extern const NoiseKernel ISA_NAMED(noise_kernel_);
-const NoiseKernel ISA_NAMED(noise_kernel_) = {ISA_TEXT, value_at, spread_at, vector_at, sum_at, vector_sum_at};
+const NoiseKernel ISA_NAMED(noise_kernel_) = {ISA_TEXT,  value_at,   spread_at, vector_at,
+                                              values_at, vectors_at, sum_at,    vector_sum_at};

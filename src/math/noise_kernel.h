@@ -12,6 +12,8 @@ struct NoiseKernel {
     double (*value)(const Noise *noise, NoiseGenerator generator, Vec3 p);
     double (*spread)(const Noise *noise, NoiseGenerator generator, Vec3 p);
     Vec3 (*vector)(const Noise *noise, Vec3 p);
+    void (*values)(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *values);
+    void (*vectors)(const Noise *noise, unsigned count, const Vec3 *points, Vec3 *vectors);
     double (*sum)(const Noise *noise, NoiseGenerator generator, const Octaves *octaves, Vec3 p);
     Vec3 (*vector_sum)(const Noise *noise, const Octaves *octaves, Vec3 p);
 };
@@ -19,5 +21,15 @@ struct NoiseKernel {
 // At a lattice point whose hash is h, half of noise_numbers[h] is the value and the three numbers after it are the
 // gradient; of the second and third component of noise_vector, the same from h + 4 and h + 8 on.
 extern const double noise_numbers[NOISE_LATTICE + 8];
+
+static inline double noise_cut(double x)
+{
+    return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
+}
+
+static inline double noise_spread_of(NoiseGenerator generator, double value)
+{
+    return generator == NOISE_ORIGINAL ? value : noise_cut(2.0 * value - 0.5);
+}
 
 #endif

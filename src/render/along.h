@@ -1,13 +1,18 @@
 // Where a value stands in a list of entries that lie along a pattern.
 //
-// Lists are those of the scene's records: `at` and the index of the next entry. Knows nothing of what lies there.
+// A scene's entries are records that name the next one; here the values of each list that some record begins with stand
+// side by side, so that a place among them is found by counting. Knows nothing of what lies there.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_ALONG_H
 #define RENDER_ALONG_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
+
+#include "base/arena.h"
+#include "base/attributes.h"
 
 // At `low`, or the share of `high` that is mixed in. As in POV-Ray the way between two entries is of single precision.
 typedef struct AlongPlace {
@@ -15,28 +20,45 @@ typedef struct AlongPlace {
     double share;
 } AlongPlace;
 
-// Finds the place of `value` in the list that begins with items[first]. As in POV-Ray, the last entry counts from its own
-// place on and the first one up to its own; between them stands the value before the first entry beyond it. So a list
-// that does not rise has its meaning, too.
-#define ALONG_FIND(items, first, value, place)                                                                         \
-    do {                                                                                                               \
-        uint32_t along_at = (first), along_last = (first);                                                             \
-        bool along_is_found = false;                                                                                   \
-        for (uint32_t along_i = (items)[along_at].next; along_i != RECORD_NONE; along_i = (items)[along_i].next) {     \
-            along_is_found = along_is_found || (value) < (items)[along_i].at;                                          \
-            along_at = along_is_found ? along_at : along_i;                                                            \
-            along_last = along_i;                                                                                      \
-        }                                                                                                              \
-        along_at = (value) >= (items)[along_last].at ? along_last                                                      \
-                   : (value) > (items)[(first)].at   ? along_at                                                        \
-                                                     : (first);                                                        \
-        *(place) = (AlongPlace){along_at, along_at, 0.0};                                                              \
-        if ((value) > (items)[along_at].at && (items)[along_at].next != RECORD_NONE) {                                 \
-            uint32_t along_next = (items)[along_at].next;                                                              \
-            *(place) = (AlongPlace){                                                                                   \
-                along_at, along_next,                                                                                  \
-                ((value) - (items)[along_at].at) / (double)(float)((items)[along_next].at - (items)[along_at].at)};    \
-        }                                                                                                              \
-    } while (0)
+typedef struct AlongList {
+    const double *at;        // of each entry
+    const uint32_t *entries; // which one it is
+    uint32_t count;
+    bool rises;
+} AlongList;
+
+// Records of one size, and where in each stands the index of an entry: that of the next one, or of the first of a list.
+typedef struct AlongRecords {
+    const void *items;
+    size_t count, size, index_at;
+} AlongRecords;
+
+// The list of each of `records`, NULL when out of memory. An entry begins with its value, a double; a record without
+// entries has a list of none. Records that begin with the same entry share their numbers. All is in the arena.
+const AlongList *along_lists(Arena *arena, const AlongRecords *records, const AlongRecords *entries) RT_MUST_CHECK;
+
+// The place of `value` in a list of at least one entry. As in POV-Ray, the last entry counts from its own place on and
+// the first one up to its own; between them stands the value before the first entry beyond it. So a list that does not
+// rise has its meaning, too.
+static inline AlongPlace along_find(const AlongList *list, double value)
+{
+    const double *at = list->at;
+    uint32_t last = list->count - 1, low = 0;
+    if (list->rises) {
+        for (uint32_t i = 1; i <= last; i++) {
+            low += value >= at[i];
+        }
+    } else {
+        while (low < last && value >= at[low + 1]) {
+            low++;
+        }
+    }
+    low = value >= at[last] ? last : value > at[0] ? low : 0;
+    if (low == last || !(value > at[low])) {
+        return (AlongPlace){list->entries[low], list->entries[low], 0.0};
+    }
+    return (AlongPlace){list->entries[low], list->entries[low + 1],
+                        (value - at[low]) / (double)(float)(at[low + 1] - at[low])};
+}
 
 #endif

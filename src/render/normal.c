@@ -8,7 +8,6 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
-#include "render/along.h"
 #include "render/normal_special.h"
 #include "render/pattern.h"
 #include "render/texture.h"
@@ -16,10 +15,9 @@
 // ---- heights
 
 // A cubic between two entries; slopes are per width of the piece, not per unit of the value.
-static double slope_height(const SlopeEntry *entries, uint32_t first, double value)
+static double slope_height(const SlopeEntry *entries, const AlongList *list, double value)
 {
-    AlongPlace place;
-    ALONG_FIND(entries, first, value, &place);
+    AlongPlace place = along_find(list, value);
     const SlopeEntry *low = &entries[place.low], *high = &entries[place.high];
     double t = place.share, t2 = t * t, t3 = t2 * t;
     return (2.0 * t3 - 3.0 * t2 + 1.0) * low->height + (t3 - 2.0 * t2 + t) * low->slope +
@@ -27,8 +25,9 @@ static double slope_height(const SlopeEntry *entries, uint32_t first, double val
 }
 
 // The sum over the corners, which is 4/3 of accuracy × gradient where the height is even.
-static Vec3 lean(const TextureTable *table, const Normal *record, Vec3 point)
+static Vec3 lean(const TextureTable *table, uint32_t index, Vec3 point)
 {
+    const Normal *record = &table->scene->normals.items[index];
     // To nine digits, which far mirrors show: their own small sum leans the normal by the height itself.
     static const Vec3 corners[4] = {
         {0.0, 1.0, 0.0},
@@ -41,7 +40,7 @@ static Vec3 lean(const TextureTable *table, const Normal *record, Vec3 point)
         Vec3 corner = vec3_add(point, vec3_scale(record->accuracy, corners[i]));
         double height = pattern_value_moved(&record->pattern, &table->source, corner);
         if (record->slopes != RECORD_NONE) {
-            height = slope_height(table->scene->slope_entries.items, record->slopes, height);
+            height = slope_height(table->scene->slope_entries.items, &table->slope_lists[index], height);
         }
         sum = vec3_add(sum, vec3_scale(height, corners[i]));
     }
@@ -65,15 +64,15 @@ static Vec3 average(const TextureTable *table, uint32_t first, Vec3 point, Vec3 
 }
 
 // What the entries of a map make of the normal, all in the map's space.
-static Vec3 mapped(const TextureTable *table, const Normal *record, Vec3 point, Vec3 normal, bool keeps_length)
+static Vec3 mapped(const TextureTable *table, uint32_t index, Vec3 point, Vec3 normal, bool keeps_length)
 {
+    const Normal *record = &table->scene->normals.items[index];
     const NormalEntry *entries = table->scene->normal_entries.items;
     if (record->pattern.type == PATTERN_AVERAGE) {
         return average(table, record->entries, point, normal, keeps_length);
     }
-    AlongPlace place;
-    double value = pattern_value_moved(&record->pattern, &table->source, point);
-    ALONG_FIND(entries, record->entries, value, &place);
+    AlongPlace place =
+        along_find(&table->normal_lists[index], pattern_value_moved(&record->pattern, &table->source, point));
     Vec3 low = turned(table, entries[place.low].normal, point, normal, keeps_length);
     if (place.share == 0.0) {
         return low;
@@ -92,12 +91,12 @@ static Vec3 turned(const TextureTable *table, uint32_t index, Vec3 outer, Vec3 n
     Vec3 inner = transform_normal(&record->to_world, normal);
     inner = keeps_length ? inner : vec3_normalize(inner);
     if (record->entries != RECORD_NONE) {
-        inner = mapped(table, record, point, inner, keeps_length);
+        inner = mapped(table, index, point, inner, keeps_length);
     } else if (pattern_info((PatternType)record->pattern.type)->is_special_normal) {
         inner = vec3_add_scaled(inner, record->amount, normal_special(&record->pattern, &table->source, point));
     } else {
         double factor = 0.1 * record->amount / record->accuracy;
-        inner = vec3_sub(inner, vec3_scale(factor, lean(table, record, point)));
+        inner = vec3_sub(inner, vec3_scale(factor, lean(table, index, point)));
     }
     inner = transform_normal(to_pattern, inner);
     return keeps_length ? inner : vec3_normalize(inner);

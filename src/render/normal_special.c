@@ -27,12 +27,15 @@ static Vec3 dents(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 static Vec3 wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
-    Vec3 sum = vec3(0.0, 0.0, 0.0);
-    double scale = 1.0;
-    for (int i = 0; i < 10; i++) {
-        Vec3 vector = noise_vector(source->noise, vec3_scale(scale, p));
-        sum = vec3_add_scaled(sum, 1.0 / scale, vec3(fabs(vector.x), fabs(vector.y), fabs(vector.z)));
-        scale *= 2.0;
+    enum { OCTAVES = 10 };
+    Vec3 points[OCTAVES], vectors[OCTAVES], sum = vec3(0.0, 0.0, 0.0);
+    for (int i = 0; i < OCTAVES; i++) {
+        points[i] = vec3_scale((double)(1 << i), p);
+    }
+    noise_vectors(source->noise, OCTAVES, points, vectors);
+    for (int i = 0; i < OCTAVES; i++) {
+        Vec3 size = vec3(fabs(vectors[i].x), fabs(vectors[i].y), fabs(vectors[i].z));
+        sum = vec3_add_scaled(sum, 1.0 / (double)(1 << i), size);
     }
     return sum;
 }

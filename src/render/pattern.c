@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "math/rest.h"
 #include "render/normal_special.h"
 #include "render/pattern_noise.h"
 
@@ -19,7 +20,7 @@ static double gradient(const Pattern *pattern, const NoiseSource *source, Vec3 p
 {
     (void)source;
     double along = vec3_dot(pattern->vector, p) / vec3_length(pattern->vector);
-    return along > 1.0 ? fmod(along, 1.0) : along;
+    return along > 1.0 ? fraction_of(along) : along;
 }
 
 static double radial(const Pattern *pattern, const NoiseSource *source, Vec3 p)
@@ -33,7 +34,7 @@ static double onion(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
     (void)source;
-    return fmod(vec3_length(p), 1.0);
+    return fraction_of(vec3_length(p));
 }
 
 static double leopard(const Pattern *pattern, const NoiseSource *source, Vec3 p)
@@ -198,12 +199,19 @@ static const PatternFunction values[PATTERN_COUNT] = {
 static double wave(const Pattern *pattern, double x)
 {
     switch ((WaveType)pattern->wave) {
-    case WAVE_RAMP: return x;
-    case WAVE_TRIANGLE: x = fmod(x, 1.0); return x < 0.5 ? 2.0 * x : 2.0 - 2.0 * x;
-    case WAVE_SINE: return (1.0 + sin(2.0 * pi * x)) / 2.0;
-    case WAVE_SCALLOP: return fabs(sin(pi * x));
-    case WAVE_CUBIC: return x * x * (3.0 - 2.0 * x);
-    case WAVE_POLY: return pow(x, pattern->exponent);
+    case WAVE_RAMP:
+        return x;
+    case WAVE_TRIANGLE:
+        x = fraction_of(x);
+        return x < 0.5 ? 2.0 * x : 2.0 - 2.0 * x;
+    case WAVE_SINE:
+        return (1.0 + sin(2.0 * pi * x)) / 2.0;
+    case WAVE_SCALLOP:
+        return fabs(sin(pi * x));
+    case WAVE_CUBIC:
+        return x * x * (3.0 - 2.0 * x);
+    case WAVE_POLY:
+        return pow(x, pattern->exponent);
     }
     return x;
 }
@@ -236,7 +244,7 @@ double pattern_value_moved(const Pattern *pattern, const NoiseSource *source, Ve
 {
     double x = values[pattern->type](pattern, source, moved);
     if (pattern->frequency != 0.0) {
-        x = fmod(x * pattern->frequency + pattern->phase, 1.00001);
+        x = rest_of(x * pattern->frequency + pattern->phase, 1.00001);
     }
     return wave(pattern, x < 0.0 ? x - floor(x) : x);
 }

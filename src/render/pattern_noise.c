@@ -32,10 +32,15 @@ double pattern_noise(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 
 double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
-    double sum = 0.0, weight = 1.0;
-    for (int i = 0; i < 6; i++) {
-        double value = noise_spread(source->noise, pattern_generator(pattern, source), vec3_scale(4.0 / weight, p));
-        sum += weight * fabs(value - 0.5);
+    enum { OCTAVES = 6 };
+    Vec3 points[OCTAVES];
+    double values[OCTAVES], sum = 0.0, weight = 1.0;
+    for (int i = 0; i < OCTAVES; i++) {
+        points[i] = vec3_scale((double)(4 << i), p);
+    }
+    noise_spreads(source->noise, pattern_generator(pattern, source), OCTAVES, points, values);
+    for (int i = 0; i < OCTAVES; i++) {
+        sum += weight * fabs(values[i] - 0.5);
         weight /= 2.0;
     }
     return sum;
@@ -84,10 +89,15 @@ double pattern_wood(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 
 double pattern_wrinkles(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
-    double sum = 0.0, scale = 1.0;
-    for (int i = 0; i < 10; i++) {
-        sum += noise_spread(source->noise, pattern_generator(pattern, source), vec3_scale(scale, p)) / (2.0 * scale);
-        scale *= 2.0;
+    enum { OCTAVES = 10 };
+    Vec3 points[OCTAVES];
+    double values[OCTAVES], sum = 0.0;
+    for (int i = 0; i < OCTAVES; i++) {
+        points[i] = vec3_scale((double)(1 << i), p);
+    }
+    noise_spreads(source->noise, pattern_generator(pattern, source), OCTAVES, points, values);
+    for (int i = 0; i < OCTAVES; i++) {
+        sum += values[i] / (double)(2 << i);
     }
     return sum;
 }

@@ -7,10 +7,10 @@
 #include "render/texture.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 #include "math/extreme.h"
-#include "render/along.h"
 
 static Transform way_back(const Transform *to_world)
 {
@@ -98,8 +98,24 @@ static bool find_opaque(TextureTable *table, const Pigment *pigment)
     return is_opaque;
 }
 
-bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent,
-                        const char *isa)
+#define ALONG_RECORDS(list, type, member)                                                                              \
+    (&(AlongRecords){(list).items, (list).count, sizeof(type), offsetof(type, member)})
+
+static bool find_lists(TextureTable *table, const Scene *scene)
+{
+    arena_init(&table->along, SIZE_MAX);
+    table->pattern_lists = along_lists(&table->along, ALONG_RECORDS(scene->patterns, PatternedPigment, entries),
+                                       ALONG_RECORDS(scene->pigment_entries, PigmentEntry, next));
+    table->texture_lists = along_lists(&table->along, ALONG_RECORDS(scene->textures, Texture, entries),
+                                       ALONG_RECORDS(scene->texture_entries, TextureEntry, next));
+    table->normal_lists = along_lists(&table->along, ALONG_RECORDS(scene->normals, Normal, entries),
+                                      ALONG_RECORDS(scene->normal_entries, NormalEntry, next));
+    table->slope_lists = along_lists(&table->along, ALONG_RECORDS(scene->normals, Normal, slopes),
+                                     ALONG_RECORDS(scene->slope_entries, SlopeEntry, next));
+    return table->pattern_lists && table->texture_lists && table->normal_lists && table->slope_lists;
+}
+
+bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent, const char *isa)
 {
     *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
     table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
@@ -107,8 +123,8 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
     table->texture_to_pattern = malloc((scene->textures.count + 1) * sizeof *table->texture_to_pattern);
     table->normal_to_pattern = malloc((scene->normals.count + 1) * sizeof *table->normal_to_pattern);
     table->images = images_new(scene);
-    if (!table->to_pattern || !table->opaque || !table->texture_to_pattern || !table->normal_to_pattern ||
-        !table->images || !find_noise(table, scene, noise, isa)) {
+    if (!find_lists(table, scene) || !table->to_pattern || !table->opaque || !table->texture_to_pattern ||
+        !table->normal_to_pattern || !table->images || !find_noise(table, scene, noise, isa)) {
         texture_table_fini(table);
         return false;
     }
@@ -133,6 +149,7 @@ void texture_table_fini(TextureTable *table)
     free(table->opaque);
     free(table->texture_to_pattern);
     free(table->normal_to_pattern);
+    arena_fini(&table->along);
     images_free(table->images, table->scene ? table->scene->image_maps.count : 0);
     *table = (TextureTable){0};
 }
@@ -159,9 +176,8 @@ static double blend_one(double a, double share, double b)
 
 static Rgbft blend(Rgbft a, double share, Rgbft b)
 {
-    return (Rgbft){blend_one(a.red, share, b.red), blend_one(a.green, share, b.green),
-                   blend_one(a.blue, share, b.blue), blend_one(a.filter, share, b.filter),
-                   blend_one(a.transmit, share, b.transmit)};
+    return (Rgbft){blend_one(a.red, share, b.red), blend_one(a.green, share, b.green), blend_one(a.blue, share, b.blue),
+                   blend_one(a.filter, share, b.filter), blend_one(a.transmit, share, b.transmit)};
 }
 
 // All entries at once; their values are weights. In single precision, too.
@@ -196,9 +212,8 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     if (form == PATTERN_OF_ALL) {
         return average(table, record->entries, point);
     }
-    AlongPlace place;
-    double value = pattern_value_moved(&record->pattern, &table->source, point);
-    ALONG_FIND(entries, record->entries, value, &place);
+    AlongPlace place =
+        along_find(&table->pattern_lists[index], pattern_value_moved(&record->pattern, &table->source, point));
     Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
     return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
                              : low;
@@ -251,9 +266,8 @@ static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, 
         walk_average(walk, texture->entries, &here, part, above);
         return;
     }
-    AlongPlace place;
-    double value = pattern_value_moved(&texture->pattern, &walk->table->source, here.point);
-    ALONG_FIND(entries, texture->entries, value, &place);
+    AlongPlace place = along_find(&walk->table->texture_lists[index],
+                                  pattern_value_moved(&texture->pattern, &walk->table->source, here.point));
     walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
     if (place.share > 0.0) {
         walk_layers(walk, entries[place.high].texture, &here, place.share * part, above);

@@ -9,28 +9,32 @@
 
 #include <stdbool.h>
 
+#include "base/arena.h"
 #include "base/attributes.h"
 #include "math/colour.h"
 #include "math/transform.h"
+#include "render/along.h"
 #include "render/image.h"
 #include "render/pattern.h"
 #include "scene/scene.h"
 
 typedef struct TextureTable {
     const Scene *scene;
-    double scale;                  // from prepared lengths to the scene's, a power of two
-    Noise *noise;                  // its own, or NULL
-    WaveSource *waves;             // likewise
+    double scale;      // from prepared lengths to the scene's, a power of two
+    Noise *noise;      // its own, or NULL
+    WaveSource *waves; // likewise
     NoiseSource source;
     Transform *to_pattern;         // for each of the scene's patterns
     uint8_t *opaque;               // likewise: what texture_is_opaque knows of it
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
     PreparedImage *images;         // for each of its image maps
     Transform *normal_to_pattern;  // for each of its normals
+    const AlongList *pattern_lists, *texture_lists, *normal_lists, *slope_lists; // for each of these, too
+    Arena along;                                                                 // what these refer to
 } TextureTable;
 
-// Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what it
-// needs, for the instruction set of that name. False when out of memory.
+// Lengths of the prepared scene are the scene's times 2^-exponent. The noise is referred to; NULL: the table makes what
+// it needs, for the instruction set of that name. False when out of memory.
 bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent,
                         const char *isa) RT_MUST_CHECK;
 void texture_table_fini(TextureTable *table);

@@ -154,6 +154,58 @@ static void test_instruction_sets(Noise *noise, Noise *plain)
     }
 }
 
+static bool same(Vec3 a, Vec3 b)
+{
+    return memcmp(&a, &b, sizeof a) == 0;
+}
+
+// Octave by octave, by the functions of a single point.
+static bool sums_are_of_single_points(const Noise *noise, NoiseGenerator which, const Octaves *octaves, Vec3 p)
+{
+    double sum = noise_spread(noise, which, p), scale = octaves->lambda, weight = octaves->omega;
+    Vec3 vectors = noise_vector(noise, p);
+    for (unsigned i = 1; i < octaves->count; i++) {
+        double value = noise_value(noise, which, vec3_scale(scale, p));
+        sum += weight * (which == NOISE_ORIGINAL ? value : 2.0 * value - 0.5);
+        vectors = vec3_add_scaled(vectors, weight, noise_vector(noise, vec3_scale(scale, p)));
+        scale *= octaves->lambda;
+        weight *= octaves->omega;
+    }
+    return noise_sum(noise, which, octaves, p) == sum && same(noise_vector_sum(noise, octaves, p), vectors);
+}
+
+// Rows of points and of octaves have the bits of single points, on all instruction sets.
+static void test_rows(Noise *noise)
+{
+    enum { MOST = 11 };
+    Random random = {random_seed(NULL)};
+    for (size_t i = 0; geometry_isa(i); i++) {
+        noise_init(noise, geometry_isa(i));
+        int odd_points = 0, odd_sums = 0;
+        for (int turn = 0; turn < 5000; turn++) {
+            Vec3 points[MOST], vectors[MOST];
+            double spreads[MOST];
+            unsigned count = 1 + (unsigned)turn % MOST;
+            NoiseGenerator which = (NoiseGenerator)(NOISE_ORIGINAL + turn % 3);
+            for (unsigned n = 0; n < count; n++) {
+                points[n] = any_point(&random);
+            }
+            noise_spreads(noise, which, count, points, spreads);
+            noise_vectors(noise, count, points, vectors);
+            for (unsigned n = 0; n < count; n++) {
+                odd_points += spreads[n] != noise_spread(noise, which, points[n]) ||
+                              !same(vectors[n], noise_vector(noise, points[n]));
+            }
+            Octaves octaves = {.lambda = random_between(&random, 1.0, 3.0), .count = count};
+            octaves.omega = random_between(&random, 0.1, 1.0);
+            odd_sums += !sums_are_of_single_points(noise, which, &octaves, points[0]);
+        }
+        tap_ok(odd_points == 0, "rows of points by %s have the bits of single ones (%d differ)", geometry_isa(i),
+               odd_points);
+        tap_ok(odd_sums == 0, "sums by %s have the bits of single octaves (%d differ)", geometry_isa(i), odd_sums);
+    }
+}
+
 // Fractions that a double holds exactly even beyond 2^30, where floors take another way: a period changes no bit.
 static void test_far_periods(const Noise *noise)
 {
@@ -186,6 +238,7 @@ int main(void)
         test_everywhere(noise);
         test_far_periods(noise);
         test_instruction_sets(noise, plain);
+        test_rows(noise);
     }
     free(noise);
     free(plain);
