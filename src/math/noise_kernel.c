@@ -462,7 +462,7 @@ static Vec3 vector_sum_at(const Noise *noise, const Octaves *octaves, Vec3 p)
     Four sum = {0.0};
     for (unsigned from = 0; from < octaves->count; from += SIDE) {
         FourPoints points;
-        Four weights, vectors[SIDE];
+        Four weights, vectors[SIDE] = {{0.0}};
         unsigned count = octaves_left(octaves, from);
         next_octaves(octaves, p, &walk, &points, &weights);
         four_vectors(noise, &points, count, vectors);

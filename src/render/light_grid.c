@@ -129,16 +129,16 @@ static void take_answers(LightGrid *grid)
 static void wait_for(LightGrid *grid, const LightPart *whole, int row, int column, int step, double weight)
 {
     const LightEnds *columns = &grid->columns, *rows = &grid->rows;
-    LightPart *part = &grid->parts[grid->count++];
-    *part = (LightPart){.left = columns->at[column],
-                        .right = columns->at[column + step],
-                        .top = rows->at[row],
-                        .bottom = rows->at[row + step],
-                        .level = whole->level + (step == 1),
-                        .weight = weight};
+    LightPart *part = &grid->parts[grid->count++]; // all of it is set here
+    part->left = columns->at[column];
+    part->right = columns->at[column + step];
+    part->top = rows->at[row];
+    part->bottom = rows->at[row + step];
+    part->level = whole->level + (step == 1);
+    part->weight = weight;
     for (int corner = 0; corner < 4; corner++) {
-        part->corners[corner] = grid->shares[rows->same[row + (corner & 2 ? step : 0)]]
-                                            [columns->same[column + (corner & 1 ? step : 0)]];
+        part->corners[corner] =
+            grid->shares[rows->same[row + (corner & 2 ? step : 0)]][columns->same[column + (corner & 1 ? step : 0)]];
     }
 }
 

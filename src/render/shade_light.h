@@ -220,15 +220,25 @@ RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, cons
     return rgb_grey(geometry_occluded_again(p->geometry, features, ray, start, distance, blocker) ? 0.0 : 1.0);
 }
 
-// The share of the light of a place in an area, `aside` from its middle, that reaches the point.
-RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at,
-                                    const PreparedLight *light, Vec3 aside, uint32_t *blocker,
-                                    RenderStatistics *statistics)
+// The way from a point to a place in an area.
+typedef struct ShadeWay {
+    Vec3 end, towards;
+    double distance;
+} ShadeWay;
+
+// To what is `aside` from the area's middle.
+RT_ALWAYS_INLINE ShadeWay shade_area_way(const ShadePoint *at, const PreparedLight *light, Vec3 aside)
 {
     Vec3 end = vec3_add(light->position, aside), offset = vec3_sub(end, at->point);
     double distance = vec3_length(offset);
-    return shade_visibility(p, features, at, &end, vec3_scale(1.0 / distance, offset), distance, blocker,
-                            statistics);
+    return (ShadeWay){end, vec3_scale(1.0 / distance, offset), distance};
+}
+
+// The share of the light there that reaches the point.
+RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at, const ShadeWay *way,
+                                    uint32_t *blocker, RenderStatistics *statistics)
+{
+    return shade_visibility(p, features, at, &way->end, way->towards, way->distance, blocker, statistics);
 }
 
 // The mean over an area light, of which all would be `arriving`.
@@ -243,10 +253,13 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
     }
     light_grid_begin(&grid, &light->area);
     while (grid.asked_count > 0) {
+        ShadeWay ways[LIGHT_ASKED_MAX]; // found first: none waits for what another one meets
         for (int k = 0; k < grid.asked_count; k++) {
-            LightAsked *asked = &grid.asked[k];
-            Vec3 aside = light_area_offset(light, at->point, asked->i, asked->j);
-            asked->share = shade_area_one(p, features, at, light, aside, &blocker, statistics);
+            Vec3 aside = light_area_offset(light, at->point, grid.asked[k].i, grid.asked[k].j);
+            ways[k] = shade_area_way(at, light, aside);
+        }
+        for (int k = 0; k < grid.asked_count; k++) {
+            grid.asked[k].share = shade_area_one(p, features, at, &ways[k], &blocker, statistics);
         }
         if (prepared_is_abandoned(p)) { // grids have up to 10^6 lights
             light_grid_end(&grid);
@@ -263,8 +276,8 @@ RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const Shad
 {
     if (at->stream) {
         uint32_t blocker = NO_BLOCKER;
-        Vec3 aside = light_area_sample(light, at->point, sample_next(at->stream));
-        return shade_area_one(p, features, at, light, aside, &blocker, statistics);
+        ShadeWay way = shade_area_way(at, light, light_area_sample(light, at->point, sample_next(at->stream)));
+        return shade_area_one(p, features, at, &way, &blocker, statistics);
     }
     return shade_area_grid(p, features, at, light, arriving, statistics);
 }
