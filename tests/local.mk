@@ -35,6 +35,7 @@ unit_programs = \
   tests/unit/test_noise \
   tests/unit/test_along \
   tests/unit/test_crackle \
+  tests/unit/test_half_spaces \
   tests/unit/test_trace_sphere \
   tests/unit/test_trace_certified \
   tests/unit/test_trace_geometry \
@@ -93,6 +94,8 @@ tests_unit_test_noise_SOURCES = %D%/unit/test_noise.c
 tests_unit_test_noise_LDADD = $(UNIT_TRACE)
 tests_unit_test_along_SOURCES = %D%/unit/test_along.c $(unit_headers)
 tests_unit_test_along_LDADD = librender.la $(UNIT_TRACE)
+tests_unit_test_half_spaces_SOURCES = %D%/unit/test_half_spaces.c $(unit_headers)
+tests_unit_test_half_spaces_LDADD = $(UNIT_TRACE)
 tests_unit_test_crackle_SOURCES = %D%/unit/test_crackle.c $(unit_headers)
 tests_unit_test_crackle_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_math_SOURCES = %D%/unit/test_math.c

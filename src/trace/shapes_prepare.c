@@ -6,6 +6,7 @@
 
 #include "scene/part.h"
 #include "trace/bounds.h"
+#include "trace/half_spaces.h"
 #include "trace/shapes.h"
 
 // The same as ldexp where the power is a number.
@@ -79,6 +80,22 @@ static void node_take(const TreeNode *node, Bounds *bounds, const Bounds *child)
     *bounds = joins ? bounds_join(*bounds, *child) : bounds_meet(*bounds, *child);
 }
 
+// Nothing is seen of an assembly outside of the planes that decide; where they enclose a space, of that the box.
+static Bounds planes_bounds(const ShapeTable *table, const Assembly *assembly)
+{
+    enum { MOST = 64 }; // more than that only make the box smaller
+    HalfSpace spaces[MOST];
+    Bounds bounds;
+    uint32_t count = 0;
+    for (uint32_t i = assembly->first_solid; i < assembly->first_solid + assembly->solid_count && count < MOST; i++) {
+        const Solid *solid = &table->solids[i];
+        if (solid->decides && solid->kind == PART_PLANE) {
+            spaces[count++] = (HalfSpace){solid->data[0], solid->data[1].x};
+        }
+    }
+    return half_spaces_bounds(spaces, count, &bounds) ? bounds : BOUNDS_ALL;
+}
+
 // What the nodes count of children, from the leaves up, and their boxes. Children stand behind their parents.
 static Bounds assembly_measure(ShapeTable *table, const Assembly *assembly, const Bounds *solid_bounds,
                                Bounds *node_bounds)
@@ -100,7 +117,8 @@ static Bounds assembly_measure(ShapeTable *table, const Assembly *assembly, cons
         parent->idle_inside += (node->idle_inside >= node->needed) != node->is_inverse;
         node_take(parent, &node_bounds[node->parent], &bounds);
     }
-    return table->nodes[first].is_inverse ? BOUNDS_ALL : node_bounds[first];
+    Bounds bounds = table->nodes[first].is_inverse ? BOUNDS_ALL : node_bounds[first];
+    return bounds_are_finite(bounds) ? bounds : bounds_meet(bounds, planes_bounds(table, assembly));
 }
 
 static void assembly_init(ShapeTable *table, const Composite *composite, uint32_t index)
@@ -270,6 +288,5 @@ size_t shapes_bytes(const ShapeTable *table)
     return table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
            table->assembly_count * sizeof *table->assemblies +
            (table->unbounded_count + table->bounded_count) * sizeof *table->items +
-           table->bounded_count * sizeof *table->boxes +
-           table->tree.node_count * sizeof *table->tree.nodes;
+           table->bounded_count * sizeof *table->boxes + table->tree.node_count * sizeof *table->tree.nodes;
 }

@@ -5,8 +5,9 @@ The certified sphere test costs at most 1.6 times the instructions of the textbo
 vectors, and takes the way of double-word arithmetic in no ordinary scene; a scene without sky and fog runs nothing of
 either; the kernel that is chosen for a scene executes what one does that was compiled with nothing but what the scene
 has; the error of a sampled picture costs at most some 2 % of the sampling; spheres that a loop reads or works out cost a
-share of what they cost the usual way; and stretched spheres cost at most twice what plain ones do. Counted by callgrind,
-so that no clock decides. The bars are of gcc's code; where clang's takes more, the bar of its own stands beside.
+share of what they cost the usual way; stretched spheres cost at most twice what plain ones do; and rays that miss a
+polyhedron of planes ask none of them. Counted by callgrind, so that no clock decides. The bars are of gcc's code; where
+clang's takes more, the bar of its own stands beside.
 SPDX-License-Identifier: MIT
 """
 import glob
@@ -229,6 +230,25 @@ def judge_stretched(tap, folder):
             tap.ok(ratio <= STRETCHED_BAR, f"stretched spheres take {ratio:.2f} times the instructions of {name}, {what}")
 
 
+def polyhedra_text(more):
+    """Octahedra of planes in rows, each cut with something more."""
+    faces = " ".join(f"plane {{ <{x}, {y}, {z}>, 0.2 }}" for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))
+    places = (f"<{column - 3.5}, {row - 2.5}, 0>" for row in range(6) for column in range(8))
+    return ("camera { location <0, 0, -9> look_at 0 } light_source { <20, 30, -20> rgb 1 } "
+            "#default { pigment { rgb <0.8, 0.5, 0.3> } }\n" +
+            "\n".join(f"intersection {{ {faces} {more} translate {at} }}" for at in places))
+
+
+def judge_polyhedra(tap, folder):
+    """What planes enclose has a box, as if one that holds it had been cut with it."""
+    own, boxed = (scene_instructions(polyhedra_text(more), "render_film", folder, "-W64", "-H48")
+                  for more in ("", "box { -0.5, 0.5 }"))
+    if not own or not boxed:
+        tap.skip("polyhedra of planes", "callgrind does not run rtlang")
+        return
+    tap.ok(own <= boxed, f"polyhedra of planes take {own / boxed:.2f} times the instructions of those cut with boxes")
+
+
 def main():
     tap = Tap()
     if not VALGRIND:
@@ -246,6 +266,7 @@ def main():
         judge_estimate(tap, folder)
         judge_repeated(tap, folder)
         judge_stretched(tap, folder)
+        judge_polyhedra(tap, folder)
     return tap.done()
 
 
