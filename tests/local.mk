@@ -33,6 +33,7 @@ unit_programs = \
   tests/unit/test_base_text \
   tests/unit/test_math \
   tests/unit/test_noise \
+  tests/unit/test_abreast \
   tests/unit/test_along \
   tests/unit/test_crackle \
   tests/unit/test_half_spaces \
@@ -92,6 +93,8 @@ tests_unit_test_base_text_SOURCES = %D%/unit/test_base_text.c
 tests_unit_test_base_text_LDADD = $(UNIT_BASE)
 tests_unit_test_noise_SOURCES = %D%/unit/test_noise.c
 tests_unit_test_noise_LDADD = $(UNIT_TRACE)
+tests_unit_test_abreast_SOURCES = %D%/unit/test_abreast.c $(unit_headers)
+tests_unit_test_abreast_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_along_SOURCES = %D%/unit/test_along.c $(unit_headers)
 tests_unit_test_along_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_half_spaces_SOURCES = %D%/unit/test_half_spaces.c $(unit_headers)

@@ -6,7 +6,10 @@
 #include "render/pattern.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/attributes.h"
+#include "base/isa.h"
 #include "math/rest.h"
 #include "render/normal_special.h"
 #include "render/pattern_noise.h"
@@ -240,16 +243,67 @@ Vec3 pattern_moved(const Pattern *pattern, const NoiseSource *source, Vec3 point
 
 // What is above 1 begins the map anew. POV-Ray does so after 1.00001, so that 1 itself is still the map's end; measured
 // with frequencies up to 10^4. What is below 0 is counted from 1 down.
-double pattern_value_moved(const Pattern *pattern, const NoiseSource *source, Vec3 moved)
+static double finished(const Pattern *pattern, double x)
 {
-    double x = values[pattern->type](pattern, source, moved);
     if (pattern->frequency != 0.0) {
         x = rest_of(x * pattern->frequency + pattern->phase, 1.00001);
     }
     return wave(pattern, x < 0.0 ? x - floor(x) : x);
 }
 
+double pattern_value_moved(const Pattern *pattern, const NoiseSource *source, Vec3 moved)
+{
+    return finished(pattern, values[pattern->type](pattern, source, moved));
+}
+
 double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 point)
 {
     return pattern_value_moved(pattern, source, pattern_moved(pattern, source, point));
+}
+
+// ---- many points at once
+
+ISA_LIST(EscapeKernel, escape_kernel_, escape_kernels);
+
+const EscapeKernel *escape_kernel_choose(const char *isa)
+{
+    for (size_t i = 0; isa && i < RT_COUNT_OF(escape_kernels); i++) {
+        if (strcmp(isa, escape_kernels[i]->name) == 0) {
+            return escape_kernels[i];
+        }
+    }
+    return escape_kernels[0];
+}
+
+bool pattern_goes_abreast(const Pattern *pattern)
+{
+    return pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA;
+}
+
+// The last point stands in for those that are missing.
+static void escapes(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *p, double *shares)
+{
+    EscapePoints points;
+    double all[ESCAPE_ABREAST];
+    for (unsigned i = 0; i < ESCAPE_ABREAST; i++) {
+        const Vec3 *own = &p[i < count ? i : count - 1];
+        points.x[i] = own->x;
+        points.y[i] = own->y;
+        points.c_x[i] = pattern->type == PATTERN_MANDEL ? own->x : pattern->vector.x;
+        points.c_y[i] = pattern->type == PATTERN_MANDEL ? own->y : pattern->vector.y;
+    }
+    source->escape->shares(&points, pattern->count, all);
+    memcpy(shares, all, count * sizeof *shares);
+}
+
+void pattern_values_moved(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *moved,
+                          double *shares)
+{
+    for (unsigned from = 0; from < count; from += ESCAPE_ABREAST) {
+        unsigned some = count - from < ESCAPE_ABREAST ? count - from : ESCAPE_ABREAST;
+        escapes(pattern, source, some, moved + from, shares + from);
+        for (unsigned i = from; i < from + some; i++) {
+            shares[i] = finished(pattern, shares[i]);
+        }
+    }
 }

@@ -9,6 +9,7 @@
 
 #include "math/noise.h"
 #include "math/vec3.h"
+#include "render/escape_kernel.h"
 #include "scene/pattern.h"
 
 // Whether a pattern's value depends on noise.
@@ -22,6 +23,7 @@ typedef struct NoiseSource {
     NoiseGenerator generator; // of patterns that say nothing else
     const WaveSource *waves;  // NULL when no pattern of the scene has waves
     unsigned wave_count;
+    const EscapeKernel *escape;
 } NoiseSource;
 
 // The point at which a pattern is looked at: moved, if it has turbulence that is no part of its formula.
@@ -33,5 +35,12 @@ double pattern_value(const Pattern *pattern, const NoiseSource *source, Vec3 poi
 
 // The same at a point that is moved already.
 double pattern_value_moved(const Pattern *pattern, const NoiseSource *source, Vec3 moved);
+
+// Whether pattern_values_moved takes less time than one point after another.
+bool pattern_goes_abreast(const Pattern *pattern);
+
+// pattern_value_moved of each point.
+void pattern_values_moved(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *moved,
+                          double *values);
 
 #endif

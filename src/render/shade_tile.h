@@ -13,6 +13,7 @@
 #include "render/sampler_many.h"
 #include "render/shade.h"
 #include "render/tile_light.h"
+#include "render/tile_pigments.h"
 
 // What a kernel may have for its tiles to be shaded so.
 enum {
@@ -78,9 +79,19 @@ RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, Lig
     tile->diffuse = features & RENDER_TRANSPARENCY ? tile->opaque : tile->pigment;
     tile->is_shared = false;
     tile->takes_light = 0;
+    TilePigments pigments;
+    pigments.known = 0;
+    if ((features & (RENDER_TEXTURES | RENDER_PIGMENTS)) && RT_UNLIKELY(p->textures.goes_abreast)) {
+        tile_pigments(p, surfaces, material, &pigments);
+    }
     for (int i = 0; i < surfaces->count; i++) {
         ShadeLayer layer;
-        shade_one_layer(p, features, material[i], tile_surface_point(surfaces, i), &layer);
+        if (RT_UNLIKELY(pigments.known >> i & 1)) {
+            uint32_t texture = p->compounds[material[i] & ~MATERIAL_COMPOUND].texture;
+            layer = (ShadeLayer){pigments.colour[i], p->scene->textures.items[texture].finish, false};
+        } else {
+            shade_one_layer(p, features, material[i], tile_surface_point(surfaces, i), &layer);
+        }
         const PreparedFinish *finish = &p->finishes[layer.finish];
         Rgb pigment = rgbft_rgb(layer.pigment), opaque = pigment;
         if (features & RENDER_TRANSPARENCY) {

@@ -128,6 +128,8 @@ bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *no
         texture_table_fini(table);
         return false;
     }
+    table->source.escape = escape_kernel_choose(isa);
+    table->goes_abreast = any_pattern(scene, pattern_goes_abreast);
     for (size_t i = 0; i < scene->patterns.count; i++) {
         table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);
         find_opaque(table, &(Pigment){.pattern = (uint32_t)i});
@@ -199,10 +201,19 @@ static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
                    (double)(sum[3] / weights), (double)(sum[4] / weights)};
 }
 
+// What a pattern's map has for a value, at a point in its space.
+static Rgbft mapped(const TextureTable *table, uint32_t index, Vec3 point, double value)
+{
+    const PigmentEntry *entries = table->scene->pigment_entries.items;
+    AlongPlace place = along_find(&table->pattern_lists[index], value);
+    Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
+    return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
+                             : low;
+}
+
 static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
 {
     const PatternedPigment *record = &table->scene->patterns.items[index];
-    const PigmentEntry *entries = table->scene->pigment_entries.items;
     // Where turbulence moves a point, the entries of the map see it moved, too.
     Vec3 point = pattern_moved(&record->pattern, &table->source, transform_point(&table->to_pattern[index], outer));
     PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
@@ -212,16 +223,34 @@ static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
     if (form == PATTERN_OF_ALL) {
         return average(table, record->entries, point);
     }
-    AlongPlace place =
-        along_find(&table->pattern_lists[index], pattern_value_moved(&record->pattern, &table->source, point));
-    Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
-    return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
-                             : low;
+    return mapped(table, index, point, pattern_value_moved(&record->pattern, &table->source, point));
 }
 
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
 {
     return pigment->pattern == RECORD_NONE ? pigment_colour(pigment) : patterned(table, pigment->pattern, point);
+}
+
+bool texture_goes_abreast(const TextureTable *table, const Pigment *pigment)
+{
+    return pigment->pattern != RECORD_NONE &&
+           pattern_goes_abreast(&table->scene->patterns.items[pigment->pattern].pattern);
+}
+
+void texture_pigments(const TextureTable *table, const Pigment *pigment, unsigned count, const Vec3 *points,
+                      Rgbft *colours)
+{
+    const Pattern *pattern = &table->scene->patterns.items[pigment->pattern].pattern;
+    const Transform *to_pattern = &table->to_pattern[pigment->pattern];
+    Vec3 moved[TEXTURE_ABREAST] = {{0.0, 0.0, 0.0}};
+    double values[TEXTURE_ABREAST];
+    for (unsigned i = 0; i < count; i++) {
+        moved[i] = pattern_moved(pattern, &table->source, transform_point(to_pattern, points[i]));
+    }
+    pattern_values_moved(pattern, &table->source, count, moved, values);
+    for (unsigned i = 0; i < count; i++) {
+        colours[i] = mapped(table, pigment->pattern, moved[i], values[i]);
+    }
 }
 
 double texture_pattern_value(const TextureTable *table, uint32_t pattern, Vec3 point)

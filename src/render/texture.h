@@ -24,6 +24,7 @@ typedef struct TextureTable {
     Noise *noise;      // its own, or NULL
     WaveSource *waves; // likewise
     NoiseSource source;
+    bool goes_abreast;             // texture_goes_abreast of some pigment
     Transform *to_pattern;         // for each of the scene's patterns
     uint8_t *opaque;               // likewise: what texture_is_opaque knows of it
     Transform *texture_to_pattern; // for each of its textures; unused without a pattern
@@ -44,6 +45,12 @@ bool texture_table_has_transparent_image(const TextureTable *table);
 
 // The colour of a pigment at a point in the scene's lengths.
 Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point);
+// Whether texture_pigments takes less time for a pigment than one point after another.
+bool texture_goes_abreast(const TextureTable *table, const Pigment *pigment);
+// The colours of such a pigment at some points, TEXTURE_ABREAST at most.
+enum { TEXTURE_ABREAST = 64 };
+void texture_pigments(const TextureTable *table, const Pigment *pigment, unsigned count, const Vec3 *points,
+                      Rgbft *colours);
 // The value of one of the scene's patterns there.
 double texture_pattern_value(const TextureTable *table, uint32_t pattern, Vec3 point);
 
