@@ -184,7 +184,8 @@ tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling
 tests_sampling_test_sampling_LDADD = libapi.la
 tests_sampling_test_share_SOURCES = %D%/sampling/test_share.c %D%/sampling/scenes.h $(unit_headers)
 tests_sampling_test_share_LDADD = libapi.la
-tests_sampling_test_intervals_SOURCES = %D%/sampling/test_intervals.c %D%/sampling/scenes.h $(unit_headers)
+tests_sampling_test_intervals_SOURCES = %D%/sampling/test_intervals.c %D%/sampling/grid.h %D%/sampling/scenes.h \
+  $(unit_headers)
 tests_sampling_test_intervals_LDADD = libapi.la
 tests_sampling_test_small_SOURCES = %D%/sampling/test_small.c %D%/sampling/scenes.h $(unit_headers)
 tests_sampling_test_small_LDADD = libapi.la

@@ -7,11 +7,14 @@
 //                                        known scenes, or those named, and of as many drawn ones as DRAWN (16) says
 //
 // SPDX-License-Identifier: MIT
-#include "sampling/scenes.h"
+#include "sampling/grid.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 
 enum { WIDTH = 32, HEIGHT = 24, DRAWN_LONG = 16, DRAWN_SHORT = 4, RUNS_LONG = 100, RUNS_SHORT = 4, AGAIN = 4 };
+
+// What a reference by brute force may be off by, of the least error that is judged by it.
+static const double REFERENCE_PART = 0.1;
 
 static bool is_long;
 static int runs;
@@ -100,17 +103,22 @@ static Picture *reference_of(const SamplingScene *scene, const char *filter, dou
     return picture_make_as(scene, WIDTH, HEIGHT, &halton, 1, false);
 }
 
-// By another sampler, with so many samples that its own error is at most a quarter of the least that is judged: that of
-// adaptive runs where all of it is in few pixels, of which a reference of all pixels alike knows no more than they do.
+// Whose own error is at most a part of the least that is judged: that of adaptive runs, where all of it is in few
+// pixels, of which as many samples of all pixels alike know no more than they do. By brute force, where single rays
+// know the scene; else by another sampler.
 static Picture *reference_make(const SamplingScene *scene, const char *filter)
 {
     enum { FINEST_RUNS = 4 };
     double samples = is_long ? 8192.0 : 1024.0, most = is_long ? 0x1p18 : 1024.0, least = HUGE_VAL;
-    for (int i = 0; is_long && i < FINEST_RUNS; i++) {
-        rt_sampling finest = {.samples = 256, .adaptive = 1, .filter = filter, .seed = fresh_seed()};
+    double finest_samples = is_long ? 256.0 : 64.0, part = is_long ? REFERENCE_PART : 0.25;
+    for (int i = 0; i < (is_long ? FINEST_RUNS : 1); i++) {
+        rt_sampling finest = {.samples = finest_samples, .adaptive = 1, .filter = filter, .seed = fresh_seed()};
         Picture *picture = picture_make_as(scene, WIDTH, HEIGHT, &finest, 1, false);
         least = fmin(least, picture->error.rmse);
         picture_free(picture);
+    }
+    if (grid_knows(scene)) {
+        return grid_picture(scene, WIDTH, HEIGHT, filter, part * least);
     }
     Picture *reference = reference_of(scene, filter, samples);
     while (samples < most && reference->error.rmse > 0.25 * least) {
@@ -327,6 +335,92 @@ static void test_chosen(void)
            scene_lines.name, lines.told / lines.error);
 }
 
+// Gauss's rule of three nodes in each of 128 x 128 parts of a pixel of `glint`, written down from the scene: a sphere
+// of radius 2 around the origin, of which the ray from the eye is mirrored towards the light or not.
+static double glint_light(double x, double y)
+{
+    const double eye[3] = {0.0, 2.0, -9.0}, light[3] = {-8.0, 12.0, -10.0};
+    double far = sqrt(85.0), ahead = 2.0 / 3.0 / tan(25.0 * M_PI / 180.0);
+    double right = 4.0 / 3.0 * (x / WIDTH - 0.5), up = 0.5 - y / HEIGHT;
+    double ray[3] = {right, (-2.0 * ahead + 9.0 * up) / far, (9.0 * ahead + 2.0 * up) / far};
+    double normal[3], to[3], dd = 0.0, ed = 0.0, nd = 0.0, nl = 0.0, dl = 0.0, ll = 0.0;
+    for (int i = 0; i < 3; i++) {
+        dd += ray[i] * ray[i];
+        ed += eye[i] * ray[i];
+    }
+    double distance = (-ed - sqrt(ed * ed - dd * (85.0 - 4.0))) / dd;
+    for (int i = 0; i < 3; i++) {
+        normal[i] = (eye[i] + distance * ray[i]) / 2.0;
+        to[i] = light[i] - 2.0 * normal[i];
+        nd += normal[i] * ray[i];
+        nl += normal[i] * to[i];
+        dl += ray[i] * to[i];
+        ll += to[i] * to[i];
+    }
+    double mirrored = (dl - 2.0 * nd * nl) / sqrt(dd * ll);
+    return 0.1 * 0.001 + 200.0 * (0.001 * 0.001 * nl / sqrt(ll) + pow(fmax(mirrored, 0.0), 5000.0));
+}
+
+static double glint_pixel(int x, int y)
+{
+    enum { PARTS = 128 };
+    static const double nodes[] = {-0.774596669241483377, 0.0, 0.774596669241483377}, shares[] = {5.0, 8.0, 5.0};
+    double sum = 0.0;
+    for (int i = 0; i < PARTS * PARTS; i++) {
+        for (int k = 0; k < 9; k++) {
+            sum += shares[k % 3] * shares[k / 3] *
+                   glint_light(x + (i % PARTS + 0.5 + 0.5 * nodes[k % 3]) / PARTS,
+                               y + (i / PARTS + 0.5 + 0.5 * nodes[k / 3]) / PARTS);
+        }
+    }
+    return sum / (18.0 * 18.0 * PARTS * PARTS);
+}
+
+// The share of the filter, exp(-2 x²) less its value at 1.5, that is before x.
+static double gaussian_before(double x)
+{
+    const double edge = exp(-4.5), root = sqrt(2.0);
+    double to = fmin(fmax(x, -1.5), 1.5), whole = sqrt(M_PI / 2.0) * erf(root * 1.5) - 3.0 * edge;
+    return (sqrt(M_PI / 8.0) * (erf(root * to) + erf(root * 1.5)) - edge * (to + 1.5)) / whole;
+}
+
+// References by brute force beside closed forms.
+static void test_grid(void)
+{
+    enum { X = 13, Y = 9 };
+    static const SamplingScene disc = {
+        "a disc", SCENE_HEAD "camera { orthographic location <0,0,-9> look_at 0 right 8*x up 6*y }\n"
+                             "sphere { <0.3,0.1,0>, 1.3 pigment { rgb 1 } finish { ambient 1 diffuse 0 } }\n"};
+    // Its edges lie along rows of rays, all of which are before an edge or behind it.
+    static const SamplingScene corner = {
+        "a corner", SCENE_HEAD "camera { orthographic location <0,0,-9> look_at 0 right 8*x up 6*y }\n"
+                               "box { <0.37,-9,0>, <9,0.21,1> pigment { rgb 1 } finish { ambient 1 diffuse 0 } }\n"};
+    Picture *picture = grid_picture(&scene_glint, WIDTH, HEIGHT, NULL, 1e-5);
+    double value = (double)picture->rgb[3 * (Y * WIDTH + X)], exact = glint_pixel(X, Y);
+    tap_ok(fabs(value / exact - 1.0) < 2e-5,
+           "glint: the highlight's pixel is %.6f by brute force, by its integral %.6f", value, exact);
+    picture_free(picture);
+    picture = grid_picture(&disc, WIDTH, HEIGHT, "box", 1e-5);
+    double sum = 0.0, area = M_PI * 1.3 * 1.3 * 16.0, off = 0.0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        sum += (double)picture->rgb[3 * i];
+    }
+    tap_ok(fabs(sum - area) < 2e-3 && picture->error.rmse < 1e-5,
+           "a disc has %.4f pixels by brute force, %.4f by its radius; each is off by %.2g", sum, area,
+           picture->error.rmse);
+    picture_free(picture);
+    picture = grid_picture(&corner, WIDTH, HEIGHT, "gaussian", 3e-4);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        double x = i % WIDTH + 0.5 - (0.5 * WIDTH + 4.0 * 0.37), y = i / WIDTH + 0.5 - (0.5 * HEIGHT - 4.0 * 0.21);
+        double apart = (double)picture->rgb[3 * i] - gaussian_before(x) * gaussian_before(y);
+        off += apart * apart / (WIDTH * HEIGHT);
+    }
+    tap_ok(sqrt(off) < 3e-4 && picture->error.rmse < 3e-4,
+           "gaussian: a corner is by brute force off by %.2g from its integral, %.2g is expected", sqrt(off),
+           picture->error.rmse);
+    picture_free(picture);
+}
+
 static void judge_quickly(void)
 {
     Count known = {0, 0, 0}, drawn = {0, 0, 0};
@@ -344,8 +438,10 @@ static void judge_quickly(void)
     hard_judge(&scene_soft, &settings[0], NULL);
     // A sliver of a pixel at the edge of what is much brighter than all else, and highlights of some hundredths.
     hard_judge(&scene_lamp, &settings[3], NULL);
+    hard_judge(&scene_lamp, &settings[6], NULL); // shares that are off by 1e-4 of a pixel are half of this error
     hard_judge(&scene_glints, &settings[5], NULL);
     test_chosen();
+    test_grid();
     tap_ok(known.held >= least_held(known.runs), "known scenes: the 95 %% interval holds the true error in %.1f %% of %d runs",
            count_share(&known), known.runs);
     tap_ok(drawn.held >= least_held(drawn.runs), "drawn scenes: the same in %.1f %% of %d runs", count_share(&drawn),

@@ -210,16 +210,16 @@ static void test_prediction(void)
                 {&scene_glass, {0.02, 0.005}}, {&scene_checker, {0.05, 0.014}}, {&scene_lens, {0.02, 0.005}},
                 {&scene_noise, {0.02, 0.005}}, {&scene_rods, {0.02, 0.006}}};
     static Ratios ratios[2];
-    int seeds = is_long ? 20 : 4;
+    enum { SEEDS = 20 };
     for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
         for (int j = 0; j < 2; j++) {
             double samples = 0.0, predicted = 0.0;
-            for (int seed = 0; seed < seeds; seed++) {
+            for (int seed = 0; seed < SEEDS; seed++) {
                 rt_sampling sampling = {.target_error = runs[i].targets[j], .seed = 8000u + (unsigned)seed};
                 Picture *picture = picture_make(runs[i].scene, 2 * WIDTH, 2 * HEIGHT, &sampling, 1);
                 ratios_add(&ratios[j], picture_predicted(picture) / picture->error.samples);
-                samples += picture->error.samples / seeds;
-                predicted += picture_predicted(picture) / seeds;
+                samples += picture->error.samples / SEEDS;
+                predicted += picture_predicted(picture) / SEEDS;
                 picture_free(picture);
             }
             printf("# %s, error %.3f: %.1f samples, predicted %.1f\n", runs[i].scene->name, runs[i].targets[j], samples,

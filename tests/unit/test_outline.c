@@ -96,7 +96,7 @@ static void test_outlines(CameraType type)
 
 static Outline any_outline(void)
 {
-    double size = exp(between(-1.5, 4.0)), height = size * exp(between(-0.7, 0.7));
+    double size = exp(between(-1.5, unit() < 0.3 ? 14.0 : 4.0)), height = size * exp(between(-0.7, 0.7));
     double turn = between(0.0, 6.2831853), far = unit() < 0.3 ? between(0.0, 1.0) : 1.0;
     double slope = between(-1.0, 1.0) * size / height;
     Outline outline = {.slope = slope, .half_row = size, .narrowing = 1.0 / (height * height)};
@@ -176,8 +176,8 @@ int main(void)
     drawn_by = (Random){random_seed(NULL)};
     test_outlines(CAMERA_PERSPECTIVE);
     test_outlines(CAMERA_ORTHOGRAPHIC);
-    test_areas(1, 2e-4, 2e-3);
-    test_areas(2, 2e-4, 5e-3);
-    test_areas(4, 3e-4, 5e-3);
+    test_areas(1, 1e-6, 1e-5);
+    test_areas(2, 1e-6, 1e-5);
+    test_areas(4, 1e-6, 1e-5);
     return tap_done();
 }
