@@ -57,6 +57,24 @@ static void start_material(const Scene *scene, StartShape *start, size_t first_p
     }
 }
 
+// Boxes are those of the scene as it is written, in whatever unit it is drawn.
+static bool scaled_box(const Eval *ev, const BoxOwner *owner, StartShape *start)
+{
+    if (!ev->options.world) {
+        return extent_box(owner, &start->low, &start->high);
+    }
+    Transform world = world_transform(ev), inverse;
+    BoxOwner written = *owner;
+    if (!transform_invert(&world, &inverse)) {
+        inverse = transform_identity();
+    }
+    written.outer = transform_compose(owner->outer, inverse);
+    bool is_endless = extent_box(&written, &start->low, &start->high);
+    start->low = transform_point(&world, start->low);
+    start->high = transform_point(&world, start->high);
+    return is_endless;
+}
+
 // Where a ray may start inside of the shape that was placed last, if that is not all of its inside.
 bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_part)
 {
@@ -69,6 +87,6 @@ bool box_note_start(Eval *ev, const BoxOwner *owner, size_t first_part)
     start.is_composite = scene->composites.count > 0 && scene->composites.items[last].order == start.order;
     start.index = (uint32_t)(start.is_composite ? last : scene->parts.count - 1);
     start_material(scene, &start, first_part);
-    start.is_endless = extent_box(owner, &start.low, &start.high);
+    start.is_endless = scaled_box(ev, owner, &start);
     return ARRAY_PUSH(&scene->start_shapes, start) || eval_no_memory(ev, ((const ObjectPart *)owner->object)->span);
 }

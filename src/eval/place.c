@@ -448,9 +448,11 @@ static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Place
     size_t first_part = ev->scene->parts.count;
     bool is_placed = object_is_group(kind) ? place_composite(ev, kind, object, outer, inner)
                                            : place_shape(ev, kind, object, outer, inner);
+    if (!is_placed || (!inner->clips && !extent_reaches_out(kind, object, false))) {
+        return is_placed;
+    }
     BoxOwner own = {kind, object, outer->outer};
-    bool is_noted = inner->clips || extent_reaches_out(kind, object, false);
-    return is_placed && (!is_noted || box_note_start(ev, inner->whole ? inner->whole : &own, first_part));
+    return box_note_start(ev, inner->whole ? inner->whole : &own, first_part);
 }
 
 // What a light looks like: an object by itself, but for the texture and interior of what is around.

@@ -100,6 +100,11 @@ static void move(Scene *scene, Vec3 by)
             move_row(part->to_world.m[3], by);
         }
     }
+    for (size_t i = 0; i < scene->start_shapes.count; i++) {
+        StartShape *shape = &scene->start_shapes.items[i];
+        shape->low = vec3_add(shape->low, by);
+        shape->high = vec3_add(shape->high, by);
+    }
 }
 
 Vec3 scene_move_near(Scene *scene)

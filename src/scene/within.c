@@ -11,7 +11,11 @@ static bool is_between(double low, double value, double high)
 bool within_part(const Part *part, Vec3 point)
 {
     const Vec3 *low = &part->data[0], *high = &part->data[1];
-    Vec3 p = part->kind == PART_PLANE ? point : transform_point(&part->to_object, point);
+    const double *origin = part->to_world.m[3];
+    Vec3 p = point;
+    if (part->kind != PART_PLANE) { // a scene that is put near the origin has only the linear part of to_object
+        p = transform_direction(&part->to_object, vec3_sub(point, vec3(origin[0], origin[1], origin[2])));
+    }
     double radius = 1.0 + (part->data[0].x - 1.0) * p.z; // of a cone
     bool is_inside = false;
     switch (part->kind) {
