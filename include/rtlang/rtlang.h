@@ -355,7 +355,7 @@ RT_API rt_status rt_get_plane(rt_session *session, rt_plane plane, void *values,
 
 /* Nobody asks for the scene after the next rt_render, which may free parts of it as it goes on: with very many spheres
  * it takes a tenth less memory. From then on no scene is loaded, and the session does not load another. */
-RT_API void rt_spend_scene(rt_session *session);
+RT_API void rt_discard_scene(rt_session *session);
 
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. May be repeated,
  * with other settings of size, crop, sampling and the like: what was built for shapes that did not change serves again, and

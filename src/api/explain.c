@@ -12,7 +12,7 @@
 
 #include "base/clock.h"
 #include "render/kernel.h"
-#include "scene/near.h"
+#include "scene/recentre.h"
 
 // Runs of one scene whose times are compared with those of others.
 enum { RUNS_MAX = 5 };
@@ -270,7 +270,7 @@ static rt_status explain_scene(rt_session *session, void *argument)
 {
     Run whole;
     int threads = *(const int *)argument;
-    Vec3 origin = scene_move_near(&session->scene);
+    Vec3 origin = scene_recentre(&session->scene);
     bool is_fine = run_scene(session, threads, &whole);
     if (is_fine) {
         write_stages(session, threads, &whole);

@@ -23,8 +23,8 @@
 #include "base/stack.h"
 #include "render/linear.h"
 #include "render/study.h"
-#include "scene/near.h"
-#include "scene/reach.h"
+#include "scene/recentre.h"
+#include "scene/scene_extent.h"
 
 #ifndef PACKAGE_VERSION
 #error "PACKAGE_VERSION comes from configure"
@@ -527,7 +527,7 @@ rt_status rt_render(rt_session *session, int threads)
     Settings *settings = &session->scene.settings;
     int max_trace_level = settings->max_trace_level;
     settings->max_trace_level = session->max_trace_level > 0 ? session->max_trace_level : max_trace_level;
-    Vec3 origin = scene_move_near(&session->scene);
+    Vec3 origin = scene_recentre(&session->scene);
     if (!vec3_equal(origin, session->kept_origin)) {
         geometry_free(session->kept.geometry);
         session->kept.geometry = NULL;
@@ -541,7 +541,7 @@ rt_status rt_render(rt_session *session, int threads)
     return status;
 }
 
-void rt_spend_scene(rt_session *session)
+void rt_discard_scene(rt_session *session)
 {
     session->is_last = true;
 }
@@ -587,8 +587,8 @@ void rt_get_summary(const rt_session *session, rt_summary *summary)
 
 void rt_get_range(const rt_session *session, rt_range *range)
 {
-    SceneReach found;
-    scene_reach(&session->scene, &found);
+    SceneExtent found;
+    scene_extent(&session->scene, &found);
     *range = (rt_range){
         .eye_offset = found.eye_offset,
         .least_size = found.least_size,

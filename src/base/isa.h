@@ -1,6 +1,6 @@
 // Tables of functions that are compiled once for each instruction set, and how they are named.
 //
-// A file of such functions is compiled with SPHERE_KERNELS the name of the set: plain, v2, v3 or v4. Its table is named
+// A file of such functions is compiled with ISA_NAME the name of the set: plain, v2, v3 or v4. Its table is named
 // ISA_NAMED(prefix), and ISA_LIST(Type, prefix, list) makes a list of all of them, from plain to best, whether this
 // processor has them or not.
 //
@@ -14,8 +14,8 @@
 #define ISA_JOINED_OF_(a, b)  ISA_JOINED_(a, b)
 
 // Of the file that is being compiled: the set's name as text, and a name that ends with it.
-#define ISA_TEXT          ISA_TEXT_OF_(SPHERE_KERNELS)
-#define ISA_NAMED(prefix) ISA_JOINED_OF_(prefix, SPHERE_KERNELS)
+#define ISA_TEXT          ISA_TEXT_OF_(ISA_NAME)
+#define ISA_NAMED(prefix) ISA_JOINED_OF_(prefix, ISA_NAME)
 
 #ifdef __x86_64__
 #define ISA_LIST(Type, prefix, list)                                                                                   \

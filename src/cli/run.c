@@ -273,7 +273,7 @@ static rt_status render(rt_session *session, const Options *options, Voice *voic
         return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
     }
     status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
-    rt_spend_scene(session);
+    rt_discard_scene(session);
     status = status ? status : rt_render(session, options->threads);
     progress_end(&voice->progress);
     int width, height;

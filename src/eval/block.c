@@ -1,4 +1,4 @@
-// The generic evaluator of blocks: `word { … }` becomes a blueprint, as the schema says.
+// The generic evaluator of blocks: `word { … }` becomes a description, as the schema says.
 //
 // Takes a leading identifier or the positional arguments, then the properties, each by its type or by the action that
 // the table names. Whatever does not fit is a located fault and is passed over, so that one run tells all faults. Knows
@@ -81,7 +81,7 @@ static Span block_here(Block *block)
     return item ? item->span : cursor_end(&block->cursor);
 }
 
-void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record)
+void block_defaults(const Eval *ev, SchemaKind kind, Desc *record)
 {
     const SchemaBlock *schema = schema_kind(kind);
     const Settings *settings = &ev->scene->settings;
@@ -599,13 +599,13 @@ bool block_read_items(Block *block, SchemaKind *is)
     return !block->has_unsupported || block->ev->objects->is_deferring;
 }
 
-bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Blueprint *record, SchemaKind *is)
+bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Desc *record, SchemaKind *is)
 {
     return block_read_moved(ev, node, kind, arena, NULL, record, is);
 }
 
 bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
-                      Blueprint *record, SchemaKind *is)
+                      Desc *record, SchemaKind *is)
 {
     Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind, .moved = moved};
     cursor_open(&block.cursor, ev, node->a, node->span);

@@ -6,7 +6,7 @@
 #define EVAL_BLOCKS_H
 
 #include "eval/internal.h"
-#include "scene/blueprint.h"
+#include "scene/description.h"
 #include "scene/form.h"
 
 // The last finish of nothing but words and numbers: what was said, and what it made of the finish before it.
@@ -29,15 +29,15 @@ struct ObjectState {
     uint8_t properties[KIND_COUNT][WORD_COUNT]; // place in the kind's properties + 1
     uint8_t advice[WORD_COUNT];                 // place among the unsupported words + 1
     bool is_told[WORD_COUNT];                   // that rtlang has not this word
-    const TextureBlueprint *defaults;           // of #default
+    const TextureDesc *defaults;                // of #default
     FinishMemo finish;
-    const SkySphereBlueprint *sky;              // the last one so far, in the program's memory; NULL: none
+    const SkySphereDesc *sky; // the last one so far, in the program's memory; NULL: none
     Span sky_span;
     uint32_t groups;       // unions so far that say what their members are filled with
     bool may_lack_weights; // the map that is read belongs to `average`
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
     bool is_deferring, has_deferred;
-    UnsupportedBlueprint deferred;
+    UnsupportedDesc deferred;
 };
 
 // One block while it is read.
@@ -46,7 +46,7 @@ typedef struct Block {
     const AstNode *node;
     Arena *arena;      // where the objects inside it are kept
     Cursor cursor;
-    Blueprint *record;
+    Desc *record;
     SchemaKind kind;   // of its word
     SchemaKind is;     // of the record: another object kind after an identifier
     const Transform *moved; // see block_read_moved
@@ -61,17 +61,17 @@ typedef struct Block {
 // block.c
 
 // Fills *record with what a block of the kind is before anything is said in it.
-void block_defaults(const Eval *ev, SchemaKind kind, Blueprint *record);
+void block_defaults(const Eval *ev, SchemaKind kind, Desc *record);
 
 // Reads a block into *record, which holds the defaults, and its kind into *is. False when a fault was reported.
-bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Blueprint *record,
+bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Desc *record,
                 SchemaKind *is) RT_MUST_CHECK;
 // The same, with an object moved before what is said of it after its shape or name. NULL: it is not.
 bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
-                      Blueprint *record, SchemaKind *is) RT_MUST_CHECK;
+                      Desc *record, SchemaKind *is) RT_MUST_CHECK;
 // The block, read into *record as by block_read, becomes a value that is kept for the whole program; what rtlang has not
 // becomes one that is a fault where it is used.
-bool block_read_declared(Eval *ev, const AstNode *node, SchemaKind kind, Blueprint *record, Value *value) RT_MUST_CHECK;
+bool block_read_declared(Eval *ev, const AstNode *node, SchemaKind kind, Desc *record, Value *value) RT_MUST_CHECK;
 // Transforms what has been read of a block so far.
 bool block_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 // The kind that a word begins, KIND_NONE when it begins none.
@@ -106,12 +106,12 @@ bool block_fault(Block *block, DiagCode code, Span span, const char *format, ...
 // Reads what a property of a simple type takes into its place.
 bool block_value(Block *block, const SchemaProperty *property, Span word) RT_MUST_CHECK;
 
-// Tells, now or when it is used, that rtlang has not a word; `owner` as in UnsupportedBlueprint.
+// Tells, now or when it is used, that rtlang has not a word; `owner` as in UnsupportedDesc.
 void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner);
 // A block of a kind that rtlang has not, or that nobody has.
 void block_unknown(Eval *ev, const AstNode *item);
 // The same as block_unsupported for an identifier that was declared with such a word.
-void block_unsupported_name(Eval *ev, const UnsupportedBlueprint *what, Span use);
+void block_unsupported_name(Eval *ev, const UnsupportedDesc *what, Span use);
 
 // True when the number is finite, else a fault.
 bool block_finite(Block *block, double number, Span span, const char *word) RT_MUST_CHECK;
@@ -139,7 +139,7 @@ bool pattern_close(Block *block) RT_MUST_CHECK; // of a pigment or texture
 bool normal_close(Block *block) RT_MUST_CHECK;
 
 // Whether something was said of bumps, but no pattern.
-static inline bool normal_lacks_pattern(const NormalBlueprint *normal)
+static inline bool normal_lacks_pattern(const NormalDesc *normal)
 {
     return normal->part.pattern.type == PATTERN_NONE && normal->span.end > normal->span.begin;
 }
@@ -148,26 +148,26 @@ bool block_begins_like_colour(Block *block, const AstNode *item);
 
 // material.c
 // A scene's record of a pigment that is moved by `outer`.
-bool pigment_place(Eval *ev, Scene *scene, const PigmentBlueprint *pigment, const Transform *outer, Span span,
+bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Transform *outer, Span span,
                    Pigment *out) RT_MUST_CHECK;
 // True when nothing below a texture can be seen: it is of one colour that lets no light through.
-bool texture_hides_all(const TextureBlueprint *texture);
+bool texture_hides_all(const TextureDesc *texture);
 // The scene's record of a texture that is moved by `outer`, and of what is inside (NULL: nothing was said).
-bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
-                    const InteriorBlueprint *interior, bool is_hollow, Span span, MaterialIndex *index) RT_MUST_CHECK;
+bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const InteriorDesc *interior,
+                    bool is_hollow, Span span, MaterialIndex *index) RT_MUST_CHECK;
 
 // texture.c
 // Where an object or a material keeps its texture; NULL for other blocks.
-const TextureBlueprint **texture_place(Block *block);
+const TextureDesc **texture_place(Block *block);
 // Lays `top`, which may have layers of its own, over `below`. Both stay as they are; NULL after a fault.
-const TextureBlueprint *texture_laid_over(Eval *ev, Arena *arena, const TextureBlueprint *top,
-                                          const TextureBlueprint *below, Span span);
+const TextureDesc *texture_laid_over(Eval *ev, Arena *arena, const TextureDesc *top, const TextureDesc *below,
+                                     Span span);
 bool interior_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool material_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 // A leading name: its texture is laid over what there is, its interior, even none, takes the place of what there is.
-bool material_take_name(Block *block, const MaterialBlueprint *material, Span span) RT_MUST_CHECK;
+bool material_take_name(Block *block, const MaterialDesc *material, Span span) RT_MUST_CHECK;
 // Moves a texture with all that lies below it.
-void texture_transform(TextureBlueprint *texture, const Transform *transform);
+void texture_transform(TextureDesc *texture, const Transform *transform);
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool finish_close(Block *block) RT_MUST_CHECK;
@@ -179,7 +179,7 @@ bool camera_blur_action(Block *block, const SchemaProperty *property, const AstN
 bool camera_look_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 void camera_transform(Block *block, const Transform *transform);
 bool camera_close(Block *block) RT_MUST_CHECK;
-bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span) RT_MUST_CHECK;
+bool camera_place(Eval *ev, const CameraDesc *camera, Span span) RT_MUST_CHECK;
 
 // light.c
 bool light_type_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -189,16 +189,16 @@ bool light_area_action(Block *block, const SchemaProperty *property, const AstNo
 bool light_close(Block *block) RT_MUST_CHECK;
 bool light_point_at_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool light_look_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
-void light_transform(LightBlueprint *light, const Transform *transform);
-bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer) RT_MUST_CHECK;
+void light_transform(LightDesc *light, const Transform *transform);
+bool light_place(Eval *ev, const LightDesc *light, const Transform *outer) RT_MUST_CHECK;
 
 // sky.c: sky_sphere and fog
 bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool sky_close(Block *block) RT_MUST_CHECK;
-bool sky_place(Eval *ev, const SkySphereBlueprint *sky, Span span) RT_MUST_CHECK;
+bool sky_place(Eval *ev, const SkySphereDesc *sky, Span span) RT_MUST_CHECK;
 bool fog_turbulence_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool fog_close(Block *block) RT_MUST_CHECK;
-bool fog_place(Eval *ev, const FogBlueprint *fog, Span span) RT_MUST_CHECK;
+bool fog_place(Eval *ev, const FogDesc *fog, Span span) RT_MUST_CHECK;
 
 // image.c
 bool image_map_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
@@ -206,7 +206,7 @@ bool image_action(Block *block, const SchemaProperty *property, const AstNode *i
 bool image_body(Block *block) RT_MUST_CHECK; // of image_map
 bool image_close(Block *block) RT_MUST_CHECK;
 // A scene's record of a picture that is laid over something.
-bool image_place(Eval *ev, Scene *scene, const ImageBlueprint *image, uint32_t *index) RT_MUST_CHECK;
+bool image_place(Eval *ev, Scene *scene, const ImageDesc *image, uint32_t *index) RT_MUST_CHECK;
 
 // settings.c
 // A gamma after its word, whose name and place are for messages: a number, or `srgb`, which leaves *gamma as it is.
@@ -214,7 +214,7 @@ bool settings_read_gamma(Block *block, const char *name, Span word, GammaModel *
 bool settings_gamma_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_charset_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
 bool settings_generator_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
-bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record) RT_MUST_CHECK;
+bool settings_place(Eval *ev, SchemaKind kind, const Desc *record) RT_MUST_CHECK;
 
 // extent.c
 // The object that the first argument of a call names; false after a fault.
@@ -256,7 +256,7 @@ bool clips_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 bool plane_close(Block *block) RT_MUST_CHECK;
 bool cylinder_close(Block *block) RT_MUST_CHECK;
 // A pigment, normal or finish in the place of the texture's own.
-void texture_take_part(TextureBlueprint *texture, SchemaKind kind, const void *part);
+void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part);
 bool disc_close(Block *block) RT_MUST_CHECK;
 bool cone_close(Block *block) RT_MUST_CHECK;
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
@@ -269,7 +269,7 @@ ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *tra
 ShapeResult shape_make(Eval *ev, SchemaKind kind, const void *object, const Transform *transform, bool is_stretched,
                        Part *part);
 // When all is said of a shape: signs that do not count are dropped. False: there is no such shape.
-bool shape_settle(SchemaKind kind, Blueprint *record) RT_MUST_CHECK;
+bool shape_settle(SchemaKind kind, Desc *record) RT_MUST_CHECK;
 // The radius of a sphere under a transform; false when it is no sphere any more.
 bool sphere_image_radius(double radius, const Transform *transform, double *image) RT_MUST_CHECK;
 // A fault: the transforms leave nothing of a shape.

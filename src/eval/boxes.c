@@ -14,7 +14,7 @@ enum { BOXES_FROM = 3 };
 
 bool box_is_inside_out(SchemaKind kind, const void *object)
 {
-    return kind == KIND_SPHERE && ((const SphereBlueprint *)object)->radius < 0.0 && !extent_is_stretched(kind, object);
+    return kind == KIND_SPHERE && ((const SphereDesc *)object)->radius < 0.0 && !extent_is_stretched(kind, object);
 }
 
 bool box_fault(Eval *ev, Span span)

@@ -13,7 +13,7 @@ enum { BLUR_SAMPLES_MAX = 1 << 24 };
 
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
 
-static CameraType camera_type(const CameraBlueprint *camera)
+static CameraType camera_type(const CameraDesc *camera)
 {
     CameraType type = CAMERA_TYPES - 1;
     while (type > CAMERA_PERSPECTIVE && !camera->types[type]) {
@@ -26,9 +26,9 @@ static CameraType camera_type(const CameraBlueprint *camera)
 static bool read_vertical_angle(Block *block)
 {
     static const SchemaProperty number = {"angle", TYPE_NUMBER, ACTION_NONE,
-                                          .at = offsetof(CameraBlueprint, angle_vertical_deg),
+                                          .at = offsetof(CameraDesc, angle_vertical_deg),
                                           .range = {RANGE_FAULT, false, 0.0, (double)INFINITY}};
-    CameraBlueprint *camera = &block->record->camera;
+    CameraDesc *camera = &block->record->camera;
     const AstNode *value = cursor_peek(&block->cursor);
     camera->angle_vertical_deg = camera->angle_deg / 2.0;
     return !value || value->kind == AST_WORD || !cursor_at_value(&block->cursor) ||
@@ -42,7 +42,7 @@ static bool is_in_order(const Block *block)
 }
 
 // `direction` gets the length that makes the picture so wide. The wide cameras keep theirs.
-static void set_direction_by_angle(CameraBlueprint *camera)
+static void set_direction_by_angle(CameraDesc *camera)
 {
     if (camera->has_angle && camera->angle_deg != 0.0 && camera_type(camera) <= CAMERA_ORTHOGRAPHIC) {
         double half_angle = camera->angle_deg * radians_per_degree / 2.0;
@@ -54,7 +54,7 @@ static void set_direction_by_angle(CameraBlueprint *camera)
 // Turns the camera so that look_at is in the middle; only lengths and handedness of the vectors are kept.
 static bool turn_to_look_at(Block *block)
 {
-    CameraBlueprint *camera = &block->record->camera;
+    CameraDesc *camera = &block->record->camera;
     Vec3 way = vec3_sub(camera->look_at, camera->location);
     // POV-Ray takes a sine up to 3e-11 as parallel and one of 1e-10 as not. It also refuses a distance below 1e-5,
     // which would forbid small scenes; here only the same point is refused.
@@ -81,9 +81,8 @@ static bool turn_to_look_at(Block *block)
 
 bool camera_angle_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    static const SchemaProperty number = {"angle", TYPE_NUMBER, ACTION_NONE,
-                                          .at = offsetof(CameraBlueprint, angle_deg)};
-    CameraBlueprint *camera = &block->record->camera;
+    static const SchemaProperty number = {"angle", TYPE_NUMBER, ACTION_NONE, .at = offsetof(CameraDesc, angle_deg)};
+    CameraDesc *camera = &block->record->camera;
     (void)property;
     camera->has_angle = true;
     const AstNode *value = cursor_peek(&block->cursor);
@@ -110,13 +109,13 @@ bool camera_angle_action(Block *block, const SchemaProperty *property, const Ast
 
 bool camera_look_at_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    static const SchemaProperty point = {"look_at", TYPE_VECTOR, ACTION_NONE, .at = offsetof(CameraBlueprint, look_at),
-                                         .given = offsetof(CameraBlueprint, has_look_at)};
+    static const SchemaProperty point = {"look_at", TYPE_VECTOR, ACTION_NONE, .at = offsetof(CameraDesc, look_at),
+                                         .given = offsetof(CameraDesc, has_look_at)};
     (void)property;
     return block_value(block, &point, item->span) && (!is_in_order(block) || turn_to_look_at(block));
 }
 
-static void move(CameraBlueprint *camera, const Transform *transform)
+static void move(CameraDesc *camera, const Transform *transform)
 {
     camera->location = transform_point(transform, camera->location);
     camera->direction = transform_direction(transform, camera->direction);
@@ -126,7 +125,7 @@ static void move(CameraBlueprint *camera, const Transform *transform)
 
 void camera_transform(Block *block, const Transform *transform)
 {
-    CameraBlueprint *camera = &block->record->camera;
+    CameraDesc *camera = &block->record->camera;
     if (is_in_order(block)) {
         move(camera, transform);
     } else {
@@ -138,12 +137,12 @@ void camera_transform(Block *block, const Transform *transform)
 bool camera_blur_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     static const SchemaProperty values[] = {
-        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[0]),
+        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraDesc, blur_samples[0]),
          .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
-        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraBlueprint, blur_samples[1]),
+        {"blur_samples", TYPE_INTEGER, ACTION_NONE, .at = offsetof(CameraDesc, blur_samples[1]),
          .range = {RANGE_FAULT, false, 1.0, BLUR_SAMPLES_MAX}},
     };
-    CameraBlueprint *camera = &block->record->camera;
+    CameraDesc *camera = &block->record->camera;
     (void)property;
     camera->blur_samples[1] = 0;
     if (!block_value(block, &values[0], item->span)) {
@@ -157,7 +156,7 @@ bool camera_blur_action(Block *block, const SchemaProperty *property, const AstN
 
 // The size of an orthographic picture is that of a perspective one at the distance of look_at, unless right or up say
 // it.
-static void set_orthographic_size(CameraBlueprint *camera, Vec3 location, double direction_length)
+static void set_orthographic_size(CameraDesc *camera, Vec3 location, double direction_length)
 {
     if ((camera->has_right || camera->has_up) && !camera->has_angle) {
         return;
@@ -169,7 +168,7 @@ static void set_orthographic_size(CameraBlueprint *camera, Vec3 location, double
 
 static bool resolve(Block *block)
 {
-    CameraBlueprint *camera = &block->record->camera;
+    CameraDesc *camera = &block->record->camera;
     if (!is_in_order(block)) {
         set_direction_by_angle(camera);
         double direction_length = vector_length(camera->direction);
@@ -189,7 +188,7 @@ static bool resolve(Block *block)
 // What cannot be drawn: POV-Ray's own picture of an orthographic camera with a lens is a smear.
 static bool lens_fits(Block *block)
 {
-    const CameraBlueprint *camera = &block->record->camera;
+    const CameraDesc *camera = &block->record->camera;
     if (camera->aperture == 0.0 || camera->blur_samples[0] == 0) {
         return true;
     }
@@ -202,7 +201,7 @@ static bool lens_fits(Block *block)
 
 bool camera_close(Block *block)
 {
-    CameraBlueprint *camera = &block->record->camera;
+    CameraDesc *camera = &block->record->camera;
     if (camera->types[CAMERA_SPHERICAL] && is_in_order(block)) {
         return block_fault(block, DIAG_E0341, block->node->span, "a `spherical` camera needs `#version 3.5` or later");
     }
@@ -216,7 +215,7 @@ bool camera_close(Block *block)
            block_fault(block, DIAG_E0340, block->node->span, "the camera leaves the range of numbers");
 }
 
-bool camera_place(Eval *ev, const CameraBlueprint *camera, Span span)
+bool camera_place(Eval *ev, const CameraDesc *camera, Span span)
 {
     Scene *scene = ev->scene;
     if (scene->has_camera) {

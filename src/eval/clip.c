@@ -18,7 +18,7 @@ bool inverse_action(Block *block, const SchemaProperty *property, const AstNode 
 
 bool clip_body(Block *block)
 {
-    UnionBlueprint *group = &block->record->group;
+    UnionDesc *group = &block->record->group;
     Word other = block->kind == KIND_CLIPPED_BY ? W_bounded_by : W_clipped_by;
     if (cursor_at_word(&block->cursor, other)) {
         cursor_skip(&block->cursor);
@@ -43,7 +43,7 @@ static bool is_plain_solid(SchemaKind kind, const void *object)
         part->texture) {
         return false;
     }
-    const UnionMember *member = object_is_group(kind) ? ((const UnionBlueprint *)object)->members : NULL;
+    const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
     for (; member; member = member->next) {
         if (!is_plain_solid(member->kind, member->object)) {
             return false;
@@ -87,14 +87,14 @@ bool clips_transform(Block *block, const Transform *transform)
     return clips_move(block, &part->clips, transform) && clips_move(block, &part->bounds, transform);
 }
 
-static bool add_members(Block *block, const UnionBlueprint *group, const Clip **end, Span span)
+static bool add_members(Block *block, const UnionDesc *group, const Clip **end, Span span)
 {
     for (const UnionMember *member = group->members; member; member = member->next) {
         if (!is_plain_solid(member->kind, member->object)) {
             return block_fault(block, DIAG_E0360, span,
                                "what clips or bounds an object is a solid without a texture of its own");
         }
-        if (member->kind == KIND_SPHERE && ((const SphereBlueprint *)member->object)->radius < 0.0 &&
+        if (member->kind == KIND_SPHERE && ((const SphereDesc *)member->object)->radius < 0.0 &&
             !extent_is_stretched(member->kind, member->object)) {
             return block_fault(block, DIAG_E0366, span, "a sphere of a negative radius clips or bounds an object");
         }
@@ -115,7 +115,7 @@ bool clip_action(Block *block, const SchemaProperty *property, const AstNode *it
     SchemaKind kind = item->symbol == W_clipped_by ? KIND_CLIPPED_BY : KIND_BOUNDED_BY;
     const Clip **list = kind == KIND_CLIPPED_BY ? &part->clips : &part->bounds;
     const Clip *other = kind == KIND_CLIPPED_BY ? part->bounds : part->clips;
-    Blueprint inner;
+    Desc inner;
     SchemaKind is;
     (void)property;
     block_defaults(block->ev, kind, &inner);

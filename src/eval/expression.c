@@ -9,7 +9,7 @@
 
 #include "eval/characters.h"
 #include "eval/callable.h"
-#include "scene/blueprint.h"
+#include "scene/description.h"
 
 bool eval_number(Eval *ev, const AstNode *node, double *number)
 {

@@ -72,7 +72,7 @@ static bool is_boundless(const Extent *extent)
     return extent->lengths[0] >= 2.0 * boundless && extent->lengths[1] >= 2.0 * boundless;
 }
 
-static Extent sphere_extent(const SphereBlueprint *sphere)
+static Extent sphere_extent(const SphereDesc *sphere)
 {
     const Transform *own = sphere->rigid != NULL ? sphere->rigid : &sphere->part.transform;
     Vec3 centre = transform_point(own, sphere->centre);
@@ -120,7 +120,7 @@ static Extent turned_from(const Extent *own, Transform frame, const Transform *t
 
 static Extent box_extent(const void *object, const Transform *transform)
 {
-    const BoxBlueprint *box = object;
+    const BoxDesc *box = object;
     Vec3 low = vec3_least(box->corner, box->other_corner), high = vec3_greatest(box->corner, box->other_corner);
     Extent own = extent_of((double[]){low.x, low.y, low.z}, (double[]){high.x, high.y, high.z});
     return turned(&own, transform);
@@ -140,19 +140,19 @@ static Extent cone_box(Vec3 base, double base_radius, Vec3 cap, double cap_radiu
 
 static Extent cylinder_extent(const void *object, const Transform *transform)
 {
-    const CylinderBlueprint *cylinder = object;
+    const CylinderDesc *cylinder = object;
     return cone_box(cylinder->base, cylinder->radius, cylinder->cap, cylinder->radius, transform);
 }
 
 static Extent cone_extent(const void *object, const Transform *transform)
 {
-    const ConeBlueprint *cone = object;
+    const ConeDesc *cone = object;
     return cone_box(cone->base, cone->base_radius, cone->cap, cone->cap_radius, transform);
 }
 
 static Extent disc_extent(const void *object, const Transform *transform)
 {
-    const DiscBlueprint *disc = object;
+    const DiscDesc *disc = object;
     Extent own = extent_of((double[]){-disc->radius, -disc->radius, -disc_thickness},
                            (double[]){disc->radius, disc->radius, disc_thickness});
     return turned_from(&own, frame(disc->normal, 1.0, 1.0, disc->centre), transform);
@@ -173,12 +173,12 @@ static Extent corners_extent(const Vec3 corners[3], const Transform *transform)
 
 static Extent triangle_extent(const void *object, const Transform *transform)
 {
-    return corners_extent(((const TriangleBlueprint *)object)->corners, transform);
+    return corners_extent(((const TriangleDesc *)object)->corners, transform);
 }
 
 static Extent smooth_triangle_extent(const void *object, const Transform *transform)
 {
-    return corners_extent(((const SmoothTriangleBlueprint *)object)->corners, transform);
+    return corners_extent(((const SmoothTriangleDesc *)object)->corners, transform);
 }
 
 // By all transforms of the shape at once.
@@ -201,7 +201,7 @@ static bool is_long(const double least[3], const double greatest[3])
     return is;
 }
 
-static Extent members_extent(const UnionBlueprint *group)
+static Extent members_extent(const UnionDesc *group)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, greatest[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (const UnionMember *member = group->members; member != NULL; member = member->next) {
@@ -215,7 +215,7 @@ static Extent members_extent(const UnionBlueprint *group)
 }
 
 // A plane along an axis bounds an intersection on one side.
-static void plane_narrows(const PlaneBlueprint *plane, bool is_inverse, double least[3], double greatest[3])
+static void plane_narrows(const PlaneDesc *plane, bool is_inverse, double least[3], double greatest[3])
 {
     Transform inverse;
     if (!transform_invert(&plane->part.transform, &inverse)) {
@@ -235,7 +235,7 @@ static void plane_narrows(const PlaneBlueprint *plane, bool is_inverse, double l
 }
 
 // Members that are inside out bound nothing, and so do those that a difference takes away.
-static Extent common_extent(const UnionBlueprint *group, bool is_difference)
+static Extent common_extent(const UnionDesc *group, bool is_difference)
 {
     double least[3] = {-boundless, -boundless, -boundless}, greatest[3] = {boundless, boundless, boundless};
     for (const UnionMember *member = group->members; member != NULL; member = member->next) {
@@ -255,7 +255,7 @@ static Extent common_extent(const UnionBlueprint *group, bool is_difference)
 }
 
 // The steps are linked newest first; a scene has few on one union.
-static Extent stepped(SchemaKind kind, const UnionBlueprint *group, const UnionStep *step)
+static Extent stepped(SchemaKind kind, const UnionDesc *group, const UnionStep *step)
 {
     if (step == NULL) {
         return kind == KIND_UNION || kind == KIND_MERGE ? members_extent(group)
@@ -282,7 +282,7 @@ static Extent moved_extent(const Clip *clip)
         return shape_extents[clip->kind](clip->object, &whole);
     }
     if (clip->kind == KIND_SPHERE) {
-        SphereBlueprint sphere = *(const SphereBlueprint *)clip->object;
+        SphereDesc sphere = *(const SphereDesc *)clip->object;
         const Transform before = sphere.part.transform;
         sphere.part.transform = whole;
         if (sphere.rigid == NULL && !transform_is_similarity(&clip->transform, &factor)) {
@@ -317,8 +317,8 @@ static Extent object_extent(SchemaKind kind, const void *object)
     const ObjectPart *part = object;
     Extent extent = kind == KIND_LIGHT_SOURCE || kind == KIND_PLANE ? extent_boundless()
                     : kind == KIND_SPHERE                           ? sphere_extent(object)
-                    : shape_extents[kind] ? shape_extents[kind](object, &part->transform)
-                                          : stepped(kind, object, ((const UnionBlueprint *)object)->steps);
+                    : shape_extents[kind]                           ? shape_extents[kind](object, &part->transform)
+                                          : stepped(kind, object, ((const UnionDesc *)object)->steps);
     narrow(&extent, part->clips);
     narrow(&extent, part->bounds);
     return extent;
@@ -334,7 +334,7 @@ bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member)
     // What cuts a union leaves the surfaces that its members have in one another, but one surface of the cut for all.
     bool does =
         kind == KIND_DISC || kind == KIND_UNION || part->clips || part->is_inverse || (kind == KIND_PLANE && is_member);
-    const UnionMember *member = object_is_group(kind) ? ((const UnionBlueprint *)object)->members : NULL;
+    const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
     for (; member && !does; member = member->next) {
         does = extent_reaches_out(member->kind, member->object, true);
     }
@@ -389,16 +389,16 @@ bool builtin_extent(Eval *ev, const AstNode *node, Value *value)
 
 bool extent_is_stretched(SchemaKind kind, const void *object)
 {
-    const UnionStep *step = object_is_group(kind) ? ((const UnionBlueprint *)object)->steps : NULL;
+    const UnionStep *step = object_is_group(kind) ? ((const UnionDesc *)object)->steps : NULL;
     while (step && step->keeps_spheres) {
         step = step->earlier;
     }
-    return step || (kind == KIND_SPHERE && ((const SphereBlueprint *)object)->rigid);
+    return step || (kind == KIND_SPHERE && ((const SphereDesc *)object)->rigid);
 }
 
 static bool note_sphere(Block *block)
 {
-    SphereBlueprint *sphere = &block->record->sphere;
+    SphereDesc *sphere = &block->record->sphere;
     if (sphere->rigid == NULL) {
         sphere->rigid = arena_copy(block->arena, &sphere->part.transform, sizeof sphere->part.transform);
     }

@@ -77,12 +77,12 @@ static bool make_transform(Eval *ev, const AstNode *block, Function *function)
     }
     if (value.block == KIND_UNSUPPORTED) {
         function->kind = FUNCTION_UNSUPPORTED;
-        function->word = ((const UnsupportedBlueprint *)value.record)->word;
+        function->word = ((const UnsupportedDesc *)value.record)->word;
         return true;
     }
     function->kind = FUNCTION_TRANSFORM;
     function->parameter_count = 3;
-    function->transform = ((const TransformBlueprint *)value.record)->transform;
+    function->transform = ((const TransformDesc *)value.record)->transform;
     return true;
 }
 

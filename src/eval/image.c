@@ -16,7 +16,7 @@ static const char *const endings[PICTURE_FORMATS][3] = {
 
 bool image_map_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     (void)property;
     block_defaults(block->ev, KIND_IMAGE_MAP, &record);
@@ -74,7 +74,7 @@ static PictureFormat format_of_name(const char *name)
 // The expression that names the file stands next. PICTURE_FORMATS: its ending tells the format.
 static bool read_file(Block *block, PictureFormat format)
 {
-    ImageBlueprint *image = &block->record->image;
+    ImageDesc *image = &block->record->image;
     PictureSource *source = &image->source;
     const Settings *settings = &block->ev->scene->settings;
     const AstNode *item = cursor_peek(&block->cursor);
@@ -147,7 +147,7 @@ static bool read_choice(Block *block, const char *word, Span span, const int *ch
 
 static bool add_shade(Block *block, const PictureShade *shade, Span span)
 {
-    ImageBlueprint *image = &block->record->image;
+    ImageDesc *image = &block->record->image;
     PictureShade *shades = arena_alloc(block->arena, (image->shade_count + 1) * sizeof *shades);
     if (!shades) {
         return eval_no_memory(block->ev, span);
@@ -209,13 +209,13 @@ bool image_action(Block *block, const SchemaProperty *property, const AstNode *i
 
 bool image_close(Block *block)
 {
-    ImageBlueprint *image = &block->record->image;
+    ImageDesc *image = &block->record->image;
     image->map.is_once = image->is_once;
     return image->source.path || block->has_unsupported ||
            block_fault(block, DIAG_E0253, block->node->span, "`%s` needs the name of an image file", block_word(block));
 }
 
-bool image_place(Eval *ev, Scene *scene, const ImageBlueprint *image, uint32_t *index)
+bool image_place(Eval *ev, Scene *scene, const ImageDesc *image, uint32_t *index)
 {
     ImageMap map = image->map;
     map.shades = RECORD_NONE;

@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
 
-static const InteriorBlueprint **interior_place(Block *block)
+static const InteriorDesc **interior_place(Block *block)
 {
     return block->kind == KIND_MATERIAL ? &block->record->material.interior : &block->record->part.interior;
 }
@@ -14,8 +14,8 @@ static const InteriorBlueprint **interior_place(Block *block)
 bool interior_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     (void)property;
-    const InteriorBlueprint **place = interior_place(block);
-    Blueprint record;
+    const InteriorDesc **place = interior_place(block);
+    Desc record;
     SchemaKind is;
     block_defaults(block->ev, KIND_INTERIOR, &record);
     if (*place) {
@@ -28,10 +28,10 @@ bool interior_action(Block *block, const SchemaProperty *property, const AstNode
     return *place || eval_no_memory(block->ev, item->span);
 }
 
-bool material_take_name(Block *block, const MaterialBlueprint *material, Span span)
+bool material_take_name(Block *block, const MaterialDesc *material, Span span)
 {
-    MaterialBlueprint *record = &block->record->material;
-    const TextureBlueprint *texture = material->texture;
+    MaterialDesc *record = &block->record->material;
+    const TextureDesc *texture = material->texture;
     if (texture && record->texture) {
         texture = texture_laid_over(block->ev, block->arena, texture, record->texture, span);
         if (!texture) {
@@ -47,7 +47,7 @@ bool material_take_name(Block *block, const MaterialBlueprint *material, Span sp
 bool material_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     (void)property;
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     block_defaults(block->ev, KIND_MATERIAL, &record);
     ObjectPart *part = &block->record->part;

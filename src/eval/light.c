@@ -11,13 +11,13 @@
 
 enum { AREA_SIZE_MAX = 1024 }; // rows, and lights in each
 
-static bool has_cone(const LightBlueprint *light)
+static bool has_cone(const LightDesc *light)
 {
     return light->spotlight || light->cylinder;
 }
 
 // The last of the three words counts; what a shadowless light was before is forgotten, but the direction of its rays.
-static void forget_cone(LightBlueprint *light)
+static void forget_cone(LightDesc *light)
 {
     light->parallel |= light->cylinder;
     light->spotlight = light->cylinder = false;
@@ -34,7 +34,7 @@ bool light_shadowless_action(Block *block, const SchemaProperty *property, const
 
 bool light_type_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    LightBlueprint *light = &block->record->light;
+    LightDesc *light = &block->record->light;
     if (has_cone(light)) {
         return block_fault(block, DIAG_E0293, item->span, "a light is one `spotlight` or one `cylinder`");
     }
@@ -58,9 +58,8 @@ bool light_cone_action(Block *block, const SchemaProperty *property, const AstNo
 
 bool light_point_at_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    static const SchemaProperty vector = {"point_at", TYPE_VECTOR, ACTION_NONE,
-                                          .at = offsetof(LightBlueprint, point_at)};
-    const LightBlueprint *light = &block->record->light;
+    static const SchemaProperty vector = {"point_at", TYPE_VECTOR, ACTION_NONE, .at = offsetof(LightDesc, point_at)};
+    const LightDesc *light = &block->record->light;
     (void)property;
     if (!light->parallel && !has_cone(light) && !block->has_fault) {
         return block_fault(block, DIAG_E0256, item->span,
@@ -72,11 +71,11 @@ bool light_point_at_action(Block *block, const SchemaProperty *property, const A
 bool light_area_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     static const SchemaProperty values[] = {
-        {"area_light", TYPE_VECTOR, ACTION_NONE, .at = offsetof(LightBlueprint, area.axis1)},
-        {"area_light", TYPE_VECTOR, ACTION_NONE, .at = offsetof(LightBlueprint, area.axis2)},
-        {"area_light", TYPE_INTEGER, ACTION_NONE, .at = offsetof(LightBlueprint, area.size1),
+        {"area_light", TYPE_VECTOR, ACTION_NONE, .at = offsetof(LightDesc, area.axis1)},
+        {"area_light", TYPE_VECTOR, ACTION_NONE, .at = offsetof(LightDesc, area.axis2)},
+        {"area_light", TYPE_INTEGER, ACTION_NONE, .at = offsetof(LightDesc, area.size1),
          .range = {RANGE_FAULT, false, 1.0, AREA_SIZE_MAX}},
-        {"area_light", TYPE_INTEGER, ACTION_NONE, .at = offsetof(LightBlueprint, area.size2),
+        {"area_light", TYPE_INTEGER, ACTION_NONE, .at = offsetof(LightDesc, area.size2),
          .range = {RANGE_FAULT, false, 1.0, AREA_SIZE_MAX}},
     };
     (void)property;
@@ -91,8 +90,8 @@ bool light_area_action(Block *block, const SchemaProperty *property, const AstNo
 // The object is put where the light is at this word, before what else its braces say; later transforms move both.
 bool light_look_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    LightBlueprint *light = &block->record->light;
-    Blueprint record;
+    LightDesc *light = &block->record->light;
+    Desc record;
     SchemaKind is = KIND_NONE;
     (void)property;
     if (light->look) {
@@ -146,7 +145,7 @@ bool light_close(Block *block)
                        area->circular ? "circular" : "orient");
 }
 
-void light_transform(LightBlueprint *light, const Transform *transform)
+void light_transform(LightDesc *light, const Transform *transform)
 {
     light->position = transform_point(transform, light->position);
     light->point_at = transform_point(transform, light->point_at);
@@ -155,7 +154,7 @@ void light_transform(LightBlueprint *light, const Transform *transform)
     light->look_transform = transform_compose(light->look_transform, *transform);
 }
 
-static LightType light_type(const LightBlueprint *light)
+static LightType light_type(const LightDesc *light)
 {
     // The rays of a parallel spotlight are all as on its axis.
     return light->cylinder    ? LIGHT_CYLINDER
@@ -164,9 +163,9 @@ static LightType light_type(const LightBlueprint *light)
                               : LIGHT_POINT;
 }
 
-bool light_place(Eval *ev, const LightBlueprint *light, const Transform *outer)
+bool light_place(Eval *ev, const LightDesc *light, const Transform *outer)
 {
-    LightBlueprint moved = *light;
+    LightDesc moved = *light;
     light_transform(&moved, outer);
     bool fades = light->fade_distance > 0.0 && light->fade_power > 0.0;
     double length = light->cylinder ? world_scale(ev) : 1.0; // a spotlight's are angles

@@ -1,4 +1,4 @@
-// Materials: the blueprint of a texture becomes scene records, moved to where its object stands.
+// Materials: the description of a texture becomes scene records, moved to where its object stands.
 //
 // A texture of one pigment without a pattern is a plain material; everything else is a tree of records, each different
 // one of which the scene keeps once. Knows nothing of shapes.
@@ -17,9 +17,9 @@ typedef struct Builder {
     SharedMaps *shared;
 } Builder;
 
-static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                        uint32_t *index, MapCost *cost);
-static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out,
+static bool add_texture(const Builder *builder, const TextureDesc *texture, const Transform *outer, uint32_t *index,
+                        MapCost *cost);
+static bool add_pigment(const Builder *builder, const PigmentDesc *pigment, const Transform *outer, Pigment *out,
                         uint64_t *patterns);
 
 // A pattern must be found back from the world.
@@ -115,8 +115,8 @@ static bool add_map(const Builder *builder, const PatternMap *map, AddEntries *a
     return true;
 }
 
-static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer,
-                          Pigment *out, uint64_t *patterns)
+static bool add_patterned(const Builder *builder, const PigmentDesc *pigment, const Transform *outer, Pigment *out,
+                          uint64_t *patterns)
 {
     const PatternPart *part = &pigment->part;
     const PatternMap *map = part->map ? part->map : pattern_default_map((PatternType)part->pattern.type);
@@ -135,7 +135,7 @@ static bool add_patterned(const Builder *builder, const PigmentBlueprint *pigmen
     return scene_add_pattern(builder->scene, &record, &out->pattern) || no_memory(builder);
 }
 
-static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment, const Transform *outer, Pigment *out,
+static bool add_pigment(const Builder *builder, const PigmentDesc *pigment, const Transform *outer, Pigment *out,
                         uint64_t *patterns)
 {
     *patterns = 0;
@@ -153,7 +153,7 @@ static bool add_pigment(const Builder *builder, const PigmentBlueprint *pigment,
 
 // ---- bumps
 
-static bool add_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer, bool keeps_length,
+static bool add_normal(const Builder *builder, const NormalDesc *normal, const Transform *outer, bool keeps_length,
                        uint32_t *index, uint64_t *patterns);
 
 static bool add_slopes(const Builder *builder, const PatternMap *map, uint32_t *first)
@@ -191,8 +191,8 @@ static bool add_new_normal_entries(const Builder *builder, const PatternMap *map
     return true;
 }
 
-static bool add_one_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer,
-                           bool keeps_length, uint32_t *index, uint64_t *patterns)
+static bool add_one_normal(const Builder *builder, const NormalDesc *normal, const Transform *outer, bool keeps_length,
+                           uint32_t *index, uint64_t *patterns)
 {
     SharedMap made = {.first = RECORD_NONE};
     Normal record = {
@@ -215,7 +215,7 @@ static bool add_one_normal(const Builder *builder, const NormalBlueprint *normal
     return scene_add_normal(builder->scene, &record, index) || no_memory(builder);
 }
 
-static bool add_normal(const Builder *builder, const NormalBlueprint *normal, const Transform *outer, bool keeps_length,
+static bool add_normal(const Builder *builder, const NormalDesc *normal, const Transform *outer, bool keeps_length,
                        uint32_t *index, uint64_t *patterns)
 {
     if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
@@ -226,14 +226,14 @@ static bool add_normal(const Builder *builder, const NormalBlueprint *normal, co
     return is_added;
 }
 
-static bool has_bumps(const TextureBlueprint *texture)
+static bool has_bumps(const TextureDesc *texture)
 {
-    const NormalBlueprint *normal = &texture->normal;
+    const NormalDesc *normal = &texture->normal;
     return normal->part.pattern.type != PATTERN_NONE && (normal->amount != 0.0 || normal->part.map);
 }
 
 // Every layer needs a pattern for its bumps, seen or not.
-static bool layers_have_patterns(Eval *ev, const TextureBlueprint *layer)
+static bool layers_have_patterns(Eval *ev, const TextureDesc *layer)
 {
     for (; layer; layer = layer->below) {
         if (normal_lacks_pattern(&layer->normal)) {
@@ -244,10 +244,10 @@ static bool layers_have_patterns(Eval *ev, const TextureBlueprint *layer)
 }
 
 // In how many directions bumps may send rays at one point, but for those of flat layers.
-static unsigned layers_ways(const TextureBlueprint *top)
+static unsigned layers_ways(const TextureDesc *top)
 {
     unsigned ways = 0;
-    for (const TextureBlueprint *layer = top; layer; layer = layer->below) {
+    for (const TextureDesc *layer = top; layer; layer = layer->below) {
         const Finish *finish = &layer->finish;
         bool has_mirror = !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max);
         ways += has_bumps(layer) && (layer == top || has_mirror);
@@ -258,8 +258,8 @@ static unsigned layers_ways(const TextureBlueprint *top)
 // ---- textures
 
 // A texture that is no layer below another; those below it are looked over with it.
-static bool add_top_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                            uint32_t *index, MapCost *cost)
+static bool add_top_texture(const Builder *builder, const TextureDesc *texture, const Transform *outer, uint32_t *index,
+                            MapCost *cost)
 {
     bool is_layer = texture->part.pattern.type == PATTERN_NONE;
     if ((is_layer && !layers_have_patterns(builder->ev, texture)) ||
@@ -289,13 +289,13 @@ static bool add_new_texture_entries(const Builder *builder, const PatternMap *ma
     return true;
 }
 
-bool texture_hides_all(const TextureBlueprint *texture)
+bool texture_hides_all(const TextureDesc *texture)
 {
     return texture->part.pattern.type == PATTERN_NONE && texture->pigment.part.pattern.type == PATTERN_NONE &&
            texture->pigment.colour.filter == 0.0 && texture->pigment.colour.transmit == 0.0;
 }
 
-static bool add_texture_pattern(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
+static bool add_texture_pattern(const Builder *builder, const TextureDesc *texture, const Transform *outer,
                                 Texture *record, MapCost *cost)
 {
     SharedMap made;
@@ -309,7 +309,7 @@ static bool add_texture_pattern(const Builder *builder, const TextureBlueprint *
 }
 
 // One layer and those below it; ways are counted for all of them together.
-static bool add_layers(const Builder *builder, const TextureBlueprint *texture, const Transform *moved, Texture *record,
+static bool add_layers(const Builder *builder, const TextureDesc *texture, const Transform *moved, Texture *record,
                        MapCost *cost)
 {
     uint64_t of_pigment = 0, of_normal = 0;
@@ -325,8 +325,8 @@ static bool add_layers(const Builder *builder, const TextureBlueprint *texture, 
     return true;
 }
 
-static bool add_one_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                            uint32_t *index, MapCost *cost)
+static bool add_one_texture(const Builder *builder, const TextureDesc *texture, const Transform *outer, uint32_t *index,
+                            MapCost *cost)
 {
     Texture record = {
         .pigment = pigment_of((Rgbft){0.0, 0.0, 0.0, 0.0, 0.0}),
@@ -347,8 +347,8 @@ static bool add_one_texture(const Builder *builder, const TextureBlueprint *text
     return scene_add_texture(builder->scene, &record, index) || no_memory(builder);
 }
 
-static bool add_texture(const Builder *builder, const TextureBlueprint *texture, const Transform *outer,
-                        uint32_t *index, MapCost *cost)
+static bool add_texture(const Builder *builder, const TextureDesc *texture, const Transform *outer, uint32_t *index,
+                        MapCost *cost)
 {
     if (!eval_deepen(builder->ev, TREE_DEPTH_WEIGHT, builder->span)) {
         return false;
@@ -359,11 +359,11 @@ static bool add_texture(const Builder *builder, const TextureBlueprint *texture,
 }
 
 // The interior, with what an old finish says of it; a plain one is none.
-static bool add_interior(const Builder *builder, const TextureBlueprint *texture, const InteriorBlueprint *blueprint,
+static bool add_interior(const Builder *builder, const TextureDesc *texture, const InteriorDesc *description,
                          uint32_t *index)
 {
     static const Interior empty = {.ior = 1.0};
-    Interior interior = blueprint ? blueprint->interior : empty;
+    Interior interior = description ? description->interior : empty;
     // In single precision, as in POV-Ray: many bounces in glass make the rounding visible.
     interior.ior = number_single(texture->ior > 0.0 ? texture->ior : interior.ior > 0.0 ? interior.ior : 1.0);
     if (interior.fade_distance == 0.0) {
@@ -383,8 +383,7 @@ static bool patterns_fit(const Builder *builder, uint64_t patterns)
                       (int)SCENE_PATTERNS_MOST);
 }
 
-bool pigment_place(Eval *ev, Scene *scene, const PigmentBlueprint *pigment, const Transform *outer, Span span,
-                   Pigment *out)
+bool pigment_place(Eval *ev, Scene *scene, const PigmentDesc *pigment, const Transform *outer, Span span, Pigment *out)
 {
     SharedMaps shared = {0};
     Builder builder = {ev, scene, span, &shared};
@@ -394,8 +393,8 @@ bool pigment_place(Eval *ev, Scene *scene, const PigmentBlueprint *pigment, cons
     return is_added && patterns_fit(&builder, patterns);
 }
 
-bool material_place(Eval *ev, const TextureBlueprint *texture, const Transform *outer,
-                    const InteriorBlueprint *interior, bool is_hollow, Span span, MaterialIndex *index)
+bool material_place(Eval *ev, const TextureDesc *texture, const Transform *outer, const InteriorDesc *interior,
+                    bool is_hollow, Span span, MaterialIndex *index)
 {
     SharedMaps shared = {0};
     Builder builder = {ev, ev->scene, span, &shared};

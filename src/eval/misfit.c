@@ -229,8 +229,7 @@ bool block_is_lacking(const Block *block, Symbol symbol)
     return false;
 }
 
-
-static void tell_unsupported(Eval *ev, const UnsupportedBlueprint *what, Span use)
+static void tell_unsupported(Eval *ev, const UnsupportedDesc *what, Span use)
 {
     ObjectState *objects = ev->objects;
     Symbol symbol = intern_find(ev->options.names, what->word, strlen(what->word));
@@ -263,7 +262,7 @@ static void tell_unsupported(Eval *ev, const UnsupportedBlueprint *what, Span us
     }
 }
 
-void block_unsupported_name(Eval *ev, const UnsupportedBlueprint *what, Span use)
+void block_unsupported_name(Eval *ev, const UnsupportedDesc *what, Span use)
 {
     ObjectState *objects = ev->objects;
     if (!objects->is_deferring) {
@@ -276,6 +275,6 @@ void block_unsupported_name(Eval *ev, const UnsupportedBlueprint *what, Span use
 
 void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner)
 {
-    UnsupportedBlueprint what = {span, word, owner};
+    UnsupportedDesc what = {span, word, owner};
     block_unsupported_name(ev, &what, span);
 }

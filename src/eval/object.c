@@ -22,8 +22,8 @@ typedef struct MemberList {
 
 uint32_t object_depth(SchemaKind kind, const void *object)
 {
-    return object_is_group(kind)       ? ((const UnionBlueprint *)object)->depth
-           : kind == KIND_LIGHT_SOURCE ? ((const LightBlueprint *)object)->look_depth
+    return object_is_group(kind)       ? ((const UnionDesc *)object)->depth
+           : kind == KIND_LIGHT_SOURCE ? ((const LightDesc *)object)->look_depth
                                        : 0;
 }
 
@@ -44,7 +44,7 @@ static bool add_member(Block *block, MemberList *list, SchemaKind kind, const vo
 
 static bool add_block_member(Block *block, MemberList *list, const AstNode *item)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     SchemaKind kind = block_kind(block->ev, item);
     block_defaults(block->ev, kind, &record);
@@ -107,7 +107,7 @@ static bool read_member(Block *block, MemberList *list, const AstNode *item, boo
 
 bool object_members(Block *block)
 {
-    UnionBlueprint *group = &block->record->group;
+    UnionDesc *group = &block->record->group;
     UnionMember *first = NULL;
     MemberList list = {.end = &first};
     bool is_fine = true;
@@ -166,7 +166,7 @@ bool object_body(Block *block)
 
 // ---- statements and right-hand sides
 
-static bool place_record(Eval *ev, const AstNode *item, SchemaKind is, const Blueprint *record)
+static bool place_record(Eval *ev, const AstNode *item, SchemaKind is, const Desc *record)
 {
     switch (is) {
     case KIND_CAMERA: return camera_place(ev, &record->camera, item->span);
@@ -230,7 +230,7 @@ bool eval_place(Eval *ev, const AstNode *item)
     }
     ArenaMark mark = scratch_mark(ev);
     Arena *arena = kind == KIND_SKY_SPHERE ? &ev->program : &ev->scratch; // a sky is kept until the end
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     block_defaults(ev, kind, &record);
     is_fine = block_read(ev, item, kind, arena, &record, &is);
@@ -252,12 +252,12 @@ static bool keep(Eval *ev, Span span, SchemaKind kind, const void *record, Value
     return kept || eval_no_memory(ev, span);
 }
 
-bool block_read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Blueprint *record, Value *value)
+bool block_read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Desc *record, Value *value)
 {
     ObjectState *objects = ev->objects;
     bool was_deferring = objects->is_deferring;
     bool had_deferred = objects->has_deferred;
-    UnsupportedBlueprint outer = objects->deferred;
+    UnsupportedDesc outer = objects->deferred;
     objects->is_deferring = true;
     objects->has_deferred = false;
     SchemaKind is;
@@ -281,13 +281,13 @@ bool eval_block(Eval *ev, const AstNode *block, Value *value)
         return false;
     }
     if (kind == KIND_NONE) {
-        UnsupportedBlueprint what = {block->span, eval_text(ev, block->symbol), KIND_NONE};
+        UnsupportedDesc what = {block->span, eval_text(ev, block->symbol), KIND_NONE};
         return keep(ev, block->span, KIND_UNSUPPORTED, &what, value);
     }
     if (!schema_kind(kind)->is_declarable) {
         return eval_fault(ev, DIAG_E0256, block->span, "`%s` cannot be declared", schema_kind(kind)->word);
     }
-    Blueprint record;
+    Desc record;
     block_defaults(ev, kind, &record);
     return block_read_declared(ev, block, kind, &record, value);
 }

@@ -21,7 +21,7 @@ struct Painted {
 
 static Painted *painted_new(Eval *ev, const Value *value, Span span)
 {
-    PigmentBlueprint pigment = {0};
+    PigmentDesc pigment = {0};
     Transform world = transform_identity();
     Painted *painted = arena_alloc(&ev->program, sizeof *painted);
     if (painted == NULL || !ARRAY_PUSH(&ev->painted, painted)) {
@@ -33,7 +33,7 @@ static Painted *painted_new(Eval *ev, const Value *value, Span span)
     if (painted->is_pattern) {
         pigment.part = *(const PatternPart *)value->record;
     } else {
-        pigment = *(const PigmentBlueprint *)value->record;
+        pigment = *(const PigmentDesc *)value->record;
     }
     return pigment_place(ev, &painted->scene, &pigment, &world, span, &painted->pigment) ? painted : NULL;
 }
@@ -41,14 +41,14 @@ static Painted *painted_new(Eval *ev, const Value *value, Span span)
 bool painted_create(Eval *ev, const AstNode *block, Painted **painted, const char **unsupported)
 {
     SchemaKind kind = block_kind(ev, block);
-    Blueprint record;
+    Desc record;
     Value value;
     memcpy(&record, schema_kind(kind)->defaults, schema_kind(kind)->size); // those of #default are not asked. Measured.
     if (!block_read_declared(ev, block, kind, &record, &value)) {
         return false;
     }
     if (value.block == KIND_UNSUPPORTED) {
-        *unsupported = ((const UnsupportedBlueprint *)value.record)->word;
+        *unsupported = ((const UnsupportedDesc *)value.record)->word;
         return true;
     }
     *painted = painted_new(ev, &value, block->span);

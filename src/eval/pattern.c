@@ -1,6 +1,6 @@
 // Patterns: the words that spread a pigment or a texture over space, and the maps of what lies along them.
 //
-// Writes into the PatternPart at the start of a pigment's or texture's blueprint. A map becomes a list of entries in
+// Writes into the PatternPart at the start of a pigment's or texture's description. A map becomes a list of entries in
 // the block's arena that is never changed again. Knows nothing of how a pattern is worked out.
 //
 // SPDX-License-Identifier: MIT
@@ -40,7 +40,7 @@ static bool add_entry(Block *block, EntryList *list, const PatternEntry *entry, 
 }
 
 // The record of a pigment or texture that an entry holds.
-static bool keep_entry(Block *block, SchemaKind kind, const Blueprint *record, Span span, PatternEntry *entry)
+static bool keep_entry(Block *block, SchemaKind kind, const Desc *record, Span span, PatternEntry *entry)
 {
     const void *kept = arena_copy(block->arena, record, schema_kind(kind)->size);
     if (!kept) {
@@ -53,7 +53,7 @@ static bool keep_entry(Block *block, SchemaKind kind, const Blueprint *record, S
 }
 
 // A normal among others must have its pattern at once; one that is declared or the default may get it later.
-static bool has_pattern(Block *block, SchemaKind kind, const Blueprint *record)
+static bool has_pattern(Block *block, SchemaKind kind, const Desc *record)
 {
     return kind != KIND_NORMAL || !normal_lacks_pattern(&record->normal) || block->has_unsupported ||
            block_fault(block, DIAG_E0253, record->normal.span, "a normal needs a pattern");
@@ -160,7 +160,7 @@ static bool begins_without_number(Block *block)
     return value && value->kind == VALUE_BLOCK;
 }
 
-static bool read_weighed(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *arena, double *at, Blueprint *record)
+static bool read_weighed(Eval *ev, const AstNode *entry, SchemaKind kind, Arena *arena, double *at, Desc *record)
 {
     Block block = {.ev = ev, .node = entry, .arena = arena, .record = record, .kind = kind, .is = kind};
     SchemaKind is;
@@ -186,7 +186,7 @@ static bool read_entry(Block *block, EntryList *list, const AstNode *node)
     SchemaKind kind = block->kind == KIND_PIGMENT_MAP   ? KIND_PIGMENT
                       : block->kind == KIND_TEXTURE_MAP ? KIND_TEXTURE
                                                         : KIND_NORMAL;
-    Blueprint record;
+    Desc record;
     PatternEntry entry = {0};
     block_defaults(block->ev, kind, &record);
     return read_weighed(block->ev, node, kind, block->arena, &entry.at, &record) && has_pattern(block, kind, &record) &&
@@ -284,7 +284,7 @@ static bool may_have_pattern(Block *block, const SchemaProperty *property, const
 
 bool pattern_map_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     SchemaKind kind = block_kind(block->ev, item);
     PatternType type = (PatternType)block->record->patterned.pattern.type;
@@ -343,7 +343,7 @@ static bool read_blocks(Block *block, uint32_t wanted, EntryList *list)
             return false;
         }
         PatternEntry entry = {.at = (double)list->count};
-        Blueprint record;
+        Desc record;
         SchemaKind is;
         block_defaults(block->ev, kind, &record);
         bool is_kept = block_read(block->ev, item, kind, block->arena, &record, &is) &&
@@ -396,7 +396,7 @@ static bool fill_with_colours(Block *block, PatternType type, uint32_t wanted, E
 // crashes. Measured.
 static bool fill_with_defaults(Block *block, PatternType type, uint32_t wanted, EntryList *list, Span span)
 {
-    Blueprint record;
+    Desc record;
     block_defaults(block->ev, block->kind, &record);
     if (block->kind == KIND_NORMAL && list->count < wanted && record.normal.part.pattern.type == PATTERN_NONE) {
         return block_fault(block, DIAG_E0253, span, "`%s` needs %u normals after it, or an amount",
@@ -458,7 +458,7 @@ bool pattern_solid_action(Block *block, const SchemaProperty *property, const As
 // The depth that may follow the pattern of a normal, unless normals do.
 static bool read_amount(Block *block)
 {
-    static const SchemaProperty amount = {"normal", TYPE_NUMBER, ACTION_NONE, .at = offsetof(NormalBlueprint, amount)};
+    static const SchemaProperty amount = {"normal", TYPE_NUMBER, ACTION_NONE, .at = offsetof(NormalDesc, amount)};
     const AstNode *item = cursor_peek(&block->cursor);
     if (block->kind == KIND_NORMAL) {
         cursor_take_comma(&block->cursor);

@@ -23,9 +23,9 @@ struct ClipChain {
 
 typedef struct Placement {
     Transform outer;
-    const TextureBlueprint *texture; // of the nearest object around that has one, else #default's
+    const TextureDesc *texture;      // of the nearest object around that has one, else #default's
     Transform texture_outer;         // of the texture
-    const InteriorBlueprint *interior; // of the nearest one that has one, or NULL
+    const InteriorDesc *interior;    // of the nearest one that has one, or NULL
     uint32_t body;                     // Scene.bodies that it is in, or RECORD_NONE
     const ClipChain *clips;
     const BoxOwner *whole; // the outermost union around that is one object, or NULL
@@ -110,7 +110,7 @@ static bool is_hollow(SchemaKind kind, const void *object)
     const ObjectPart *part = object;
     while (object_is_group(kind) && !part->hollow) {
         const UnionMember *last = NULL;
-        for (const UnionMember *member = ((const UnionBlueprint *)object)->members; member; member = member->next) {
+        for (const UnionMember *member = ((const UnionDesc *)object)->members; member; member = member->next) {
             last = member->kind != KIND_LIGHT_SOURCE ? member : last;
         }
         if (!last) {
@@ -125,7 +125,7 @@ static bool is_hollow(SchemaKind kind, const void *object)
 // ---- plain spheres and planes
 
 // A sphere that is one after its transforms too. False in *is_round: it is not.
-static bool place_sphere(Eval *ev, const SphereBlueprint *sphere, const Placement *inner, bool *is_round)
+static bool place_sphere(Eval *ev, const SphereDesc *sphere, const Placement *inner, bool *is_round)
 {
     const Transform *transform = &inner->outer;
     double image;
@@ -299,7 +299,7 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     return scene_add_leaf(ev->scene, &part) || eval_no_memory(ev, common->span);
 }
 
-static bool grow_members(Eval *ev, SchemaKind kind, const UnionBlueprint *group, const Branch *outer, NodeOp op)
+static bool grow_members(Eval *ev, SchemaKind kind, const UnionDesc *group, const Branch *outer, NodeOp op)
 {
     Branch branch = *outer;
     branch.is_inverse = false;
@@ -331,7 +331,7 @@ static bool grow_object(Eval *ev, SchemaKind kind, const void *object, const Bra
     }
 }
 
-static bool has_no_look(Eval *ev, const LightBlueprint *light)
+static bool has_no_look(Eval *ev, const LightDesc *light)
 {
     return !light->look || eval_fault(ev, DIAG_E0251, light->part.span,
                                       "`looks_like` among shapes that are cut is not supported by rtlang");
@@ -401,7 +401,7 @@ static bool place_composite(Eval *ev, SchemaKind kind, const void *object, const
 
 // ---- anything
 
-static bool place_members(Eval *ev, const UnionBlueprint *group, const Placement *inner)
+static bool place_members(Eval *ev, const UnionDesc *group, const Placement *inner)
 {
     bool is_fine = true;
     for (const UnionMember *member = group->members; member && !ev->stop; member = member->next) {
@@ -414,7 +414,7 @@ static bool place_shape(Eval *ev, SchemaKind kind, const void *object, const Pla
 {
     const ObjectPart *common = object;
     bool is_plain = !common->is_inverse && !inner->hidden;
-    bool may_be_round = kind == KIND_SPHERE && is_plain && ((const SphereBlueprint *)object)->radius != 0.0;
+    bool may_be_round = kind == KIND_SPHERE && is_plain && ((const SphereDesc *)object)->radius != 0.0;
     bool is_round = false, is_placed = false;
     if (box_is_inside_out(kind, object) && (outer->is_hidden_fixed || outer->is_look || !inner->is_stretched)) {
         return outer->is_look           ? box_fault_of_look(ev, common->span)
@@ -456,7 +456,7 @@ static bool place_one(Eval *ev, SchemaKind kind, const void *object, const Place
 }
 
 // What a light looks like: an object by itself, but for the texture and interior of what is around.
-static bool place_look(Eval *ev, const LightBlueprint *light, const Placement *outer)
+static bool place_look(Eval *ev, const LightDesc *light, const Placement *outer)
 {
     if (!light->look || outer->clips) {
         return has_no_look(ev, light);

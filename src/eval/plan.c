@@ -375,7 +375,7 @@ void plan_streams_take_back(Eval *ev, const PlanStreams *kept)
 
 // ---- records
 
-static void set_argument(Blueprint *record, const SchemaProperty *argument, const double *numbers)
+static void set_argument(Desc *record, const SchemaProperty *argument, const double *numbers)
 {
     Vec3 vector = argument->type == TYPE_VECTOR ? vec3(numbers[0], numbers[1], numbers[2]) : vec3(numbers[0], 0.0, 0.0);
     memcpy((char *)record + argument->at, &vector, argument->type == TYPE_VECTOR ? sizeof vector : sizeof *numbers);
@@ -391,7 +391,7 @@ static bool compose(const PlanInput *input, const double *numbers, unsigned widt
     return true;
 }
 
-static bool make_sphere(const SphereBlueprint *sphere, const Transform *whole, PlanMade *made)
+static bool make_sphere(const SphereDesc *sphere, const Transform *whole, PlanMade *made)
 {
     made->is_sphere = sphere_image_radius(sphere->radius, whole, &made->radius);
     made->centre = transform_point(whole, sphere->centre);
@@ -400,7 +400,7 @@ static bool make_sphere(const SphereBlueprint *sphere, const Transform *whole, P
 
 bool plan_make(const Eval *ev, const GrammarPlan *plan, const PlanNumbers *numbers, Span span, PlanMade *made)
 {
-    Blueprint record;
+    Desc record;
     Transform whole = transform_identity();
     made->material = plan->material;
     if (plan->is_at_place) {

@@ -37,7 +37,7 @@ struct GrammarPlan {
     bool has_moves, has_colour;
     bool is_quick;     // expressions are evaluated by quick.c
     Material material; // but for a colour among the inputs
-    Blueprint record;  // but for the arguments among them
+    Desc record;       // but for the arguments among them
     PlanCall *call;    // of a macro, and nothing of the above
     bool is_at_place; // a sphere that is not moved: its inputs are centre, radius and perhaps a colour
     bool is_direct;   // likewise, and all of them are as many numbers in slots
@@ -143,7 +143,7 @@ typedef struct PlanTrial {
 // A statement is evaluated next. True: its plan, which a loop or macro has followed before, was followed, with what came
 // of it in *is_fine. Else it is to be evaluated; where the trial has a plan, plan_note and plan_try are called.
 bool plan_begin(Eval *ev, const AstNode *item, SchemaKind kind, PlanTrial *trial, bool *is_fine) RT_MUST_CHECK;
-void plan_note(Eval *ev, PlanTrial *trial, SchemaKind kind, const Blueprint *record); // what it was read to
+void plan_note(Eval *ev, PlanTrial *trial, SchemaKind kind, const Desc *record);      // what it was read to
 void plan_try(Eval *ev, const PlanTrial *trial, const AstNode *item);                 // it was placed
 
 // loop_plan.c: where a loop's or macro's statement has its plan.

@@ -85,10 +85,10 @@ bool plan_begin(Eval *ev, const AstNode *item, SchemaKind kind, PlanTrial *trial
 }
 
 // Whether nothing is said of an object but its place and its texture.
-void plan_note(Eval *ev, PlanTrial *trial, SchemaKind kind, const Blueprint *record)
+void plan_note(Eval *ev, PlanTrial *trial, SchemaKind kind, const Desc *record)
 {
     const ObjectPart *part = &record->part;
-    const TextureBlueprint *texture = part->texture ? part->texture : ev->objects->defaults;
+    const TextureDesc *texture = part->texture ? part->texture : ev->objects->defaults;
     bool is_plain = kind == trial->plan->kind && !part->is_inverse && !part->no_shadow && !part->no_image &&
                     !part->no_reflection && !part->interior && !part->clips && !part->bounds && texture->ior == 0.0;
     memcpy(&trial->plan->record, record, is_plain ? schema_kind(kind)->size : 0);

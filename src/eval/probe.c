@@ -43,7 +43,7 @@ static bool is_between(double a, double value, double b)
     return (a <= value && value <= b) || (b <= value && value <= a);
 }
 
-static bool box_holds(const BoxBlueprint *box, Vec3 p)
+static bool box_holds(const BoxDesc *box, Vec3 p)
 {
     return is_between(box->corner.x, p.x, box->other_corner.x) && is_between(box->corner.y, p.y, box->other_corner.y) &&
            is_between(box->corner.z, p.z, box->other_corner.z);
@@ -59,7 +59,7 @@ static bool cone_holds(Vec3 base, double base_radius, Vec3 cap, double cap_radiu
 }
 
 // Of a sphere nothing is on either side of its surface.
-static bool sphere_holds(const SphereBlueprint *sphere, Vec3 p, bool is_turned)
+static bool sphere_holds(const SphereDesc *sphere, Vec3 p, bool is_turned)
 {
     Vec3 from = vec3_sub(p, sphere->centre);
     double distance2 = vec3_dot(from, from), radius2 = sphere->radius * sphere->radius;
@@ -67,7 +67,7 @@ static bool sphere_holds(const SphereBlueprint *sphere, Vec3 p, bool is_turned)
 }
 
 // Of a plane both sides have its surface.
-static bool plane_holds(const PlaneBlueprint *plane, Vec3 p, bool is_turned)
+static bool plane_holds(const PlaneDesc *plane, Vec3 p, bool is_turned)
 {
     double beyond = vec3_dot(vec3_normalize(plane->normal), p) - plane->distance;
     return (is_turned ? -beyond : beyond) < plane_tolerance;
@@ -75,9 +75,9 @@ static bool plane_holds(const PlaneBlueprint *plane, Vec3 p, bool is_turned)
 
 static bool shape_holds(SchemaKind kind, const void *object, Vec3 p, bool is_turned)
 {
-    const CylinderBlueprint *cylinder = object;
-    const ConeBlueprint *cone = object;
-    const DiscBlueprint *disc = object;
+    const CylinderDesc *cylinder = object;
+    const ConeDesc *cone = object;
+    const DiscDesc *disc = object;
     bool holds;
     switch (kind) {
     case KIND_SPHERE: return sphere_holds(object, p, is_turned);
@@ -107,7 +107,7 @@ static bool clips_hold(const Clip *clip, Vec3 point)
     return true;
 }
 
-static bool group_holds(SchemaKind kind, const UnionBlueprint *group, Vec3 point, bool is_turned)
+static bool group_holds(SchemaKind kind, const UnionDesc *group, Vec3 point, bool is_turned)
 {
     bool needs_all = (kind == KIND_INTERSECTION || kind == KIND_DIFFERENCE) != is_turned;
     for (const UnionMember *member = group->members; member != NULL; member = member->next) {
@@ -137,7 +137,7 @@ static bool holds(SchemaKind kind, const void *object, Vec3 point, bool is_turne
 static bool is_solid(SchemaKind kind, const void *object)
 {
     bool is_none = kind == KIND_TRIANGLE || kind == KIND_SMOOTH_TRIANGLE || kind == KIND_LIGHT_SOURCE;
-    const UnionMember *member = object_is_group(kind) ? ((const UnionBlueprint *)object)->members : NULL;
+    const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
     for (; member != NULL && !is_none; member = member->next) {
         is_none = !is_solid(member->kind, member->object);
     }
@@ -174,7 +174,7 @@ static bool add_leaf(Eval *ev, Probe *probe, const ProbeNode *node, const Transf
 
 static const UnionMember *members_of(const ProbeNode *group)
 {
-    return ((const UnionBlueprint *)group->object)->members;
+    return ((const UnionDesc *)group->object)->members;
 }
 
 static bool is_taken_away(const ProbeNode *group, const UnionMember *member)
@@ -288,7 +288,7 @@ void probes_fini(Eval *ev)
 // A negative radius turns the normals of a sphere round, until a transform is taken that need not keep it one.
 static bool is_sphere_turned(const ProbeNode *leaf)
 {
-    return leaf->kind == KIND_SPHERE && ((const SphereBlueprint *)leaf->object)->radius < 0.0 && !leaf->is_stretched;
+    return leaf->kind == KIND_SPHERE && ((const SphereDesc *)leaf->object)->radius < 0.0 && !leaf->is_stretched;
 }
 
 // The first surface that counts, and its shape; false: none.

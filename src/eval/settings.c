@@ -52,7 +52,7 @@ bool settings_generator_action(Block *block, const SchemaProperty *property, con
     static const SchemaProperty number = {.word = "noise_generator",
                                           .type = TYPE_INTEGER,
                                           .range = {RANGE_FAULT, false, 1.0, 3.0},
-                                          .at = offsetof(SettingsBlueprint, noise_generator)};
+                                          .at = offsetof(SettingsDesc, noise_generator)};
     (void)property;
     return block_value(block, &number, item->span);
 }
@@ -74,7 +74,7 @@ bool settings_charset_action(Block *block, const SchemaProperty *property, const
     return true;
 }
 
-bool settings_place(Eval *ev, SchemaKind kind, const Blueprint *record)
+bool settings_place(Eval *ev, SchemaKind kind, const Desc *record)
 {
     if (kind == KIND_BACKGROUND) {
         // Nothing of it was clear before version 3.7. Measured.

@@ -1,4 +1,4 @@
-// Shapes: a blueprint's numbers and a transform become a fixed shape under an affine map (scene.h, PartKind).
+// Shapes: a description's numbers and a transform become a fixed shape under an affine map (scene.h, PartKind).
 //
 // A shape that is the fixed one already, under a matrix, gets that matrix bit for bit, so that a scene dump reads back
 // as the same records. Knows nothing of composites and textures.
@@ -10,7 +10,7 @@
 
 // ---- closing braces; an identifier may have made it any object
 
-bool shape_settle(SchemaKind kind, Blueprint *record)
+bool shape_settle(SchemaKind kind, Desc *record)
 {
     switch (kind) {
     case KIND_PLANE: return !vec3_equal(record->plane.normal, vec3(0.0, 0.0, 0.0));
@@ -63,44 +63,44 @@ bool sphere_image_radius(double radius, const Transform *transform, double *imag
 // Each returns why the shape has no extent; NULL: it has one.
 static const char *sphere_form(const void *object, Part *part)
 {
-    const SphereBlueprint *sphere = object;
+    const SphereDesc *sphere = object;
     return part_make_ball(part, sphere->centre, fabs(sphere->radius));
 }
 
 static const char *box_form(const void *object, Part *part)
 {
-    const BoxBlueprint *box = object;
+    const BoxDesc *box = object;
     part_make_box(part, box->corner, box->other_corner);
     return NULL;
 }
 
 static const char *cylinder_form(const void *object, Part *part)
 {
-    const CylinderBlueprint *c = object;
+    const CylinderDesc *c = object;
     return part_make_cylinder(part, c->base, c->cap, c->radius, c->is_open);
 }
 
 static const char *cone_form(const void *object, Part *part)
 {
-    const ConeBlueprint *c = object;
+    const ConeDesc *c = object;
     return part_make_cone(part, c->base, c->base_radius, c->cap, c->cap_radius, c->is_open);
 }
 
 static const char *disc_form(const void *object, Part *part)
 {
-    const DiscBlueprint *disc = object;
+    const DiscDesc *disc = object;
     return part_make_disc(part, disc->centre, disc->normal, disc->radius, disc->hole);
 }
 
 static const char *triangle_form(const void *object, Part *part)
 {
-    const TriangleBlueprint *triangle = object;
+    const TriangleDesc *triangle = object;
     return part_make_triangle(part, triangle->corners);
 }
 
 static const char *smooth_triangle_form(const void *object, Part *part)
 {
-    const SmoothTriangleBlueprint *triangle = object;
+    const SmoothTriangleDesc *triangle = object;
     return part_make_smooth_triangle(part, triangle->corners, triangle->normals);
 }
 
@@ -121,7 +121,7 @@ bool shape_flattened(Eval *ev, const ObjectPart *part)
 }
 
 // The image of n·p = d under p' = p M + t is n'·p' = d' with n' = M^-1 n (as a row vector n M^-T) and d' = d + n'·t.
-static ShapeResult plane_form(const PlaneBlueprint *plane, const Transform *transform, Part *part)
+static ShapeResult plane_form(const PlaneDesc *plane, const Transform *transform, Part *part)
 {
     Transform back;
     if (!transform_invert(transform, &back)) {
@@ -143,7 +143,7 @@ static ShapeResult plane_form(const PlaneBlueprint *plane, const Transform *tran
 }
 
 // A sphere that is still one has no turn, so that it is the same surface, bit for bit, as a plain sphere of this text.
-static Transform sphere_to_world(const SphereBlueprint *sphere, const Transform *ball, const Transform *transform)
+static Transform sphere_to_world(const SphereDesc *sphere, const Transform *ball, const Transform *transform)
 {
     double radius;
     if (!sphere_image_radius(fabs(sphere->radius), transform, &radius)) {

@@ -9,7 +9,7 @@
 
 #include "base/array.h"
 #include "base/attributes.h"
-#include "scene/blueprint.h"
+#include "scene/description.h"
 #include "scene/unique.h"
 
 enum { COST_MOST = 1 << 30 }; // counts end at about this

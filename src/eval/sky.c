@@ -13,11 +13,11 @@
 
 bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
-    SkySphereBlueprint *sky = &block->record->sky;
+    SkySphereDesc *sky = &block->record->sky;
     (void)property;
-    record.pigment = *(const PigmentBlueprint *)schema_kind(KIND_PIGMENT)->defaults; // the sky knows no #default
+    record.pigment = *(const PigmentDesc *)schema_kind(KIND_PIGMENT)->defaults; // the sky knows no #default
     if (!block_read(block->ev, item, KIND_PIGMENT, block->arena, &record, &is)) {
         return false;
     }
@@ -32,7 +32,7 @@ bool sky_close(Block *block)
            block_fault(block, DIAG_E0253, block->node->span, "`sky_sphere` needs a pigment in it");
 }
 
-bool sky_place(Eval *ev, const SkySphereBlueprint *sky, Span span)
+bool sky_place(Eval *ev, const SkySphereDesc *sky, Span span)
 {
     ObjectState *objects = ev->objects;
     if (objects->sky) {
@@ -45,7 +45,7 @@ bool sky_place(Eval *ev, const SkySphereBlueprint *sky, Span span)
 
 bool objects_finish(Eval *ev)
 {
-    const SkySphereBlueprint *sky = ev->objects->sky;
+    const SkySphereDesc *sky = ev->objects->sky;
     Span span = ev->objects->sky_span;
     if (!sky || ev->stop) {
         return true;
@@ -71,8 +71,8 @@ bool fog_turbulence_action(Block *block, const SchemaProperty *property, const A
 {
     bool is_vector = strcmp(property->word, "turbulence") == 0;
     SchemaProperty value = {.word = property->word, .type = is_vector ? TYPE_VECTOR : TYPE_NUMBER};
-    value.at = is_vector ? offsetof(FogBlueprint, turbulence) : offsetof(FogBlueprint, turbulence_detail);
-    FogBlueprint *fog = &block->record->fog;
+    value.at = is_vector ? offsetof(FogDesc, turbulence) : offsetof(FogDesc, turbulence_detail);
+    FogDesc *fog = &block->record->fog;
     if (!block_value(block, &value, item->span)) {
         return false;
     }
@@ -85,7 +85,7 @@ bool fog_turbulence_action(Block *block, const SchemaProperty *property, const A
 
 bool fog_close(Block *block)
 {
-    const FogBlueprint *fog = &block->record->fog;
+    const FogDesc *fog = &block->record->fog;
     Span span = block->node->span;
     if (fog->turbulent_word && fog->turb_depth != 0.0 && !block->has_unsupported) {
         block->has_unsupported = true;
@@ -103,7 +103,7 @@ bool fog_close(Block *block)
            block_fault(block, DIAG_E0342, span, "`up` of a fog cannot be <0, 0, 0>");
 }
 
-bool fog_place(Eval *ev, const FogBlueprint *fog, Span span)
+bool fog_place(Eval *ev, const FogDesc *fog, Span span)
 {
     double scale = world_scale(ev);
     Vec3 shift = ev->options.world ? ev->options.world->shift : vec3(0.0, 0.0, 0.0);

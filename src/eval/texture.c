@@ -11,20 +11,20 @@
 #include "eval/blocks.h"
 #include "eval/shared_maps.h"
 
-void texture_transform(TextureBlueprint *texture, const Transform *transform)
+void texture_transform(TextureDesc *texture, const Transform *transform)
 {
     texture->part.transform = transform_compose(texture->part.transform, *transform);
 }
 
 // Whether anything was said of bumps.
-static bool has_normal(const TextureBlueprint *texture)
+static bool has_normal(const TextureDesc *texture)
 {
     return texture->normal.part.pattern.type != PATTERN_NONE || normal_lacks_pattern(&texture->normal);
 }
 
 // Hands the transform of a texture on to what it has by now, so that a part that comes later is not moved by it. Each
 // texture has a pigment, if only the default one.
-static bool settle(Eval *ev, Arena *arena, TextureBlueprint *texture, Span span)
+static bool settle(Eval *ev, Arena *arena, TextureDesc *texture, Span span)
 {
     const Transform *transform = &texture->part.transform;
     if (texture->part.pattern.type != PATTERN_NONE) {
@@ -35,7 +35,7 @@ static bool settle(Eval *ev, Arena *arena, TextureBlueprint *texture, Span span)
         texture->normal.part.transform = transform_compose(texture->normal.part.transform, *transform);
     }
     if (texture->below) {
-        TextureBlueprint *below = arena_copy(arena, texture->below, sizeof *below);
+        TextureDesc *below = arena_copy(arena, texture->below, sizeof *below);
         if (!below) {
             return eval_no_memory(ev, span);
         }
@@ -58,7 +58,7 @@ static bool makes_filters_clear(const Eval *ev)
     return ev->version < 3.1 || numbers_equal(ev->version, 3.1);
 }
 
-static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentBlueprint *pigment, Span span);
+static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentDesc *pigment, Span span);
 
 static bool clear_entries(Eval *ev, Arena *arena, SharedMaps *shared, const PatternMap *map, Span span,
                           const PatternMap **cleared)
@@ -70,7 +70,7 @@ static bool clear_entries(Eval *ev, Arena *arena, SharedMaps *shared, const Patt
         entries[i] = map->entries[i];
         entries[i].colour = without_filter(entries[i].colour);
         if (entries[i].pigment) {
-            PigmentBlueprint *inner = arena_copy(arena, entries[i].pigment, sizeof *inner);
+            PigmentDesc *inner = arena_copy(arena, entries[i].pigment, sizeof *inner);
             is_fine = inner && clear_filters(ev, arena, shared, inner, span);
             entries[i].pigment = inner;
         }
@@ -83,7 +83,7 @@ static bool clear_entries(Eval *ev, Arena *arena, SharedMaps *shared, const Patt
     return true;
 }
 
-static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentBlueprint *pigment, Span span)
+static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentDesc *pigment, Span span)
 {
     const PatternMap *map = pigment->part.map;
     uint32_t place;
@@ -108,7 +108,7 @@ static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentBlu
 
 // Up to version 3.1 the filters of what lies over something let light through unchanged: POV-Ray makes `transmit` of
 // them. Measured, also of maps.
-static bool take_filters(Eval *ev, Arena *arena, PigmentBlueprint *pigment, Span span)
+static bool take_filters(Eval *ev, Arena *arena, PigmentDesc *pigment, Span span)
 {
     SharedMaps shared = {0};
     bool is_fine = clear_filters(ev, arena, &shared, pigment, span);
@@ -116,9 +116,9 @@ static bool take_filters(Eval *ev, Arena *arena, PigmentBlueprint *pigment, Span
     return is_fine;
 }
 
-static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     if (!settle(ev, arena, texture, item->span)) {
         return false;
@@ -131,9 +131,9 @@ static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureBlu
     return true;
 }
 
-static bool read_normal(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+static bool read_normal(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     if (!settle(ev, arena, texture, item->span)) {
         return false;
@@ -160,7 +160,7 @@ static unsigned finish_words(const AstNode *item, FinishWord *words)
     return count;
 }
 
-static bool finish_is_known(const Eval *ev, const TextureBlueprint *texture, const FinishWord *words, unsigned count)
+static bool finish_is_known(const Eval *ev, const TextureDesc *texture, const FinishWord *words, unsigned count)
 {
     const FinishMemo *memo = &ev->objects->finish;
     bool is_same = count > 0 && count == memo->count && numbers_equal(ev->version, memo->version) &&
@@ -174,9 +174,9 @@ static bool finish_is_known(const Eval *ev, const TextureBlueprint *texture, con
     return is_same;
 }
 
-static bool read_new_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+static bool read_new_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     block_defaults(ev, KIND_FINISH, &record);
     record.finish.finish = texture->finish;
@@ -191,7 +191,7 @@ static bool read_new_finish(Eval *ev, const AstNode *item, Arena *arena, Texture
 }
 
 // Programs write the same finish again and again: it is worked out once, unless there was something to say about it.
-static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
     FinishMemo *memo = &ev->objects->finish;
     FinishWord words[FINISH_WORDS_MOST];
@@ -221,9 +221,9 @@ static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureBlue
 }
 
 // Lays `top`, which may have layers of its own, over `below`.
-static bool lay_over(Eval *ev, Arena *arena, TextureBlueprint *top, const TextureBlueprint *below, Span span)
+static bool lay_over(Eval *ev, Arena *arena, TextureDesc *top, const TextureDesc *below, Span span)
 {
-    TextureBlueprint *layer = top;
+    TextureDesc *layer = top;
     for (;;) {
         if (!settle(ev, arena, layer, span) || !eval_step(ev, span)) {
             return false;
@@ -238,14 +238,14 @@ static bool lay_over(Eval *ev, Arena *arena, TextureBlueprint *top, const Textur
             layer->below = below;
             return true;
         }
-        layer = (TextureBlueprint *)layer->below; // a copy that settle has made
+        layer = (TextureDesc *)layer->below; // a copy that settle has made
     }
 }
 
-const TextureBlueprint *texture_laid_over(Eval *ev, Arena *arena, const TextureBlueprint *top,
-                                          const TextureBlueprint *below, Span span)
+const TextureDesc *texture_laid_over(Eval *ev, Arena *arena, const TextureDesc *top, const TextureDesc *below,
+                                     Span span)
 {
-    TextureBlueprint *texture = arena_copy(arena, top, sizeof *texture);
+    TextureDesc *texture = arena_copy(arena, top, sizeof *texture);
     if (!texture) {
         (void)eval_no_memory(ev, span);
         return NULL;
@@ -253,10 +253,9 @@ const TextureBlueprint *texture_laid_over(Eval *ev, Arena *arena, const TextureB
     return lay_over(ev, arena, texture, below, span) ? texture : NULL;
 }
 
-static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const TextureBlueprint *below,
-                         TextureBlueprint *texture)
+static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const TextureDesc *below, TextureDesc *texture)
 {
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     block_defaults(ev, KIND_TEXTURE, &record);
     if (!block_read(ev, item, KIND_TEXTURE, arena, &record, &is) ||
@@ -267,7 +266,7 @@ static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const Text
     return true;
 }
 
-static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena *arena, TextureBlueprint *texture)
+static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
     switch (action) {
     case ACTION_PIGMENT: return read_pigment(ev, item, arena, texture);
@@ -276,7 +275,7 @@ static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena 
     }
 }
 
-const TextureBlueprint **texture_place(Block *block)
+const TextureDesc **texture_place(Block *block)
 {
     // The object of a `looks_like` may be missing: that is reported, and what follows it is read nevertheless.
     bool is_object = schema_kind(block->is)->is_object || block->kind == KIND_LOOKS_LIKE;
@@ -288,15 +287,15 @@ const TextureBlueprint **texture_place(Block *block)
 bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     Eval *ev = block->ev;
-    const TextureBlueprint **place = texture_place(block);
-    const TextureBlueprint *before = block->kind == KIND_TEXTURE ? &block->record->texture : *place;
+    const TextureDesc **place = texture_place(block);
+    const TextureDesc *before = block->kind == KIND_TEXTURE ? &block->record->texture : *place;
     if (before && before->part.pattern.type != PATTERN_NONE && property->action != ACTION_TEXTURE) {
         return eval_fault(ev, DIAG_E0290, item->span, "a pattern of textures has no %s of its own", property->word);
     }
     if (block->kind == KIND_TEXTURE) {
         return read_part(ev, property->action, item, block->arena, &block->record->texture);
     }
-    TextureBlueprint *texture = arena_copy(block->arena, before ? before : ev->objects->defaults, sizeof *texture);
+    TextureDesc *texture = arena_copy(block->arena, before ? before : ev->objects->defaults, sizeof *texture);
     if (!texture) {
         return eval_no_memory(ev, item->span);
     }
@@ -308,7 +307,7 @@ bool texture_action(Block *block, const SchemaProperty *property, const AstNode 
 bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     static const SchemaProperty alone = {"reflection", TYPE_RGB, ACTION_NONE,
-                                         .at = offsetof(FinishBlueprint, finish.reflection_min)};
+                                         .at = offsetof(FinishDesc, finish.reflection_min)};
     Finish *finish = &block->record->finish.finish;
     (void)property;
     if (item->kind == AST_WORD) {
@@ -316,7 +315,7 @@ bool reflection_action(Block *block, const SchemaProperty *property, const AstNo
         finish->reflection_max = finish->reflection_min;
         return is_read;
     }
-    Blueprint record;
+    Desc record;
     SchemaKind is;
     record.finish = block->record->finish;
     record.finish.finish.reflection_min = record.finish.finish.reflection_max = rgb_grey(0.0);
@@ -341,7 +340,7 @@ bool reflection_close(Block *block)
 // the normalisation of the Blinn-Phong lobe with exponent n = 1 / roughness.
 bool finish_close(Block *block)
 {
-    FinishBlueprint *record = &block->record->finish;
+    FinishDesc *record = &block->record->finish;
     Finish *finish = &record->finish;
     if (record->diffuse_is_albedo) {
         double factor = (finish->brilliance + 1.0) / 2.0;
@@ -367,7 +366,7 @@ bool finish_close(Block *block)
 bool eval_texture_layer(Eval *ev, const AstNode *node, Value *layers)
 {
     Value one;
-    const TextureBlueprint *below = layers->kind == VALUE_BLOCK ? layers->record : NULL;
+    const TextureDesc *below = layers->kind == VALUE_BLOCK ? layers->record : NULL;
     if (!eval_block(ev, node, &one)) {
         return false;
     }
@@ -375,7 +374,7 @@ bool eval_texture_layer(Eval *ev, const AstNode *node, Value *layers)
         *layers = one.block == KIND_UNSUPPORTED ? one : *layers;
         return true;
     }
-    TextureBlueprint *layer = arena_copy(&ev->program, one.record, sizeof *layer);
+    TextureDesc *layer = arena_copy(&ev->program, one.record, sizeof *layer);
     if (!layer) {
         return eval_no_memory(ev, node->span);
     }
@@ -393,12 +392,16 @@ bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value)
     return fine;
 }
 
-void texture_take_part(TextureBlueprint *texture, SchemaKind kind, const void *part)
+void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part)
 {
-    const FinishBlueprint *finish = part;
+    const FinishDesc *finish = part;
     switch (kind) {
-    case KIND_PIGMENT: texture->pigment = *(const PigmentBlueprint *)part; break;
-    case KIND_NORMAL: texture->normal = *(const NormalBlueprint *)part; break;
+    case KIND_PIGMENT:
+        texture->pigment = *(const PigmentDesc *)part;
+        break;
+    case KIND_NORMAL:
+        texture->normal = *(const NormalDesc *)part;
+        break;
     default:
         texture->finish = finish->finish;
         texture->ior = finish->ior;
@@ -406,7 +409,7 @@ void texture_take_part(TextureBlueprint *texture, SchemaKind kind, const void *p
     }
 }
 
-static bool read_default(Eval *ev, const AstNode *item, TextureBlueprint *texture)
+static bool read_default(Eval *ev, const AstNode *item, TextureDesc *texture)
 {
     switch (block_kind(ev, item)) {
     case KIND_TEXTURE: return read_texture(ev, item, &ev->program, NULL, texture);
@@ -423,7 +426,7 @@ bool eval_default(Eval *ev, const AstNode *directive)
     Cursor cursor;
     bool is_fine = true;
     const AstNode *item;
-    TextureBlueprint *texture = arena_copy(&ev->program, ev->objects->defaults, sizeof *texture);
+    TextureDesc *texture = arena_copy(&ev->program, ev->objects->defaults, sizeof *texture);
     if (!texture) {
         return eval_no_memory(ev, directive->span);
     }

@@ -1,7 +1,7 @@
 // Transforms as properties: translate, rotate, scale, matrix and transform, applied in the order in which they stand.
 //
-// Each one is composed onto the transform at the start of the block's blueprint; a light is moved at once, because what
-// is said after a transform is not moved by it, and so is a camera of old versions. Knows nothing of shapes.
+// Each one is composed onto the transform at the start of the block's description; a light is moved at once, because
+// what is said after a transform is not moved by it, and so is a camera of old versions. Knows nothing of shapes.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -22,9 +22,9 @@ bool block_transform(Block *block, const Transform *transform)
     if (block->is == KIND_FOG) {
         block->record->fog.up = transform_direction(transform, block->record->fog.up);
     }
-    const TextureBlueprint **place = texture_place(block);
+    const TextureDesc **place = texture_place(block);
     if (place && *place) {
-        TextureBlueprint *texture = arena_copy(block->arena, *place, sizeof *texture);
+        TextureDesc *texture = arena_copy(block->arena, *place, sizeof *texture);
         if (!texture) {
             return eval_no_memory(block->ev, block->node->span);
         }
@@ -103,7 +103,7 @@ static bool read_matrix(Block *block, Span word, Transform *matrix)
 // `transform { … }`, or the name of a declared transform.
 static bool read_transform(Block *block, const AstNode *item, Transform *transform)
 {
-    Blueprint inner;
+    Desc inner;
     SchemaKind is;
     if (item->kind == AST_BLOCK) {
         block_defaults(block->ev, KIND_TRANSFORM, &inner);
@@ -125,7 +125,7 @@ static bool read_transform(Block *block, const AstNode *item, Transform *transfo
     if (value.kind != VALUE_BLOCK || value.block != KIND_TRANSFORM) {
         return block_fault(block, DIAG_E0258, name->span, "expected a transform, found %s", value_describe(&value));
     }
-    *transform = ((const TransformBlueprint *)value.record)->transform;
+    *transform = ((const TransformDesc *)value.record)->transform;
     cursor_skip(&block->cursor);
     return true;
 }
@@ -188,7 +188,7 @@ bool transform_action(Block *block, const SchemaProperty *property, const AstNod
 
 bool transform_close(Block *block)
 {
-    TransformBlueprint *record = &block->record->transformation;
+    TransformDesc *record = &block->record->transformation;
     if (record->is_inverse && !transform_invert(&record->transform, &record->transform)) {
         return block_fault(block, DIAG_E0345, block->node->span, "the transform has no inverse");
     }

@@ -113,13 +113,13 @@ static Rgb scattered_light(const Prepared *prepared, const Scattered *at, Vec3 d
 {
     RenderStatistics unused = {0};
     bool inside = vec3_dot(at->surface.normal, direction) < 0.0;
-    ShadePoint point = {.point = at->surface.point,
-                        .normal = inside ? vec3_neg(at->surface.normal) : at->surface.normal,
-                        .outward = at->surface.normal,
-                        .direction = vec3_neg(direction),
-                        .shape = at->shape,
-                        .ior_ratio = 1.0,
-                        .inside = inside};
+    ShadingPoint point = {.point = at->surface.point,
+                          .normal = inside ? vec3_neg(at->surface.normal) : at->surface.normal,
+                          .outward = at->surface.normal,
+                          .direction = vec3_neg(direction),
+                          .shape = at->shape,
+                          .ior_ratio = 1.0,
+                          .inside = inside};
     return rgb_scale(at->stands_for, shade_light(prepared, FEATURES, &at->material, at->light, &point, &unused));
 }
 

@@ -1,4 +1,4 @@
-// Noise at points: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+// Noise at points: compiled once for each instruction set, with ISA_NAME the name of the table.
 //
 // What lies at the lattice points around a point is computed for four coordinates, points or components at once;
 // octaves and rows of points go four at a time. Sums run in the order of the lattice points, so the bits are the same.

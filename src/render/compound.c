@@ -11,9 +11,9 @@
 enum { ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES, FLAT_FEATURES = ALL_FEATURES & ~RENDER_NORMALS };
 
 // The point for all layers together: what reaches it of a light is asked for once.
-static ShadePoint for_layers(const ShadePoint *at, ShadeArrived *arrived)
+static ShadingPoint for_layers(const ShadingPoint *at, ShadeArrived *arrived)
 {
-    ShadePoint shared = *at;
+    ShadingPoint shared = *at;
     arrived->known = 0;
     shared.arrived = arrived;
     return shared;
@@ -21,9 +21,9 @@ static ShadePoint for_layers(const ShadePoint *at, ShadeArrived *arrived)
 
 typedef struct LayerSum {
     const Prepared *p;
-    const ShadePoint *at;
+    const ShadingPoint *at;
     double weight; // of the ray
-    ShadeOnward *onward;
+    ScatterRecord *scatter;
     RenderStatistics *statistics;
     double refraction; // the least of the layers
     Rgb light;
@@ -31,18 +31,18 @@ typedef struct LayerSum {
 
 // A mirror is seen undimmed through the layers above, unless the ray would be worth too little; measured.
 RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const TextureLayer *layer,
-                                 const ShadeMaterial *material, Rgb reflectance, ShadeOnward *onward)
+                                 const ShadeMaterial *material, Rgb reflectance, ScatterRecord *scatter)
 {
     double weight = rgb_luminance(layer->above) * shade_mirror_weight(features, material->finish, reflectance);
     if (sum->weight * weight < sum->p->adc_bailout) {
         return;
     }
-    onward->reflectance = rgb_add_scaled(onward->reflectance, layer->part, reflectance);
-    onward->reflection_weight = greater_of(onward->reflection_weight, weight);
-    onward->reflection_exponent = material->finish->reflection_exponent;
+    scatter->reflectance = rgb_add_scaled(scatter->reflectance, layer->part, reflectance);
+    scatter->reflection_weight = greater_of(scatter->reflection_weight, weight);
+    scatter->reflection_exponent = material->finish->reflection_exponent;
 }
 
-RT_ALWAYS_INLINE void add_light(unsigned features, LayerSum *sum, const TextureLayer *layer, const ShadePoint *at,
+RT_ALWAYS_INLINE void add_light(unsigned features, LayerSum *sum, const TextureLayer *layer, const ShadingPoint *at,
                                 const ShadeMaterial *material)
 {
     Rgb light = shade_local(sum->p, features, material, at, sum->statistics);
@@ -55,24 +55,24 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     ShadeMaterial material = shade_material(sum->p, FLAT_FEATURES, layer->pigment, layer->finish);
     Rgb reflectance;
     if (shade_mirror(FLAT_FEATURES, &material, sum->at, &reflectance)) {
-        add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->onward);
+        add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->scatter);
     }
     sum->refraction = less_of(sum->refraction, material.finish->refraction);
     add_light(FLAT_FEATURES, sum, layer, sum->at, &material);
     return shade_left_below(FLAT_FEATURES, &material, sum->at);
 }
 
-Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
+Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, ScatterRecord *scatter,
                    RenderStatistics *statistics)
 {
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
     ShadeArrived arrived;
-    ShadePoint shared = for_layers(at, &arrived);
-    LayerSum sum = {p, &shared, weight, onward, statistics, HUGE_VAL, rgb_grey(0.0)};
-    *onward = (ShadeOnward){.reflection_exponent = 1.0, .part = 1.0};
+    ShadingPoint shared = for_layers(at, &arrived);
+    LayerSum sum = {p, &shared, weight, scatter, statistics, HUGE_VAL, rgb_grey(0.0)};
+    *scatter = (ScatterRecord){.reflection_exponent = 1.0, .part = 1.0};
     TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
-    onward->through = rgb_scale(sum.refraction, through.light);
-    onward->through_weight = sum.refraction * through.weight;
+    scatter->through = rgb_scale(sum.refraction, through.light);
+    scatter->through_weight = sum.refraction * through.weight;
     return sum.light;
 }
 
@@ -93,7 +93,7 @@ typedef struct BumpSum {
 } BumpSum;
 
 // The way on for a normal; there is room for as many as the evaluator lets a texture have.
-static ShadeOnward *way_for(ShadeWays *ways, Vec3 normal)
+static ScatterRecord *way_for(ShadeWays *ways, Vec3 normal)
 {
     int i = 0;
     while (i < ways->count && (ways->normals[i].x != normal.x || ways->normals[i].y != normal.y ||
@@ -102,10 +102,10 @@ static ShadeOnward *way_for(ShadeWays *ways, Vec3 normal)
     }
     if (i == ways->count && ways->count < SHADE_WAYS_MAX) {
         ways->normals[i] = normal;
-        ways->onward[i] = (ShadeOnward){.reflection_exponent = 1.0};
+        ways->scatter[i] = (ScatterRecord){.reflection_exponent = 1.0};
         ways->count++;
     }
-    return &ways->onward[i < SHADE_WAYS_MAX ? i : SHADE_WAYS_MAX - 1];
+    return &ways->scatter[i < SHADE_WAYS_MAX ? i : SHADE_WAYS_MAX - 1];
 }
 
 // What a texture lets through is bent by the bumps of its top layer. Without bending all goes one way.
@@ -117,7 +117,7 @@ static void end_stack(BumpSum *bumps)
     if (!bumps->has_stack || rgb_is_black(through) || fabs(rgb_luminance(through)) < sum->p->adc_bailout) {
         return;
     }
-    ShadeOnward *way = way_for(bumps->ways, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
+    ScatterRecord *way = way_for(bumps->ways, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
     way->through = rgb_add_scaled(way->through, stack->refraction * stack->part, through);
     way->through_weight = greater_of(way->through_weight, stack->refraction * rgb_max_abs(through));
     way->part += stack->part;
@@ -135,7 +135,7 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     BumpSum *bumps = client;
     LayerSum *sum = &bumps->sum;
     Stack *stack = &bumps->stack;
-    ShadePoint at = *sum->at;
+    ShadingPoint at = *sum->at;
     if (layer->normal != RECORD_NONE) {
         at.normal = texture_normal(&sum->p->textures, layer, at.normal);
     }
@@ -153,11 +153,11 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     return left;
 }
 
-Rgb shade_bumpy(const Prepared *p, const ShadePoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics)
+Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics)
 {
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
     ShadeArrived arrived;
-    ShadePoint shared = for_layers(at, &arrived);
+    ShadingPoint shared = for_layers(at, &arrived);
     BumpSum bumps = {.sum = {p, &shared, weight, NULL, statistics, HUGE_VAL, rgb_grey(0.0)}, .ways = ways};
     ways->count = 0;
     texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);

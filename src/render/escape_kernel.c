@@ -1,4 +1,4 @@
-// Escape of many points: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+// Escape of many points: compiled once for each instruction set, with ISA_NAME the name of the table.
 //
 // A step of one point waits for the one before it, so points go side by side, each by the operations that pattern.c has
 // for a single one.

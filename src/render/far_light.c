@@ -17,7 +17,7 @@ typedef struct FarCrossing {
 } FarCrossing;
 
 // What they leave of the light, multiplied as on a walk from the point.
-static Rgb crossings_share(const Prepared *p, const ShadePoint *at, const FarCrossing *crossings, int count,
+static Rgb crossings_share(const Prepared *p, const ShadingPoint *at, const FarCrossing *crossings, int count,
                            double distance)
 {
     MediumStack inside = at->before;
@@ -40,7 +40,7 @@ static Rgb crossings_share(const Prepared *p, const ShadePoint *at, const FarCro
 }
 
 // A shape is convex, or flat: the point itself is where the ray meets its shape from the side that the light is on.
-Rgb shade_far_light(const Prepared *p, const ShadePoint *at, Vec3 end, Vec3 towards, double distance)
+Rgb shade_far_light(const Prepared *p, const ShadingPoint *at, Vec3 end, Vec3 towards, double distance)
 {
     FarCrossing crossings[CROSSINGS_KEPT];
     int count = 0;

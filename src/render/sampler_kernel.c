@@ -1,4 +1,4 @@
-// Sobol points, some at once: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+// Sobol points, some at once: compiled once for each instruction set, with ISA_NAME the name of the table.
 //
 // Shifts, products and sums are those of single words, so the bits are the same.
 //

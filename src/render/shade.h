@@ -1,5 +1,5 @@
 // Light along one ray: what is hit, how it shines (render/shade_light.h), and the rays that go on from there
-// (render/shade_onward.h).
+// (render/shade_scatter.h).
 //
 // Everything here is always-inline and takes the kernel's features as a constant.
 //
@@ -7,7 +7,7 @@
 #ifndef RENDER_SHADE_H
 #define RENDER_SHADE_H
 
-#include "render/shade_onward.h"
+#include "render/shade_scatter.h"
 #include "render/sky.h"
 
 enum { SHADE_ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES };
@@ -16,19 +16,20 @@ enum { SHADE_ALL_FEATURES = RENDER_ALL_FEATURES | TRACE_ALL_FEATURES };
 typedef struct ShadeWays {
     int count;
     Vec3 normals[SHADE_WAYS_MAX];
-    ShadeOnward onward[SHADE_WAYS_MAX];
+    ScatterRecord scatter[SHADE_WAYS_MAX];
 } ShadeWays;
 
 // The same as shade_surface for patterns and layers; not inline, for it costs more than a call. In render/compound.c.
 // `weight` is the ray's.
-Rgb shade_compound(const Prepared *p, const ShadePoint *at, double weight, ShadeOnward *onward,
+Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, ScatterRecord *scatter,
                    RenderStatistics *statistics);
 // The same where there may be bumps.
-Rgb shade_bumpy(const Prepared *p, const ShadePoint *at, double weight, ShadeWays *ways, RenderStatistics *statistics);
+Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeWays *ways,
+                RenderStatistics *statistics);
 
 // What a material adds by itself: its glow and what the lights make of it.
 RT_ALWAYS_INLINE Rgb shade_local_of(const Prepared *p, unsigned features, const ShadeMaterial *material,
-                                    const ShadePoint *at, RenderStatistics *statistics)
+                                    const ShadingPoint *at, RenderStatistics *statistics)
 {
     Rgb light = rgb_mul(material->opaque, material->finish->glow);
     for (size_t i = 0; i < p->light_count; i++) {
@@ -38,12 +39,12 @@ RT_ALWAYS_INLINE Rgb shade_local_of(const Prepared *p, unsigned features, const 
 }
 
 // The same with all features: compiled once, in render/step.c.
-Rgb shade_local_all(const Prepared *p, const ShadeMaterial *material, const ShadePoint *at,
+Rgb shade_local_all(const Prepared *p, const ShadeMaterial *material, const ShadingPoint *at,
                     RenderStatistics *statistics);
 
 // Without bumps it is the same: what they change, shade_metallic, they change for angles of more than a right one only.
 RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const ShadeMaterial *material,
-                                 const ShadePoint *at, RenderStatistics *statistics)
+                                 const ShadingPoint *at, RenderStatistics *statistics)
 {
     return (features | RENDER_NORMALS) == SHADE_ALL_FEATURES
                ? shade_local_all(p, material, at, statistics)
@@ -51,7 +52,7 @@ RT_ALWAYS_INLINE Rgb shade_local(const Prepared *p, unsigned features, const Sha
 }
 
 // The mirror of a material, by colour; false when it has none.
-RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *material, const ShadePoint *at,
+RT_ALWAYS_INLINE bool shade_mirror(unsigned features, const ShadeMaterial *material, const ShadingPoint *at,
                                    Rgb *reflectance)
 {
     if (!(features & RENDER_REFLECTION) || !material->finish->reflects) {
@@ -70,7 +71,7 @@ RT_ALWAYS_INLINE double shade_mirror_weight(unsigned features, const PreparedFin
 }
 
 // What a layer's mirror leaves of the light of the layers below.
-RT_ALWAYS_INLINE Rgb shade_left_below(unsigned features, const ShadeMaterial *material, const ShadePoint *at)
+RT_ALWAYS_INLINE Rgb shade_left_below(unsigned features, const ShadeMaterial *material, const ShadingPoint *at)
 {
     Rgb reflectance;
     return material->finish->conserves_energy && shade_mirror(features, material, at, &reflectance)
@@ -79,12 +80,12 @@ RT_ALWAYS_INLINE Rgb shade_left_below(unsigned features, const ShadeMaterial *ma
 }
 
 // What a surface's mirror sends on.
-RT_ALWAYS_INLINE void shade_set_mirror(unsigned features, const ShadeMaterial *material, const ShadePoint *at,
-                                       ShadeOnward *onward)
+RT_ALWAYS_INLINE void shade_set_mirror(unsigned features, const ShadeMaterial *material, const ShadingPoint *at,
+                                       ScatterRecord *scatter)
 {
-    if (shade_mirror(features, material, at, &onward->reflectance)) {
-        onward->reflection_weight = shade_mirror_weight(features, material->finish, onward->reflectance);
-        onward->reflection_exponent = material->finish->reflection_exponent;
+    if (shade_mirror(features, material, at, &scatter->reflectance)) {
+        scatter->reflection_weight = shade_mirror_weight(features, material->finish, scatter->reflectance);
+        scatter->reflection_exponent = material->finish->reflection_exponent;
     }
 }
 
@@ -118,58 +119,58 @@ RT_ALWAYS_INLINE bool shade_one_layer(const Prepared *p, unsigned features, Mate
 
 // What a texture of one clear layer sends on, for a ray of some weight: as shade_compound has it of all its layers.
 RT_ALWAYS_INLINE void shade_set_clear(const Prepared *p, unsigned features, const ShadeMaterial *material,
-                                      const ShadeLayer *layer, const ShadePoint *at, double weight,
-                                      ShadeOnward *onward)
+                                      const ShadeLayer *layer, const ShadingPoint *at, double weight,
+                                      ScatterRecord *scatter)
 {
     const PreparedFinish *finish = material->finish;
     Rgb reflectance;
     if (shade_mirror(features, material, at, &reflectance)) {
         double own = rgb_luminance(rgb_grey(1.0)) * shade_mirror_weight(features, finish, reflectance);
         if (!(weight * own < p->adc_bailout)) {
-            onward->reflectance = reflectance;
-            onward->reflection_weight = own;
-            onward->reflection_exponent = finish->reflection_exponent;
+            scatter->reflectance = reflectance;
+            scatter->reflection_weight = own;
+            scatter->reflection_exponent = finish->reflection_exponent;
         }
     }
     Rgb through = rgb_mul(shade_left_below(features, material, at), texture_pigment_through(layer->pigment));
     if (!rgb_is_black(through) && !(fabs(rgb_luminance(through)) < p->adc_bailout)) {
-        onward->through = rgb_scale(finish->refraction, through);
-        onward->through_weight = finish->refraction * rgb_max_abs(through);
+        scatter->through = rgb_scale(finish->refraction, through);
+        scatter->through_weight = finish->refraction * rgb_max_abs(through);
     }
 }
 
 // The light of a surface of one layer, and what it sends on.
-RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadeLayer *layer, const ShadePoint *at,
-                                 double weight, ShadeOnward *onward, RenderStatistics *statistics)
+RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const ShadeLayer *layer, const ShadingPoint *at,
+                                 double weight, ScatterRecord *scatter, RenderStatistics *statistics)
 {
     ShadeMaterial material = shade_material(p, features, layer->pigment, layer->finish);
-    *onward =
-        (ShadeOnward){.through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
+    *scatter = (ScatterRecord){
+        .through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
     if ((features & RENDER_TEXTURES) && layer->is_clear) {
-        shade_set_clear(p, features, &material, layer, at, weight, onward);
+        shade_set_clear(p, features, &material, layer, at, weight, scatter);
     } else {
-        shade_set_mirror(features, &material, at, onward);
+        shade_set_mirror(features, &material, at, scatter);
         if (features & RENDER_TRANSPARENCY) {
-            onward->through = rgb_scale(material.finish->refraction, texture_pigment_through(layer->pigment));
-            onward->conserves_energy = material.finish->conserves_energy;
+            scatter->through = rgb_scale(material.finish->refraction, texture_pigment_through(layer->pigment));
+            scatter->conserves_energy = material.finish->conserves_energy;
         }
     }
     return shade_local(p, features, &material, at, statistics);
 }
 
 // The light at a hit, and what the surface sends on.
-RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const ShadePoint *at, double weight,
-                                   ShadeOnward *onward, RenderStatistics *statistics)
+RT_ALWAYS_INLINE Rgb shade_surface(const Prepared *p, unsigned features, const ShadingPoint *at, double weight,
+                                   ScatterRecord *scatter, RenderStatistics *statistics)
 {
     ShadeLayer layer;
     return shade_one_layer(p, features, at->material, at->point, &layer)
-               ? shade_plain(p, features, &layer, at, weight, onward, statistics)
-               : shade_compound(p, at, weight, onward, statistics);
+               ? shade_plain(p, features, &layer, at, weight, scatter, statistics)
+               : shade_compound(p, at, weight, scatter, statistics);
 }
 
 // Finds what a ray hits; false when it meets nothing.
 RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const StackedRay *now, SampleStream *stream,
-                                 ShadePoint *at)
+                                 ShadingPoint *at)
 {
     Hit hit = {.shape = SHAPE_NONE};
     if (now->known) {
@@ -183,19 +184,19 @@ RT_ALWAYS_INLINE bool shade_find(const Prepared *p, unsigned features, const Sta
     Surface surface = geometry_surface(p->geometry, features, now->ray, hit);
     Vec3 normal = hit.inside ? vec3_neg(surface.normal) : surface.normal;
     bool has_interiors = features & RENDER_INTERIORS;
-    *at = (ShadePoint){.point = surface.point,
-                       .normal = normal,
-                       .outward = surface.normal,
-                       .direction = now->ray.direction,
-                       .shape = hit.shape,
-                       .material = surface.material,
-                       .order = surface.order,
-                       .body = surface.body,
-                       .interior = has_interiors ? shade_interior(p, surface.material) : RECORD_NONE,
-                       .ior_ratio = 1.0,
-                       .way = has_interiors ? hit.t * p->textures.scale : 0.0,
-                       .inside = hit.inside,
-                       .stream = features & RENDER_LIGHTS ? stream : NULL};
+    *at = (ShadingPoint){.point = surface.point,
+                         .normal = normal,
+                         .outward = surface.normal,
+                         .direction = now->ray.direction,
+                         .shape = hit.shape,
+                         .material = surface.material,
+                         .order = surface.order,
+                         .body = surface.body,
+                         .interior = has_interiors ? shade_interior(p, surface.material) : RECORD_NONE,
+                         .ior_ratio = 1.0,
+                         .way = has_interiors ? hit.t * p->textures.scale : 0.0,
+                         .inside = hit.inside,
+                         .stream = features & RENDER_LIGHTS ? stream : NULL};
     return true;
 }
 
@@ -228,8 +229,8 @@ RT_ALWAYS_INLINE Rgb shade_fog(const Prepared *p, double way, StackedRay *ray, R
 // What one turn of a path found: the ray that was taken, what it hit, and what the hit sends on.
 typedef struct ShadeStep {
     StackedRay ray;
-    ShadePoint at;       // is_hit
-    ShadeOnward onward;  // is_hit
+    ShadingPoint at;       // is_hit
+    ScatterRecord scatter; // is_hit
     MediumStack behind;  // is_hit, where there are interiors: what a ray is inside of behind the surface
     Rgb light;           // what the ray's share is multiplied with
     Rgb fog;             // what fog adds on the ray's way, where there may be some; ray.share is already less by it
@@ -256,18 +257,18 @@ RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, RayStack 
     if (shade_one_layer(p, features, step->at.material, step->at.point, &layer)) {
         ways.count = 1;
         ways.normals[0] = step->at.normal;
-        step->light = shade_plain(p, features, &layer, &step->at, step->ray.weight, &ways.onward[0], statistics);
+        step->light = shade_plain(p, features, &layer, &step->at, step->ray.weight, &ways.scatter[0], statistics);
     } else {
         step->light = shade_bumpy(p, &step->at, step->ray.weight, &ways, statistics);
     }
     ray_stack_add(stack, &step->ray, step->light);
-    step->onward = ways.onward[0];
+    step->scatter = ways.scatter[0];
     step->at.normal = ways.normals[0];
     int kept = 2 * (TRACE_LEVEL_MAX - step->ray.level) + 4; // for the levels to come
     for (int i = 0; i < ways.count && (i == 0 || stack->count + SHADE_WAY_RAYS + kept <= RAY_STACK_MAX); i++) {
-        ShadePoint at = step->at;
+        ShadingPoint at = step->at;
         at.normal = ways.normals[i];
-        shade_go_on(p, features, &ways.onward[i], &at, &step->ray, step->behind, stack, statistics);
+        shade_go_on(p, features, &ways.scatter[i], &at, &step->ray, step->behind, stack, statistics);
     }
 }
 
@@ -302,9 +303,9 @@ RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, RayS
             return;
         }
         // Its own light first: a reflected ray may open a sum of its own.
-        step->light = shade_surface(p, features, &step->at, now->weight, &step->onward, statistics);
+        step->light = shade_surface(p, features, &step->at, now->weight, &step->scatter, statistics);
         ray_stack_add(stack, now, step->light);
-        shade_go_on(p, features, &step->onward, &step->at, now, step->behind, stack, statistics);
+        shade_go_on(p, features, &step->scatter, &step->at, now, step->behind, stack, statistics);
     } else {
         if (features & RENDER_FOG) {
             step->fog = shade_fog(p, (double)INFINITY, now, stack);
@@ -350,9 +351,9 @@ RT_ALWAYS_INLINE Rgb shade_ray(const Prepared *p, unsigned features, ShadePath p
         shade_path_begin(p, features, &first, stack);
         return path(p, stack, stream, statistics);
     }
-    ShadePoint at;
-    ShadeOnward onward;
-    return shade_find(p, features, &first, stream, &at) ? shade_surface(p, features, &at, 1.0, &onward, statistics)
+    ShadingPoint at;
+    ScatterRecord scatter;
+    return shade_find(p, features, &first, stream, &at) ? shade_surface(p, features, &at, 1.0, &scatter, statistics)
                                                         : shade_miss(p, features, ray.direction);
 }
 

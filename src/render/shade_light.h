@@ -27,7 +27,7 @@ typedef struct ShadeArrived {
 } ShadeArrived;
 
 // A point being shaded. `normal` is turned towards the viewer, `outward` is the shape's own.
-typedef struct ShadePoint {
+typedef struct ShadingPoint {
     Vec3 point, normal, outward;
     Vec3 direction; // of the ray that found it
     ShapeId shape;
@@ -44,7 +44,7 @@ typedef struct ShadePoint {
     MediumStack before;   // what the ray is inside of as it arrives; where there are
     double fresnel_ratio; // of indices of refraction, by medium_fresnel_sides; where there are
     ShadeArrived *arrived; // NULL: each layer asks for itself
-} ShadePoint;
+} ShadingPoint;
 
 // What a surface is made of at a point. "Opaque share" is 1 - filter - transmit, and in old scenes
 // 1 less the greatest share of any colour that goes through.
@@ -160,7 +160,7 @@ RT_ALWAYS_INLINE bool shade_even_light(const Prepared *p, unsigned features, Ray
 // The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through
 // multiplies it, the first that does not ends it. The shadow ray is inside of what the ray was that came to the point,
 // and goes into bodies and out of them as that does. Measured.
-RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, const ShadePoint *at, Ray ray,
+RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, const ShadingPoint *at, Ray ray,
                                          RayStart start, double t_max)
 {
     Rgb share;
@@ -195,7 +195,7 @@ RT_ALWAYS_INLINE Rgb shade_light_through(const Prepared *p, unsigned features, c
 }
 
 // The same, found by a ray from `end`, the light, to the point. In far_light.c.
-Rgb shade_far_light(const Prepared *p, const ShadePoint *at, Vec3 end, Vec3 towards, double distance);
+Rgb shade_far_light(const Prepared *p, const ShadingPoint *at, Vec3 end, Vec3 towards, double distance);
 
 // Whether that is better: of point and light the latter is nearer to the scene's middle, which is at 0, and the
 // distance is so great that it matters.
@@ -205,7 +205,7 @@ RT_ALWAYS_INLINE bool shade_is_far(const Prepared *p, Vec3 point, Vec3 end, doub
 }
 
 // The share of the light at `end`, NULL if it has no place, that reaches the point, by colour.
-RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadePoint *at, const Vec3 *end,
+RT_ALWAYS_INLINE Rgb shade_visibility(const Prepared *p, unsigned features, const ShadingPoint *at, const Vec3 *end,
                                       Vec3 towards, double distance, uint32_t *blocker, RenderStatistics *statistics)
 {
     Ray ray = {at->point, towards};
@@ -227,7 +227,7 @@ typedef struct ShadeWay {
 } ShadeWay;
 
 // To what is `aside` from the area's middle.
-RT_ALWAYS_INLINE ShadeWay shade_area_way(const ShadePoint *at, const PreparedLight *light, Vec3 aside)
+RT_ALWAYS_INLINE ShadeWay shade_area_way(const ShadingPoint *at, const PreparedLight *light, Vec3 aside)
 {
     Vec3 end = vec3_add(light->position, aside), offset = vec3_sub(end, at->point);
     double distance = vec3_length(offset);
@@ -235,14 +235,14 @@ RT_ALWAYS_INLINE ShadeWay shade_area_way(const ShadePoint *at, const PreparedLig
 }
 
 // The share of the light there that reaches the point.
-RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadePoint *at, const ShadeWay *way,
+RT_ALWAYS_INLINE Rgb shade_area_one(const Prepared *p, unsigned features, const ShadingPoint *at, const ShadeWay *way,
                                     uint32_t *blocker, RenderStatistics *statistics)
 {
     return shade_visibility(p, features, at, &way->end, way->towards, way->distance, blocker, statistics);
 }
 
 // The mean over an area light, of which all would be `arriving`.
-RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const ShadePoint *at,
+RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const ShadingPoint *at,
                                      const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
     LightGrid grid;
@@ -271,7 +271,7 @@ RT_ALWAYS_INLINE Rgb shade_area_grid(const Prepared *p, unsigned features, const
 }
 
 // The same; or of one of its lights by chance, when the camera ray is one of many.
-RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadePoint *at,
+RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const ShadingPoint *at,
                                 const PreparedLight *light, Rgb arriving, RenderStatistics *statistics)
 {
     if (at->stream) {
@@ -285,7 +285,7 @@ RT_ALWAYS_INLINE Rgb shade_area(const Prepared *p, unsigned features, const Shad
 // What of a light reaches the point, by colour: all would be `arriving`. Where an area is drawn from by chance, each
 // layer draws for itself.
 RT_ALWAYS_INLINE Rgb shade_arrived(const Prepared *p, unsigned features, const PreparedLight *light,
-                                   const ShadePoint *at, Rgb arriving, Vec3 towards, double distance,
+                                   const ShadingPoint *at, Rgb arriving, Vec3 towards, double distance,
                                    RenderStatistics *statistics)
 {
     size_t number = (size_t)(light - p->lights);
@@ -307,7 +307,7 @@ RT_ALWAYS_INLINE Rgb shade_arrived(const Prepared *p, unsigned features, const P
 }
 
 // Phong and specular highlights of one light, in units of the light's colour. `cosine` = N·L > 0.
-RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const ShadePoint *at, Vec3 towards)
+RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const ShadingPoint *at, Vec3 towards)
 {
     double sum = 0.0;
     if (finish->phong > 0.0) {
@@ -346,7 +346,7 @@ RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigm
 
 // What one light adds at a point: diffuse on the side it stands on, highlights on the viewer's side only.
 RT_ALWAYS_INLINE Rgb shade_light(const Prepared *p, unsigned features, const ShadeMaterial *material,
-                                 const PreparedLight *light, const ShadePoint *at, RenderStatistics *statistics)
+                                 const PreparedLight *light, const ShadingPoint *at, RenderStatistics *statistics)
 {
     const PreparedFinish *finish = material->finish;
     Vec3 offset = vec3_sub(light->position, at->point);

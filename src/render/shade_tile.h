@@ -66,7 +66,7 @@ typedef struct TileScratch {
     TilePaths paths;
     TileClear clear;
     TileCrossings crossings;
-    // What a shadow ray is inside of at its start, where there are interiors: as of ShadePoint.
+    // What a shadow ray is inside of at its start, where there are interiors: as of ShadingPoint.
     MediumTable *media;
     MediumStack before;
 } TileScratch;
@@ -114,25 +114,26 @@ RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, Lig
 }
 
 // A surface as the functions for single rays want it.
-RT_ALWAYS_INLINE ShadePoint shade_tile_point(const LightTile *tile, int i, MaterialIndex material, SampleStream *stream)
+RT_ALWAYS_INLINE ShadingPoint shade_tile_point(const LightTile *tile, int i, MaterialIndex material,
+                                               SampleStream *stream)
 {
     const TileSurfaces *from = &tile->surfaces;
-    return (ShadePoint){.point = tile_surface_point(from, i),
-                        .normal = vec3(tile->normal[0][i], tile->normal[1][i], tile->normal[2][i]),
-                        .outward = tile_surface_outward(from, i),
-                        .direction = vec3(from->direction[0][i], from->direction[1][i], from->direction[2][i]),
-                        .shape = from->shape[i],
-                        .material = material,
-                        .interior = RECORD_NONE,
-                        .ior_ratio = 1.0,
-                        .inside = from->inside >> i & 1,
-                        .stream = stream};
+    return (ShadingPoint){.point = tile_surface_point(from, i),
+                          .normal = vec3(tile->normal[0][i], tile->normal[1][i], tile->normal[2][i]),
+                          .outward = tile_surface_outward(from, i),
+                          .direction = vec3(from->direction[0][i], from->direction[1][i], from->direction[2][i]),
+                          .shape = from->shape[i],
+                          .material = material,
+                          .interior = RECORD_NONE,
+                          .ior_ratio = 1.0,
+                          .inside = from->inside >> i & 1,
+                          .stream = stream};
 }
 
 // A surface that light is asked for.
-RT_ALWAYS_INLINE ShadePoint shade_tile_lit_point(unsigned features, const TileScratch *scratch, int i)
+RT_ALWAYS_INLINE ShadingPoint shade_tile_lit_point(unsigned features, const TileScratch *scratch, int i)
 {
-    ShadePoint at = shade_tile_point(&scratch->tile, i, 0, NULL);
+    ShadingPoint at = shade_tile_point(&scratch->tile, i, 0, NULL);
     if (features & RENDER_INTERIORS) {
         at.media = scratch->media;
         at.before = scratch->before;
@@ -224,7 +225,7 @@ RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned feature
         if (told >> i & 1) {
             share = shade_tile_crossed(p, features, crossings, i);
         } else if (!(clear >> i & 1)) {
-            ShadePoint at = shade_tile_lit_point(features, scratch, i);
+            ShadingPoint at = shade_tile_lit_point(features, scratch, i);
             Ray ray = {at.point, lane_get(rays->towards, (unsigned)i)};
             RayStart start = {at.shape, vec3_dot(at.outward, ray.direction) < 0.0, HIDDEN_SHADOW};
             share = shade_light_through(p, features, &at, ray, start, rays->distance[i]);
@@ -243,7 +244,7 @@ RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, 
     uint64_t dark = 0;
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
-        ShadePoint at = shade_tile_lit_point(features, scratch, i);
+        ShadingPoint at = shade_tile_lit_point(features, scratch, i);
         Rgb arriving = light->is_plain ? light->colour : rgb_scale(tile->strength[i], light->colour);
         Rgb share = shade_area_grid(p, features, &at, light, arriving, statistics);
         shade_tile_set_share(tile, i, share);
@@ -265,7 +266,7 @@ RT_SELDOM uint64_t shade_tile_far(const Prepared *p, unsigned features, TileScra
         if (!shade_is_far(p, tile_surface_point(&tile->surfaces, i), light, rays->distance[i])) {
             continue;
         }
-        ShadePoint at = shade_tile_lit_point(features, scratch, i);
+        ShadingPoint at = shade_tile_lit_point(features, scratch, i);
         Rgb share = shade_far_light(p, &at, light, lane_get(rays->towards, (unsigned)i), rays->distance[i]);
         shade_tile_set_share(tile, i, share);
         dark |= (uint64_t)rgb_is_black(share) << i;
@@ -343,14 +344,14 @@ RT_ALWAYS_INLINE bool shade_tile_mirrors(const Prepared *p, unsigned features, c
     unsigned ray = tile->surfaces.ray[i];
     Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
     ShadeMaterial material = {pigment, pigment, tile->finish[i]};
-    ShadePoint at = shade_tile_point(tile, i, 0, NULL);
-    ShadeOnward onward = {.reflection_weight = 0.0};
+    ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
+    ScatterRecord scatter = {.reflection_weight = 0.0};
     if (!tile->finish[i]->reflects) {
         return false;
     }
-    shade_set_mirror(features, &material, &at, &onward);
-    paths->share[ray] = rgb_mul(level == 1 ? rgb_grey(1.0) : paths->share[ray], onward.reflectance);
-    paths->weight[ray] = (level == 1 ? 1.0 : paths->weight[ray]) * onward.reflection_weight;
+    shade_set_mirror(features, &material, &at, &scatter);
+    paths->share[ray] = rgb_mul(level == 1 ? rgb_grey(1.0) : paths->share[ray], scatter.reflectance);
+    paths->weight[ray] = (level == 1 ? 1.0 : paths->weight[ray]) * scatter.reflection_weight;
     if (!shade_is_followed(p, level, paths->weight[ray])) {
         shade_note_cut(p, level, paths->share[ray], statistics);
         return false;
@@ -367,7 +368,7 @@ RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, Li
     TileSurfaces *surfaces = &tile->surfaces;
     _Alignas(64) double mirrored[3][TILE_RAYS];
     uint8_t own[TILE_RAYS]; // of the rays that go on, which of the tile's they are
-    OnwardRays rays;
+    SecondaryRays rays;
     TileHits hits;
     rays.count = 0;
     rays.inward = 0;
@@ -377,21 +378,21 @@ RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, Li
                 p->tile_lights->mirror(tile, mirrored);
             }
             own[rays.count] = surfaces->ray[i];
-            onward_ray_add(&rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
-                           surfaces->shape[i], surfaces->inside >> i & 1);
+            secondary_ray_add(&rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
+                              surfaces->shape[i], surfaces->inside >> i & 1);
         }
     }
     surfaces->count = 0;
     if (rays.count == 0) {
         return;
     }
-    geometry_closest_onward(p->geometry, features, &rays, &hits);
+    geometry_closest_secondary(p->geometry, features, &rays, &hits);
     for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
         unsigned ray = own[__builtin_ctzll(missed)];
         light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
     }
     if (hits.met) {
-        geometry_onward_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+        geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
     }
     for (int i = 0; i < surfaces->count; i++) {
         surfaces->ray[i] = own[surfaces->ray[i]];
@@ -409,36 +410,37 @@ RT_ALWAYS_INLINE void shade_tile_gather_clear(const LightTile *tile, const TileP
 }
 
 // What a surface sends on: shade_plain says the same of single rays.
-RT_ALWAYS_INLINE ShadeOnward shade_tile_onward(unsigned features, const LightTile *tile, const TileClear *clear, int i)
+RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(unsigned features, const LightTile *tile, const TileClear *clear,
+                                                    int i)
 {
-    ShadeOnward onward = {.through = clear->through[i],
-                          .reflectance = rgb_grey(0.0),
-                          .reflection_exponent = 1.0,
-                          .part = 1.0,
-                          .conserves_energy = tile->finish[i]->conserves_energy};
+    ScatterRecord scatter = {.through = clear->through[i],
+                             .reflectance = rgb_grey(0.0),
+                             .reflection_exponent = 1.0,
+                             .part = 1.0,
+                             .conserves_energy = tile->finish[i]->conserves_energy};
     if ((features & RENDER_REFLECTION) && tile->finish[i]->reflects) {
         Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
         ShadeMaterial material = {pigment, pigment, tile->finish[i]};
-        ShadePoint at = shade_tile_point(tile, i, 0, NULL);
-        shade_set_mirror(features, &material, &at, &onward);
+        ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
+        shade_set_mirror(features, &material, &at, &scatter);
     }
-    return onward;
+    return scatter;
 }
 
 // Whether light goes on through a surface: then as what waits.
 RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile, const TilePaths *paths,
-                                        const TileClear *clear, int i, const ShadeOnward *onward, TileWaiting *through,
-                                        RenderStatistics *statistics)
+                                        const TileClear *clear, int i, const ScatterRecord *scatter,
+                                        TileWaiting *through, RenderStatistics *statistics)
 {
     const TileSurfaces *surfaces = &tile->surfaces;
     unsigned ray = surfaces->ray[i];
     Rgb share;
-    if (rgb_is_black(onward->through)) {
+    if (rgb_is_black(scatter->through)) {
         return false;
     }
-    if (!shade_goes_on(p, onward, paths->weight[ray], clear->level[ray], clear->passed[ray], &share,
+    if (!shade_goes_on(p, scatter, paths->weight[ray], clear->level[ray], clear->passed[ray], &share,
                        &through->weight)) {
-        shade_note_cut(p, clear->level[ray], rgb_mul(paths->share[ray], onward->through), statistics);
+        shade_note_cut(p, clear->level[ray], rgb_mul(paths->share[ray], scatter->through), statistics);
         return false;
     }
     through->ray = (Ray){tile_surface_point(surfaces, i), lane_get(surfaces->direction, (unsigned)i)};
@@ -452,14 +454,14 @@ RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile
 }
 
 // Whether a surface mirrors its ray and that is followed: then its share and weight are those of what goes on.
-RT_ALWAYS_INLINE bool shade_tile_reflects(const Prepared *p, unsigned ray, const ShadeOnward *onward, TilePaths *paths,
-                                          TileClear *clear, RenderStatistics *statistics)
+RT_ALWAYS_INLINE bool shade_tile_reflects(const Prepared *p, unsigned ray, const ScatterRecord *scatter,
+                                          TilePaths *paths, TileClear *clear, RenderStatistics *statistics)
 {
-    if (onward->reflection_weight == 0.0) {
+    if (scatter->reflection_weight == 0.0) {
         return false;
     }
-    Rgb share = rgb_mul(paths->share[ray], onward->reflectance);
-    double weight = paths->weight[ray] * onward->reflection_weight;
+    Rgb share = rgb_mul(paths->share[ray], scatter->reflectance);
+    double weight = paths->weight[ray] * scatter->reflection_weight;
     if (!shade_is_followed(p, clear->level[ray], weight)) {
         shade_note_cut(p, clear->level[ray], share, statistics);
         return false;
@@ -474,19 +476,19 @@ RT_ALWAYS_INLINE bool shade_tile_reflects(const Prepared *p, unsigned ray, const
 
 // A ray that goes through a surface now.
 RT_ALWAYS_INLINE void shade_tile_resume(const TileWaiting *through, unsigned ray, TilePaths *paths, TileClear *clear,
-                                        OnwardRays *rays)
+                                        SecondaryRays *rays)
 {
     paths->share[ray] = through->share;
     paths->weight[ray] = through->weight;
     clear->level[ray] = through->level;
     clear->passed[ray] = through->passed;
-    onward_ray_add(rays, through->ray.origin, through->ray.direction, through->start, through->inward);
+    secondary_ray_add(rays, through->ray.origin, through->ray.direction, through->start, through->inward);
 }
 
 // The rays that go on from the tile's surfaces, and of those that meet nothing more, what waited last; `own` says which
 // of the tile's they are.
 RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, const LightTile *tile, TilePaths *paths,
-                                      TileClear *clear, OnwardRays *rays, uint8_t own[TILE_RAYS],
+                                      TileClear *clear, SecondaryRays *rays, uint8_t own[TILE_RAYS],
                                       RenderStatistics *statistics)
 {
     const TileSurfaces *surfaces = &tile->surfaces;
@@ -495,10 +497,10 @@ RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, cons
     for (int i = 0; i < surfaces->count; i++) {
         unsigned ray = surfaces->ray[i];
         TileWaiting through;
-        ShadeOnward onward = shade_tile_onward(features, tile, clear, i);
-        bool passes = shade_tile_passes(p, tile, paths, clear, i, &onward, &through, statistics);
+        ScatterRecord scatter = shade_tile_secondary(features, tile, clear, i);
+        bool passes = shade_tile_passes(p, tile, paths, clear, i, &scatter, &through, statistics);
         own[rays->count] = (uint8_t)ray;
-        if ((features & RENDER_REFLECTION) && shade_tile_reflects(p, ray, &onward, paths, clear, statistics)) {
+        if ((features & RENDER_REFLECTION) && shade_tile_reflects(p, ray, &scatter, paths, clear, statistics)) {
             if (!has_mirrored) {
                 p->tile_lights->mirror(tile, mirrored);
                 has_mirrored = true;
@@ -506,8 +508,8 @@ RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, cons
             if (passes) {
                 clear->waiting[clear->count[ray]++][ray] = through;
             }
-            onward_ray_add(rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i), surfaces->shape[i],
-                           surfaces->inside >> i & 1);
+            secondary_ray_add(rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
+                              surfaces->shape[i], surfaces->inside >> i & 1);
         } else if (passes) {
             shade_tile_resume(&through, ray, paths, clear, rays);
         } else {
@@ -531,7 +533,7 @@ RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, Ligh
 {
     TileSurfaces *surfaces = &tile->surfaces;
     uint8_t own[TILE_RAYS];
-    OnwardRays rays;
+    SecondaryRays rays;
     TileHits hits;
     rays.count = 0;
     rays.inward = 0;
@@ -540,7 +542,7 @@ RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, Ligh
     if (rays.count == 0) {
         return false;
     }
-    geometry_closest_onward(p->geometry, features, &rays, &hits);
+    geometry_closest_secondary(p->geometry, features, &rays, &hits);
     clear->resting = 0;
     for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
         unsigned ray = own[__builtin_ctzll(missed)];
@@ -548,7 +550,7 @@ RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, Ligh
         clear->resting |= UINT64_C(1) << ray;
     }
     if (hits.met) {
-        geometry_onward_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+        geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
     }
     for (int i = 0; i < surfaces->count; i++) {
         surfaces->ray[i] = own[surfaces->ray[i]];

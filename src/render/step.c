@@ -9,7 +9,7 @@ void shade_step_all(const Prepared *p, RayStack *stack, SampleStream *stream, Re
     shade_path_step(p, SHADE_ALL_FEATURES, stack, stream, statistics, step);
 }
 
-Rgb shade_local_all(const Prepared *p, const ShadeMaterial *material, const ShadePoint *at,
+Rgb shade_local_all(const Prepared *p, const ShadeMaterial *material, const ShadingPoint *at,
                     RenderStatistics *statistics)
 {
     return shade_local_of(p, SHADE_ALL_FEATURES, material, at, statistics);

@@ -1,7 +1,7 @@
 // The kernel of the reference path over a real type: what a ray that meets surfaces brings back.
 //
 // One ray at a time, shapes as in render/study_geometry.h, shading as in render/shade_light.h and
-// render/shade_onward.h. Finishes, lights and colours are read as doubles, which they are in the scene; all that a ray
+// render/shade_scatter.h. Finishes, lights and colours are read as doubles, which they are in the scene; all that a ray
 // does is Real.
 //
 // SPDX-License-Identifier: MIT
@@ -285,7 +285,7 @@ static void real_reflect(RealLevel *now, RealRgb light)
 
 // Turns the ray into the one that goes through or is totally reflected; false when there is none, *is_total in the last
 // case, which leaves no mirrored ray.
-static bool real_onward(const RealScene *s, const RealJunction *j, RealWay *way, MediumStack *inside, bool *is_total)
+static bool real_secondary(const RealScene *s, const RealJunction *j, RealWay *way, MediumStack *inside, bool *is_total)
 {
     RealRgb through = real_rgb_scale((Real)j->finish->refraction, real_pigment_through(j->pigment));
     RealRgb fade = j->leaves ? real_faded(s, j->at.material, j->at.t, false) : real_grey(1);
@@ -367,9 +367,9 @@ static bool real_step(const RealScene *s, RealLevel *now, RealLevel *mirrored, R
     }
     now->sum = real_rgb_add(now->sum, 1, real_rgb_mul(way->share, light));
     RealWay next = *way;
-    MediumStack onward = now->inside;
+    MediumStack scatter = now->inside;
     bool is_total;
-    now->goes_on = real_onward(s, &j, &next, &onward, &is_total);
+    now->goes_on = real_secondary(s, &j, &next, &scatter, &is_total);
     bool is_mirrored = !is_total && real_reflected(s, &j, now, mirrored);
     now->share = way->share;
     now->reflectance = j.reflectance;
@@ -377,7 +377,7 @@ static bool real_step(const RealScene *s, RealLevel *now, RealLevel *mirrored, R
     statistics->transmitted_rays += now->goes_on;
     statistics->reflected_rays += is_mirrored;
     *way = next;
-    now->inside = onward;
+    now->inside = scatter;
     return is_mirrored;
 }
 

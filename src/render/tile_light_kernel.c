@@ -1,4 +1,4 @@
-// A light on the surfaces of a tile: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+// A light on the surfaces of a tile: compiled once for each instruction set, with ISA_NAME the name of the table.
 //
 // Surfaces that share one finish, as those of a tile mostly do, are done in vectors; others, and powers that are not
 // whole, one by one where it must be.

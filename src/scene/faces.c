@@ -3,7 +3,7 @@
 // polygons.
 //
 // Works on shapes that stand alone: what a composite leaves of a face is known to rays only. Equal shapes are those of
-// scene/twins.c. Faces of one material are passed over, since nothing shows which of them is seen.
+// scene/coincident.c. Faces of one material are passed over, since nothing shows which of them is seen.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/faces.h"
@@ -192,11 +192,11 @@ static Face face_at(const Scene *scene, FaceRef ref)
 
 // ---- two of them
 
-// Shapes that twins.c tells of.
+// Shapes that coincident.c tells of.
 static bool are_equal(const Scene *scene, FaceRef a, FaceRef b)
 {
     size_t planes = scene->planes.count;
-    return a.item >= planes && b.item >= planes && scene_parts_are_twins(ref_part(scene, a), ref_part(scene, b));
+    return a.item >= planes && b.item >= planes && scene_parts_coincide(ref_part(scene, a), ref_part(scene, b));
 }
 
 // Whether the camera is on the side that the face is seen from.

@@ -47,9 +47,9 @@ SceneScale scene_scale(const Scene *scene, int threads);
 void scene_warn_of_range(const Scene *scene, const SphereSurvey *survey, DiagSink *diags);
 
 // Warns of equal shapes that some ray could see both of. Linear in the number of shapes. False when out of memory.
-bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
+bool scene_warn_of_coincident(const Scene *scene, DiagSink *diags, int threads) RT_MUST_CHECK;
 
 // Whether that takes two parts for equal.
-bool scene_parts_are_twins(const Part *a, const Part *b);
+bool scene_parts_coincide(const Part *a, const Part *b);
 
 #endif

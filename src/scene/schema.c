@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "base/attributes.h"
-#include "scene/blueprint.h"
+#include "scene/description.h"
 
 #define AT(type, field) .at = (uint16_t)offsetof(type, field)
 #define GIVEN(type, field) .given = (uint16_t)offsetof(type, field)
@@ -111,40 +111,39 @@ static const SchemaProperty object_modifiers[] = {
 // ---- kinds
 
 static const SchemaProperty camera_properties[] = {
-    {"perspective", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_PERSPECTIVE]), .is_first = true,
-     .doc = "the default type"},
-    {"orthographic", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_ORTHOGRAPHIC]), .is_first = true,
+    {"perspective", TYPE_FLAG, AT(CameraDesc, types[CAMERA_PERSPECTIVE]), .is_first = true, .doc = "the default type"},
+    {"orthographic", TYPE_FLAG, AT(CameraDesc, types[CAMERA_ORTHOGRAPHIC]), .is_first = true,
      .doc = "all rays are parallel"},
-    {"fisheye", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_FISHEYE]), .is_first = true,
+    {"fisheye", TYPE_FLAG, AT(CameraDesc, types[CAMERA_FISHEYE]), .is_first = true,
      .doc = "a disc of directions, `angle` across, 90; black outside of it"},
-    {"ultra_wide_angle", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_ULTRA_WIDE_ANGLE]), .is_first = true,
+    {"ultra_wide_angle", TYPE_FLAG, AT(CameraDesc, types[CAMERA_ULTRA_WIDE_ANGLE]), .is_first = true,
      .doc = "angles grow evenly from the middle, to `angle` across, 90"},
-    {"panoramic", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_PANORAMIC]), .is_first = true,
+    {"panoramic", TYPE_FLAG, AT(CameraDesc, types[CAMERA_PANORAMIC]), .is_first = true,
      .doc = "half a turn from left to right; heights as on a cylinder"},
-    {"spherical", TYPE_FLAG, AT(CameraBlueprint, types[CAMERA_SPHERICAL]), .is_first = true,
+    {"spherical", TYPE_FLAG, AT(CameraDesc, types[CAMERA_SPHERICAL]), .is_first = true,
      .doc = "longitude, latitude; `angle` across, then upright: 360 and half of it"},
-    {"location", TYPE_VECTOR, AT(CameraBlueprint, location), .doc = "where the eye is"},
-    {"direction", TYPE_VECTOR, AT(CameraBlueprint, direction), .doc = "from the eye to the middle of the picture"},
-    {"right", TYPE_VECTOR, AT(CameraBlueprint, right), GIVEN(CameraBlueprint, has_right),
+    {"location", TYPE_VECTOR, AT(CameraDesc, location), .doc = "where the eye is"},
+    {"direction", TYPE_VECTOR, AT(CameraDesc, direction), .doc = "from the eye to the middle of the picture"},
+    {"right", TYPE_VECTOR, AT(CameraDesc, right), GIVEN(CameraDesc, has_right),
      .doc = "the width of the picture at the distance of `direction`"},
-    {"up", TYPE_VECTOR, AT(CameraBlueprint, up), GIVEN(CameraBlueprint, has_up), .doc = "the height likewise"},
-    {"sky", TYPE_VECTOR, AT(CameraBlueprint, sky), .doc = "what `look_at` turns upward"},
-    {"look_at", TYPE_ACTION, ACTION_LOOK_AT, AT(CameraBlueprint, look_at), GIVEN(CameraBlueprint, has_look_at),
+    {"up", TYPE_VECTOR, AT(CameraDesc, up), GIVEN(CameraDesc, has_up), .doc = "the height likewise"},
+    {"sky", TYPE_VECTOR, AT(CameraDesc, sky), .doc = "what `look_at` turns upward"},
+    {"look_at", TYPE_ACTION, ACTION_LOOK_AT, AT(CameraDesc, look_at), GIVEN(CameraDesc, has_look_at),
      .doc = "a vector: the middle of the picture; `direction`, `right` and `up` keep their lengths"},
-    {"angle", TYPE_ACTION, ACTION_ANGLE, AT(CameraBlueprint, angle_deg), GIVEN(CameraBlueprint, has_angle),
+    {"angle", TYPE_ACTION, ACTION_ANGLE, AT(CameraDesc, angle_deg), GIVEN(CameraDesc, has_angle),
      .doc = "degrees from left to right; of a perspective camera 0 to 180: then it sets `direction`"},
-    {"aperture", TYPE_NUMBER, AT(CameraBlueprint, aperture), .doc = "of the lens: four times its radius; 0 is a point"},
+    {"aperture", TYPE_NUMBER, AT(CameraDesc, aperture), .doc = "of the lens: four times its radius; 0 is a point"},
     {"blur_samples", TYPE_ACTION, ACTION_BLUR_SAMPLES,
      .doc = "`[least,] most`: rays a pixel through the lens; `--samples` wins; 0: no blur"},
-    {"focal_point", TYPE_VECTOR, AT(CameraBlueprint, focal_point), GIVEN(CameraBlueprint, has_focal_point),
+    {"focal_point", TYPE_VECTOR, AT(CameraDesc, focal_point), GIVEN(CameraDesc, has_focal_point),
      .doc = "a point as far from the location as what is sharp; without it that is 1 away"},
-    {"variance", TYPE_NUMBER, AT(CameraBlueprint, variance), .range = {RANGE_CLAMP, false, 0.0, 1.0},
+    {"variance", TYPE_NUMBER, AT(CameraDesc, variance), .range = {RANGE_CLAMP, false, 0.0, 1.0},
      .doc = "enough rays where off by less than its root"},
-    {"confidence", TYPE_NUMBER, AT(CameraBlueprint, confidence), .range = {RANGE_CLAMP, true, 0.0, 0.999999},
+    {"confidence", TYPE_NUMBER, AT(CameraDesc, confidence), .range = {RANGE_CLAMP, true, 0.0, 0.999999},
      .doc = "how sure that is"},
 };
 
-static const CameraBlueprint camera_defaults = {
+static const CameraDesc camera_defaults = {
     .transform = IDENTITY,
     .direction = {0, 0, 1},
     .right = {1.33, 0, 0},
@@ -156,162 +155,158 @@ static const CameraBlueprint camera_defaults = {
 };
 
 static const SchemaProperty light_arguments[] = {
-    {"position", TYPE_VECTOR, AT(LightBlueprint, position), .doc = "where the light is"},
-    {"colour", TYPE_RGB, AT(LightBlueprint, colour), .is_optional = true, .doc = "its light, black if left out"},
+    {"position", TYPE_VECTOR, AT(LightDesc, position), .doc = "where the light is"},
+    {"colour", TYPE_RGB, AT(LightDesc, colour), .is_optional = true, .doc = "its light, black if left out"},
 };
 
 static const SchemaProperty light_properties[] = {
-    {"parallel", TYPE_FLAG, AT(LightBlueprint, parallel), .doc = "all its rays have the direction to `point_at`"},
+    {"parallel", TYPE_FLAG, AT(LightDesc, parallel), .doc = "all its rays have the direction to `point_at`"},
     {"spotlight", TYPE_ACTION, ACTION_LIGHT_TYPE, .doc = "a cone of light"},
     {"cylinder", TYPE_ACTION, ACTION_LIGHT_TYPE, .doc = "a cylinder of light; all its rays have one direction"},
-    {"point_at", TYPE_ACTION, ACTION_POINT_AT, AT(LightBlueprint, point_at),
+    {"point_at", TYPE_ACTION, ACTION_POINT_AT, AT(LightDesc, point_at),
      .doc = "where a `parallel` light, a `spotlight` or a `cylinder` shines"},
-    {"radius", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, radius),
+    {"radius", TYPE_ACTION, ACTION_CONE, AT(LightDesc, radius),
      .doc = "of full light: of a `spotlight` half an angle, 30; of a `cylinder` a length, 0.75"},
-    {"falloff", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, falloff), .doc = "of any light, likewise: 45 and 1"},
-    {"tightness", TYPE_ACTION, ACTION_CONE, AT(LightBlueprint, tightness),
+    {"falloff", TYPE_ACTION, ACTION_CONE, AT(LightDesc, falloff), .doc = "of any light, likewise: 45 and 1"},
+    {"tightness", TYPE_ACTION, ACTION_CONE, AT(LightDesc, tightness),
      .doc = "how the light falls from the axis on: 0 not at all"},
-    {"fade_distance", TYPE_NUMBER, AT(LightBlueprint, fade_distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+    {"fade_distance", TYPE_NUMBER, AT(LightDesc, fade_distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "of its own colour; nearer it is brighter; 0: no fading"},
-    {"fade_power", TYPE_NUMBER, AT(LightBlueprint, fade_power), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+    {"fade_power", TYPE_NUMBER, AT(LightDesc, fade_power), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "the light falls with this power of the distance; 0: not"},
     {"area_light", TYPE_ACTION, ACTION_AREA_LIGHT,
      .doc = "two vectors, two numbers: so many rows of so many lights, for soft shadows"},
-    {"circular", TYPE_FLAG, AT(LightBlueprint, area.circular), .doc = "the lights of `area_light` lie in a disc"},
-    {"orient", TYPE_FLAG, AT(LightBlueprint, area.is_oriented),
+    {"circular", TYPE_FLAG, AT(LightDesc, area.circular), .doc = "the lights of `area_light` lie in a disc"},
+    {"orient", TYPE_FLAG, AT(LightDesc, area.is_oriented),
      .doc = "the disc of a `circular` light faces each point that it lights; axes give lengths"},
-    {"jitter", TYPE_FLAG, AT(LightBlueprint, area.jitter), .doc = "each of them is moved at random"},
-    {"adaptive", TYPE_INTEGER, AT(LightBlueprint, area.adaptive), GIVEN(LightBlueprint, area.is_adaptive),
-     .range = {RANGE_FAULT, false, 0.0, 20.0},
-     .doc = "halvings after which equal corners give what is between"},
+    {"jitter", TYPE_FLAG, AT(LightDesc, area.jitter), .doc = "each of them is moved at random"},
+    {"adaptive", TYPE_INTEGER, AT(LightDesc, area.adaptive), GIVEN(LightDesc, area.is_adaptive),
+     .range = {RANGE_FAULT, false, 0.0, 20.0}, .doc = "halvings after which equal corners give what is between"},
     {"looks_like", TYPE_BLOCK, ACTION_LOOKS_LIKE,
      .doc = "an object seen in the light's place, without a shadow; moved by what stands before it"},
-    {"media_interaction", TYPE_SWITCH, AT(LightBlueprint, is_ignored), .doc = "accepted; changes no picture"},
-    {"media_attenuation", TYPE_SWITCH, AT(LightBlueprint, is_attenuated),
-     .doc = "not in fog; changes no picture elsewhere"},
+    {"media_interaction", TYPE_SWITCH, AT(LightDesc, is_ignored), .doc = "accepted; changes no picture"},
+    {"media_attenuation", TYPE_SWITCH, AT(LightDesc, is_attenuated), .doc = "not in fog; changes no picture elsewhere"},
     {"shadowless", TYPE_ACTION, ACTION_SHADOWLESS,
      .doc = "no shadows, no highlights; takes back `spotlight` and `cylinder`, and they it"},
 };
 
-static const LightBlueprint light_defaults = {.part = OBJECT_PART, .point_at = {0, 0, 1}, .look_transform = IDENTITY};
+static const LightDesc light_defaults = {.part = OBJECT_PART, .point_at = {0, 0, 1}, .look_transform = IDENTITY};
 
 static const SchemaProperty sphere_arguments[] = {
-    {"centre", TYPE_VECTOR, AT(SphereBlueprint, centre), .doc = "its middle"},
-    {"radius", TYPE_NUMBER, AT(SphereBlueprint, radius),
+    {"centre", TYPE_VECTOR, AT(SphereDesc, centre), .doc = "its middle"},
+    {"radius", TYPE_NUMBER, AT(SphereDesc, radius),
      .doc = "0: not drawn; below 0: only where it is stretched or cut with others"},
 };
 
-static const SphereBlueprint sphere_defaults = {.part = OBJECT_PART, .radius = 1.0};
+static const SphereDesc sphere_defaults = {.part = OBJECT_PART, .radius = 1.0};
 
 static const SchemaProperty plane_arguments[] = {
-    {"normal", TYPE_VECTOR, AT(PlaneBlueprint, normal), .doc = "at right angles to it; any length but 0"},
-    {"distance", TYPE_NUMBER, AT(PlaneBlueprint, distance), .doc = "from the origin along the normal"},
+    {"normal", TYPE_VECTOR, AT(PlaneDesc, normal), .doc = "at right angles to it; any length but 0"},
+    {"distance", TYPE_NUMBER, AT(PlaneDesc, distance), .doc = "from the origin along the normal"},
 };
 
-static const PlaneBlueprint plane_defaults = {.part = OBJECT_PART, .normal = {0, 1, 0}};
+static const PlaneDesc plane_defaults = {.part = OBJECT_PART, .normal = {0, 1, 0}};
 
 static const SchemaProperty box_arguments[] = {
-    {"corner", TYPE_VECTOR, AT(BoxBlueprint, corner), .doc = "one of its corners"},
-    {"other corner", TYPE_VECTOR, AT(BoxBlueprint, other_corner), .doc = "the one opposite"},
+    {"corner", TYPE_VECTOR, AT(BoxDesc, corner), .doc = "one of its corners"},
+    {"other corner", TYPE_VECTOR, AT(BoxDesc, other_corner), .doc = "the one opposite"},
 };
 
-static const BoxBlueprint box_defaults = {.part = OBJECT_PART};
+static const BoxDesc box_defaults = {.part = OBJECT_PART};
 
 // POV-Ray takes the absolute value of a negative radius of a cylinder or disc, and so do we. Of a sphere see place.c. It
 // draws a cone of one as two that meet in their apex, with wrong surfaces. Measured.
 #define RADIUS {RANGE_FAULT, false, 0.0, INFINITY}
 
 static const SchemaProperty cylinder_arguments[] = {
-    {"base", TYPE_VECTOR, AT(CylinderBlueprint, base), .doc = "the middle of one end"},
-    {"cap", TYPE_VECTOR, AT(CylinderBlueprint, cap), .doc = "the middle of the other end"},
-    {"radius", TYPE_NUMBER, AT(CylinderBlueprint, radius), .doc = "0: not drawn; its sign is not looked at"},
+    {"base", TYPE_VECTOR, AT(CylinderDesc, base), .doc = "the middle of one end"},
+    {"cap", TYPE_VECTOR, AT(CylinderDesc, cap), .doc = "the middle of the other end"},
+    {"radius", TYPE_NUMBER, AT(CylinderDesc, radius), .doc = "0: not drawn; its sign is not looked at"},
 };
 
 static const SchemaProperty cylinder_properties[] = {
-    {"open", TYPE_FLAG, AT(CylinderBlueprint, is_open), .is_first = true, .doc = "without the discs at its ends"},
+    {"open", TYPE_FLAG, AT(CylinderDesc, is_open), .is_first = true, .doc = "without the discs at its ends"},
 };
 
-static const CylinderBlueprint cylinder_defaults = {.part = OBJECT_PART};
+static const CylinderDesc cylinder_defaults = {.part = OBJECT_PART};
 
 static const SchemaProperty cone_arguments[] = {
-    {"base", TYPE_VECTOR, AT(ConeBlueprint, base), .doc = "the middle of one end"},
-    {"base radius", TYPE_NUMBER, AT(ConeBlueprint, base_radius), .range = RADIUS, .doc = "there"},
-    {"cap", TYPE_VECTOR, AT(ConeBlueprint, cap), .doc = "the middle of the other end"},
-    {"cap radius", TYPE_NUMBER, AT(ConeBlueprint, cap_radius), .range = RADIUS, .doc = "there; both 0: not drawn"},
+    {"base", TYPE_VECTOR, AT(ConeDesc, base), .doc = "the middle of one end"},
+    {"base radius", TYPE_NUMBER, AT(ConeDesc, base_radius), .range = RADIUS, .doc = "there"},
+    {"cap", TYPE_VECTOR, AT(ConeDesc, cap), .doc = "the middle of the other end"},
+    {"cap radius", TYPE_NUMBER, AT(ConeDesc, cap_radius), .range = RADIUS, .doc = "there; both 0: not drawn"},
 };
 
 static const SchemaProperty cone_properties[] = {
-    {"open", TYPE_FLAG, AT(ConeBlueprint, is_open), .is_first = true, .doc = "without the discs at its ends"},
+    {"open", TYPE_FLAG, AT(ConeDesc, is_open), .is_first = true, .doc = "without the discs at its ends"},
 };
 
-static const ConeBlueprint cone_defaults = {.part = OBJECT_PART};
+static const ConeDesc cone_defaults = {.part = OBJECT_PART};
 
 static const SchemaProperty disc_arguments[] = {
-    {"centre", TYPE_VECTOR, AT(DiscBlueprint, centre), .doc = "its middle"},
-    {"normal", TYPE_VECTOR, AT(DiscBlueprint, normal), .doc = "at right angles to it; any length, 0: not drawn"},
-    {"radius", TYPE_NUMBER, AT(DiscBlueprint, radius), .doc = "0: not drawn; its sign is not looked at"},
-    {"hole", TYPE_NUMBER, AT(DiscBlueprint, hole), .is_optional = true,
+    {"centre", TYPE_VECTOR, AT(DiscDesc, centre), .doc = "its middle"},
+    {"normal", TYPE_VECTOR, AT(DiscDesc, normal), .doc = "at right angles to it; any length, 0: not drawn"},
+    {"radius", TYPE_NUMBER, AT(DiscDesc, radius), .doc = "0: not drawn; its sign is not looked at"},
+    {"hole", TYPE_NUMBER, AT(DiscDesc, hole), .is_optional = true,
      .doc = "radius of a hole; not less than the radius: not drawn"},
 };
 
-static const DiscBlueprint disc_defaults = {.part = OBJECT_PART};
+static const DiscDesc disc_defaults = {.part = OBJECT_PART};
 
 static const SchemaProperty triangle_arguments[] = {
-    {"first corner", TYPE_VECTOR, AT(TriangleBlueprint, corners[0]), .doc = "in any order"},
-    {"second corner", TYPE_VECTOR, AT(TriangleBlueprint, corners[1]), .doc = "likewise"},
-    {"third corner", TYPE_VECTOR, AT(TriangleBlueprint, corners[2]), .doc = "on one line with the others: not drawn"},
+    {"first corner", TYPE_VECTOR, AT(TriangleDesc, corners[0]), .doc = "in any order"},
+    {"second corner", TYPE_VECTOR, AT(TriangleDesc, corners[1]), .doc = "likewise"},
+    {"third corner", TYPE_VECTOR, AT(TriangleDesc, corners[2]), .doc = "on one line with the others: not drawn"},
 };
 
-static const TriangleBlueprint triangle_defaults = {.part = OBJECT_PART};
+static const TriangleDesc triangle_defaults = {.part = OBJECT_PART};
 
 static const SchemaProperty smooth_triangle_arguments[] = {
-    {"first corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[0]), .doc = "in any order"},
-    {"first normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[0]), .doc = "there; 0: not drawn"},
-    {"second corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[1]), .doc = "likewise"},
-    {"second normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[1]), .doc = "likewise"},
-    {"third corner", TYPE_VECTOR, AT(SmoothTriangleBlueprint, corners[2]),
-     .doc = "on one line with the others: not drawn"},
-    {"third normal", TYPE_VECTOR, AT(SmoothTriangleBlueprint, normals[2]), .doc = "likewise"},
+    {"first corner", TYPE_VECTOR, AT(SmoothTriangleDesc, corners[0]), .doc = "in any order"},
+    {"first normal", TYPE_VECTOR, AT(SmoothTriangleDesc, normals[0]), .doc = "there; 0: not drawn"},
+    {"second corner", TYPE_VECTOR, AT(SmoothTriangleDesc, corners[1]), .doc = "likewise"},
+    {"second normal", TYPE_VECTOR, AT(SmoothTriangleDesc, normals[1]), .doc = "likewise"},
+    {"third corner", TYPE_VECTOR, AT(SmoothTriangleDesc, corners[2]), .doc = "on one line with the others: not drawn"},
+    {"third normal", TYPE_VECTOR, AT(SmoothTriangleDesc, normals[2]), .doc = "likewise"},
 };
 
-static const SmoothTriangleBlueprint smooth_triangle_defaults = {.part = OBJECT_PART};
+static const SmoothTriangleDesc smooth_triangle_defaults = {.part = OBJECT_PART};
 
 static const SchemaProperty union_properties[] = {
     {"split_union", TYPE_SWITCH, AT(ObjectPart, split_union),
      .doc = "off: `no_image` and the like hold for the union, not its members"},
 };
 
-static const UnionBlueprint union_defaults = {.part = {.transform = IDENTITY, .split_union = true}};
+static const UnionDesc union_defaults = {.part = {.transform = IDENTITY, .split_union = true}};
 
 static const SchemaProperty background_arguments[] = {
-    {"colour", TYPE_COLOUR, AT(BackgroundBlueprint, colour), .is_optional = true, .doc = "seen where nothing is hit"},
+    {"colour", TYPE_COLOUR, AT(BackgroundDesc, colour), .is_optional = true, .doc = "seen where nothing is hit"},
 };
 
-static const BackgroundBlueprint background_defaults = {.colour = {0, 0, 0, 0, 0}};
+static const BackgroundDesc background_defaults = {.colour = {0, 0, 0, 0, 0}};
 
 static const SchemaProperty sky_sphere_properties[] = {
     {"pigment", TYPE_BLOCK, ACTION_SKY_LAYER,
      .doc = "a layer over those before it; the ray's direction, of length 1, is its point"},
-    {"emission", TYPE_RGB, AT(SkySphereBlueprint, emission), .doc = "multiplies the light of the layers"},
+    {"emission", TYPE_RGB, AT(SkySphereDesc, emission), .doc = "multiplies the light of the layers"},
 };
 
-static const SkySphereBlueprint sky_sphere_defaults = {.transform = IDENTITY, .emission = GREY(1.0)};
+static const SkySphereDesc sky_sphere_defaults = {.transform = IDENTITY, .emission = GREY(1.0)};
 
 static const SchemaProperty fog_arguments[] = {
-    {"colour", TYPE_COLOUR, AT(FogBlueprint, colour), .is_optional = true, .is_anywhere = true,
+    {"colour", TYPE_COLOUR, AT(FogDesc, colour), .is_optional = true, .is_anywhere = true,
      .doc = "begins with a colour word or a colour's name; stands anywhere; else black"},
 };
 
 static const SchemaProperty fog_properties[] = {
-    {"fog_type", TYPE_INTEGER, AT(FogBlueprint, type), .doc = "2: it lies on the ground; else it is everywhere"},
-    {"distance", TYPE_NUMBER, AT(FogBlueprint, distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+    {"fog_type", TYPE_INTEGER, AT(FogDesc, type), .doc = "2: it lies on the ground; else it is everywhere"},
+    {"distance", TYPE_NUMBER, AT(FogDesc, distance), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "the way on which all but 1/e of the light is lost; 0: no fog"},
-    {"fog_offset", TYPE_NUMBER, AT(FogBlueprint, offset),
+    {"fog_offset", TYPE_NUMBER, AT(FogDesc, offset),
      .doc = "type 2: the height up to which it is as dense as anywhere"},
-    {"fog_alt", TYPE_NUMBER, AT(FogBlueprint, alt),
-     .doc = "type 2: how far above that it is half as dense; more than 0"},
-    {"up", TYPE_VECTOR, AT(FogBlueprint, up), .doc = "type 2: the direction of height, of any length but 0"},
-    {"turb_depth", TYPE_NUMBER, AT(FogBlueprint, turb_depth),
+    {"fog_alt", TYPE_NUMBER, AT(FogDesc, alt), .doc = "type 2: how far above that it is half as dense; more than 0"},
+    {"up", TYPE_VECTOR, AT(FogDesc, up), .doc = "type 2: the direction of height, of any length but 0"},
+    {"turb_depth", TYPE_NUMBER, AT(FogDesc, turb_depth),
      .doc = "how uneven turbulence makes the fog; with one of the next four only 0"},
     {"turbulence", TYPE_ACTION, ACTION_TURBULENCE, .doc = "makes the fog turbulent, 0 too: only with `turb_depth 0`"},
     {"omega", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
@@ -319,27 +314,26 @@ static const SchemaProperty fog_properties[] = {
     {"octaves", TYPE_ACTION, ACTION_TURBULENCE, .doc = "likewise"},
 };
 
-static const FogBlueprint fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5};
+static const FogDesc fog_defaults = {.transform = IDENTITY, .type = 1, .up = {0, 1, 0}, .turb_depth = 0.5};
 
 static const SchemaProperty settings_properties[] = {
     {"assumed_gamma", TYPE_ACTION, ACTION_ASSUMED_GAMMA,
      .doc = "what colour values mean: a number above 0, or `srgb`; the first counts"},
-    {"ambient_light", TYPE_RGB, AT(SettingsBlueprint, ambient_light), .doc = "multiplies every `ambient`"},
-    {"max_trace_level", TYPE_INTEGER, AT(SettingsBlueprint, max_trace_level), .range = {RANGE_CLAMP, false, 1.0, 256.0},
+    {"ambient_light", TYPE_RGB, AT(SettingsDesc, ambient_light), .doc = "multiplies every `ambient`"},
+    {"max_trace_level", TYPE_INTEGER, AT(SettingsDesc, max_trace_level), .range = {RANGE_CLAMP, false, 1.0, 256.0},
      .doc = "generations of rays, the camera's too"},
-    {"adc_bailout", TYPE_NUMBER, AT(SettingsBlueprint, adc_bailout), .range = {RANGE_FAULT, false, -INFINITY, 1.0},
+    {"adc_bailout", TYPE_NUMBER, AT(SettingsDesc, adc_bailout), .range = {RANGE_FAULT, false, -INFINITY, 1.0},
      .doc = "the least weight of a ray; the camera's is 1"},
     {"noise_generator", TYPE_ACTION, ACTION_NOISE_GENERATOR,
      .doc = "of patterns that name none: 1, 2 or 3; by default 2, before version 3.5 1"},
-    {"number_of_waves", TYPE_INTEGER, AT(SettingsBlueprint, number_of_waves),
+    {"number_of_waves", TYPE_INTEGER, AT(SettingsDesc, number_of_waves),
      .range = {RANGE_RAISE, false, 1.0, SETTINGS_WAVES_MAX}, .doc = "of waves"},
-    {"charset", TYPE_ACTION, ACTION_CHARSET,
-     .doc = "how the bytes of strings are read: `ascii`, `utf8` or `sys`"},
-    {"max_intersections", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
-    {"mm_per_unit", TYPE_NUMBER, AT(SettingsBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"charset", TYPE_ACTION, ACTION_CHARSET, .doc = "how the bytes of strings are read: `ascii`, `utf8` or `sys`"},
+    {"max_intersections", TYPE_NUMBER, AT(SettingsDesc, ignored), .doc = "accepted; changes no picture"},
+    {"mm_per_unit", TYPE_NUMBER, AT(SettingsDesc, ignored), .doc = "accepted; changes no picture"},
 };
 
-static const SettingsBlueprint settings_defaults = {
+static const SettingsDesc settings_defaults = {
     .ambient_light = GREY(1.0),
     .adc_bailout = 1.0 / 255.0,
     .max_trace_level = 5,
@@ -353,27 +347,26 @@ static const SchemaProperty texture_properties[] = {
     {"normal", TYPE_BLOCK, ACTION_NORMAL, .doc = "its bumps"},
     {"finish", TYPE_BLOCK, ACTION_FINISH, .doc = "how it shines; what is not said stays as it was"},
     {"texture_map", TYPE_BLOCK, ACTION_MAP, .doc = "textures along a pattern of values"},
-    {"no_bump_scale", TYPE_FLAG, AT(TextureBlueprint, keeps_length),
+    {"no_bump_scale", TYPE_FLAG, AT(TextureDesc, keeps_length),
      .doc = "the depth of its bumps is not scaled with it; not for a pattern of textures"},
 };
 
 static const SchemaProperty normal_arguments[] = {
-    {"amount", TYPE_NUMBER, AT(NormalBlueprint, amount), .is_optional = true,
-     .doc = "how deep: stands after the pattern"},
+    {"amount", TYPE_NUMBER, AT(NormalDesc, amount), .is_optional = true, .doc = "how deep: stands after the pattern"},
 };
 
 static const SchemaProperty normal_properties[] = {
     AVERAGE,
-    {"bump_size", TYPE_NUMBER, AT(NormalBlueprint, amount), .doc = "how deep"},
-    {"accuracy", TYPE_NUMBER, AT(NormalBlueprint, accuracy), .range = POSITIVE,
+    {"bump_size", TYPE_NUMBER, AT(NormalDesc, amount), .doc = "how deep"},
+    {"accuracy", TYPE_NUMBER, AT(NormalDesc, accuracy), .range = POSITIVE,
      .doc = "how far from the point the pattern is looked at"},
     {"slope_map", TYPE_BLOCK, ACTION_MAP, .doc = "heights along a pattern of values"},
     {"normal_map", TYPE_BLOCK, ACTION_MAP, .doc = "normals along a pattern of values"},
-    {"no_bump_scale", TYPE_FLAG, AT(NormalBlueprint, keeps_length), .doc = "the depth is not scaled with the pattern"},
+    {"no_bump_scale", TYPE_FLAG, AT(NormalDesc, keeps_length), .doc = "the depth is not scaled with the pattern"},
 };
 
 static const SchemaProperty pigment_arguments[] = {
-    {"colour", TYPE_COLOUR, AT(PigmentBlueprint, colour), .is_optional = true,
+    {"colour", TYPE_COLOUR, AT(PigmentDesc, colour), .is_optional = true,
      .doc = "begins with a colour word or the name of a colour"},
 };
 
@@ -383,8 +376,8 @@ static const SchemaProperty pigment_properties[] = {
     {"colour_map", TYPE_BLOCK, ACTION_MAP, .doc = "the same"},
     {"pigment_map", TYPE_BLOCK, ACTION_MAP, .doc = "pigments along a pattern of values"},
     {"image_map", TYPE_BLOCK, ACTION_IMAGE_MAP, .doc = "the colours of a picture"},
-    {"quick_color", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
-    {"quick_colour", TYPE_COLOUR, AT(PigmentBlueprint, quick_colour), .doc = "accepted; changes no picture"},
+    {"quick_color", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
+    {"quick_colour", TYPE_COLOUR, AT(PigmentDesc, quick_colour), .doc = "accepted; changes no picture"},
 };
 
 #define FILE_TYPE(word, text) {word, TYPE_ACTION, ACTION_IMAGE, .is_first = true, .doc = text}
@@ -404,26 +397,26 @@ static const SchemaProperty image_properties[] = {
      .doc = "right after the name: whether colours are multiplied with alpha"},
     {"map_type", TYPE_ACTION, ACTION_IMAGE, .doc = "0 plane, 1 sphere, 2 cylinder, 5 torus"},
     {"interpolate", TYPE_ACTION, ACTION_IMAGE, .doc = "2 bilinear, 3 bicubic, 4 by distance"},
-    {"once", TYPE_FLAG, AT(ImageBlueprint, is_once), .doc = "transparent beyond the picture, which is else repeated"},
+    {"once", TYPE_FLAG, AT(ImageDesc, is_once), .doc = "transparent beyond the picture, which is else repeated"},
     {"filter", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
     {"transmit", TYPE_ACTION, ACTION_IMAGE, .doc = "`all` or a place in the palette, then how much"},
-    {"use_color", TYPE_FLAG, AT(ImageBlueprint, ignored), .doc = "accepted; changes no picture"},
-    {"use_colour", TYPE_FLAG, AT(ImageBlueprint, ignored), .doc = "accepted; changes no picture"},
+    {"use_color", TYPE_FLAG, AT(ImageDesc, ignored), .doc = "accepted; changes no picture"},
+    {"use_colour", TYPE_FLAG, AT(ImageDesc, ignored), .doc = "accepted; changes no picture"},
 };
 
-static const ImageBlueprint image_defaults = {.map = {.picture = 0}};
+static const ImageDesc image_defaults = {.map = {.picture = 0}};
 
-#define FINISH_AT(field) .at = (uint16_t)offsetof(FinishBlueprint, finish.field)
+#define FINISH_AT(field) .at = (uint16_t)offsetof(FinishDesc, finish.field)
 
 static const SchemaProperty finish_properties[] = {
     {"ambient", TYPE_RGB, FINISH_AT(ambient), .doc = "share of the ambient light given back"},
     {"emission", TYPE_RGB, FINISH_AT(emission), .doc = "light given off"},
-    {"diffuse", TYPE_SHARE_PAIR, FINISH_AT(diffuse), GIVEN(FinishBlueprint, diffuse_is_albedo),
+    {"diffuse", TYPE_SHARE_PAIR, FINISH_AT(diffuse), GIVEN(FinishDesc, diffuse_is_albedo),
      .doc = "light scattered to this and the other side; `albedo`: in all"},
     {"brilliance", TYPE_NUMBER, FINISH_AT(brilliance), .doc = "exponent of the cosine in `diffuse`"},
-    {"phong", TYPE_SHARE, FINISH_AT(phong), GIVEN(FinishBlueprint, phong_is_albedo), .doc = "a highlight after Phong"},
+    {"phong", TYPE_SHARE, FINISH_AT(phong), GIVEN(FinishDesc, phong_is_albedo), .doc = "a highlight after Phong"},
     {"phong_size", TYPE_NUMBER, FINISH_AT(phong_size), .doc = "its exponent: greater is smaller"},
-    {"specular", TYPE_SHARE, FINISH_AT(specular), GIVEN(FinishBlueprint, specular_is_albedo),
+    {"specular", TYPE_SHARE, FINISH_AT(specular), GIVEN(FinishDesc, specular_is_albedo),
      .doc = "a highlight after Blinn"},
     {"roughness", TYPE_NUMBER, FINISH_AT(roughness), .range = {RANGE_WARN, true, 0.0, INFINITY},
      .doc = "1 / its exponent; 0: a constant highlight"},
@@ -433,9 +426,9 @@ static const SchemaProperty finish_properties[] = {
      .doc = "the same as `exponent` in `reflection { }`"},
     {"refraction", TYPE_NUMBER, FINISH_AT(refraction), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "old: share of the light let through that goes on"},
-    {"ior", TYPE_NUMBER, AT(FinishBlueprint, ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+    {"ior", TYPE_NUMBER, AT(FinishDesc, ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "old: the `ior` of the interior; 0: as the interior says"},
-    {"conserve_energy", TYPE_FLAG, AT(FinishBlueprint, conserve_energy),
+    {"conserve_energy", TYPE_FLAG, AT(FinishDesc, conserve_energy),
      .doc = "what is let through loses what is reflected"},
 };
 
@@ -448,7 +441,7 @@ static const SchemaProperty reflection_properties[] = {
     {"falloff", TYPE_NUMBER, FINISH_AT(reflection_falloff), .doc = "exponent of the way from `min` to `max`"},
     {"exponent", TYPE_NUMBER, FINISH_AT(reflection_exponent), .range = POSITIVE,
      .doc = "the reflected light is raised to 1 / exponent"},
-    {"fresnel", TYPE_SWITCH, AT(FinishBlueprint, is_fresnel),
+    {"fresnel", TYPE_SWITCH, AT(FinishDesc, is_fresnel),
      .doc = "from `min` to `max` as a surface with the interior's `ior` reflects"},
     {"metallic", TYPE_OPTIONAL_NUMBER, FINISH_AT(reflection_metallic), .bare = 1.0,
      .doc = "the mirror image takes the pigment's colour"},
@@ -460,7 +453,7 @@ static const SchemaProperty reflection_properties[] = {
         .reflection_falloff = 1.0, .reflection_exponent = 1.0, .refraction = 1.0                                       \
     }
 
-static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
+static const FinishDesc finish_defaults = {.finish = FINISH_DEFAULTS};
 
 #define PATTERN_PART                                                                                                   \
     {                                                                                                                  \
@@ -470,44 +463,44 @@ static const FinishBlueprint finish_defaults = {.finish = FINISH_DEFAULTS};
     }
 
 static const PatternPart pattern_defaults = PATTERN_PART;
-static const PigmentBlueprint pigment_defaults = {.part = PATTERN_PART};
+static const PigmentDesc pigment_defaults = {.part = PATTERN_PART};
 #define NORMAL_DEFAULTS                                                                                                \
     {                                                                                                                  \
         .part = PATTERN_PART, .amount = 0.5, .accuracy = 0.02                                                          \
     }
 
-static const NormalBlueprint normal_defaults = NORMAL_DEFAULTS;
-static const TextureBlueprint texture_defaults = {
+static const NormalDesc normal_defaults = NORMAL_DEFAULTS;
+static const TextureDesc texture_defaults = {
     .part = PATTERN_PART, .pigment = {.part = PATTERN_PART}, .normal = NORMAL_DEFAULTS, .finish = FINISH_DEFAULTS};
 static const SchemaProperty interior_properties[] = {
-    {"ior", TYPE_NUMBER, AT(InteriorBlueprint, interior.ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
+    {"ior", TYPE_NUMBER, AT(InteriorDesc, interior.ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "index of refraction; 0 is 1"},
-    {"fade_distance", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_distance),
+    {"fade_distance", TYPE_NUMBER, AT(InteriorDesc, interior.fade_distance),
      .doc = "the way that halves the light; 0: none is lost"},
-    {"fade_power", TYPE_NUMBER, AT(InteriorBlueprint, interior.fade_power),
+    {"fade_power", TYPE_NUMBER, AT(InteriorDesc, interior.fade_power),
      .doc = "1 / (1 + (way / distance) ^ power); from 1000 on exp(-way / distance)"},
-    {"fade_color", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "what the light fades to"},
-    {"fade_colour", TYPE_RGB, AT(InteriorBlueprint, interior.fade_colour), .doc = "the same"},
-    {"caustics", TYPE_NUMBER, AT(InteriorBlueprint, interior.caustics),
+    {"fade_color", TYPE_RGB, AT(InteriorDesc, interior.fade_colour), .doc = "what the light fades to"},
+    {"fade_colour", TYPE_RGB, AT(InteriorDesc, interior.fade_colour), .doc = "the same"},
+    {"caustics", TYPE_NUMBER, AT(InteriorDesc, interior.caustics),
      .doc = "how narrowly light that passes straight through the surface is gathered; 0: none"},
 };
 
-static const InteriorBlueprint interior_defaults = {.interior = {.ior = 1.0}};
+static const InteriorDesc interior_defaults = {.interior = {.ior = 1.0}};
 
 static const SchemaProperty material_properties[] = {
     {"texture", TYPE_BLOCK, ACTION_TEXTURE, .doc = "the surface; a second one is laid over the first"},
     {"interior", TYPE_BLOCK, ACTION_INTERIOR, .doc = "what is inside"},
 };
 
-static const MaterialBlueprint material_defaults = {.transform = IDENTITY};
+static const MaterialDesc material_defaults = {.transform = IDENTITY};
 static const PatternMap map_defaults = {NULL, 0};
 
 static const SchemaProperty transform_properties[] = {
-    {"inverse", TYPE_FLAG, AT(TransformBlueprint, is_inverse), .doc = "the way back, wherever it stands"},
+    {"inverse", TYPE_FLAG, AT(TransformDesc, is_inverse), .doc = "the way back, wherever it stands"},
 };
 
-static const TransformBlueprint transform_defaults = {.transform = IDENTITY};
-static const UnsupportedBlueprint unsupported_defaults;
+static const TransformDesc transform_defaults = {.transform = IDENTITY};
+static const UnsupportedDesc unsupported_defaults;
 
 #define TRANSFORMS LIST(transforms)
 #define PATTERNS LIST(pattern_modifiers)
@@ -516,7 +509,7 @@ static const UnsupportedBlueprint unsupported_defaults;
 static const SchemaBlock kinds[KIND_COUNT] = {
     [KIND_NONE] = {.word = "", .doc = ""},
     [KIND_CAMERA] = {.word = "camera",
-                     .size = sizeof(CameraBlueprint),
+                     .size = sizeof(CameraDesc),
                      .defaults = &camera_defaults,
                      .is_declarable = true,
                      .is_fixed = true,
@@ -524,7 +517,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                      .doc = "The order of its words does not matter; transforms come last. The last camera counts."},
     [KIND_LIGHT_SOURCE] =
         {.word = "light_source",
-         .size = sizeof(LightBlueprint),
+         .size = sizeof(LightDesc),
          .defaults = &light_defaults,
          .is_object = true,
          .is_declarable = true,
@@ -534,7 +527,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
          .doc = "A point light, if nothing else is said. Transforms move what stands before them, but not `radius` and "
                 "`falloff`."},
     [KIND_SPHERE] = {.word = "sphere",
-                     .size = sizeof(SphereBlueprint),
+                     .size = sizeof(SphereDesc),
                      .defaults = &sphere_defaults,
                      .is_object = true,
                      .is_declarable = true,
@@ -542,7 +535,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                      .groups = {OBJECT_GROUPS},
                      .doc = "All points at one distance from a centre; stretched by transforms."},
     [KIND_PLANE] = {.word = "plane",
-                    .size = sizeof(PlaneBlueprint),
+                    .size = sizeof(PlaneDesc),
                     .defaults = &plane_defaults,
                     .is_object = true,
                     .is_declarable = true,
@@ -550,7 +543,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .groups = {OBJECT_GROUPS},
                     .doc = "An endless plane."},
     [KIND_BOX] = {.word = "box",
-                  .size = sizeof(BoxBlueprint),
+                  .size = sizeof(BoxDesc),
                   .defaults = &box_defaults,
                   .is_object = true,
                   .is_declarable = true,
@@ -558,7 +551,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                   .groups = {OBJECT_GROUPS},
                   .doc = "Six faces, along the axes until it is transformed. It may be flat."},
     [KIND_CYLINDER] = {.word = "cylinder",
-                       .size = sizeof(CylinderBlueprint),
+                       .size = sizeof(CylinderDesc),
                        .defaults = &cylinder_defaults,
                        .is_object = true,
                        .is_declarable = true,
@@ -566,7 +559,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                        .groups = {LIST(cylinder_properties), OBJECT_GROUPS},
                        .doc = "Round, of one radius, between two points that differ."},
     [KIND_CONE] = {.word = "cone",
-                   .size = sizeof(ConeBlueprint),
+                   .size = sizeof(ConeDesc),
                    .defaults = &cone_defaults,
                    .is_object = true,
                    .is_declarable = true,
@@ -574,7 +567,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .groups = {LIST(cone_properties), OBJECT_GROUPS},
                    .doc = "Round, with a radius at each of two points that differ."},
     [KIND_DISC] = {.word = "disc",
-                   .size = sizeof(DiscBlueprint),
+                   .size = sizeof(DiscDesc),
                    .defaults = &disc_defaults,
                    .is_object = true,
                    .is_declarable = true,
@@ -583,7 +576,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .doc =
                        "Round and flat, without an inside: not for merge, intersection, difference and `clipped_by`."},
     [KIND_TRIANGLE] = {.word = "triangle",
-                       .size = sizeof(TriangleBlueprint),
+                       .size = sizeof(TriangleDesc),
                        .defaults = &triangle_defaults,
                        .is_object = true,
                        .is_declarable = true,
@@ -591,7 +584,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                        .groups = {OBJECT_GROUPS},
                        .doc = "Flat, without an inside: not for merge, intersection, difference and `clipped_by`."},
     [KIND_SMOOTH_TRIANGLE] = {.word = "smooth_triangle",
-                              .size = sizeof(SmoothTriangleBlueprint),
+                              .size = sizeof(SmoothTriangleDesc),
                               .defaults = &smooth_triangle_defaults,
                               .is_object = true,
                               .is_declarable = true,
@@ -599,85 +592,85 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                               .groups = {OBJECT_GROUPS},
                               .doc = "A triangle that is lit as if its normal went over from corner to corner."},
     [KIND_UNION] = {.word = "union",
-                    .size = sizeof(UnionBlueprint),
+                    .size = sizeof(UnionDesc),
                     .defaults = &union_defaults,
                     .is_object = true,
                     .is_declarable = true,
                     .groups = {LIST(union_properties), OBJECT_GROUPS},
                     .doc = "Objects first, then what holds for all of them. Its texture is for those that have none."},
     [KIND_MERGE] = {.word = "merge",
-                    .size = sizeof(UnionBlueprint),
+                    .size = sizeof(UnionDesc),
                     .defaults = &union_defaults,
                     .is_object = true,
                     .is_declarable = true,
                     .groups = {LIST(union_properties), OBJECT_GROUPS},
                     .doc = "A union without the surfaces inside of it."},
     [KIND_INTERSECTION] = {.word = "intersection",
-                           .size = sizeof(UnionBlueprint),
+                           .size = sizeof(UnionDesc),
                            .defaults = &union_defaults,
                            .is_object = true,
                            .is_declarable = true,
                            .groups = {OBJECT_GROUPS},
                            .doc = "What is inside of all its objects."},
     [KIND_DIFFERENCE] = {.word = "difference",
-                         .size = sizeof(UnionBlueprint),
+                         .size = sizeof(UnionDesc),
                          .defaults = &union_defaults,
                          .is_object = true,
                          .is_declarable = true,
                          .groups = {OBJECT_GROUPS},
                          .doc = "What is inside of the first object and of none of the others."},
     [KIND_OBJECT] = {.word = "object",
-                     .size = sizeof(UnionBlueprint),
+                     .size = sizeof(UnionDesc),
                      .defaults = &union_defaults,
                      .is_object = true,
                      .is_declarable = true,
                      .groups = {OBJECT_GROUPS},
                      .doc = "One object, or the name of one, and how this copy differs."},
     [KIND_BACKGROUND] = {.word = "background",
-                         .size = sizeof(BackgroundBlueprint),
+                         .size = sizeof(BackgroundDesc),
                          .defaults = &background_defaults,
                          .arguments = LIST(background_arguments),
                          .doc = "The last one counts."},
     [KIND_SKY_SPHERE] = {.word = "sky_sphere",
-                         .size = sizeof(SkySphereBlueprint),
+                         .size = sizeof(SkySphereDesc),
                          .defaults = &sky_sphere_defaults,
                          .is_declarable = true,
                          .groups = {LIST(sky_sphere_properties), TRANSFORMS},
                          .doc = "Seen where nothing is hit, before the background. The last one counts."},
     [KIND_FOG] = {.word = "fog",
-                  .size = sizeof(FogBlueprint),
+                  .size = sizeof(FogDesc),
                   .defaults = &fog_defaults,
                   .is_declarable = true,
                   .arguments = LIST(fog_arguments),
                   .groups = {LIST(fog_properties), TRANSFORMS},
                   .doc = "There may be several. Transforms turn `up`."},
     [KIND_GLOBAL_SETTINGS] = {.word = "global_settings",
-                              .size = sizeof(SettingsBlueprint),
+                              .size = sizeof(SettingsDesc),
                               .defaults = &settings_defaults,
                               .groups = {LIST(settings_properties)},
                               .doc = "Holds for the whole scene, wherever it stands."},
     [KIND_TEXTURE] = {.word = "texture",
-                      .size = sizeof(TextureBlueprint),
+                      .size = sizeof(TextureDesc),
                       .defaults = &texture_defaults,
                       .is_declarable = true,
                       .groups = {LIST(texture_properties), PATTERNS, TRANSFORMS},
                       .doc = "A pigment, bumps and a finish, or textures by a pattern."},
     [KIND_PIGMENT] = {.word = "pigment",
-                      .size = sizeof(PigmentBlueprint),
+                      .size = sizeof(PigmentDesc),
                       .defaults = &pigment_defaults,
                       .is_declarable = true,
                       .arguments = LIST(pigment_arguments),
                       .groups = {LIST(pigment_properties), PATTERNS, TRANSFORMS},
                       .doc = "The colour of a surface and how much light it lets through."},
     [KIND_NORMAL] = {.word = "normal",
-                     .size = sizeof(NormalBlueprint),
+                     .size = sizeof(NormalDesc),
                      .defaults = &normal_defaults,
                      .is_declarable = true,
                      .arguments = LIST(normal_arguments),
                      .groups = {LIST(normal_properties), PATTERNS, TRANSFORMS},
                      .doc = "Bumps: a pattern turns the surface's normal, not the surface."},
     [KIND_FINISH] = {.word = "finish",
-                     .size = sizeof(FinishBlueprint),
+                     .size = sizeof(FinishDesc),
                      .defaults = &finish_defaults,
                      .is_declarable = true,
                      .groups = {LIST(finish_properties)},
@@ -701,7 +694,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                           .doc = "`[value texture]`, the texture being what may stand in `texture { }`."},
     [KIND_IMAGE_MAP] =
         {.word = "image_map",
-         .size = sizeof(ImageBlueprint),
+         .size = sizeof(ImageDesc),
          .defaults = &image_defaults,
          .groups = {LIST(image_properties)},
          .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name tells it."},
@@ -716,42 +709,43 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                         .is_declarable = true,
                         .doc = "`[value <height, slope>]`, values rising from 0 to 1."},
     [KIND_INTERIOR] = {.word = "interior",
-                       .size = sizeof(InteriorBlueprint),
+                       .size = sizeof(InteriorDesc),
                        .defaults = &interior_defaults,
                        .is_declarable = true,
                        .groups = {LIST(interior_properties)},
                        .doc = "What a shape is filled with: rays are bent at its surface and fade inside."},
     [KIND_MATERIAL] = {.word = "material",
-                       .size = sizeof(MaterialBlueprint),
+                       .size = sizeof(MaterialDesc),
                        .defaults = &material_defaults,
                        .is_declarable = true,
                        .groups = {LIST(material_properties), TRANSFORMS},
                        .doc = "A texture and an interior in one."},
     [KIND_CLIPPED_BY] = {.word = "clipped_by",
-                         .size = sizeof(UnionBlueprint),
+                         .size = sizeof(UnionDesc),
                          .defaults = &union_defaults,
                          .groups = {TRANSFORMS},
-                         .doc = "In an object: solids without textures, or their names, and transforms of all of them; or "
-                                "the word `bounded_by`."},
+                         .doc =
+                             "In an object: solids without textures, or their names, and transforms of all of them; or "
+                             "the word `bounded_by`."},
     [KIND_BOUNDED_BY] = {.word = "bounded_by",
-                         .size = sizeof(UnionBlueprint),
+                         .size = sizeof(UnionDesc),
                          .defaults = &union_defaults,
                          .groups = {TRANSFORMS},
                          .doc = "In an object: likewise, or the word `clipped_by`."},
     [KIND_LOOKS_LIKE] =
         {.word = "looks_like",
-         .size = sizeof(UnionBlueprint),
+         .size = sizeof(UnionDesc),
          .defaults = &union_defaults,
          .groups = {OBJECT_GROUPS},
          .doc = "In a light: one object, or the name of one, put where the light is, and then how this copy differs."},
     [KIND_REFLECTION] = {.word = "reflection",
-                         .size = sizeof(FinishBlueprint),
+                         .size = sizeof(FinishDesc),
                          .defaults = &finish_defaults,
                          .arguments = LIST(reflection_arguments),
                          .groups = {LIST(reflection_properties)},
                          .doc = "In a finish: the mirror."},
     [KIND_TRANSFORM] = {.word = "transform",
-                        .size = sizeof(TransformBlueprint),
+                        .size = sizeof(TransformDesc),
                         .defaults = &transform_defaults,
                         .is_declarable = true,
                         .groups = {LIST(transform_properties), TRANSFORMS},
@@ -761,10 +755,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                       .defaults = &pattern_defaults,
                       .groups = {PATTERNS, TRANSFORMS},
                       .doc = "In a function: one of the patterns, without what lies along it."},
-    [KIND_UNSUPPORTED] = {.word = "",
-                          .size = sizeof(UnsupportedBlueprint),
-                          .defaults = &unsupported_defaults,
-                          .doc = ""},
+    [KIND_UNSUPPORTED] = {.word = "", .size = sizeof(UnsupportedDesc), .defaults = &unsupported_defaults, .doc = ""},
 };
 
 static const SchemaUnsupported unsupported[] = {

@@ -1,7 +1,7 @@
 // The schema: every kind of block and every property, in one table.
 //
 // The table drives the evaluation of blocks, "unknown property", range checks and the reference in docs/language.md.
-// A property is one line of schema.c; a new shape is a few lines there, a blueprint and a function that places it.
+// A property is one line of schema.c; a new shape is a few lines there, a description and a function that places it.
 // Words are text here; the evaluator looks them up once. Constant data, shared by all threads.
 //
 // SPDX-License-Identifier: MIT
@@ -129,7 +129,7 @@ typedef struct SchemaProperty {
     const char *word; // of an argument: its name in messages and in the reference
     SchemaType type;
     SchemaAction action;
-    uint16_t at;       // offset of the value in the blueprint
+    uint16_t at;       // offset of the value in the description
     uint16_t given;    // offset of a bool that turns true; 0: none
     bool is_optional;  // an argument that may be left out
     bool is_first;     // stands before every other item of the block
@@ -148,8 +148,8 @@ enum { SCHEMA_GROUPS = 3 };
 
 typedef struct SchemaBlock {
     const char *word;
-    size_t size;          // of the blueprint
-    const void *defaults; // a blueprint as it is before anything is said
+    size_t size;          // of the description
+    const void *defaults; // a description as it is before anything is said
     bool is_object;       // may stand in a union and as an object
     bool is_declarable;   // may stand on the right of a #declare
     bool is_fixed;        // after an identifier only transforms may follow

@@ -24,7 +24,7 @@ static const char *const type_names[] = {
     [TYPE_ACTION] = "see right",
 };
 
-// A default as it is written: the shortest number that is the same in the precision the blueprint has.
+// A default as it is written: the shortest number that is the same in the precision the description has.
 static void write_numbers(TextBuffer *out, const double *numbers, size_t count, bool is_single)
 {
     text_append(out, count > 1 ? "<" : "");

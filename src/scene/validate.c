@@ -186,7 +186,7 @@ bool scene_validate(const Scene *scene, DiagSink *diags, int threads)
         return false;
     }
     scene_warn_of_range(scene, &survey, diags);
-    if (!scene_warn_of_twins(scene, diags, threads) || !scene_warn_of_faces(scene, diags)) {
+    if (!scene_warn_of_coincident(scene, diags, threads) || !scene_warn_of_faces(scene, diags)) {
         diag_report(diags, DIAG_E0602, SPAN_NONE, "out of memory looking for shapes that coincide");
         return false;
     }

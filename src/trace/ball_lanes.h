@@ -105,8 +105,8 @@ RT_ALWAYS_INLINE bool ball_lanes_test(const Doubles f[3], const Doubles d[3], co
                                       BallLanes *lanes)
 {
     Doubles inverse_square = 1.0 / lanes_dot(d, d);
-    const Doubles dual[3] = {inverse_square * d[0], inverse_square * d[1], inverse_square * d[2]};
-    Doubles t_middle = -lanes_dot(f, dual);
+    const Doubles direction_over_length2[3] = {inverse_square * d[0], inverse_square * d[1], inverse_square * d[2]};
+    Doubles t_middle = -lanes_dot(f, direction_over_length2);
     const Doubles l[3] = {f[0] + t_middle * d[0], f[1] + t_middle * d[1], f[2] + t_middle * d[2]};
     Doubles discriminant = 1.0 - lanes_dot(l, l);
     Doubles f_squared = lanes_dot(f, f);
@@ -122,7 +122,7 @@ RT_ALWAYS_INLINE bool ball_lanes_test(const Doubles f[3], const Doubles d[3], co
     Doubles half = doubles_sqrt(discriminant * inverse_square), far_side = doubles_abs(t_middle) + half;
     Doubles near_side = doubles_abs(c) * inverse_square / far_side;
     Doubles root = doubles_choose((c > 0.0) | (t_middle < 0.0), near_side, far_side);
-    Doubles error = (slack->fixed + slack->slope * root) * inverse_square / half; // |n·d| is half a chord times |d|²
+    Doubles error = (slack->fixed + slack->slope * root) * inverse_square / half; // |n·d| is half an interval times |d|²
     lanes->root = root;
     lanes->bound = doubles_min(2.0 * half, error) + 0x1p-10 * root;
     return true;

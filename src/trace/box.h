@@ -7,19 +7,19 @@
 #ifndef TRACE_BOX_H
 #define TRACE_BOX_H
 
-#include "trace/chord.h"
+#include "trace/ray_interval.h"
 
-RT_ALWAYS_INLINE bool box_chord(Vec3 low, Vec3 high, Vec3 o, Vec3 d, uint8_t left_side, Chord *chord)
+RT_ALWAYS_INLINE bool box_interval(Vec3 low, Vec3 high, Vec3 o, Vec3 d, uint8_t left_side, RayInterval *interval)
 {
-    Chord y, z;
-    if (!chord_slab(o.x, d.x, low.x, high.x, 0, left_side, chord) ||
-        !chord_slab(o.y, d.y, low.y, high.y, 2, left_side, &y) ||
-        !chord_slab(o.z, d.z, low.z, high.z, 4, left_side, &z)) {
+    RayInterval y, z;
+    if (!interval_slab(o.x, d.x, low.x, high.x, 0, left_side, interval) ||
+        !interval_slab(o.y, d.y, low.y, high.y, 2, left_side, &y) ||
+        !interval_slab(o.z, d.z, low.z, high.z, 4, left_side, &z)) {
         return false;
     }
-    chord_meet(chord, &y);
-    chord_meet(chord, &z);
-    return chord->enter <= chord->leave;
+    interval_meet(interval, &y);
+    interval_meet(interval, &z);
+    return interval->enter <= interval->leave;
 }
 
 RT_ALWAYS_INLINE Vec3 box_normal(uint8_t side)

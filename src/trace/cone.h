@@ -9,7 +9,7 @@
 #define TRACE_CONE_H
 
 #include "math/extreme.h"
-#include "trace/chord.h"
+#include "trace/ray_interval.h"
 
 enum { CONE_ROUND, CONE_BASE, CONE_CAP };
 
@@ -36,9 +36,9 @@ RT_ALWAYS_INLINE ConeRoots cone_roots(double ratio, Vec3 o, Vec3 d)
 
 // The line inside the round side, on the tip's own side only where the discs' planes decide. A line steeper than the
 // side (a < 0) is inside of both images in turn and never leaves the one that widens.
-RT_ALWAYS_INLINE bool cone_round_chord(const ConeRoots *r, Chord *chord)
+RT_ALWAYS_INLINE bool cone_round_interval(const ConeRoots *r, RayInterval *interval)
 {
-    *chord = (Chord){-(double)INFINITY, (double)INFINITY, CONE_ROUND, CONE_ROUND};
+    *interval = (RayInterval){-(double)INFINITY, (double)INFINITY, CONE_ROUND, CONE_ROUND};
     if (r->a == 0.0 && r->b == 0.0) {
         return r->c <= 0.0;
     }
@@ -49,38 +49,39 @@ RT_ALWAYS_INLINE bool cone_round_chord(const ConeRoots *r, Chord *chord)
     double sum = -(r->b + copysign(sqrt(greater_of(r->discriminant, 0.0)), r->b)); // terms of one sign
     double first = sum / r->a, second = r->c / sum;
     if (r->a > 0.0) {
-        chord->enter = less_of(first, second);
-        chord->leave = greater_of(first, second);
+        interval->enter = less_of(first, second);
+        interval->leave = greater_of(first, second);
     } else if (r->a == 0.0) {
-        *(r->b < 0.0 ? &chord->enter : &chord->leave) = second;
+        *(r->b < 0.0 ? &interval->enter : &interval->leave) = second;
     } else if (r->q > 0.0) {
-        chord->enter = greater_of(first, second);
+        interval->enter = greater_of(first, second);
     } else {
-        chord->leave = less_of(first, second);
+        interval->leave = less_of(first, second);
     }
-    return !isnan(chord->enter) && !isnan(chord->leave);
+    return !isnan(interval->enter) && !isnan(interval->leave);
 }
 
 // The same for a ray that starts on the round side and goes in: c = 0 leaves -2 b / a.
-RT_ALWAYS_INLINE bool cone_round_chord_inward(const ConeRoots *r, Chord *chord)
+RT_ALWAYS_INLINE bool cone_round_interval_inward(const ConeRoots *r, RayInterval *interval)
 {
-    *chord = (Chord){-(double)INFINITY, (double)INFINITY, CONE_ROUND, CONE_ROUND};
+    *interval = (RayInterval){-(double)INFINITY, (double)INFINITY, CONE_ROUND, CONE_ROUND};
     if (r->a > 0.0) {
-        chord->leave = -2.0 * r->b / r->a;
+        interval->leave = -2.0 * r->b / r->a;
     }
-    return chord->leave > 0.0;
+    return interval->leave > 0.0;
 }
 
-RT_ALWAYS_INLINE bool cone_chord(double ratio, Vec3 o, Vec3 d, uint8_t left_side, Chord *chord)
+RT_ALWAYS_INLINE bool cone_interval(double ratio, Vec3 o, Vec3 d, uint8_t left_side, RayInterval *interval)
 {
-    Chord slab;
+    RayInterval slab;
     ConeRoots roots = cone_roots(ratio, o, d);
-    if (!(left_side == CONE_ROUND ? cone_round_chord_inward(&roots, chord) : cone_round_chord(&roots, chord)) ||
-        !chord_slab(o.z, d.z, 0.0, 1.0, CONE_BASE, left_side, &slab)) {
+    if (!(left_side == CONE_ROUND ? cone_round_interval_inward(&roots, interval)
+                                  : cone_round_interval(&roots, interval)) ||
+        !interval_slab(o.z, d.z, 0.0, 1.0, CONE_BASE, left_side, &slab)) {
         return false;
     }
-    chord_meet(chord, &slab);
-    return chord->enter <= chord->leave;
+    interval_meet(interval, &slab);
+    return interval->enter <= interval->leave;
 }
 
 // The outward normal at a point of the side, not of unit length.

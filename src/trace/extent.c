@@ -95,10 +95,10 @@ bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
     }
     const Solid *solid = &g->shapes.solids[part_index(shape)];
     Ray object = solid_ray(solid, &ray);
-    Chord chord;
+    RayInterval interval;
     double t;
     return solid_is_flat(solid) ? solid_flat_root(solid, &object, &t) && t > 0.0
-                                : solid_chord(solid, &object, SIDE_NONE, &chord) && chord.leave > 0.0;
+                                : solid_interval(solid, &object, SIDE_NONE, &interval) && interval.leave > 0.0;
 }
 
 bool extent_plane(const Geometry *g, uint32_t number, ShapeId *shape, Vec3 *point, Vec3 *normal,

@@ -65,7 +65,7 @@ static size_t first_from(Solid *const *balls, size_t count, Vec3 place)
 
 // Tells balls among the parts which sphere they equal, so that the two are one surface. Every sphere is looked up among
 // the balls, which are few.
-static bool twins_init(Geometry *geometry)
+static bool coincident_init(Geometry *geometry)
 {
     ShapeTable *shapes = &geometry->shapes;
     const SphereTable *spheres = &geometry->spheres;
@@ -116,8 +116,8 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
     geometry->kernels = sphere_kernels_choose(options->isa);
     if (!geometry->kernels ||
         !sphere_table_init(&geometry->spheres, scene, exponent, options->threads, options->spent) ||
-        !planes_init(geometry, scene, exponent) ||
-        !shapes_init(&geometry->shapes, scene, exponent, options->threads) || !twins_init(geometry)) {
+        !planes_init(geometry, scene, exponent) || !shapes_init(&geometry->shapes, scene, exponent, options->threads) ||
+        !coincident_init(geometry)) {
         geometry_free(geometry);
         return NULL;
     }

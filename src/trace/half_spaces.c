@@ -1,9 +1,10 @@
 // How far a polyhedron reaches along the axes.
 //
 // A plane e·p = b has all of it on one side when e is a sum of the half spaces' normals, none counted less than 0, and
-// b the same sum of their distances: the dual of a linear program. Three of them are enough; they are found by the dual
-// simplex method (C. E. Lemke, Naval Research Logistics Quarterly 1, 1954). However it came about, the sum is then
-// checked by itself, and what rounding makes of it is less than the box is larger than it need be.
+// b the same sum of their distances: the direction_over_length2 of a linear program. Three of them are enough; they are
+// found by the direction_over_length2 simplex method (C. E. Lemke, Naval Research Logistics Quarterly 1, 1954). However
+// it came about, the sum is then checked by itself, and what rounding makes of it is less than the box is larger than
+// it need be.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/half_spaces.h"

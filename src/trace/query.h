@@ -315,20 +315,21 @@ RT_ALWAYS_INLINE bool query_is_few(const Geometry *g, unsigned features)
 }
 
 // What rays that go on from surfaces meet, as geometry_closest says of each; there is at least one.
-RT_ALWAYS_INLINE void geometry_closest_onward(const Geometry *g, unsigned features, OnwardRays *rays, TileHits *hits)
+RT_ALWAYS_INLINE void geometry_closest_secondary(const Geometry *g, unsigned features, SecondaryRays *rays,
+                                                 TileHits *hits)
 {
     uint64_t open = ~UINT64_C(0) >> (TILE_RAYS - rays->count);
     hits->met = hits->inside = 0;
     bool has_plane = query_has_one_plane(g, features);
     if (query_is_few(g, features)) {
-        open &= ~g->kernels->closest_onward(&g->spheres, has_plane ? &g->planes[0].shape : NULL,
-                                            shape_id(SHAPE_PLANE, 0), rays, hits);
+        open &= ~g->kernels->closest_secondary(&g->spheres, has_plane ? &g->planes[0].shape : NULL,
+                                               shape_id(SHAPE_PLANE, 0), rays, hits);
     }
     for (; open; open &= open - 1) {
         unsigned i = (unsigned)__builtin_ctzll(open);
         RayStart start = {rays->start[i], rays->inward >> i & 1, HIDDEN_MIRROR};
         Hit hit;
-        if (!geometry_closest(g, features, onward_ray(rays, i), start, (double)INFINITY, &hit)) {
+        if (!geometry_closest(g, features, secondary_ray(rays, i), start, (double)INFINITY, &hit)) {
             hit = (Hit){(double)INFINITY, SHAPE_NONE, false};
         }
         tile_hit_set(hits, i, &hit);
@@ -577,13 +578,12 @@ RT_ALWAYS_INLINE void query_tile_surfaces_end(const Geometry *g, unsigned featur
     }
 }
 
-RT_ALWAYS_INLINE void query_onward_surfaces_end(const Geometry *g, unsigned features, uint64_t done,
-                                                const OnwardRays *rays, const TileHits *hits, TileSurfaces *surfaces,
-                                                MaterialIndex material[TILE_RAYS])
+RT_ALWAYS_INLINE void query_secondary_surfaces_end(const Geometry *g, unsigned features, uint64_t done,
+                                                   const SecondaryRays *rays, const TileHits *hits,
+                                                   TileSurfaces *surfaces, MaterialIndex material[TILE_RAYS])
 {
     for (int i = 0; i < surfaces->count; i++) {
-        material[i] =
-            query_surface_end(g, features, done, onward_ray(rays, surfaces->ray[i]), hits, surfaces, i);
+        material[i] = query_surface_end(g, features, done, secondary_ray(rays, surfaces->ray[i]), hits, surfaces, i);
     }
 }
 
@@ -598,14 +598,13 @@ static __attribute__((noinline, unused)) void query_tile_surfaces_parts(const Ge
     query_tile_surfaces_end(g, TRACE_ALL_FEATURES, done, tile, hits, surfaces, material);
 }
 
-static __attribute__((noinline, unused)) void query_onward_surfaces_parts(const Geometry *g, uint64_t done,
-                                                                          const OnwardRays *rays, const TileHits *hits,
-                                                                          TileSurfaces *surfaces,
-                                                                          MaterialIndex material[TILE_RAYS])
+static __attribute__((noinline, unused)) void
+query_secondary_surfaces_parts(const Geometry *g, uint64_t done, const SecondaryRays *rays, const TileHits *hits,
+                               TileSurfaces *surfaces, MaterialIndex material[TILE_RAYS])
 {
     const double *const origin[3] = {rays->origin[0], rays->origin[1], rays->origin[2]};
     done |= g->kernels->shapes_surfaces(&g->shapes, origin, 1, hits, ~done, surfaces);
-    query_onward_surfaces_end(g, TRACE_ALL_FEATURES, done, rays, hits, surfaces, material);
+    query_secondary_surfaces_end(g, TRACE_ALL_FEATURES, done, rays, hits, surfaces, material);
 }
 
 // The surfaces that a tile's rays of `wanted`, one at least, have met, and their materials.
@@ -623,16 +622,16 @@ RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned feature
 }
 
 // Those that rays which go on have met, one at least.
-RT_ALWAYS_INLINE void geometry_onward_surfaces(const Geometry *g, unsigned features, const OnwardRays *rays,
-                                               const TileHits *hits, TileSurfaces *surfaces,
-                                               MaterialIndex material[TILE_RAYS])
+RT_ALWAYS_INLINE void geometry_secondary_surfaces(const Geometry *g, unsigned features, const SecondaryRays *rays,
+                                                  const TileHits *hits, TileSurfaces *surfaces,
+                                                  MaterialIndex material[TILE_RAYS])
 {
     query_surfaces_begin(surfaces, hits, hits->met);
-    uint64_t done = g->kernels->surfaces_onward(&g->spheres, rays, hits, surfaces);
+    uint64_t done = g->kernels->surfaces_secondary(&g->spheres, rays, hits, surfaces);
     if (features & TRACE_PARTS) {
-        query_onward_surfaces_parts(g, done, rays, hits, surfaces, material);
+        query_secondary_surfaces_parts(g, done, rays, hits, surfaces, material);
     } else {
-        query_onward_surfaces_end(g, features, done, rays, hits, surfaces, material);
+        query_secondary_surfaces_end(g, features, done, rays, hits, surfaces, material);
     }
 }
 

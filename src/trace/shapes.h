@@ -43,14 +43,14 @@ typedef struct TreeNode {
     uint32_t idle_inside; // children that a line is inside of when it crosses no leaf
 } TreeNode;
 
-typedef struct Assembly {
+typedef struct CsgTree {
     uint32_t first_node, node_count;
     uint32_t first_solid, solid_count;
     uint8_t hidden;
     uint32_t order;
-} Assembly;
+} CsgTree;
 
-// What stands for itself: a solid, or an assembly when the number is not below solid_count; of a ball with a bit that
+// What stands for itself: a solid, or a CSG tree when the number is not below solid_count; of a ball with a bit that
 // tells it, so that nobody need look at it.
 typedef uint32_t ShapeItem;
 #define ITEM_BALL 0x80000000u
@@ -71,8 +71,8 @@ struct ShapeTable {
     Pages solid_pages; // which they are in; owned
     uint32_t solid_count;
     TreeNode *nodes;
-    Assembly *assemblies;
-    uint32_t node_count, assembly_count;
+    CsgTree *csg_trees;
+    uint32_t node_count, csg_count;
     ShapeItem *items; // unbounded ones first, then those of the tree in its order
     ItemBox *boxes;   // of those of the tree, in its order
     Pages item_pages, box_pages;
@@ -104,9 +104,9 @@ double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart star
 // Where the ray hit. The normal points out of what the solid is in.
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);
 
-// composite.c: offers the nearest crossing of an assembly that is seen. None lies before `enter`, but for rounding.
-void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
-                      double start_error, double enter, Foremost *first);
+// composite.c: offers the nearest crossing of a CSG tree that is seen. None lies before `enter`, but for rounding.
+void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
+                 double enter, Foremost *first);
 
 // Where a crossing may be that is off by no more than `error`, and not before `enter`, but for rounding.
 RT_ALWAYS_INLINE RootSpan crossing_span(double t, double error, double enter)

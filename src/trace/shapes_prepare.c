@@ -80,14 +80,14 @@ static void node_take(const TreeNode *node, Bounds *bounds, const Bounds *child)
     *bounds = joins ? bounds_join(*bounds, *child) : bounds_meet(*bounds, *child);
 }
 
-// Nothing is seen of an assembly outside of the planes that decide; where they enclose a space, of that the box.
-static Bounds planes_bounds(const ShapeTable *table, const Assembly *assembly)
+// Nothing is seen of a CSG tree outside of the planes that decide; where they enclose a space, of that the box.
+static Bounds planes_bounds(const ShapeTable *table, const CsgTree *csg)
 {
     enum { MOST = 64 }; // more than that only make the box smaller
     HalfSpace spaces[MOST];
     Bounds bounds;
     uint32_t count = 0;
-    for (uint32_t i = assembly->first_solid; i < assembly->first_solid + assembly->solid_count && count < MOST; i++) {
+    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count && count < MOST; i++) {
         const Solid *solid = &table->solids[i];
         if (solid->decides && solid->kind == PART_PLANE) {
             spaces[count++] = (HalfSpace){solid->data[0], solid->data[1].x};
@@ -97,20 +97,19 @@ static Bounds planes_bounds(const ShapeTable *table, const Assembly *assembly)
 }
 
 // What the nodes count of children, from the leaves up, and their boxes. Children stand behind their parents.
-static Bounds assembly_measure(ShapeTable *table, const Assembly *assembly, const Bounds *solid_bounds,
-                               Bounds *node_bounds)
+static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *solid_bounds, Bounds *node_bounds)
 {
-    uint32_t first = assembly->first_node;
-    for (uint32_t i = first; i < first + assembly->node_count; i++) {
+    uint32_t first = csg->first_node;
+    for (uint32_t i = first; i < first + csg->node_count; i++) {
         const TreeNode *node = &table->nodes[i];
         node_bounds[i] = node->op == NODE_UNION || node->op == NODE_MERGE ? BOUNDS_NONE : BOUNDS_ALL;
     }
-    for (uint32_t i = assembly->first_solid; i < assembly->first_solid + assembly->solid_count; i++) {
+    for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
         TreeNode *node = &table->nodes[table->solids[i].node];
         node->idle_inside += table->solids[i].flags & PART_INVERSE ? 1 : 0;
         node_take(node, &node_bounds[table->solids[i].node], &solid_bounds[i]);
     }
-    for (uint32_t i = first + assembly->node_count; i-- > first + 1;) {
+    for (uint32_t i = first + csg->node_count; i-- > first + 1;) {
         const TreeNode *node = &table->nodes[i];
         TreeNode *parent = &table->nodes[node->parent];
         Bounds bounds = node->is_inverse ? BOUNDS_ALL : node_bounds[i];
@@ -118,13 +117,13 @@ static Bounds assembly_measure(ShapeTable *table, const Assembly *assembly, cons
         node_take(parent, &node_bounds[node->parent], &bounds);
     }
     Bounds bounds = table->nodes[first].is_inverse ? BOUNDS_ALL : node_bounds[first];
-    return bounds_are_finite(bounds) ? bounds : bounds_meet(bounds, planes_bounds(table, assembly));
+    return bounds_are_finite(bounds) ? bounds : bounds_meet(bounds, planes_bounds(table, csg));
 }
 
-static void assembly_init(ShapeTable *table, const Composite *composite, uint32_t index)
+static void csg_init(ShapeTable *table, const Composite *composite, uint32_t index)
 {
-    table->assemblies[index] = (Assembly){composite->first_node, composite->node_count, composite->first_part,
-                                          composite->part_count, composite->hidden,     composite->order};
+    table->csg_trees[index] = (CsgTree){composite->first_node, composite->node_count, composite->first_part,
+                                        composite->part_count, composite->hidden,     composite->order};
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
         solid->composite = index;
@@ -151,7 +150,7 @@ static void nodes_init(ShapeTable *table, const Scene *scene)
 // ---- the tree
 
 typedef struct Work {
-    Bounds *solids, *nodes; // the roots' boxes are those of their assemblies
+    Bounds *solids, *nodes; // the roots' boxes are those of their csg_trees
     ShapeItem *bounded;
     Pages solid_pages, bounded_pages, ref_pages;
 } Work;
@@ -160,7 +159,7 @@ static const Bounds *item_bounds(const ShapeTable *table, const Work *work, Shap
 {
     uint32_t index = item_index(item);
     return index < table->solid_count ? &work->solids[index]
-                                      : &work->nodes[table->assemblies[index - table->solid_count].first_node];
+                                      : &work->nodes[table->csg_trees[index - table->solid_count].first_node];
 }
 
 static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds *bounds)
@@ -209,11 +208,11 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
             add_item(table, work, i | (table->solids[i].kind == PART_BALL ? ITEM_BALL : 0), &work->solids[i]);
         }
     }
-    for (uint32_t i = 0; i < table->assembly_count; i++) {
-        const Assembly *assembly = &table->assemblies[i];
-        Bounds *root = &work->nodes[assembly->first_node];
-        *root = assembly_measure(table, assembly, work->solids, work->nodes);
-        if (assembly->solid_count > 0) {
+    for (uint32_t i = 0; i < table->csg_count; i++) {
+        const CsgTree *csg = &table->csg_trees[i];
+        Bounds *root = &work->nodes[csg->first_node];
+        *root = csg_measure(table, csg, work->solids, work->nodes);
+        if (csg->solid_count > 0) {
             add_item(table, work, table->solid_count + i, root);
         }
     }
@@ -226,8 +225,8 @@ static bool storage_take(ShapeTable *table, const Scene *scene, Work *work)
     size_t most = scene->parts.count + scene->composites.count;
     work->nodes = malloc((scene->nodes.count + 1) * sizeof *work->nodes);
     table->nodes = malloc((scene->nodes.count + 1) * sizeof *table->nodes);
-    table->assemblies = malloc((scene->composites.count + 1) * sizeof *table->assemblies);
-    if (!work->nodes || !table->nodes || !table->assemblies ||
+    table->csg_trees = malloc((scene->composites.count + 1) * sizeof *table->csg_trees);
+    if (!work->nodes || !table->nodes || !table->csg_trees ||
         !pages_take(&work->solid_pages, scene->parts.count * sizeof *work->solids) ||
         !pages_take(&work->bounded_pages, most * sizeof *work->bounded) ||
         !pages_take(&table->solid_pages, scene->parts.count * sizeof *table->solids) ||
@@ -246,7 +245,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
     *table = (ShapeTable){
         .solid_count = (uint32_t)scene->parts.count,
         .node_count = (uint32_t)scene->nodes.count,
-        .assembly_count = (uint32_t)scene->composites.count,
+        .csg_count = (uint32_t)scene->composites.count,
     };
     if (table->solid_count == 0) {
         return true;
@@ -260,8 +259,8 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
             work.solids[i] = part_bounds(&scene->parts.items[i], exponent, down);
         }
         nodes_init(table, scene);
-        for (uint32_t i = 0; i < table->assembly_count; i++) {
-            assembly_init(table, &scene->composites.items[i], i);
+        for (uint32_t i = 0; i < table->csg_count; i++) {
+            csg_init(table, &scene->composites.items[i], i);
         }
         done = items_init(table, &work, threads);
     }
@@ -275,7 +274,7 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
 void shapes_fini(ShapeTable *table)
 {
     free(table->nodes);
-    free(table->assemblies);
+    free(table->csg_trees);
     pages_give(&table->solid_pages);
     pages_give(&table->item_pages);
     pages_give(&table->box_pages);
@@ -286,7 +285,7 @@ void shapes_fini(ShapeTable *table)
 size_t shapes_bytes(const ShapeTable *table)
 {
     return table->solid_count * sizeof *table->solids + table->node_count * sizeof *table->nodes +
-           table->assembly_count * sizeof *table->assemblies +
+           table->csg_count * sizeof *table->csg_trees +
            (table->unbounded_count + table->bounded_count) * sizeof *table->items +
            table->bounded_count * sizeof *table->boxes + table->tree.node_count * sizeof *table->tree.nodes;
 }

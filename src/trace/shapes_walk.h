@@ -186,9 +186,9 @@ static bool ball_is_first(ShapeQuery *q, uint32_t index, double t, double bound,
     return true;
 }
 
-// The rules for spheres (trace/sphere.h) in the ball's own space: the class is certain and the root right to an ulp, for
-// the ray as it is rounded there. No error is greater than the chord is long, and a root of sphere_test has 13 bits:
-// nearly always that is enough.
+// The rules for spheres (trace/sphere.h) in the ball's own space: the class is certain and the root right to an ulp,
+// for the ray as it is rounded there. No error is greater than the interval is long, and a root of sphere_test has 13
+// bits: nearly always that is enough.
 static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
@@ -208,7 +208,7 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         }
         return;
     }
-    double bound = 2.0 * fabs(t + vec3_dot(ray.origin, ray.dual)) + 0x1p-10 * t;
+    double bound = 2.0 * fabs(t + vec3_dot(ray.origin, ray.direction_over_length2)) + 0x1p-10 * t;
     if (t - bound > first->limit || !item_enters(q, &enter) || enter > first->limit) {
         return;
     }
@@ -247,34 +247,34 @@ static bool end_is_met(ShapeQuery *q, double to, const Foremost *first)
     return enter < first->from && enter < first->beaten && enter < first->limit;
 }
 
-static void chord_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Foremost *first)
+static void interval_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
-    Chord chord;
-    if (!solid_chord(solid, object, is_start ? part_side(q->start.shape) : SIDE_NONE, &chord)) {
+    RayInterval interval;
+    if (!solid_interval(solid, object, is_start ? part_side(q->start.shape) : SIDE_NONE, &interval)) {
         return;
     }
-    double length = chord.leave - chord.enter; // no error is greater
-    if (chord.enter - 2.0 * length > first->limit) {
+    double length = interval.leave - interval.enter; // no error is greater
+    if (interval.enter - 2.0 * length > first->limit) {
         return;
     }
     double passed = is_start ? -1.0 : passed_error(q, solid);
     bool is_open = solid->flags & PART_OPEN;
-    if (!is_start && chord.enter > 0.0 && !(is_open && chord.enter_side != 0)) {
-        if (q->is_any && passed < 0.0 && end_is_met(q, chord.enter + 2.0 * length, first)) {
-            first->hit.shape = part_shape(index, chord.enter_side); // whatever its error is
+    if (!is_start && interval.enter > 0.0 && !(is_open && interval.enter_side != 0)) {
+        if (q->is_any && passed < 0.0 && end_is_met(q, interval.enter + 2.0 * length, first)) {
+            first->hit.shape = part_shape(index, interval.enter_side); // whatever its error is
             return;
         }
-        double error = solid_chord_error(solid, q->ray, object, &chord, false);
-        if (!is_passed(chord.enter, error, passed)) {
-            root_offer(q, index, chord.enter, error, chord.enter_side, false, first);
+        double error = solid_interval_error(solid, q->ray, object, &interval, false);
+        if (!is_passed(interval.enter, error, passed)) {
+            root_offer(q, index, interval.enter, error, interval.enter_side, false, first);
             return;
         }
     }
-    if (chord.leave > 0.0 && !(is_open && chord.leave_side != 0)) {
-        double error = solid_chord_error(solid, q->ray, object, &chord, true);
-        if (!is_passed(chord.leave, error, passed)) {
-            root_offer(q, index, chord.leave, error, chord.leave_side, true, first);
+    if (interval.leave > 0.0 && !(is_open && interval.leave_side != 0)) {
+        double error = solid_interval_error(solid, q->ray, object, &interval, true);
+        if (!is_passed(interval.leave, error, passed)) {
+            root_offer(q, index, interval.leave, error, interval.leave_side, true, first);
         }
     }
 }
@@ -300,7 +300,7 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     if (solid_is_flat(solid)) {
         flat_closest(q, index, &object, first);
     } else {
-        chord_closest(q, index, &object, is_start, first);
+        interval_closest(q, index, &object, is_start, first);
     }
 }
 
@@ -315,8 +315,8 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
         return; // one ray may cross 10^5 parts
     } else if (item_enters(q, &enter) && enter <= first->limit) {
         settle_span(q, first);
-        assembly_closest(table, &table->assemblies[index - table->solid_count], q->ray, q->start, start_error(q),
-                         enter, first);
+        csg_closest(table, &table->csg_trees[index - table->solid_count], q->ray, q->start, start_error(q), enter,
+                    first);
     }
 }
 

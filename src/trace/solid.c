@@ -14,14 +14,14 @@
 #include "trace/sphere.h"
 
 // Of the unit sphere; the roots are those of trace/sphere.h, both of them.
-static bool ball_chord(const Ray *object, uint8_t left_side, Chord *chord)
+static bool ball_interval(const Ray *object, uint8_t left_side, RayInterval *interval)
 {
     SphereRay ray = sphere_ray_make(object->origin, object->direction);
     Vec3 f = ray.origin;
-    double t_middle = -vec3_dot(f, ray.dual);
-    *chord = (Chord){-(double)INFINITY, 2.0 * t_middle, 0, 0};
+    double t_middle = -vec3_dot(f, ray.direction_over_length2);
+    *interval = (RayInterval){-(double)INFINITY, 2.0 * t_middle, 0, 0};
     if (left_side == 0) {
-        return chord->leave > 0.0;
+        return interval->leave > 0.0;
     }
     Vec3 l = vec3_add_scaled(f, t_middle, ray.direction);
     double discriminant = 1.0 - vec3_length_squared(l);
@@ -30,17 +30,17 @@ static bool ball_chord(const Ray *object, uint8_t left_side, Chord *chord)
     }
     double sum = t_middle + copysign(sqrt(discriminant * ray.inverse_square), t_middle);
     double product = (vec3_length_squared(f) - 1.0) * ray.inverse_square;
-    chord->enter = t_middle > 0.0 ? product / sum : sum;
-    chord->leave = t_middle > 0.0 ? sum : product / sum;
-    return chord->enter <= chord->leave;
+    interval->enter = t_middle > 0.0 ? product / sum : sum;
+    interval->leave = t_middle > 0.0 ? sum : product / sum;
+    return interval->enter <= interval->leave;
 }
 
 // The half space below a plane; a ray that leaves it inward never comes back.
-static bool plane_chord(const Solid *solid, const Ray *ray, uint8_t left_side, Chord *chord)
+static bool plane_interval(const Solid *solid, const Ray *ray, uint8_t left_side, RayInterval *interval)
 {
     PlaneShape plane = {solid->data[0], solid->data[1].x};
     double rise = vec3_dot(plane.normal, ray->direction);
-    *chord = CHORD_ALL;
+    *interval = INTERVAL_ALL;
     if (left_side == 0) {
         return true;
     }
@@ -48,19 +48,22 @@ static bool plane_chord(const Solid *solid, const Ray *ray, uint8_t left_side, C
         return vec3_dot(plane.normal, ray->origin) <= plane.distance;
     }
     double t = plane_root(&plane, ray->origin, ray->direction);
-    *(rise > 0.0 ? &chord->leave : &chord->enter) = t;
-    *(rise > 0.0 ? &chord->leave_side : &chord->enter_side) = 0;
+    *(rise > 0.0 ? &interval->leave : &interval->enter) = t;
+    *(rise > 0.0 ? &interval->leave_side : &interval->enter_side) = 0;
     return !isnan(t);
 }
 
-bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord *chord)
+bool solid_interval(const Solid *solid, const Ray *object, uint8_t left_side, RayInterval *interval)
 {
     switch (solid->kind) {
-    case PART_BALL: return ball_chord(object, left_side, chord);
-    case PART_PLANE: return plane_chord(solid, object, left_side, chord);
+    case PART_BALL:
+        return ball_interval(object, left_side, interval);
+    case PART_PLANE:
+        return plane_interval(solid, object, left_side, interval);
     case PART_BOX:
-        return box_chord(solid->data[0], solid->data[1], object->origin, object->direction, left_side, chord);
-    case PART_CONE: return cone_chord(solid->data[0].x, object->origin, object->direction, left_side, chord);
+        return box_interval(solid->data[0], solid->data[1], object->origin, object->direction, left_side, interval);
+    case PART_CONE:
+        return cone_interval(solid->data[0].x, object->origin, object->direction, left_side, interval);
     case PART_DISC:
     case PART_TRIANGLE:
     case PART_SMOOTH_TRIANGLE: break; // flat
@@ -214,8 +217,9 @@ double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *objec
 
 double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, double t)
 {
-    double chord = 2.0 * fabs(vec3_dot(object->origin, object->direction) / vec3_length_squared(object->direction) + t);
-    return less_of(solid_crossing_error(ball, ray, object, t, 0), chord);
+    double interval =
+        2.0 * fabs(vec3_dot(object->origin, object->direction) / vec3_length_squared(object->direction) + t);
+    return less_of(solid_crossing_error(ball, ray, object, t, 0), interval);
 }
 
 double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double length)
@@ -224,11 +228,12 @@ double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, do
     return error < length ? error : length;
 }
 
-double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves)
+double solid_interval_error(const Solid *solid, const Ray *ray, const Ray *object, const RayInterval *interval,
+                            bool leaves)
 {
-    double length = chord->leave - chord->enter;
-    return leaves ? solid_end_error(solid, ray, object, chord->leave, chord->leave_side, length)
-                  : solid_end_error(solid, ray, object, chord->enter, chord->enter_side, length);
+    double length = interval->leave - interval->enter;
+    return leaves ? solid_end_error(solid, ray, object, interval->leave, interval->leave_side, length)
+                  : solid_end_error(solid, ray, object, interval->enter, interval->enter_side, length);
 }
 
 void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal)

@@ -1,4 +1,4 @@
-// A ray against any part: prepared parts, their chords, and surfaces at a hit.
+// A ray against any part: prepared parts, their intervals, and surfaces at a hit.
 //
 // The ray is taken into the part's own space, where its parameter means the same; its direction is not of unit length
 // there. Knows nothing of composites.
@@ -10,7 +10,7 @@
 #include "math/ray.h"
 #include "math/transform.h"
 #include "scene/scene.h"
-#include "trace/chord.h"
+#include "trace/ray_interval.h"
 #include "trace/sphere.h"
 
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
@@ -48,8 +48,8 @@ RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)
                  linear_direction(&solid->to_object, ray->direction)};
 }
 
-// The line inside a solid that is not flat; `object` is the ray in its space. `left_side`: as in chord.h.
-bool solid_chord(const Solid *solid, const Ray *object, uint8_t left_side, Chord *chord) RT_MUST_CHECK;
+// The line inside a solid that is not flat; `object` is the ray in its space. `left_side`: as in interval.h.
+bool solid_interval(const Solid *solid, const Ray *object, uint8_t left_side, RayInterval *interval) RT_MUST_CHECK;
 
 // Where the line meets a flat solid.
 bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
@@ -66,12 +66,13 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
 // may be NaN.
 double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double span);
 
-// The same for a ball, whose crossing is not off by more than its chord is long.
+// The same for a ball, whose crossing is not off by more than its interval is long.
 double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, double t);
 
-// The same for an end of a chord. Where the ray grazes a round side the bound has no bounds, but a crossing is not off
-// by more than the chord is long. 0 for an end that is infinite.
-double solid_chord_error(const Solid *solid, const Ray *ray, const Ray *object, const Chord *chord, bool leaves);
+// The same for an end of an interval. Where the ray grazes a round side the bound has no bounds, but a crossing is not
+// off by more than the interval is long. 0 for an end that is infinite.
+double solid_interval_error(const Solid *solid, const Ray *ray, const Ray *object, const RayInterval *interval,
+                            bool leaves);
 double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double length);
 
 // The point of a hit put back onto the side, and the solid's own outward unit normal there.

@@ -28,11 +28,11 @@ typedef struct Ball {
     double radius_squared; // NaN for a sphere that nothing can meet
 } Ball;
 
-// A ray with what depends on it alone. A direction that is zero, infinite or NaN makes `dual` NaN, and every test with
-// it a miss.
+// A ray with what depends on it alone. A direction that is zero, infinite or NaN makes `direction_over_length2` NaN,
+// and every test with it a miss.
 typedef struct SphereRay {
     Vec3 origin, direction;
-    Vec3 dual;             // direction / |direction|², so that f·dual is a parameter of the ray
+    Vec3 direction_over_length2; // direction / |direction|², so that f·direction_over_length2 is a parameter of the ray
     double inverse_square; // 1 / |direction|²
 } SphereRay;
 
@@ -91,7 +91,7 @@ typedef enum SphereVerdict {
 RT_ALWAYS_INLINE SphereVerdict sphere_test(const SphereRay *ray, const Ball *ball, double *t, bool *inside)
 {
     Vec3 f = vec3_sub(ray->origin, ball->centre);
-    double t_middle = -vec3_dot(f, ray->dual);
+    double t_middle = -vec3_dot(f, ray->direction_over_length2);
     Vec3 l = vec3_add_scaled(f, t_middle, ray->direction);
     double discriminant = ball->radius_squared - vec3_length_squared(l);
     double f_squared = vec3_length_squared(f);
@@ -176,7 +176,7 @@ RT_ALWAYS_INLINE double sphere_hit(const SphereRay *ray, const Ball *ball, bool 
 // whose relative error is at most (3/|cos| + 3) u. Not positive when the ray does not go in.
 RT_ALWAYS_INLINE double sphere_root_inward(const SphereRay *ray, const Ball *ball)
 {
-    return -2.0 * vec3_dot(vec3_sub(ray->origin, ball->centre), ray->dual);
+    return -2.0 * vec3_dot(vec3_sub(ray->origin, ball->centre), ray->direction_over_length2);
 }
 
 // p(t) - centre in double words, for spheres so far away that nothing of it is left in doubles.

@@ -68,7 +68,7 @@ enum { TILE_ROW = 8, TILE_RAYS = 64 };
 typedef struct SphereTile {
     Vec3 origin;
     _Alignas(64) double direction[3][TILE_RAYS];
-    double dual[3][TILE_RAYS], inverse_square[TILE_RAYS]; // as in SphereRay
+    double direction_over_length2[3][TILE_RAYS], inverse_square[TILE_RAYS]; // as in SphereRay
 } SphereTile;
 
 // What the rays of a tile meet.
@@ -107,13 +107,13 @@ typedef struct SurfaceRays {
 } SurfaceRays;
 
 // Rays that go on from surfaces of a tile, each from its own point.
-typedef struct OnwardRays {
+typedef struct SecondaryRays {
     int count;
     uint64_t inward; // a bit for each: into the shape that it starts on
     ShapeId start[TILE_RAYS];
     _Alignas(64) double origin[3][TILE_RAYS];
     double direction[3][TILE_RAYS]; // of about unit length
-} OnwardRays;
+} SecondaryRays;
 
 // Crossings of a line with few spheres and a plane.
 enum { CROSSINGS_MOST = 2 * SPHERES_FEW_MOST + 1 };
@@ -153,11 +153,11 @@ typedef struct SphereKernels {
     // What rays that go on meet of few spheres and of a plane that nothing coincides with (NULL: there is none).
     // Returns those for which that is decided; `hits` mean nothing for the others. Writes what is after the rays up to a
     // whole vector.
-    uint64_t (*closest_onward)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
-                               OnwardRays *rays, TileHits *hits);
+    uint64_t (*closest_secondary)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
+                                  SecondaryRays *rays, TileHits *hits);
     // `surfaces` for such rays.
-    uint64_t (*surfaces_onward)(const SphereTable *table, const OnwardRays *rays, const TileHits *hits,
-                                TileSurfaces *surfaces);
+    uint64_t (*surfaces_secondary)(const SphereTable *table, const SecondaryRays *rays, const TileHits *hits,
+                                   TileSurfaces *surfaces);
     // Of the surfaces `asked` for, those with a sphere, the loose ones too, before the ray's end, as `occluded` would say
     // of each. What does not pay, or cannot be done, for some together is `left` to be asked one by one.
     uint64_t (*occluded_surfaces)(const SphereTable *table, const TileSurfaces *from, const SurfaceRays *rays,
@@ -231,13 +231,14 @@ RT_ALWAYS_INLINE Vec3 lane_get(const double lanes[3][TILE_RAYS], unsigned i)
 RT_ALWAYS_INLINE void sphere_tile_set(SphereTile *tile, unsigned i, const SphereRay *ray)
 {
     lane_set(tile->direction, i, ray->direction);
-    lane_set(tile->dual, i, ray->dual);
+    lane_set(tile->direction_over_length2, i, ray->direction_over_length2);
     tile->inverse_square[i] = ray->inverse_square;
 }
 
 RT_ALWAYS_INLINE SphereRay sphere_tile_ray(const SphereTile *tile, unsigned i)
 {
-    return (SphereRay){tile->origin, lane_get(tile->direction, i), lane_get(tile->dual, i), tile->inverse_square[i]};
+    return (SphereRay){tile->origin, lane_get(tile->direction, i), lane_get(tile->direction_over_length2, i),
+                       tile->inverse_square[i]};
 }
 
 RT_ALWAYS_INLINE void tile_hit_set(TileHits *hits, unsigned i, const Hit *hit)
@@ -266,7 +267,7 @@ RT_ALWAYS_INLINE void tile_surface_set(TileSurfaces *surfaces, int i, Vec3 point
 }
 
 // Adds a ray.
-RT_ALWAYS_INLINE void onward_ray_add(OnwardRays *rays, Vec3 origin, Vec3 direction, ShapeId start, bool is_inward)
+RT_ALWAYS_INLINE void secondary_ray_add(SecondaryRays *rays, Vec3 origin, Vec3 direction, ShapeId start, bool is_inward)
 {
     unsigned i = (unsigned)rays->count++;
     rays->start[i] = start;
@@ -275,7 +276,7 @@ RT_ALWAYS_INLINE void onward_ray_add(OnwardRays *rays, Vec3 origin, Vec3 directi
     lane_set(rays->direction, i, direction);
 }
 
-RT_ALWAYS_INLINE Ray onward_ray(const OnwardRays *rays, unsigned i)
+RT_ALWAYS_INLINE Ray secondary_ray(const SecondaryRays *rays, unsigned i)
 {
     return (Ray){lane_get(rays->origin, i), lane_get(rays->direction, i)};
 }

@@ -15,7 +15,7 @@
 #include "trace/plane.h"
 #include "trace/simd.h"
 #include "trace/spheres.h"
-#include "trace/spheres_onward.h"
+#include "trace/spheres_secondary.h"
 
 #define CROSSED_DOUBT 0x1p-30 // of W², for r² - |l|² and |f|² - r²
 #define CROSSED_APART 0x1p-25 // of W, for two roots
@@ -30,7 +30,7 @@ typedef struct CrossedList {
 
 // Lines, some at once.
 typedef struct CrossedLines {
-    Doubles origin[3], direction[3], dual[3], inverse_square, end;
+    Doubles origin[3], direction[3], direction_over_length2[3], inverse_square, end;
     Doubles doubt, apart, graze; // what the names above stand for
     DoublesMask inward;          // into what they start on
 } CrossedLines;
@@ -65,7 +65,7 @@ RT_ALWAYS_INLINE void crossed_lines_begin(CrossedLines *v, double reach)
     }
     v->inverse_square = 1.0 / square;
     for (int axis = 0; axis < 3; axis++) {
-        v->dual[axis] = v->inverse_square * v->direction[axis];
+        v->direction_over_length2[axis] = v->inverse_square * v->direction[axis];
     }
     v->doubt = CROSSED_DOUBT * beyond * beyond;
     v->apart = CROSSED_APART * (beyond + doubles_abs(v->end));
@@ -133,7 +133,8 @@ RT_ALWAYS_INLINE bool crossed_pairs(const CrossedLines *v, const Doubles centre[
     Doubles fx = v->origin[0] - centre[0];
     Doubles fy = v->origin[1] - centre[1];
     Doubles fz = v->origin[2] - centre[2];
-    Doubles t_middle = -(fx * v->dual[0] + fy * v->dual[1] + fz * v->dual[2]);
+    Doubles t_middle =
+        -(fx * v->direction_over_length2[0] + fy * v->direction_over_length2[1] + fz * v->direction_over_length2[2]);
     Doubles lx = fx + t_middle * v->direction[0];
     Doubles ly = fy + t_middle * v->direction[1];
     Doubles lz = fz + t_middle * v->direction[2];

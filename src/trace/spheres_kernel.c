@@ -1,4 +1,4 @@
-// Rays against the spheres: compiled once for each instruction set, with SPHERE_KERNELS the name of the table.
+// Rays against the spheres: compiled once for each instruction set, with ISA_NAME the name of the table.
 //
 // A leaf is a block of eight spheres, tested at once in doubles. Operations and their order are those of sphere_test,
 // so that verdicts and roots are the same bits in vectors of any width.
@@ -15,7 +15,7 @@
 #include "trace/spheres.h"
 #include "trace/spheres_crossed.h"
 #include "trace/spheres_group.h"
-#include "trace/spheres_onward.h"
+#include "trace/spheres_secondary.h"
 #include "trace/spheres_surface.h"
 #include "trace/spheres_tile.h"
 
@@ -65,7 +65,8 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
         Doubles fy = ray->origin.y - doubles_load(&block->y[i * DOUBLES]);
         Doubles fz = ray->origin.z - doubles_load(&block->z[i * DOUBLES]);
         Doubles radius_squared = doubles_load(&block->radius_squared[i * DOUBLES]);
-        t_middle[i] = -(fx * ray->dual.x + fy * ray->dual.y + fz * ray->dual.z);
+        t_middle[i] = -(fx * ray->direction_over_length2.x + fy * ray->direction_over_length2.y +
+                        fz * ray->direction_over_length2.z);
         Doubles lx = fx + t_middle[i] * ray->direction.x;
         Doubles ly = fy + t_middle[i] * ray->direction.y;
         Doubles lz = fz + t_middle[i] * ray->direction.z;
@@ -229,8 +230,8 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .occluded = spheres_occluded,
     .closest_tile = tile_closest,
     .surfaces = surfaces_sphere,
-    .closest_onward = closest_onward,
-    .surfaces_onward = surfaces_onward,
+    .closest_secondary = closest_secondary,
+    .surfaces_secondary = surfaces_secondary,
     .occluded_surfaces = surfaces_occluded,
     .crossed = spheres_crossed,
     .ray_crossed = ray_crossed,

@@ -81,8 +81,8 @@ static uint64_t surfaces_sphere(const SphereTable *table, const SphereTile *tile
     return surfaces_find(table, origin, 0, tile->direction, hits, surfaces);
 }
 
-static uint64_t surfaces_onward(const SphereTable *table, const OnwardRays *rays, const TileHits *hits,
-                                TileSurfaces *surfaces)
+static uint64_t surfaces_secondary(const SphereTable *table, const SecondaryRays *rays, const TileHits *hits,
+                                   TileSurfaces *surfaces)
 {
     const double *const origin[3] = {rays->origin[0], rays->origin[1], rays->origin[2]};
     return surfaces_find(table, origin, 1, rays->direction, hits, surfaces);

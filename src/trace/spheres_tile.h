@@ -61,9 +61,9 @@ static bool view_tile(const TileView *view, const double u[TILE_RAYS], const dou
         doubles_store(&tile->direction[0][i], x);
         doubles_store(&tile->direction[1][i], y);
         doubles_store(&tile->direction[2][i], z);
-        doubles_store(&tile->dual[0][i], inverse_square * x);
-        doubles_store(&tile->dual[1][i], inverse_square * y);
-        doubles_store(&tile->dual[2][i], inverse_square * z);
+        doubles_store(&tile->direction_over_length2[0][i], inverse_square * x);
+        doubles_store(&tile->direction_over_length2[1][i], inverse_square * y);
+        doubles_store(&tile->direction_over_length2[2][i], inverse_square * z);
         doubles_store(&tile->inverse_square[i], inverse_square);
         least = doubles_min(inverse_square, least);
         greatest = doubles_max(inverse_square, greatest);
@@ -243,9 +243,9 @@ static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, R
         Doubles dx = doubles_load(&tile->direction[0][at]);
         Doubles dy = doubles_load(&tile->direction[1][at]);
         Doubles dz = doubles_load(&tile->direction[2][at]);
-        Doubles t_middle = -(sphere->f.x * doubles_load(&tile->dual[0][at]) +
-                             sphere->f.y * doubles_load(&tile->dual[1][at]) +
-                             sphere->f.z * doubles_load(&tile->dual[2][at]));
+        Doubles t_middle = -(sphere->f.x * doubles_load(&tile->direction_over_length2[0][at]) +
+                             sphere->f.y * doubles_load(&tile->direction_over_length2[1][at]) +
+                             sphere->f.z * doubles_load(&tile->direction_over_length2[2][at]));
         Doubles lx = sphere->f.x + t_middle * dx;
         Doubles ly = sphere->f.y + t_middle * dy;
         Doubles lz = sphere->f.z + t_middle * dz;

@@ -5,7 +5,7 @@
 // met, and how many tests doubles alone could not decide.
 //
 // SPDX-License-Identifier: MIT
-#define SPHERE_KERNELS counted
+#define ISA_NAME counted
 #include "trace/spheres_kernel.c"
 
 #include <stdio.h>

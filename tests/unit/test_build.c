@@ -348,7 +348,9 @@ static void call_one(rt_session *session, Random *random, Numbers *n)
     case 14: rt_set_alpha(session, (int)random_below(random, 2)); break;
     case 15: (void)rt_set_sampling(session, &sampling); break;
     case 16: (void)rt_set_limit(session, RT_LIMIT_OBJECTS, 1 + random_below(random, 200)); break;
-    default: random_below(random, 20) ? rt_resume(session) : rt_spend_scene(session); break;
+    default:
+        random_below(random, 20) ? rt_resume(session) : rt_discard_scene(session);
+        break;
     }
 }
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "api/session.h"
-#include "scene/near.h"
+#include "scene/recentre.h"
 #include "scene/range.h"
 #include "trace/geometry.h"
 #include "unit/random.h"
@@ -105,7 +105,7 @@ static bool is_met(Vec3 eye, const Ball *ball)
 static bool look_up(rt_session *session, Told *told)
 {
     Scene *scene = &session->scene;
-    Vec3 origin = scene_move_near(scene);
+    Vec3 origin = scene_recentre(scene);
     int exponent = scene_scale(scene, 1).exponent;
     Geometry *geometry = geometry_new(scene, exponent);
     Vec3 eye = vec3_scale(ldexp(1.0, -exponent), scene->camera.location);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "scene/range.h"
-#include "scene/reach.h"
+#include "scene/scene_extent.h"
 #include "scene/scene.h"
 #include "tap.h"
 #include "unit/random.h"
@@ -275,7 +275,7 @@ static void test_crowd(int threads)
     diag_init(&diags, sources);
     diags.keep_alike = 100;
     scene_init(&scene);
-    bool is_told = make_crowd(&scene, twins) && scene_warn_of_twins(&scene, &diags, threads) &&
+    bool is_told = make_crowd(&scene, twins) && scene_warn_of_coincident(&scene, &diags, threads) &&
                    diags.count == CROWD_TWINS + RT_COUNT_OF(round_twins);
     for (size_t i = 0; is_told && i < diags.count; i++) {
         const Diag *diag = &diags.items[i];
@@ -292,20 +292,20 @@ static void test_crowd(int threads)
 static void test_reach(void)
 {
     Scene scene;
-    SceneReach reach;
+    SceneExtent reach;
     scene_init(&scene);
-    scene_reach(&scene, &reach);
+    scene_extent(&scene, &reach);
     tap_ok(reach.reach == 0.0 && reach.nearest_far == 0.0 && isinf(reach.least_size) && isinf(reach.least_angle),
            "an empty scene has no reach");
     scene_fini(&scene);
     bool is_fine = build_scene(&scene);
     scene.camera.location = vec3(0.0, -30.0, 4.0);
-    scene_reach(&scene, &reach);
+    scene_extent(&scene, &reach);
     tap_ok(is_fine && reach.eye_offset == 30.0 && reach.least_size == 1e-9, "the eye's place and the smallest sphere");
     tap_ok(reach.reach == 1e300 && reach.nearest_far == 1e300 && reach.least_angle == 1e-309,
            "the farthest sphere, and how small it looks: %g", reach.least_angle);
     scene.spheres.count = 1;
-    scene_reach(&scene, &reach);
+    scene_extent(&scene, &reach);
     // The stretched sphere's box reaches from <-1, -2, -3> to <1, 2, 3>.
     tap_ok(reach.least_size == 0.5 && fabs(reach.reach - (sqrt(916.0) + sqrt(14.0))) < 1e-12,
            "a stretched sphere's box");

@@ -1,12 +1,12 @@
-// The schema's tables: every word is a reserved word of the language, every offset lies inside its blueprint, defaults
-// are in range, and no kind has a word twice.
+// The schema's tables: every word is a reserved word of the language, every offset lies inside its description,
+// defaults are in range, and no kind has a word twice.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
 #include <string.h>
 
 #include "ast/words.h"
-#include "scene/blueprint.h"
+#include "scene/description.h"
 #include "tap.h"
 
 static const size_t type_sizes[] = {
@@ -47,7 +47,7 @@ static bool default_is_in_range(const SchemaBlock *kind, const SchemaProperty *p
 static void check_property(const SchemaBlock *kind, const SchemaProperty *property)
 {
     tap_ok(property->at + type_sizes[property->type] <= kind->size && property->given < kind->size,
-           "%s.%s lies inside its blueprint", kind->word, property->word);
+           "%s.%s lies inside its description", kind->word, property->word);
     tap_ok((property->type == TYPE_ACTION || property->type == TYPE_BLOCK) == (property->action != ACTION_NONE),
            "%s.%s has an action exactly if its type needs one", kind->word, property->word);
     tap_ok(property->doc && property->doc[0], "%s.%s is explained", kind->word, property->word);
@@ -61,7 +61,7 @@ static void check_kind(InternTable *names, SchemaKind index)
     const SchemaBlock *kind = schema_kind(index);
     const SchemaProperty *property, *other;
     tap_ok(is_reserved(names, kind->word), "`%s` is a reserved word", kind->word);
-    tap_ok(kind->size <= sizeof(Blueprint) && kind->defaults, "%s fits a Blueprint", kind->word);
+    tap_ok(kind->size <= sizeof(Desc) && kind->defaults, "%s fits a Desc", kind->word);
     for (size_t i = 0; i < kind->arguments.count; i++) {
         check_property(kind, &kind->arguments.items[i]);
     }

@@ -78,27 +78,27 @@ static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces
 }
 
 // The rays whose hits differ from what single rays meet, or the surfaces there.
-static int onward_differing(const Geometry *g, unsigned features, OnwardRays *rays, int *met)
+static int secondary_differing(const Geometry *g, unsigned features, SecondaryRays *rays, int *met)
 {
     TileHits hits;
     TileSurfaces surfaces;
     MaterialIndex material[TILE_RAYS];
     int different = 0;
-    geometry_closest_onward(g, features, rays, &hits);
+    geometry_closest_secondary(g, features, rays, &hits);
     for (int i = 0; i < rays->count; i++) {
         RayStart start = {rays->start[i], rays->inward >> i & 1, HIDDEN_MIRROR};
         Hit hit;
-        bool is_met = geometry_closest(g, features, onward_ray(rays, (unsigned)i), start, (double)INFINITY, &hit);
+        bool is_met = geometry_closest(g, features, secondary_ray(rays, (unsigned)i), start, (double)INFINITY, &hit);
         different += is_met != (hits.met >> i & 1) ||
                      (is_met && (hit.t != hits.t[i] || hit.shape != hits.shape[i] || hit.inside != (hits.inside >> i & 1)));
         *met += is_met;
     }
     if (hits.met) {
-        geometry_onward_surfaces(g, features, rays, &hits, &surfaces, material);
+        geometry_secondary_surfaces(g, features, rays, &hits, &surfaces, material);
         for (int i = 0; i < surfaces.count; i++) {
             unsigned ray = surfaces.ray[i];
             Hit hit = {hits.t[ray], hits.shape[ray], hits.inside >> ray & 1};
-            different += surface_differs(g, onward_ray(rays, ray), hit, &surfaces, material, i);
+            different += surface_differs(g, secondary_ray(rays, ray), hit, &surfaces, material, i);
         }
     }
     return different;
@@ -117,25 +117,25 @@ static Vec3 grazing(Random *random, Vec3 point, const Ball *ball)
 }
 
 // Rays that go on from surfaces: anywhere, in or out, or along other spheres.
-static int onward_try(const Geometry *g, unsigned features, const TileSurfaces *from, Random *random, int *met,
-                      int *together)
+static int secondary_try(const Geometry *g, unsigned features, const TileSurfaces *from, Random *random, int *met,
+                         int *together)
 {
-    OnwardRays rays = {.count = 0};
+    SecondaryRays rays = {.count = 0};
     for (int i = 0; i < from->count; i++) {
         Vec3 point = tile_surface_point(from, i), direction = random_direction(random);
         if (random_bits(random) % 4 == 0) {
             Ball ball = sphere_table_ball(&g->spheres, (uint32_t)(random_bits(random) % g->spheres.count));
             direction = grazing(random, point, &ball);
         }
-        onward_ray_add(&rays, point, direction, from->shape[i],
-                       vec3_dot(tile_surface_outward(from, i), direction) < 0.0);
+        secondary_ray_add(&rays, point, direction, from->shape[i],
+                          vec3_dot(tile_surface_outward(from, i), direction) < 0.0);
     }
-    int different = onward_differing(g, features, &rays, met);
+    int different = secondary_differing(g, features, &rays, met);
     if (query_is_few(g, features)) {
         TileHits hits;
         const PlaneShape *plane = g->plane_count == 1 ? &g->planes[0].shape : NULL;
         *together += __builtin_popcountll(
-            g->kernels->closest_onward(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), &rays, &hits));
+            g->kernels->closest_secondary(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), &rays, &hits));
     }
     return different;
 }
@@ -259,7 +259,7 @@ static void test_crossed(uint64_t seed)
 }
 
 // From within shells that lie next to one another, or on one another, in any order.
-static void test_onward_ties(uint64_t seed)
+static void test_secondary_ties(uint64_t seed)
 {
     int different = 0, met = 0;
     Random random = {seed};
@@ -272,13 +272,13 @@ static void test_onward_ties(uint64_t seed)
         }
         Geometry *g = prepare(&scene, 0);
         for (size_t isa = 0; geometry_isa(isa); isa++) {
-            OnwardRays rays = {.count = 0};
+            SecondaryRays rays = {.count = 0};
             g->kernels = sphere_kernels_choose(geometry_isa(isa));
             for (int i = 0; i < 61; i++) {
                 Vec3 origin = random_point(&random, 1);
-                onward_ray_add(&rays, origin, random_direction(&random), SHAPE_NONE, false);
+                secondary_ray_add(&rays, origin, random_direction(&random), SHAPE_NONE, false);
             }
-            different += onward_differing(g, geometry_features(g), &rays, &met);
+            different += secondary_differing(g, geometry_features(g), &rays, &met);
         }
         geometry_free(g);
         scene_fini(&scene);
@@ -319,7 +319,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
     }
     Geometry *g = prepare(&scene, 0);
     unsigned features = geometry_features(g);
-    int surfaces_different = 0, met = 0, onward_different = 0, onward_met = 0, together = 0;
+    int surfaces_different = 0, met = 0, secondary_different = 0, secondary_met = 0, together = 0;
     Shadows shadows = {0};
     Crossed crossed = {0};
     for (int turn = 0; turn < 200; turn++) {
@@ -344,7 +344,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
                 Vec3 light = light_place(&same, family, &surfaces);
                 double aside = turn % 2 ? family->size * pow(10.0, random_between(&same, -3, 0)) : 0.0;
                 shadows_try(g, features, &surfaces, light, aside, near_of(&scene), asked, &same, &shadows);
-                onward_different += onward_try(g, features, &surfaces, &same, &onward_met, &together);
+                secondary_different += secondary_try(g, features, &surfaces, &same, &secondary_met, &together);
                 crossed_try(g, features, &surfaces, &same, &crossed);
             }
         }
@@ -355,9 +355,9 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
            "%s, %d, %d planes: shadows too (%d of %d dark and %d lit differ; %d traced together)", family->name, count,
            planes, shadows.different, shadows.dark, shadows.lit, shadows.together);
     bool may_together = query_is_few(g, features);
-    tap_ok(onward_different == 0 && onward_met > 100 && (together > 1000) == may_together,
+    tap_ok(secondary_different == 0 && secondary_met > 100 && (together > 1000) == may_together,
            "%s, %d, %d planes: rays that go on meet what single rays do (%d of %d not; %d traced together)",
-           family->name, count, planes, onward_different, onward_met, together);
+           family->name, count, planes, secondary_different, secondary_met, together);
     tap_ok(crossed.different == 0 && (crossed.told == 0 || may_together),
            "%s, %d, %d planes: what lies on ways to a place, too (%d of %d not; %d asked for)", family->name, count, planes,
            crossed.different, crossed.told, crossed.asked);
@@ -626,7 +626,7 @@ int main(void)
     }
     test_geometry(seed, 0, 25, 1);
     test_crossed(seed);
-    test_onward_ties(seed);
+    test_secondary_ties(seed);
     SamplingOptions sampling = {.seed = seed, .samples = 5};
     for (int kind = 0; kind < 8; kind++) {
         Extras extras = {.any_lights = kind & 1, .patterns = kind == 2 || kind == 3, .clear = kind & 4, .glass = kind > 5};

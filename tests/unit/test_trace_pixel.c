@@ -167,7 +167,7 @@ static void check_spent(void)
     rt_session *kept = rt_session_new(NULL), *spent = rt_session_new(NULL), *sessions[] = {kept, spent};
     const char *text;
     bool is_rendered = true;
-    rt_spend_scene(spent);
+    rt_discard_scene(spent);
     for (int i = 0; i < 2; i++) {
         is_rendered = is_rendered && rt_set_size(sessions[i], 40, 30) == RT_OK &&
                       rt_load_text(sessions[i], "s.scn", scene, sizeof scene - 1) == RT_OK &&

@@ -374,10 +374,10 @@ static void test_bounds(void)
         const Solid *solid = &geometry->shapes.solids[0];
         for (int k = 0; k < 20; k++) {
             Ray ray = random_ray(&random, size), object = solid_ray(solid, &ray);
-            Chord chord = CHORD_ALL;
+            RayInterval chord = INTERVAL_ALL;
             double t = 0.0;
             if (solid_is_flat(solid) ? !solid_flat_root(solid, &object, &t)
-                                     : !solid_chord(solid, &object, SIDE_NONE, &chord)) {
+                                     : !solid_interval(solid, &object, SIDE_NONE, &chord)) {
                 continue;
             }
             for (int end = 0; end < 2; end++) {

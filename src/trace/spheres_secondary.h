@@ -4,8 +4,8 @@
 // single rays. A ray for which one of them is doubtful, or two are about equally near, is left to be asked by itself.
 //
 // SPDX-License-Identifier: MIT
-#ifndef TRACE_SPHERES_ONWARD_H
-#define TRACE_SPHERES_ONWARD_H
+#ifndef TRACE_SPHERES_SECONDARY_H
+#define TRACE_SPHERES_SECONDARY_H
 
 #include "trace/plane.h"
 #include "trace/simd.h"
@@ -13,13 +13,13 @@
 #include "trace/spheres_refine.h"
 
 // A vector of rays, and what they have met so far.
-typedef struct OnwardVector {
-    Doubles origin[3], direction[3], dual[3], inverse_square;
+typedef struct SecondaryVector {
+    Doubles origin[3], direction[3], direction_over_length2[3], inverse_square;
     Doubles t;                  // INFINITY where nothing is met
     DoublesMask shape;          // ShapeId
     DoublesMask inside, is_open; // -1 where it is; the ray is to be asked by itself
     DoublesMask is_rough;       // t is sphere_test's, to be refined
-} OnwardVector;
+} SecondaryVector;
 
 // Slots of all spheres; some of the last may be empty.
 static uint32_t few_slots(const SphereTable *table)
@@ -28,7 +28,8 @@ static uint32_t few_slots(const SphereTable *table)
 }
 
 // Rays that start on each of the spheres, or on one equal to it.
-static void onward_starts(const SphereTable *table, const ShapeId *start, int count, uint64_t starts[SPHERES_FEW_MOST])
+static void secondary_starts(const SphereTable *table, const ShapeId *start, int count,
+                             uint64_t starts[SPHERES_FEW_MOST])
 {
     uint64_t own[SPHERES_FEW_MOST];
     uint32_t slots = few_slots(table);
@@ -49,7 +50,7 @@ static void onward_starts(const SphereTable *table, const ShapeId *start, int co
 }
 
 // False when one of the rays is not usable.
-RT_ALWAYS_INLINE bool onward_load(OnwardVector *v, const OnwardRays *rays, int at)
+RT_ALWAYS_INLINE bool secondary_load(SecondaryVector *v, const SecondaryRays *rays, int at)
 {
     for (int axis = 0; axis < 3; axis++) {
         v->origin[axis] = doubles_load(&rays->origin[axis][at]);
@@ -59,7 +60,7 @@ RT_ALWAYS_INLINE bool onward_load(OnwardVector *v, const OnwardRays *rays, int a
         v->direction[0] * v->direction[0] + v->direction[1] * v->direction[1] + v->direction[2] * v->direction[2];
     v->inverse_square = 1.0 / square;
     for (int axis = 0; axis < 3; axis++) {
-        v->dual[axis] = v->inverse_square * v->direction[axis];
+        v->direction_over_length2[axis] = v->inverse_square * v->direction[axis];
     }
     v->t = doubles_splat((double)INFINITY);
     v->shape = (DoublesMask){0} + (int64_t)SHAPE_NONE;
@@ -70,7 +71,7 @@ RT_ALWAYS_INLINE bool onward_load(OnwardVector *v, const OnwardRays *rays, int a
 }
 
 // Rays into the spheres that they start on, whose other side they meet: sphere_root_inward.
-RT_ALWAYS_INLINE void onward_inward(const SphereTable *table, const OnwardRays *rays, int at, OnwardVector *v)
+RT_ALWAYS_INLINE void secondary_inward(const SphereTable *table, const SecondaryRays *rays, int at, SecondaryVector *v)
 {
     _Alignas(64) double centre[3][DOUBLES];
     DoublesMask into = {0}, shape = {0};
@@ -85,9 +86,9 @@ RT_ALWAYS_INLINE void onward_inward(const SphereTable *table, const OnwardRays *
         centre[1][i] = ball.centre.y;
         centre[2][i] = ball.centre.z;
     }
-    Doubles root = -2.0 * ((v->origin[0] - doubles_load(centre[0])) * v->dual[0] +
-                           (v->origin[1] - doubles_load(centre[1])) * v->dual[1] +
-                           (v->origin[2] - doubles_load(centre[2])) * v->dual[2]);
+    Doubles root = -2.0 * ((v->origin[0] - doubles_load(centre[0])) * v->direction_over_length2[0] +
+                           (v->origin[1] - doubles_load(centre[1])) * v->direction_over_length2[1] +
+                           (v->origin[2] - doubles_load(centre[2])) * v->direction_over_length2[2]);
     DoublesMask met = into & (root > 0.0) & (root < (double)INFINITY);
     v->t = doubles_choose(met, root, v->t);
     v->shape = (met & shape) | (~met & v->shape);
@@ -95,12 +96,13 @@ RT_ALWAYS_INLINE void onward_inward(const SphereTable *table, const OnwardRays *
 }
 
 // One sphere. The rays of `starts` leave it, or go into it.
-RT_ALWAYS_INLINE void onward_sphere(OnwardVector *v, const Ball *ball, uint32_t slot, unsigned starts)
+RT_ALWAYS_INLINE void secondary_sphere(SecondaryVector *v, const Ball *ball, uint32_t slot, unsigned starts)
 {
     Doubles fx = v->origin[0] - ball->centre.x;
     Doubles fy = v->origin[1] - ball->centre.y;
     Doubles fz = v->origin[2] - ball->centre.z;
-    Doubles t_middle = -(fx * v->dual[0] + fy * v->dual[1] + fz * v->dual[2]);
+    Doubles t_middle =
+        -(fx * v->direction_over_length2[0] + fy * v->direction_over_length2[1] + fz * v->direction_over_length2[2]);
     Doubles lx = fx + t_middle * v->direction[0];
     Doubles ly = fy + t_middle * v->direction[1];
     Doubles lz = fz + t_middle * v->direction[2];
@@ -129,7 +131,7 @@ RT_ALWAYS_INLINE void onward_sphere(OnwardVector *v, const Ball *ball, uint32_t 
 }
 
 // Makes the roots right.
-static void onward_settle(const SphereTable *table, OnwardVector *v)
+static void secondary_settle(const SphereTable *table, SecondaryVector *v)
 {
     DoublesMask met = v->is_rough;
     unsigned any = doubles_mask_bits(met);
@@ -144,7 +146,7 @@ static void onward_settle(const SphereTable *table, OnwardVector *v)
 }
 
 // A plane. The rays of `starts` leave it.
-RT_ALWAYS_INLINE void onward_plane(OnwardVector *v, const PlaneShape *plane, ShapeId shape, unsigned starts)
+RT_ALWAYS_INLINE void secondary_plane(SecondaryVector *v, const PlaneShape *plane, ShapeId shape, unsigned starts)
 {
     Vec3 n = plane->normal;
     Doubles along = n.x * v->direction[0] + n.y * v->direction[1] + n.z * v->direction[2];
@@ -159,7 +161,7 @@ RT_ALWAYS_INLINE void onward_plane(OnwardVector *v, const PlaneShape *plane, Sha
 }
 
 // Fills the last vector up with copies of its last ray.
-static void onward_fill(OnwardRays *rays)
+static void secondary_fill(SecondaryRays *rays)
 {
     for (int i = rays->count; i % DOUBLES != 0; i++) {
         for (int axis = 0; axis < 3; axis++) {
@@ -169,37 +171,37 @@ static void onward_fill(OnwardRays *rays)
     }
 }
 
-static uint64_t closest_onward(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
-                               OnwardRays *rays, TileHits *hits)
+static uint64_t closest_secondary(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
+                                  SecondaryRays *rays, TileHits *hits)
 {
     uint64_t starts[SPHERES_FEW_MOST], on_plane = 0, is_open = 0;
     uint32_t slots = few_slots(table);
-    onward_starts(table, rays->start, rays->count, starts);
-    onward_fill(rays);
+    secondary_starts(table, rays->start, rays->count, starts);
+    secondary_fill(rays);
     for (int i = 0; plane && i < rays->count; i++) {
         on_plane |= (uint64_t)(rays->start[i] == plane_shape) << i;
     }
     hits->met = hits->inside = 0;
     for (int at = 0; at < rays->count; at += DOUBLES) {
         const unsigned all = (1u << DOUBLES) - 1;
-        OnwardVector v;
-        if (!onward_load(&v, rays, at)) {
+        SecondaryVector v;
+        if (!secondary_load(&v, rays, at)) {
             is_open |= (uint64_t)all << at;
             continue;
         }
         if (rays->inward >> at & all) {
-            onward_inward(table, rays, at, &v);
+            secondary_inward(table, rays, at, &v);
         }
         for (uint32_t i = 0; i < slots; i++) {
             Ball ball = sphere_table_ball(table, i);
             if (isnan(ball.radius_squared)) {
                 continue;
             }
-            onward_sphere(&v, &ball, i, (unsigned)(starts[i] >> at) & all);
+            secondary_sphere(&v, &ball, i, (unsigned)(starts[i] >> at) & all);
         }
-        onward_settle(table, &v);
+        secondary_settle(table, &v);
         if (plane) {
-            onward_plane(&v, plane, plane_shape, (unsigned)(on_plane >> at) & all);
+            secondary_plane(&v, plane, plane_shape, (unsigned)(on_plane >> at) & all);
         }
         doubles_store(&hits->t[at], v.t);
         for (int i = 0; i < DOUBLES; i++) {

@@ -1,12 +1,12 @@
-// Blueprints: what the braces of each kind of block say, as plain structs that the schema's offsets lead into.
+// Descs: what the braces of each kind of block say, as plain structs that the schema's offsets lead into.
 //
 // The evaluator copies a kind's defaults, writes what stands in the block over them and turns the result into scene
-// records. A declared block is kept as its blueprint and never changed again. Whatever may be transformed begins with
+// records. A declared block is kept as its description and never changed again. Whatever may be transformed begins with
 // its Transform.
 //
 // SPDX-License-Identifier: MIT
-#ifndef SCENE_BLUEPRINT_H
-#define SCENE_BLUEPRINT_H
+#ifndef SCENE_DESCRIPTION_H
+#define SCENE_DESCRIPTION_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -18,7 +18,7 @@
 #include "scene/scene.h"
 #include "scene/schema.h"
 
-typedef struct CameraBlueprint {
+typedef struct CameraDesc {
     Transform transform; // of all transforms so far; identity again once the camera is complete
     Vec3 location, direction, right, up, sky, look_at;
     double angle_deg, angle_vertical_deg;
@@ -29,17 +29,17 @@ typedef struct CameraBlueprint {
     Vec3 focal_point;
     bool has_focal_point;
     double focal_distance; // when complete
-} CameraBlueprint;
+} CameraDesc;
 
 // A picture as it is laid over a surface.
-typedef struct ImageBlueprint {
+typedef struct ImageDesc {
     PictureSource source; // no path: none was named
     ImageMap map;         // its picture and shades are not set
     bool is_once, ignored;
     Span span; // of the file's name
     const PictureShade *shades; // their `next` is not set
     size_t shade_count;
-} ImageBlueprint;
+} ImageDesc;
 
 // A pattern in space and what lies along it; with PATTERN_NONE, what the pigment or texture around it says.
 typedef struct PatternMap PatternMap;
@@ -47,56 +47,56 @@ typedef struct PatternPart {
     Transform transform; // from the pattern's space; also moves what lies below a texture
     Pattern pattern;
     const PatternMap *map; // NULL: the pattern's own
-    const ImageBlueprint *image; // PATTERN_IMAGE_MAP
+    const ImageDesc *image; // PATTERN_IMAGE_MAP
 } PatternPart;
 
-typedef struct PigmentBlueprint {
+typedef struct PigmentDesc {
     PatternPart part;
     Rgbft colour, quick_colour;
-} PigmentBlueprint;
+} PigmentDesc;
 
 // Bumps; with PATTERN_NONE there are none.
-typedef struct NormalBlueprint {
+typedef struct NormalDesc {
     PatternPart part;         // its map is one of normals
     const PatternMap *slopes; // instead of such a map, or NULL
     double amount, accuracy;
     Span span;                // where one without a pattern was said, which must not be used; else empty
     bool keeps_length; // no_bump_scale
-} NormalBlueprint;
+} NormalDesc;
 
-typedef struct TextureBlueprint TextureBlueprint;
-struct TextureBlueprint {
+typedef struct TextureDesc TextureDesc;
+struct TextureDesc {
     PatternPart part; // a pattern of textures
-    PigmentBlueprint pigment;
-    NormalBlueprint normal;
+    PigmentDesc pigment;
+    NormalDesc normal;
     bool keeps_length; // no_bump_scale
     Finish finish;
     double ior; // said in the finish, as before version 3.1; 0: not
-    const TextureBlueprint *below;
+    const TextureDesc *below;
 };
 
-typedef struct InteriorBlueprint {
+typedef struct InteriorDesc {
     Interior interior;
-} InteriorBlueprint;
+} InteriorDesc;
 
 // The two together.
-typedef struct MaterialBlueprint {
+typedef struct MaterialDesc {
     Transform transform; // of the texture
-    const TextureBlueprint *texture;   // NULL: none was given
-    const InteriorBlueprint *interior; // likewise
-} MaterialBlueprint;
+    const TextureDesc *texture;   // NULL: none was given
+    const InteriorDesc *interior; // likewise
+} MaterialDesc;
 
 typedef struct PatternEntry {
     double at;
     Rgbft colour;
-    const PigmentBlueprint *pigment; // instead of the colour, or NULL
-    const TextureBlueprint *texture; // of a map of textures
-    const NormalBlueprint *normal;   // of a map of normals
+    const PigmentDesc *pigment;      // instead of the colour, or NULL
+    const TextureDesc *texture;      // of a map of textures
+    const NormalDesc *normal;        // of a map of normals
     double height, slope;            // of a slope map
 } PatternEntry;
 
 struct PatternMap {
-    const PatternEntry *entries; // NULL in the blueprint of a map that has none yet
+    const PatternEntry *entries; // NULL in the description of a map that has none yet
     size_t count;
 };
 
@@ -104,7 +104,7 @@ struct PatternMap {
 typedef struct Clip Clip;
 struct Clip {
     const Clip *next;
-    const void *object; // the blueprint of its kind
+    const void *object; // the description of its kind
     SchemaKind kind;
     Transform transform;
 };
@@ -113,19 +113,19 @@ struct Clip {
 typedef struct ObjectPart {
     Transform transform;
     bool hollow, split_union;
-    const InteriorBlueprint *interior; // of its own; NULL: taken over
+    const InteriorDesc *interior; // of its own; NULL: taken over
     bool is_inverse;
     bool was_turned; // inside out, if only to be turned back
     bool no_shadow, no_image, no_reflection;
     bool ignored; // what changes no picture
     const Clip *clips, *bounds; // in order
-    const TextureBlueprint *texture; // of its own, as it is moved with the object; NULL: taken over
+    const TextureDesc *texture; // of its own, as it is moved with the object; NULL: taken over
     Span span;
 } ObjectPart;
 
 typedef struct UnionMember UnionMember;
 
-typedef struct LightBlueprint {
+typedef struct LightDesc {
     ObjectPart part; // of a declared light that is used, or an object around it; its texture is for `look`
     Vec3 position, point_at;
     Rgbft colour;
@@ -137,61 +137,61 @@ typedef struct LightBlueprint {
     bool parallel, spotlight, cylinder, shadowless;
     bool is_attenuated; // media_attenuation
     bool is_ignored;    // a word that changes no picture here
-} LightBlueprint;
+} LightDesc;
 
-typedef struct SphereBlueprint {
+typedef struct SphereDesc {
     ObjectPart part;
     Vec3 centre;
     double radius;          // below 0: the sphere has its box inside out
     const Transform *rigid; // the transform before the first that need not keep a sphere; NULL: there is none
-} SphereBlueprint;
+} SphereDesc;
 
-typedef struct PlaneBlueprint {
+typedef struct PlaneDesc {
     ObjectPart part;
     Vec3 normal;
     double distance;
-} PlaneBlueprint;
+} PlaneDesc;
 
-typedef struct BoxBlueprint {
+typedef struct BoxDesc {
     ObjectPart part;
     Vec3 corner, other_corner;
-} BoxBlueprint;
+} BoxDesc;
 
-typedef struct CylinderBlueprint {
+typedef struct CylinderDesc {
     ObjectPart part;
     Vec3 base, cap;
     double radius;
     bool is_open;
-} CylinderBlueprint;
+} CylinderDesc;
 
-typedef struct ConeBlueprint {
+typedef struct ConeDesc {
     ObjectPart part;
     Vec3 base;
     double base_radius;
     Vec3 cap;
     double cap_radius;
     bool is_open;
-} ConeBlueprint;
+} ConeDesc;
 
-typedef struct DiscBlueprint {
+typedef struct DiscDesc {
     ObjectPart part;
     Vec3 centre, normal;
     double radius, hole;
-} DiscBlueprint;
+} DiscDesc;
 
-typedef struct TriangleBlueprint {
+typedef struct TriangleDesc {
     ObjectPart part;
     Vec3 corners[3];
-} TriangleBlueprint;
+} TriangleDesc;
 
-typedef struct SmoothTriangleBlueprint {
+typedef struct SmoothTriangleDesc {
     ObjectPart part;
     Vec3 corners[3], normals[3];
-} SmoothTriangleBlueprint;
+} SmoothTriangleDesc;
 
 struct UnionMember {
     UnionMember *next;
-    const void *object; // the blueprint of its kind
+    const void *object; // the description of its kind
     SchemaKind kind;
 };
 
@@ -204,32 +204,32 @@ struct UnionStep {
 };
 
 // A union, merge, intersection or difference; the objects in clipped_by or bounded_by.
-typedef struct UnionBlueprint {
+typedef struct UnionDesc {
     ObjectPart part;
     const UnionStep *steps; // the last one first
     const UnionMember *members;
     uint32_t count;
     uint32_t depth;       // of the unions inside, this one included
     bool is_other_block;  // `clipped_by { bounded_by }` or the other way round
-} UnionBlueprint;
+} UnionDesc;
 
-typedef struct BackgroundBlueprint {
+typedef struct BackgroundDesc {
     Rgbft colour;
-} BackgroundBlueprint;
+} BackgroundDesc;
 
 typedef struct SkyLayer SkyLayer;
 struct SkyLayer {
     const SkyLayer *below;
-    PigmentBlueprint pigment;
+    PigmentDesc pigment;
 };
 
-typedef struct SkySphereBlueprint {
+typedef struct SkySphereDesc {
     Transform transform; // of all layers, wherever it stands
     const SkyLayer *top;
     Rgb emission;
-} SkySphereBlueprint;
+} SkySphereDesc;
 
-typedef struct FogBlueprint {
+typedef struct FogDesc {
     Transform transform; // moves what `up` is so far
     int type;
     double distance, offset, alt;
@@ -240,68 +240,68 @@ typedef struct FogBlueprint {
     double turb_depth;
     const char *turbulent_word; // the first that makes it turbulent, or NULL, and where it stands
     Span turbulent_span;
-} FogBlueprint;
+} FogDesc;
 
-typedef struct SettingsBlueprint {
+typedef struct SettingsDesc {
     Rgb ambient_light;
     double adc_bailout;
     int max_trace_level;
     int noise_generator;
     int number_of_waves;
     double ignored; // settings that change no picture here
-} SettingsBlueprint;
+} SettingsDesc;
 
-typedef struct FinishBlueprint {
+typedef struct FinishDesc {
     Finish finish;
-    double ior; // as in TextureBlueprint
+    double ior; // as in TextureDesc
     bool is_fresnel;
     // The share was given as an albedo; resolved and false again once the finish is complete.
     bool diffuse_is_albedo, phong_is_albedo, specular_is_albedo;
     bool conserve_energy;
-} FinishBlueprint;
+} FinishDesc;
 
-typedef struct TransformBlueprint {
+typedef struct TransformDesc {
     Transform transform;
     bool is_inverse;
-} TransformBlueprint;
+} TransformDesc;
 
 // A block that POV-Ray has and rtlang has not, declared but not used yet.
-typedef struct UnsupportedBlueprint {
+typedef struct UnsupportedDesc {
     Span span; // of the word
     const char *word;
     SchemaKind owner; // the kind it stands in; KIND_NONE when it is a kind itself
-} UnsupportedBlueprint;
+} UnsupportedDesc;
 
 // Room for any of them.
-typedef union Blueprint {
+typedef union Desc {
     Transform transform; // of any that has one
     ObjectPart part;     // of any that is an object
-    CameraBlueprint camera;
-    LightBlueprint light;
-    SphereBlueprint sphere;
-    PlaneBlueprint plane;
-    BoxBlueprint box;
-    CylinderBlueprint cylinder;
-    ConeBlueprint cone;
-    DiscBlueprint disc;
-    TriangleBlueprint triangle;
-    SmoothTriangleBlueprint smooth_triangle;
-    UnionBlueprint group;
-    BackgroundBlueprint background;
-    SkySphereBlueprint sky;
-    FogBlueprint fog;
-    SettingsBlueprint settings;
-    PigmentBlueprint pigment;
-    FinishBlueprint finish;
+    CameraDesc camera;
+    LightDesc light;
+    SphereDesc sphere;
+    PlaneDesc plane;
+    BoxDesc box;
+    CylinderDesc cylinder;
+    ConeDesc cone;
+    DiscDesc disc;
+    TriangleDesc triangle;
+    SmoothTriangleDesc smooth_triangle;
+    UnionDesc group;
+    BackgroundDesc background;
+    SkySphereDesc sky;
+    FogDesc fog;
+    SettingsDesc settings;
+    PigmentDesc pigment;
+    FinishDesc finish;
     PatternPart patterned; // of a pigment, normal or texture
-    NormalBlueprint normal;
+    NormalDesc normal;
     PatternMap map;
-    ImageBlueprint image;
-    TextureBlueprint texture;
-    InteriorBlueprint interior;
-    MaterialBlueprint material;
-    TransformBlueprint transformation;
-    UnsupportedBlueprint unsupported;
-} Blueprint;
+    ImageDesc image;
+    TextureDesc texture;
+    InteriorDesc interior;
+    MaterialDesc material;
+    TransformDesc transformation;
+    UnsupportedDesc unsupported;
+} Desc;
 
 #endif

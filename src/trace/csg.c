@@ -12,9 +12,9 @@
 
 typedef struct Crossing {
     double t;
-    double error;     // how far t may be off by rounding; before has_error how long the chord is
+    double error;     // how far t may be off by rounding; before has_error how long the interval is
     double bound;     // of that, if has_bound
-    uint32_t solid; // within the assembly
+    uint32_t solid;   // within the CSG tree
     uint8_t side;
     bool leaves;    // the solid's own inside, not minding PART_INVERSE
     bool is_flat;   // changes nothing
@@ -22,13 +22,13 @@ typedef struct Crossing {
     bool has_error, has_bound; // worked out when they are asked for first: most crossings are never come to
 } Crossing;
 
-// An assembly while a ray passes through it.
-typedef struct Passage {
+// A CSG tree while a ray passes through it.
+typedef struct CsgTraversal {
     const ShapeTable *table;
-    const Assembly *assembly;
+    const CsgTree *csg;
     const Ray *ray;
     double start_error;    // how far along the ray its start may be off its surface
-    double enter;          // where the ray comes to the assembly's box
+    double enter;          // where the ray comes to the CSG tree's box
     double origin_size, direction_size; // sums of the ray's coordinates' sizes
     double nearest_share;  // no crossing that is left is nearer than this share of its t; 0: not known
     double greatest_bound; // of the crossings that are left; less than 0: not known
@@ -39,11 +39,11 @@ typedef struct Passage {
     uint32_t count;
     bool is_over;          // nothing more of it can be seen
     double decided_from, decided_until; // where the ray is inside of all that decide, as far as it is known
-} Passage;
+} CsgTraversal;
 
-static const Solid *passage_solid(const Passage *p, uint32_t index)
+static const Solid *traversal_solid(const CsgTraversal *p, uint32_t index)
 {
-    return &p->table->solids[p->assembly->first_solid + index];
+    return &p->table->solids[p->csg->first_solid + index];
 }
 
 static bool node_is_inside(const TreeNode *node, uint32_t inside)
@@ -52,14 +52,14 @@ static bool node_is_inside(const TreeNode *node, uint32_t inside)
 }
 
 // The ray goes into or out of a leaf's set.
-static void passage_toggle(Passage *p, uint32_t index)
+static void traversal_toggle(CsgTraversal *p, uint32_t index)
 {
     bool *state = &p->is_inside[index];
     bool enters = *state = !*state;
-    uint32_t at = passage_solid(p, index)->node;
+    uint32_t at = traversal_solid(p, index)->node;
     while (at != NODE_NONE) {
         const TreeNode *node = &p->table->nodes[at];
-        uint32_t *inside = &p->inside[at - p->assembly->first_node];
+        uint32_t *inside = &p->inside[at - p->csg->first_node];
         bool before = node_is_inside(node, *inside);
         *inside = enters ? *inside + 1 : *inside - 1;
         if (node_is_inside(node, *inside) == before) {
@@ -77,7 +77,7 @@ static bool crossing_is_before(const Crossing *a, const Crossing *b)
     return a->t < b->t || (a->t == b->t && a->solid < b->solid);
 }
 
-static void heap_sift(Passage *p, uint32_t at)
+static void heap_sift(CsgTraversal *p, uint32_t at)
 {
     Crossing *c = p->crossings;
     for (;;) {
@@ -96,7 +96,7 @@ static void heap_sift(Passage *p, uint32_t at)
 }
 
 // Takes the first crossing out and puts it where the heap ended; returns its place.
-static uint32_t heap_pop(Passage *p)
+static uint32_t heap_pop(CsgTraversal *p)
 {
     Crossing first = p->crossings[0];
     p->count--;
@@ -108,23 +108,24 @@ static uint32_t heap_pop(Passage *p)
 
 // ---- what crosses the ray
 
-static double crossing_error(const Passage *p, Crossing *c)
+static double crossing_error(const CsgTraversal *p, Crossing *c)
 {
     if (!c->has_error) {
-        c->error = solid_end_error(passage_solid(p, c->solid), p->ray, &p->objects[c->solid], c->t, c->side, c->error);
+        c->error =
+            solid_end_error(traversal_solid(p, c->solid), p->ray, &p->objects[c->solid], c->t, c->side, c->error);
         c->has_error = true;
     }
     return c->error;
 }
 
-static double end_bound(const Passage *p, uint32_t index, double t, uint8_t side)
+static double end_bound(const CsgTraversal *p, uint32_t index, double t, uint8_t side)
 {
     double span = p->origin_size + fabs(t) * p->direction_size;
-    return solid_crossing_bound(passage_solid(p, index), p->ray, &p->objects[index], t, side, span);
+    return solid_crossing_bound(traversal_solid(p, index), p->ray, &p->objects[index], t, side, span);
 }
 
 // At least the error; most questions have the same answer for it. May be NaN.
-static double crossing_bound(const Passage *p, Crossing *c)
+static double crossing_bound(const CsgTraversal *p, Crossing *c)
 {
     if (!c->has_bound) {
         c->bound = end_bound(p, c->solid, c->t, c->side);
@@ -134,21 +135,22 @@ static double crossing_bound(const Passage *p, Crossing *c)
 }
 
 // Whether b lies behind a by more than both may be off.
-static bool crossing_is_apart(const Passage *p, Crossing *a, Crossing *b)
+static bool crossing_is_apart(const CsgTraversal *p, Crossing *a, Crossing *b)
 {
     return b->t - crossing_bound(p, b) > a->t + crossing_bound(p, a) ||
            b->t - crossing_error(p, b) > a->t + crossing_error(p, a);
 }
 
-static void passage_add(Passage *p, uint32_t index, double t, double length, uint8_t side, bool leaves, bool is_flat)
+static void traversal_add(CsgTraversal *p, uint32_t index, double t, double length, uint8_t side, bool leaves,
+                          bool is_flat)
 {
     p->crossings[p->count++] =
         (Crossing){.t = t, .error = length, .solid = index, .side = side, .leaves = leaves, .is_flat = is_flat};
 }
 
-static void passage_flat(Passage *p, uint32_t index, RayStart start)
+static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
 {
-    const Solid *solid = passage_solid(p, index);
+    const Solid *solid = traversal_solid(p, index);
     Ray *object = &p->objects[index];
     double t;
     bool is_start = starts_on_part(start) && solid_equal(solid, &p->table->solids[part_index(start.shape)]);
@@ -158,68 +160,70 @@ static void passage_flat(Passage *p, uint32_t index, RayStart start)
     }
     if (!starts_beside(p->table, start, solid) ||
         t > solid_crossing_error(solid, p->ray, object, t, 0) + p->start_error) {
-        passage_add(p, index, t, (double)INFINITY, 0, false, true);
+        traversal_add(p, index, t, (double)INFINITY, 0, false, true);
     }
 }
 
 // The ray is inside of a solid that decides from `enter` to `leave` and nowhere else. Where one of them is left before
 // another is come to, no surface shows: at each crossing one of the two is outside, before it and after it.
-static void passage_decide(Passage *p, double enter, double leave)
+static void traversal_decide(CsgTraversal *p, double enter, double leave)
 {
     p->decided_from = enter > p->decided_from ? enter : p->decided_from;
     p->decided_until = leave < p->decided_until ? leave : p->decided_until;
     p->is_over = p->is_over || p->decided_until < p->decided_from;
 }
 
-// Whether an end of a chord, t > 0, lies within rounding of the ray's start on a surface: no farther than the error and
-// the start's own. What is at least the error is asked first.
-static bool end_is_at_start(const Passage *p, uint32_t index, double t, uint8_t side, double length)
+// Whether an end of an interval, t > 0, lies within rounding of the ray's start on a surface: no farther than the error
+// and the start's own. What is at least the error is asked first.
+static bool end_is_at_start(const CsgTraversal *p, uint32_t index, double t, uint8_t side, double length)
 {
     return (isinf(t) || !(t > end_bound(p, index, t, side) + p->start_error)) &&
-           !(t > solid_end_error(passage_solid(p, index), p->ray, &p->objects[index], t, side, length) + p->start_error);
+           !(t >
+             solid_end_error(traversal_solid(p, index), p->ray, &p->objects[index], t, side, length) + p->start_error);
 }
 
-// Whether the ray has passed an end of a chord. No error is greater than the chord is long.
-RT_ALWAYS_INLINE bool passage_is_past(const Passage *p, uint32_t index, double t, uint8_t side, double length,
-                                      bool is_beside)
+// Whether the ray has passed an end of an interval. No error is greater than the interval is long.
+RT_ALWAYS_INLINE bool traversal_is_past(const CsgTraversal *p, uint32_t index, double t, uint8_t side, double length,
+                                        bool is_beside)
 {
     return !(t > 0.0) ||
            (is_beside && !(t > length + p->start_error) && end_is_at_start(p, index, t, side, length));
 }
 
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
-static void passage_solid_begin(Passage *p, uint32_t index, RayStart start, bool is_own)
+static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
 {
-    const Solid *solid = passage_solid(p, index);
-    bool is_start = is_own && part_index(start.shape) == p->assembly->first_solid + index;
+    const Solid *solid = traversal_solid(p, index);
+    bool is_start = is_own && part_index(start.shape) == p->csg->first_solid + index;
     bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
-    Chord chord;
+    RayInterval interval;
     const Ray *object = p->ray;
     if (solid->kind != PART_PLANE) {
         p->objects[index] = solid_ray(solid, p->ray);
         object = &p->objects[index];
     }
-    if ((is_start && !inward) || !solid_chord(solid, object, is_start ? part_side(start.shape) : SIDE_NONE, &chord)) {
+    if ((is_start && !inward) ||
+        !solid_interval(solid, object, is_start ? part_side(start.shape) : SIDE_NONE, &interval)) {
         p->is_over = p->is_over || solid->decides;
         return;
     }
-    double length = chord.leave - chord.enter;
-    if ((solid->decides && chord.leave < p->decided_from) || // whether it is past or not
-        passage_is_past(p, index, chord.leave, chord.leave_side, length, is_beside)) {
+    double length = interval.leave - interval.enter;
+    if ((solid->decides && interval.leave < p->decided_from) || // whether it is past or not
+        traversal_is_past(p, index, interval.leave, interval.leave_side, length, is_beside)) {
         p->is_over = p->is_over || solid->decides;
         return;
     }
-    bool is_inside = is_start || passage_is_past(p, index, chord.enter, chord.enter_side, length, is_beside);
+    bool is_inside = is_start || traversal_is_past(p, index, interval.enter, interval.enter_side, length, is_beside);
     if (solid->decides) {
-        passage_decide(p, is_inside ? 0.0 : chord.enter, chord.leave);
+        traversal_decide(p, is_inside ? 0.0 : interval.enter, interval.leave);
     }
     p->is_inside[index] = is_inside;
     if (!is_inside) {
-        passage_add(p, index, chord.enter, length, chord.enter_side, false, false);
+        traversal_add(p, index, interval.enter, length, interval.enter_side, false, false);
     }
-    if (chord.leave < (double)INFINITY) {
-        passage_add(p, index, chord.leave, length, chord.leave_side, true, false);
+    if (interval.leave < (double)INFINITY) {
+        traversal_add(p, index, interval.leave, length, interval.leave_side, true, false);
     }
 }
 
@@ -228,15 +232,15 @@ static void passage_solid_begin(Passage *p, uint32_t index, RayStart start, bool
 // Whether nothing on the way to the root hides the surface, as far as it can be judged before the crossings of its
 // group (is_after = false) or after them. An intersection shows a surface where all others are inside on the inner side
 // of it, a merge where none is on the outer side.
-static bool crossing_shows(const Passage *p, const Crossing *c, bool is_after)
+static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_after)
 {
-    const Solid *solid = passage_solid(p, c->solid);
+    const Solid *solid = traversal_solid(p, c->solid);
     bool leaves = c->leaves != (bool)(solid->flags & PART_INVERSE);
     bool is_child_inside = !c->is_flat && p->is_inside[c->solid];
     uint32_t at = solid->node;
     while (at != NODE_NONE) {
         const TreeNode *node = &p->table->nodes[at];
-        uint32_t inside = p->inside[at - p->assembly->first_node];
+        uint32_t inside = p->inside[at - p->csg->first_node];
         uint32_t others = inside - is_child_inside;
         bool is_all = node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
         bool judges_after = is_all ? !leaves : leaves;
@@ -251,14 +255,14 @@ static bool crossing_shows(const Passage *p, const Crossing *c, bool is_after)
     return true;
 }
 
-static bool crossing_has_surface(const Passage *p, const Crossing *c)
+static bool crossing_has_surface(const CsgTraversal *p, const Crossing *c)
 {
-    const Solid *solid = passage_solid(p, c->solid);
+    const Solid *solid = traversal_solid(p, c->solid);
     return !(solid->flags & PART_UNSEEN) && !((solid->flags & PART_OPEN) && c->side != 0);
 }
 
 // Lets the crossings from `begin` to `end` happen, and offers the first of them that is seen. True when one was.
-static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Foremost *first)
+static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Foremost *first)
 {
     for (uint32_t i = begin; i < end; i++) {
         Crossing *c = &p->crossings[i];
@@ -267,8 +271,8 @@ static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Foremost *fi
     for (uint32_t i = begin; i < end; i++) {
         const Crossing *c = &p->crossings[i];
         if (!c->is_flat) {
-            passage_toggle(p, c->solid);
-            p->is_over = p->is_over || (c->leaves && passage_solid(p, c->solid)->decides);
+            traversal_toggle(p, c->solid);
+            p->is_over = p->is_over || (c->leaves && traversal_solid(p, c->solid)->decides);
         }
     }
     Crossing *seen = NULL;
@@ -279,53 +283,52 @@ static bool passage_cross(Passage *p, uint32_t begin, uint32_t end, Foremost *fi
         }
     }
     if (seen) {
-        solid_offer(p->table, p->assembly->first_solid + seen->solid, p->ray, seen->t,
+        solid_offer(p->table, p->csg->first_solid + seen->solid, p->ray, seen->t,
                     crossing_span(seen->t, crossing_error(p, seen), p->enter), seen->side, seen->leaves, first);
     }
     return seen;
 }
 
 // Puts all leaves into the states that they have where the ray starts.
-static void passage_set_states(Passage *p)
+static void traversal_set_states(CsgTraversal *p)
 {
-    const Assembly *assembly = p->assembly;
-    for (uint32_t i = 0; i < assembly->node_count; i++) {
-        p->inside[i] = p->table->nodes[assembly->first_node + i].idle_inside;
+    const CsgTree *csg = p->csg;
+    for (uint32_t i = 0; i < csg->node_count; i++) {
+        p->inside[i] = p->table->nodes[csg->first_node + i].idle_inside;
     }
-    for (uint32_t i = 0; i < assembly->solid_count; i++) {
+    for (uint32_t i = 0; i < csg->solid_count; i++) {
         bool is_inside = p->is_inside[i];
-        p->is_inside[i] = passage_solid(p, i)->flags & PART_INVERSE;
+        p->is_inside[i] = traversal_solid(p, i)->flags & PART_INVERSE;
         if (is_inside) {
-            passage_toggle(p, i);
+            traversal_toggle(p, i);
         }
     }
 }
 
 // Finds the crossings and puts them into order. Mostly it turns out on the way that nothing can be seen.
-static void passage_begin(Passage *p, RayStart start)
+static void traversal_begin(CsgTraversal *p, RayStart start)
 {
-    const Assembly *assembly = p->assembly;
-    bool is_own =
-        starts_on_part(start) && part_index(start.shape) - assembly->first_solid < assembly->solid_count;
-    for (uint32_t i = 0; i < assembly->solid_count && !p->is_over; i++) {
+    const CsgTree *csg = p->csg;
+    bool is_own = starts_on_part(start) && part_index(start.shape) - csg->first_solid < csg->solid_count;
+    for (uint32_t i = 0; i < csg->solid_count && !p->is_over; i++) {
         p->is_inside[i] = false;
-        if (solid_is_flat(passage_solid(p, i))) {
-            passage_flat(p, i, start);
+        if (solid_is_flat(traversal_solid(p, i))) {
+            traversal_flat(p, i, start);
         } else {
-            passage_solid_begin(p, i, start, is_own);
+            traversal_solid_begin(p, i, start, is_own);
         }
     }
     if (p->is_over || p->count == 0) {
         return;
     }
-    passage_set_states(p);
+    traversal_set_states(p);
     for (uint32_t i = p->count / 2; i-- > 0;) {
         heap_sift(p, i);
     }
 }
 
 // Whether no crossing that is left may lie at the limit or before it. Those before it are asked about errors by nobody.
-static bool passage_is_beyond(Passage *p, double limit)
+static bool traversal_is_beyond(CsgTraversal *p, double limit)
 {
     const double t = p->crossings[0].t;
     if (!(t > limit)) {
@@ -352,38 +355,38 @@ static bool passage_is_beyond(Passage *p, double limit)
     return t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
 }
 
-void assembly_closest(const ShapeTable *table, const Assembly *assembly, const Ray *ray, RayStart start,
-                      double start_error, double enter, Foremost *first)
+void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
+                 double enter, Foremost *first)
 {
-    if (assembly->hidden & start.use) {
+    if (csg->hidden & start.use) {
         return;
     }
-    uint32_t inside[assembly->node_count];
-    bool is_inside[assembly->solid_count];
-    Crossing crossings[2 * (size_t)assembly->solid_count];
-    Ray objects[assembly->solid_count];
-    Passage p = {.table = table,
-                 .assembly = assembly,
-                 .ray = ray,
-                 .start_error = start_error,
-                 .enter = enter,
-                 .origin_size = vec3_sum_abs(ray->origin),
-                 .direction_size = vec3_sum_abs(ray->direction),
-                 .greatest_bound = -1.0,
-                 .inside = inside,
-                 .is_inside = is_inside,
-                 .objects = objects,
-                 .crossings = crossings,
-                 .decided_until = (double)INFINITY};
-    passage_begin(&p, start);
-    while (!p.is_over && p.count > 0 && !passage_is_beyond(&p, first->limit)) {
+    uint32_t inside[csg->node_count];
+    bool is_inside[csg->solid_count];
+    Crossing crossings[2 * (size_t)csg->solid_count];
+    Ray objects[csg->solid_count];
+    CsgTraversal p = {.table = table,
+                      .csg = csg,
+                      .ray = ray,
+                      .start_error = start_error,
+                      .enter = enter,
+                      .origin_size = vec3_sum_abs(ray->origin),
+                      .direction_size = vec3_sum_abs(ray->direction),
+                      .greatest_bound = -1.0,
+                      .inside = inside,
+                      .is_inside = is_inside,
+                      .objects = objects,
+                      .crossings = crossings,
+                      .decided_until = (double)INFINITY};
+    traversal_begin(&p, start);
+    while (!p.is_over && p.count > 0 && !traversal_is_beyond(&p, first->limit)) {
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         Crossing earliest = crossings[begin];
         while (p.count > 0 && !crossing_is_apart(&p, &earliest, &crossings[0])) {
             begin = heap_pop(&p);
         }
-        if (passage_cross(&p, begin, end, first)) {
+        if (traversal_cross(&p, begin, end, first)) {
             return;
         }
     }

@@ -35,12 +35,12 @@ typedef struct Slot {
     uint32_t item; // number of the shape, or after all shapes of the composite, + 1; 0: empty
 } Slot;
 
-typedef struct Twins {
+typedef struct Coincidences {
     const Scene *scene;
     size_t planes, parts, end; // numbers of the first ones; spheres begin at 0
     Slot *slots;
     uint32_t mask;
-} Twins;
+} Coincidences;
 
 static void key_add(Key *key, Vec3 a)
 {
@@ -105,27 +105,27 @@ static void key_part(Key *key, const Part *part)
     }
 }
 
-static Key item_key(const Twins *twins, size_t item)
+static Key item_key(const Coincidences *search, size_t item)
 {
-    const Scene *scene = twins->scene;
+    const Scene *scene = search->scene;
     Key key;
     key.count = 0;
     key.hidden = 0;
     key.is_turned = key.is_smooth = false;
-    if (item < twins->planes) {
+    if (item < search->planes) {
         const Sphere *sphere = &scene->spheres.items[item];
         key.source = scene_sphere_source(scene, item);
         key.order = scene_sphere_order(scene, item);
         key.material = sphere->material;
         key_sphere(&key, sphere->centre, sphere->radius);
-    } else if (item < twins->parts) {
-        const Plane *plane = &scene->planes.items[item - twins->planes];
+    } else if (item < search->parts) {
+        const Plane *plane = &scene->planes.items[item - search->planes];
         key.source = plane->source;
         key.order = plane->order;
         key.material = plane->material;
         key_plane(&key, plane->normal, plane->distance);
     } else {
-        const Part *part = &scene->parts.items[item - twins->parts];
+        const Part *part = &scene->parts.items[item - search->parts];
         key.source = part->source;
         key.order = part->order;
         key.material = part->material;
@@ -137,9 +137,9 @@ static Key item_key(const Twins *twins, size_t item)
     return key;
 }
 
-static bool item_is_alone(const Twins *twins, size_t item)
+static bool item_is_alone(const Coincidences *search, size_t item)
 {
-    return item < twins->parts || twins->scene->parts.items[item - twins->parts].node == NODE_NONE;
+    return item < search->parts || search->scene->parts.items[item - search->parts].node == NODE_NONE;
 }
 
 // As in scene/unique.c, eight bytes at a time.
@@ -169,12 +169,12 @@ static inline uint32_t sphere_hash(const Sphere *sphere)
     return (uint32_t)hash_add(hash, sphere->radius);
 }
 
-static uint32_t item_hash(const Twins *twins, size_t item)
+static uint32_t item_hash(const Coincidences *search, size_t item)
 {
-    if (item < twins->planes) {
-        return sphere_hash(&twins->scene->spheres.items[item]);
+    if (item < search->planes) {
+        return sphere_hash(&search->scene->spheres.items[item]);
     }
-    Key key = item_key(twins, item);
+    Key key = item_key(search, item);
     return key_hash(&key);
 }
 
@@ -184,7 +184,7 @@ static bool keys_are_equal(const Key *a, const Key *b)
            memcmp(a->numbers, b->numbers, a->count * sizeof a->numbers[0]) == 0;
 }
 
-bool scene_parts_are_twins(const Part *a, const Part *b)
+bool scene_parts_coincide(const Part *a, const Part *b)
 {
     Key one, other;
     one.count = other.count = 0;
@@ -229,11 +229,11 @@ static bool are_twins(const Scene *scene, const Key *one, const Key *other, Diag
 
 // ---- composites: equal when their trees are, leaf by leaf
 
-static uint32_t composite_hash(const Twins *twins, const Composite *composite)
+static uint32_t composite_hash(const Coincidences *search, const Composite *composite)
 {
     uint32_t hash = composite->node_count;
     for (uint32_t i = 0; i < composite->part_count; i++) {
-        Key key = item_key(twins, twins->parts + composite->first_part + i);
+        Key key = item_key(search, search->parts + composite->first_part + i);
         hash = (hash ^ key_hash(&key)) * UINT32_C(0x9e3779b1);
     }
     return hash;
@@ -245,9 +245,9 @@ static uint32_t below(uint32_t node, const Composite *composite)
     return node == NODE_NONE ? NODE_NONE : node - composite->first_node;
 }
 
-static bool composites_are_equal(const Twins *twins, const Composite *a, const Composite *b)
+static bool composites_are_equal(const Coincidences *search, const Composite *a, const Composite *b)
 {
-    const Scene *scene = twins->scene;
+    const Scene *scene = search->scene;
     bool equal = a->node_count == b->node_count && a->part_count == b->part_count;
     for (uint32_t i = 0; equal && i < a->node_count; i++) {
         const Node *one = &scene->nodes.items[a->first_node + i], *other = &scene->nodes.items[b->first_node + i];
@@ -256,8 +256,8 @@ static bool composites_are_equal(const Twins *twins, const Composite *a, const C
     }
     for (uint32_t i = 0; equal && i < a->part_count; i++) {
         const Part *one = &scene->parts.items[a->first_part + i], *other = &scene->parts.items[b->first_part + i];
-        Key key = item_key(twins, twins->parts + a->first_part + i);
-        Key known = item_key(twins, twins->parts + b->first_part + i);
+        Key key = item_key(search, search->parts + a->first_part + i);
+        Key known = item_key(search, search->parts + b->first_part + i);
         bool is_same_side = one->kind != PART_PLANE || vec3_equal(one->data[0], other->data[0]);
         equal = keys_are_equal(&key, &known) && is_same_side && one->flags == other->flags &&
                 below(one->node, a) == below(other->node, b);
@@ -288,20 +288,20 @@ static void tell_composite(const Composite *one, const Composite *other, DiagSin
     }
 }
 
-static void visit_composite(const Twins *twins, uint32_t number, DiagSink *diags)
+static void visit_composite(const Coincidences *search, uint32_t number, DiagSink *diags)
 {
-    const Composite *composites = twins->scene->composites.items;
-    uint32_t hash = composite_hash(twins, &composites[number]);
-    for (uint32_t at = hash & twins->mask;; at = (at + 1) & twins->mask) {
-        Slot *slot = &twins->slots[at];
+    const Composite *composites = search->scene->composites.items;
+    uint32_t hash = composite_hash(search, &composites[number]);
+    for (uint32_t at = hash & search->mask;; at = (at + 1) & search->mask) {
+        Slot *slot = &search->slots[at];
         if (slot->item == 0) {
-            *slot = (Slot){hash, (uint32_t)twins->end + number + 1};
+            *slot = (Slot){hash, (uint32_t)search->end + number + 1};
             return;
         }
-        if (slot->hash == hash && slot->item > twins->end) {
-            const Composite *known = &composites[slot->item - 1 - twins->end];
-            if (composites_are_equal(twins, &composites[number], known)) {
-                if (!composites_look_alike(twins->scene, &composites[number], known)) {
+        if (slot->hash == hash && slot->item > search->end) {
+            const Composite *known = &composites[slot->item - 1 - search->end];
+            if (composites_are_equal(search, &composites[number], known)) {
+                if (!composites_look_alike(search->scene, &composites[number], known)) {
                     tell_composite(&composites[number], known, diags);
                 }
                 return;
@@ -323,20 +323,20 @@ static bool is_outer(const Scene *scene, const Part *part)
 }
 
 // Leaves are not compared with each other: two halves of a sphere have it in common, and no surface.
-static void visit_leaf(const Twins *twins, const Composite *composite, uint32_t number, DiagSink *diags)
+static void visit_leaf(const Coincidences *search, const Composite *composite, uint32_t number, DiagSink *diags)
 {
-    const Part *part = &twins->scene->parts.items[number];
-    if (part->kind == PART_PLANE || !is_outer(twins->scene, part)) {
+    const Part *part = &search->scene->parts.items[number];
+    if (part->kind == PART_PLANE || !is_outer(search->scene, part)) {
         return;
     }
-    Key key = item_key(twins, twins->parts + number);
+    Key key = item_key(search, search->parts + number);
     uint32_t hash = key_hash(&key);
     key.hidden = composite->hidden;
-    for (uint32_t at = hash & twins->mask; twins->slots[at].item != 0; at = (at + 1) & twins->mask) {
-        const Slot *slot = &twins->slots[at];
-        if (slot->hash == hash && slot->item <= twins->end) {
-            Key known = item_key(twins, slot->item - 1);
-            if (are_twins(twins->scene, &key, &known, diags)) {
+    for (uint32_t at = hash & search->mask; search->slots[at].item != 0; at = (at + 1) & search->mask) {
+        const Slot *slot = &search->slots[at];
+        if (slot->hash == hash && slot->item <= search->end) {
+            Key known = item_key(search, slot->item - 1);
+            if (are_twins(search->scene, &key, &known, diags)) {
                 return;
             }
         }
@@ -346,19 +346,19 @@ static void visit_leaf(const Twins *twins, const Composite *composite, uint32_t 
 // ---- all of them
 
 // Looks one shape up, and puts it in where its equal was not.
-static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diags)
+static void visit(const Coincidences *search, size_t item, uint32_t hash, DiagSink *diags)
 {
-    for (uint32_t at = hash & twins->mask;; at = (at + 1) & twins->mask) {
-        Slot *slot = &twins->slots[at];
+    for (uint32_t at = hash & search->mask;; at = (at + 1) & search->mask) {
+        Slot *slot = &search->slots[at];
         if (slot->item == 0) {
             *slot = (Slot){hash, (uint32_t)item + 1};
             return;
         }
-        if (slot->hash != hash || slot->item > twins->end) {
+        if (slot->hash != hash || slot->item > search->end) {
             continue;
         }
-        Key key = item_key(twins, item), known = item_key(twins, slot->item - 1);
-        if (are_twins(twins->scene, &key, &known, diags)) {
+        Key key = item_key(search, item), known = item_key(search, slot->item - 1);
+        if (are_twins(search->scene, &key, &known, diags)) {
             return;
         }
     }
@@ -368,21 +368,21 @@ static void visit(const Twins *twins, size_t item, uint32_t hash, DiagSink *diag
 
 enum { BITS_PER_SPHERE = 16 }; // at least: one sphere in 16 is looked up in vain
 
-typedef struct Sieve {
-    const Twins *twins;
+typedef struct BloomFilter {
+    const Coincidences *search;
     uint32_t *hashes;        // of all spheres; then, run by run, the numbers of those that are to be looked up
     uint32_t *counts;        // of these, for each run
     uint64_t *once, *twice;  // bits of hashes that were met, and met again
     Pages pages;             // that hashes and bits are in: malloc would keep them while the tree is built
     uint32_t mask;           // of hashes
     bool is_shared;          // by threads
-} Sieve;
+} BloomFilter;
 
 // Whether it was set.
-static inline bool bit_set(const Sieve *sieve, uint64_t *bits, uint32_t hash)
+static inline bool bit_set(const BloomFilter *bloom, uint64_t *bits, uint32_t hash)
 {
-    uint64_t *word = &bits[(hash & sieve->mask) / 64], bit = UINT64_C(1) << hash % 64;
-    if (sieve->is_shared) {
+    uint64_t *word = &bits[(hash & bloom->mask) / 64], bit = UINT64_C(1) << hash % 64;
+    if (bloom->is_shared) {
         return __atomic_fetch_or(word, bit, __ATOMIC_RELAXED) & bit;
     }
     uint64_t before = *word;
@@ -390,159 +390,159 @@ static inline bool bit_set(const Sieve *sieve, uint64_t *bits, uint32_t hash)
     return before & bit;
 }
 
-static inline bool bit_get(const Sieve *sieve, const uint64_t *bits, uint32_t hash)
+static inline bool bit_get(const BloomFilter *bloom, const uint64_t *bits, uint32_t hash)
 {
-    return bits[(hash & sieve->mask) / 64] >> hash % 64 & 1;
+    return bits[(hash & bloom->mask) / 64] >> hash % 64 & 1;
 }
 
-static void sieve_run(void *client, size_t begin, size_t end)
+static void bloom_run(void *client, size_t begin, size_t end)
 {
-    const Sieve *sieve = client;
-    const Sphere *spheres = sieve->twins->scene->spheres.items;
+    const BloomFilter *bloom = client;
+    const Sphere *spheres = bloom->search->scene->spheres.items;
     for (size_t i = begin; i < end + AHEAD; i++) {
         if (i < end) {
-            sieve->hashes[i] = sphere_hash(&spheres[i]);
-            __builtin_prefetch(&sieve->once[(sieve->hashes[i] & sieve->mask) / 64], 1);
+            bloom->hashes[i] = sphere_hash(&spheres[i]);
+            __builtin_prefetch(&bloom->once[(bloom->hashes[i] & bloom->mask) / 64], 1);
         }
-        if (i >= begin + AHEAD && bit_set(sieve, sieve->once, sieve->hashes[i - AHEAD])) {
-            bit_set(sieve, sieve->twice, sieve->hashes[i - AHEAD]);
+        if (i >= begin + AHEAD && bit_set(bloom, bloom->once, bloom->hashes[i - AHEAD])) {
+            bit_set(bloom, bloom->twice, bloom->hashes[i - AHEAD]);
         }
     }
 }
 
 static void gather_run(void *client, size_t begin, size_t end)
 {
-    const Sieve *sieve = client;
-    uint32_t *kept = &sieve->hashes[begin];
+    const BloomFilter *bloom = client;
+    uint32_t *kept = &bloom->hashes[begin];
     for (size_t i = begin; i < end; i++) {
         if (i + AHEAD < end) {
-            __builtin_prefetch(&sieve->twice[(sieve->hashes[i + AHEAD] & sieve->mask) / 64]);
+            __builtin_prefetch(&bloom->twice[(bloom->hashes[i + AHEAD] & bloom->mask) / 64]);
         }
-        bool is_kept = bit_get(sieve, sieve->twice, sieve->hashes[i]);
+        bool is_kept = bit_get(bloom, bloom->twice, bloom->hashes[i]);
         *kept = is_kept ? (uint32_t)i : *kept;
         kept += is_kept;
     }
-    sieve->counts[begin / SPHERE_RUN] = (uint32_t)(kept - &sieve->hashes[begin]);
+    bloom->counts[begin / SPHERE_RUN] = (uint32_t)(kept - &bloom->hashes[begin]);
 }
 
-static size_t sieve_runs(const Twins *twins)
+static size_t bloom_runs(const Coincidences *search)
 {
-    return (twins->planes + SPHERE_RUN - 1) / SPHERE_RUN;
+    return (search->planes + SPHERE_RUN - 1) / SPHERE_RUN;
 }
 
 // Shapes that are round in another way are looked up, so that their equals must be in the table.
-static void sieve_others(const Sieve *sieve)
+static void bloom_others(const BloomFilter *bloom)
 {
-    const Twins *twins = sieve->twins;
-    for (size_t item = twins->planes; item < twins->end; item++) {
-        Key key = item_key(twins, item);
+    const Coincidences *search = bloom->search;
+    for (size_t item = search->planes; item < search->end; item++) {
+        Key key = item_key(search, item);
         if (key.kind == KIND_SPHERE_KEY) {
-            bit_set(sieve, sieve->twice, key_hash(&key));
+            bit_set(bloom, bloom->twice, key_hash(&key));
         }
     }
 }
 
-static void sieve_fini(Sieve *sieve)
+static void bloom_fini(BloomFilter *bloom)
 {
-    pages_give(&sieve->pages);
-    free(sieve->counts);
+    pages_give(&bloom->pages);
+    free(bloom->counts);
 }
 
 // False when out of memory; fini is to be called anyway. *count: the spheres that are to be looked up.
-static bool sieve_init(Sieve *sieve, const Twins *twins, int threads, size_t *count)
+static bool bloom_init(BloomFilter *bloom, const Coincidences *search, int threads, size_t *count)
 {
-    size_t spheres = twins->planes, bits = 64;
+    size_t spheres = search->planes, bits = 64;
     while (bits < BITS_PER_SPHERE * spheres && bits < (size_t)UINT32_MAX + 1) {
         bits *= 2;
     }
-    *sieve = (Sieve){.twins = twins, .mask = (uint32_t)(bits - 1), .is_shared = threads > 1};
-    sieve->counts = malloc(sieve_runs(twins) * sizeof *sieve->counts);
-    if (!sieve->counts || !pages_take(&sieve->pages, bits / 4 + spheres * sizeof *sieve->hashes)) {
+    *bloom = (BloomFilter){.search = search, .mask = (uint32_t)(bits - 1), .is_shared = threads > 1};
+    bloom->counts = malloc(bloom_runs(search) * sizeof *bloom->counts);
+    if (!bloom->counts || !pages_take(&bloom->pages, bits / 4 + spheres * sizeof *bloom->hashes)) {
         return false;
     }
-    sieve->once = sieve->pages.memory;
-    sieve->twice = sieve->once + bits / 64;
-    sieve->hashes = (uint32_t *)(sieve->twice + bits / 64);
-    memset(sieve->once, 0, bits / 4);
-    parallel_share(threads, spheres, SPHERE_RUN, sieve_run, sieve);
-    sieve_others(sieve);
-    parallel_share(threads, spheres, SPHERE_RUN, gather_run, sieve);
+    bloom->once = bloom->pages.memory;
+    bloom->twice = bloom->once + bits / 64;
+    bloom->hashes = (uint32_t *)(bloom->twice + bits / 64);
+    memset(bloom->once, 0, bits / 4);
+    parallel_share(threads, spheres, SPHERE_RUN, bloom_run, bloom);
+    bloom_others(bloom);
+    parallel_share(threads, spheres, SPHERE_RUN, gather_run, bloom);
     *count = 0;
-    for (size_t run = 0; run < sieve_runs(twins); run++) {
-        *count += sieve->counts[run];
+    for (size_t run = 0; run < bloom_runs(search); run++) {
+        *count += bloom->counts[run];
     }
     return true;
 }
 
 // ---- the whole
 
-static bool table_init(Twins *twins, size_t items)
+static bool table_init(Coincidences *search, size_t items)
 {
     size_t slots = 4;
     while (slots < 2 * items) {
         slots *= 2;
     }
-    twins->mask = (uint32_t)(slots - 1);
-    twins->slots = calloc(slots, sizeof *twins->slots);
-    pages_prefer_huge(twins->slots, slots * sizeof *twins->slots);
-    return twins->slots != NULL;
+    search->mask = (uint32_t)(slots - 1);
+    search->slots = calloc(slots, sizeof *search->slots);
+    pages_prefer_huge(search->slots, slots * sizeof *search->slots);
+    return search->slots != NULL;
 }
 
 // `items`: numbers of shapes in their order; NULL: those from `begin` on.
-static void visit_some(const Twins *twins, const uint32_t *items, size_t begin, size_t count, DiagSink *diags)
+static void visit_some(const Coincidences *search, const uint32_t *items, size_t begin, size_t count, DiagSink *diags)
 {
     for (size_t done = 0; done < count; done += AHEAD) {
         uint32_t hashes[AHEAD];
         size_t some = count - done < AHEAD ? count - done : AHEAD;
         for (size_t i = 0; i < some; i++) {
-            hashes[i] = item_hash(twins, items ? items[done + i] : begin + done + i);
-            __builtin_prefetch(&twins->slots[hashes[i] & twins->mask], 1);
+            hashes[i] = item_hash(search, items ? items[done + i] : begin + done + i);
+            __builtin_prefetch(&search->slots[hashes[i] & search->mask], 1);
         }
         for (size_t i = 0; i < some; i++) {
             size_t item = items ? items[done + i] : begin + done + i;
-            if (item_is_alone(twins, item)) {
-                visit(twins, item, hashes[i], diags);
+            if (item_is_alone(search, item)) {
+                visit(search, item, hashes[i], diags);
             }
         }
     }
 }
 
 // False when out of memory.
-static bool visit_many_spheres(Twins *twins, DiagSink *diags, int threads)
+static bool visit_many_spheres(Coincidences *search, DiagSink *diags, int threads)
 {
-    Sieve sieve;
-    size_t count, others = twins->end - twins->planes + twins->scene->composites.count;
-    bool done = sieve_init(&sieve, twins, threads, &count) && table_init(twins, count + others);
-    for (size_t run = 0; done && run < sieve_runs(twins); run++) {
-        visit_some(twins, &sieve.hashes[run * SPHERE_RUN], 0, sieve.counts[run], diags);
+    BloomFilter bloom;
+    size_t count, others = search->end - search->planes + search->scene->composites.count;
+    bool done = bloom_init(&bloom, search, threads, &count) && table_init(search, count + others);
+    for (size_t run = 0; done && run < bloom_runs(search); run++) {
+        visit_some(search, &bloom.hashes[run * SPHERE_RUN], 0, bloom.counts[run], diags);
     }
-    sieve_fini(&sieve);
+    bloom_fini(&bloom);
     return done;
 }
 
-bool scene_warn_of_twins(const Scene *scene, DiagSink *diags, int threads)
+bool scene_warn_of_coincident(const Scene *scene, DiagSink *diags, int threads)
 {
-    Twins twins = {.scene = scene, .planes = scene->spheres.count};
-    twins.parts = twins.planes + scene->planes.count;
-    twins.end = twins.parts + scene->parts.count;
-    if (twins.end < 2 || twins.end >= UINT32_MAX / 4 || !diag_is_on(diags, DIAG_W0444)) {
+    Coincidences search = {.scene = scene, .planes = scene->spheres.count};
+    search.parts = search.planes + scene->planes.count;
+    search.end = search.parts + scene->parts.count;
+    if (search.end < 2 || search.end >= UINT32_MAX / 4 || !diag_is_on(diags, DIAG_W0444)) {
         return true;
     }
-    bool are_many = twins.planes > SPHERE_RUN;
-    if (!(are_many ? visit_many_spheres(&twins, diags, threads)
-                   : table_init(&twins, twins.end + scene->composites.count))) {
-        free(twins.slots);
+    bool are_many = search.planes > SPHERE_RUN;
+    if (!(are_many ? visit_many_spheres(&search, diags, threads)
+                   : table_init(&search, search.end + scene->composites.count))) {
+        free(search.slots);
         return false;
     }
-    size_t begin = are_many ? twins.planes : 0;
-    visit_some(&twins, NULL, begin, twins.end - begin, diags);
+    size_t begin = are_many ? search.planes : 0;
+    visit_some(&search, NULL, begin, search.end - begin, diags);
     for (uint32_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
-        visit_composite(&twins, i, diags);
+        visit_composite(&search, i, diags);
         for (uint32_t k = 0; k < composite->part_count; k++) {
-            visit_leaf(&twins, composite, composite->first_part + k, diags);
+            visit_leaf(&search, composite, composite->first_part + k, diags);
         }
     }
-    free(twins.slots);
+    free(search.slots);
     return true;
 }

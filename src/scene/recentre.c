@@ -1,7 +1,7 @@
 // Looks at each axis by itself, then moves all places along those that gain.
 //
 // SPDX-License-Identifier: MIT
-#include "scene/near.h"
+#include "scene/recentre.h"
 
 #include <math.h>
 
@@ -107,7 +107,7 @@ static void move(Scene *scene, Vec3 by)
     }
 }
 
-Vec3 scene_move_near(Scene *scene)
+Vec3 scene_recentre(Scene *scene)
 {
     Vec3 origin = {0.0, 0.0, 0.0};
     if (scene->compounds.count > 0 || scene->fogs.count > 0) {

@@ -6,13 +6,13 @@
 // fog) stay.
 //
 // SPDX-License-Identifier: MIT
-#ifndef SCENE_NEAR_H
-#define SCENE_NEAR_H
+#ifndef SCENE_RECENTRE_H
+#define SCENE_RECENTRE_H
 
 #include "scene/scene.h"
 
 // Moves a valid scene; returns what was subtracted from all places, 0 along axes that stay.
-Vec3 scene_move_near(Scene *scene);
+Vec3 scene_recentre(Scene *scene);
 
 // The scene as it was before.
 void scene_move_back(Scene *scene, Vec3 origin);

@@ -1,7 +1,7 @@
 // One pass over all shapes. A planet is as far as its ground is, a small ball far away as far as its middle.
 //
 // SPDX-License-Identifier: MIT
-#include "scene/reach.h"
+#include "scene/scene_extent.h"
 
 #include <math.h>
 
@@ -13,7 +13,7 @@ static double length_of(Vec3 a)
     return hypot(hypot(a.x, a.y), a.z);
 }
 
-static void reach_add(SceneReach *reach, Vec3 eye, Vec3 centre, double radius)
+static void reach_add(SceneExtent *reach, Vec3 eye, Vec3 centre, double radius)
 {
     double distance = length_of(vec3_sub(centre, eye));
 
@@ -24,7 +24,7 @@ static void reach_add(SceneReach *reach, Vec3 eye, Vec3 centre, double radius)
 }
 
 // The ball around the box around a part; planes have none.
-static void reach_add_part(SceneReach *reach, Vec3 eye, const Part *part)
+static void reach_add_part(SceneExtent *reach, Vec3 eye, const Part *part)
 {
     static const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double middle[3], half[3];
@@ -40,11 +40,11 @@ static void reach_add_part(SceneReach *reach, Vec3 eye, const Part *part)
     reach_add(reach, eye, vec3(middle[0], middle[1], middle[2]), length_of(vec3(half[0], half[1], half[2])));
 }
 
-void scene_reach(const Scene *scene, SceneReach *reach)
+void scene_extent(const Scene *scene, SceneExtent *reach)
 {
     Vec3 eye = scene->camera.location;
 
-    *reach = (SceneReach){.least_size = (double)INFINITY, .least_angle = (double)INFINITY};
+    *reach = (SceneExtent){.least_size = (double)INFINITY, .least_angle = (double)INFINITY};
     reach->eye_offset = vec3_max_abs(eye);
     for (size_t i = 0; i < scene->spheres.count; i++) {
         reach_add(reach, eye, scene->spheres.items[i].centre, scene->spheres.items[i].radius);

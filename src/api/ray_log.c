@@ -1,6 +1,6 @@
 // The life of a pixel's ray as text, or as one JSON object on one line.
 //
-// Turns the records of render/life.h into what a reader or a program reads; docs/diagnostics.md lists the members.
+// Turns the records of render/ray_log.h into what a reader or a program reads; docs/diagnostics.md lists the members.
 // Works nothing out.
 //
 // SPDX-License-Identifier: MIT
@@ -10,35 +10,35 @@
 
 #include "api/session.h"
 #include "base/json.h"
-#include "render/life.h"
-#include "scene/near.h"
+#include "render/ray_log.h"
+#include "scene/recentre.h"
 
 typedef struct Printer {
     TextBuffer *out;
     DiagSink *diags; // for places in the text
-    const Life *life;
+    const RayLog *ray_log;
     Vec3 origin; // to be added to places
 } Printer;
 
 static const char *const kind_words[] = {
-    [LIFE_CAMERA] = "camera",   [LIFE_MIRRORED] = "mirrored", [LIFE_TOTAL] = "totally reflected",
-    [LIFE_THROUGH] = "through", [LIFE_BENT] = "bent",
+    [LOGGED_CAMERA] = "camera",   [LOGGED_MIRRORED] = "mirrored", [LOGGED_TOTAL] = "totally reflected",
+    [LOGGED_THROUGH] = "through", [LOGGED_BENT] = "bent",
 };
 
 static const char *const choice_words[] = {
-    [LIFE_MISSES] = "none", [LIFE_BEHIND] = "behind", [LIFE_NEAR] = "near",
-    [LIFE_FAR] = "far",     [LIFE_LEFT] = "left",     [LIFE_GOES_THROUGH] = "goes through",
-    [LIFE_CUT] = "cut",
+    [LOGGED_MISSES] = "none", [LOGGED_BEHIND] = "behind", [LOGGED_NEAR] = "near",
+    [LOGGED_FAR] = "far",     [LOGGED_LEFT] = "left",     [LOGGED_GOES_THROUGH] = "goes through",
+    [LOGGED_CUT] = "cut",
 };
 
 static const char *const choice_reasons[] = {
-    [LIFE_MISSES] = "none: the line passes the sphere",
-    [LIFE_BEHIND] = "none: both points lie behind the ray's start",
-    [LIFE_NEAR] = "t1: the ray comes from outside, and the first point is the nearer one",
-    [LIFE_FAR] = "t2: the ray starts inside, so the first point lies behind it",
-    [LIFE_LEFT] = "none: the ray starts on this sphere and leaves it; a sphere is convex, so it is not asked again",
-    [LIFE_GOES_THROUGH] = "the one that is not 0: the ray starts on this sphere and goes in, so c = 0 and t = -b / a",
-    [LIFE_CUT] = "both: the sphere is cut with other shapes, and what they leave of it decides which point is seen",
+    [LOGGED_MISSES] = "none: the line passes the sphere",
+    [LOGGED_BEHIND] = "none: both points lie behind the ray's start",
+    [LOGGED_NEAR] = "t1: the ray comes from outside, and the first point is the nearer one",
+    [LOGGED_FAR] = "t2: the ray starts inside, so the first point lies behind it",
+    [LOGGED_LEFT] = "none: the ray starts on this sphere and leaves it; a sphere is convex, so it is not asked again",
+    [LOGGED_GOES_THROUGH] = "the one that is not 0: the ray starts on this sphere and goes in, so c = 0 and t = -b / a",
+    [LOGGED_CUT] = "both: the sphere is cut with other shapes, and what they leave of it decides which point is seen",
 };
 
 static const char *case_of(double h)
@@ -100,7 +100,7 @@ static void tell_place(const Printer *p, uint64_t source)
     }
 }
 
-static void tell_sphere(const Printer *p, const LifeSphere *s)
+static void tell_sphere(const Printer *p, const LoggedSphere *s)
 {
     put(p, s->is_stretched ? "  stretched sphere" : "  sphere");
     tell_place(p, s->source);
@@ -138,7 +138,7 @@ static void tell_sphere(const Printer *p, const LifeSphere *s)
     put(p, "\n");
 }
 
-static void tell_layer(const Printer *p, const LifeLayer *layer, Vec3 normal)
+static void tell_layer(const Printer *p, const LoggedLayer *layer, Vec3 normal)
 {
     text_printf(p->out, "    pigment rgbft <%.9g, %.9g, %.9g, %.9g, %.9g>", layer->pigment.red, layer->pigment.green,
                 layer->pigment.blue, layer->pigment.filter, layer->pigment.transmit);
@@ -154,7 +154,7 @@ static void tell_layer(const Printer *p, const LifeLayer *layer, Vec3 normal)
     tell_colour(p, "\n    ambient and emission: ", layer->glow);
     put(p, "\n");
     for (size_t i = layer->first_light; i < layer->first_light + layer->light_count; i++) {
-        const LifeLight *light = &p->life->lights.items[i];
+        const LoggedLight *light = &p->ray_log->lights.items[i];
         text_printf(p->out, "    light %zu", light->number + 1);
         tell_place_of(p, " at ", light->position);
         tell(p, ": distance ", light->distance);
@@ -168,7 +168,7 @@ static void tell_layer(const Printer *p, const LifeLayer *layer, Vec3 normal)
     }
 }
 
-static void tell_hit(const Printer *p, const LifeRay *ray)
+static void tell_hit(const Printer *p, const LoggedRay *ray)
 {
     text_printf(p->out, "  hit: %s", ray->shape);
     tell_place(p, ray->source);
@@ -179,7 +179,7 @@ static void tell_hit(const Printer *p, const LifeRay *ray)
     tell_vector(p, ", normal N = ", ray->normal);
     put(p, "\n");
     for (size_t i = ray->first_layer; i < ray->first_layer + ray->layer_count; i++) {
-        tell_layer(p, &p->life->layers.items[i], ray->normal);
+        tell_layer(p, &p->ray_log->layers.items[i], ray->normal);
     }
     if (!rgb_is_black(ray->reflectance)) {
         tell_colour(p, "    mirrors ", ray->reflectance);
@@ -196,20 +196,20 @@ static void tell_hit(const Printer *p, const LifeRay *ray)
 
 static void tell_ray(const Printer *p, size_t number)
 {
-    const LifeRay *ray = &p->life->rays.items[number];
+    const LoggedRay *ray = &p->ray_log->rays.items[number];
     text_printf(p->out, "ray %zu: %s", number + 1, kind_words[ray->kind]);
-    if (ray->parent != LIFE_NONE) {
+    if (ray->parent != LOGGED_NONE) {
         text_printf(p->out, " where ray %d hits, level %d", ray->parent + 1, ray->level);
         tell_colour(p, ", its light counts times ", ray->share);
     }
     tell_place_of(p, "\n  e = ", ray->origin);
-    if (ray->kind == LIFE_CAMERA) {
-        tell_place_of(p, ", through the screen at ", p->life->screen);
+    if (ray->kind == LOGGED_CAMERA) {
+        tell_place_of(p, ", through the screen at ", p->ray_log->screen);
     }
     tell_vector(p, "\n  d = ", ray->direction);
     put(p, ", of length 1\n");
     for (size_t i = ray->first_sphere; i < ray->first_sphere + ray->sphere_count; i++) {
-        tell_sphere(p, &p->life->spheres.items[i]);
+        tell_sphere(p, &p->ray_log->spheres.items[i]);
     }
     if (ray->missed > 0) {
         text_printf(p->out, "  %zu more sphere%s passed\n", ray->missed, ray->missed == 1 ? " is" : "s are");
@@ -230,13 +230,13 @@ static void tell_ray(const Printer *p, size_t number)
 static void print_text(const Printer *p, int x, int y, Rgb linear)
 {
     text_printf(p->out, "pixel %d, %d\n", x, y);
-    for (size_t i = 0; i < p->life->rays.count; i++) {
+    for (size_t i = 0; i < p->ray_log->rays.count; i++) {
         tell_ray(p, i);
     }
-    if (p->life->more_rays > 0) {
-        text_printf(p->out, "%zu more rays are omitted\n", p->life->more_rays);
+    if (p->ray_log->more_rays > 0) {
+        text_printf(p->out, "%zu more rays are omitted\n", p->ray_log->more_rays);
     }
-    tell_colour(p, "colour ", p->life->colour);
+    tell_colour(p, "colour ", p->ray_log->colour);
     tell_colour(p, ", as linear light ", linear);
     put(p, "\n");
 }
@@ -295,12 +295,12 @@ static void json_place(const Printer *p, uint64_t source)
     }
 }
 
-static void json_spheres(const Printer *p, const LifeRay *ray)
+static void json_spheres(const Printer *p, const LoggedRay *ray)
 {
     member(p, "spheres");
     put(p, "[");
     for (size_t i = 0; i < ray->sphere_count; i++) {
-        const LifeSphere *s = &p->life->spheres.items[ray->first_sphere + i];
+        const LoggedSphere *s = &p->ray_log->spheres.items[ray->first_sphere + i];
         put(p, i > 0 ? ", {" : "{");
         json_place(p, s->source);
         json_truth(p, "stretched", s->is_stretched);
@@ -335,12 +335,12 @@ static void json_spheres(const Printer *p, const LifeRay *ray)
     put_member(p, "spheres_omitted", (double)ray->missed);
 }
 
-static void json_lights(const Printer *p, const LifeLayer *layer)
+static void json_lights(const Printer *p, const LoggedLayer *layer)
 {
     member(p, "lights");
     put(p, "[");
     for (size_t i = 0; i < layer->light_count; i++) {
-        const LifeLight *light = &p->life->lights.items[layer->first_light + i];
+        const LoggedLight *light = &p->ray_log->lights.items[layer->first_light + i];
         put(p, i > 0 ? ", {" : "{");
         put_member(p, "light", (double)light->number + 1);
         json_place_of(p, "position", light->position);
@@ -356,7 +356,7 @@ static void json_lights(const Printer *p, const LifeLayer *layer)
     put(p, "]");
 }
 
-static void json_hit(const Printer *p, const LifeRay *ray)
+static void json_hit(const Printer *p, const LoggedRay *ray)
 {
     member(p, "hit");
     put(p, "{");
@@ -373,7 +373,7 @@ static void json_hit(const Printer *p, const LifeRay *ray)
     member(p, "layers");
     put(p, "[");
     for (size_t i = 0; i < ray->layer_count; i++) {
-        const LifeLayer *layer = &p->life->layers.items[ray->first_layer + i];
+        const LoggedLayer *layer = &p->ray_log->layers.items[ray->first_layer + i];
         const Rgbft *pigment = &layer->pigment;
         put(p, i > 0 ? ", {" : "{");
         json_colour(p, "pigment", rgbft_rgb(*pigment));
@@ -391,14 +391,14 @@ static void json_hit(const Printer *p, const LifeRay *ray)
 
 static void json_ray(const Printer *p, size_t number)
 {
-    const LifeRay *ray = &p->life->rays.items[number];
+    const LoggedRay *ray = &p->ray_log->rays.items[number];
     put(p, number > 0 ? ", {" : "{");
     put_member(p, "ray", (double)number + 1);
     json_word(p, "kind", kind_words[ray->kind]);
-    if (ray->parent != LIFE_NONE) {
+    if (ray->parent != LOGGED_NONE) {
         put_member(p, "from", ray->parent + 1);
     } else {
-        json_place_of(p, "screen", p->life->screen);
+        json_place_of(p, "screen", p->ray_log->screen);
     }
     put_member(p, "level", ray->level);
     json_place_of(p, "e", ray->origin);
@@ -423,12 +423,12 @@ static void print_json(const Printer *p, int x, int y, Rgb linear)
     put_member(p, "y", y);
     member(p, "rays");
     put(p, "[");
-    for (size_t i = 0; i < p->life->rays.count; i++) {
+    for (size_t i = 0; i < p->ray_log->rays.count; i++) {
         json_ray(p, i);
     }
     put(p, "]");
-    put_member(p, "rays_omitted", (double)p->life->more_rays);
-    json_colour(p, "colour", p->life->colour);
+    put_member(p, "rays_omitted", (double)p->ray_log->more_rays);
+    json_colour(p, "colour", p->ray_log->colour);
     json_colour(p, "linear", linear);
     put(p, "}\n");
 }
@@ -442,25 +442,25 @@ typedef struct Pixel {
 static rt_status trace_pixel(rt_session *session, void *argument)
 {
     int x = ((const Pixel *)argument)->x, y = ((const Pixel *)argument)->y;
-    Life life = {.more_rays = 0};
+    RayLog ray_log = {.more_rays = 0};
     GeometryOptions geometry = {.threads = render_default_threads(), .isa = session->isa};
-    Vec3 origin = scene_move_near(&session->scene);
+    Vec3 origin = scene_recentre(&session->scene);
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     if (prepared) {
         prepared_seed(prepared, session->sampling.seed);
     }
-    bool is_traced = prepared && life_trace(&life, prepared, session->width, session->height, x, y);
+    bool is_traced = prepared && ray_log_trace(&ray_log, prepared, session->width, session->height, x, y);
     prepared_free(prepared);
     scene_move_back(&session->scene, origin);
     if (is_traced) {
-        Printer printer = {&session->dump, &session->diags, &life, origin};
+        Printer printer = {&session->dump, &session->diags, &ray_log, origin};
         // As the film has it: in single precision first.
-        float values[] = {(float)life.colour.red, (float)life.colour.green, (float)life.colour.blue};
+        float values[] = {(float)ray_log.colour.red, (float)ray_log.colour.green, (float)ray_log.colour.blue};
         Film pixel = {.width = 1, .height = 1, .rgb = values};
         session_film_to_linear(&session->scene.settings, &pixel);
         (session->is_json ? print_json : print_text)(&printer, x, y, rgb(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]));
     }
-    life_fini(&life);
+    ray_log_fini(&ray_log);
     if (!is_traced || session->dump.failed) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory following a ray");
     }

@@ -4,38 +4,38 @@
 // and keeps what each step found. Lengths are the scene's own. Has no part in rendering a picture.
 //
 // SPDX-License-Identifier: MIT
-#ifndef RENDER_LIFE_H
-#define RENDER_LIFE_H
+#ifndef RENDER_RAY_LOG_H
+#define RENDER_RAY_LOG_H
 
 #include "base/array.h"
 #include "math/ray.h"
 #include "render/render.h"
 
 // Where a ray comes from.
-typedef enum LifeKind {
-    LIFE_CAMERA,
-    LIFE_MIRRORED,
-    LIFE_TOTAL,   // mirrored because nothing gets through
-    LIFE_THROUGH, // goes straight on
-    LIFE_BENT,
-} LifeKind;
+typedef enum LoggedKind {
+    LOGGED_CAMERA,
+    LOGGED_MIRRORED,
+    LOGGED_TOTAL,   // mirrored because nothing gets through
+    LOGGED_THROUGH, // goes straight on
+    LOGGED_BENT,
+} LoggedKind;
 
 // Which root of the quadratic is a sphere's, and why.
-typedef enum LifeChoice {
-    LIFE_MISSES,       // h < 0: there is none
-    LIFE_BEHIND,       // both are at t < 0
-    LIFE_NEAR,         // the first: the ray comes from outside
-    LIFE_FAR,          // the second: the ray starts inside, so that the first is behind it
-    LIFE_LEFT,         // none: the ray leaves this sphere outward, and a sphere is convex
-    LIFE_GOES_THROUGH, // the one that is not 0: the ray starts on this sphere and goes in
-    LIFE_CUT,          // both: it is a part of a composite, of which the first crossing that shows is seen
-} LifeChoice;
+typedef enum LoggedRoot {
+    LOGGED_MISSES,       // h < 0: there is none
+    LOGGED_BEHIND,       // both are at t < 0
+    LOGGED_NEAR,         // the first: the ray comes from outside
+    LOGGED_FAR,          // the second: the ray starts inside, so that the first is behind it
+    LOGGED_LEFT,         // none: the ray leaves this sphere outward, and a sphere is convex
+    LOGGED_GOES_THROUGH, // the one that is not 0: the ray starts on this sphere and goes in
+    LOGGED_CUT,          // both: it is a part of a composite, of which the first crossing that shows is seen
+} LoggedRoot;
 
 // A sphere that the ray was tested against: a t² + b t + c = 0 with a = d·d, b = 2 d·(e - centre),
 // c = (e - centre)·(e - centre) - radius², and h = b² - 4 a c, all as plain double arithmetic gives them. Of a
 // stretched sphere e and d are the ray in the space in which it has its centre at 0 and the radius 1; t is the same
 // there.
-typedef struct LifeSphere {
+typedef struct LoggedSphere {
     uint64_t source;
     bool is_stretched;
     Vec3 own_origin, own_direction; // is_stretched: e and d in its own space
@@ -43,15 +43,15 @@ typedef struct LifeSphere {
     double radius;
     double a, b, c, h;
     double t1, t2;     // roots as the textbook gives them; h >= 0
-    LifeChoice choice; // by the certified test
+    LoggedRoot choice; // by the certified test
     bool is_doubtful;  // rounding could have decided, so double words did
     bool is_misjudged; // the textbook would choose otherwise
     double t;          // the root that is used, refined; 0: none
     double bound;      // |error of t| is below
-} LifeSphere;
+} LoggedSphere;
 
 // What one light does to one layer of a surface.
-typedef struct LifeLight {
+typedef struct LoggedLight {
     size_t number; // of the scene's lights
     Vec3 position;
     double distance, cosine; // to it; of the angle between its direction and the normal
@@ -59,23 +59,23 @@ typedef struct LifeLight {
     Rgb visible;             // the share that arrives, by colour; white where the light throws no shadow
     Rgb diffuse, highlights; // what the surface makes of it
     Rgb adds;                // both
-} LifeLight;
+} LoggedLight;
 
 // One of the materials that are seen at a hit: one, but for layers and maps.
-typedef struct LifeLayer {
+typedef struct LoggedLayer {
     Rgbft pigment;
     double part; // of the texture in a map
     Rgb above;   // what the layers above let through
     Vec3 normal; // with the layer's bumps
     Rgb glow;    // ambient and emission
     size_t first_light, light_count;
-} LifeLayer;
+} LoggedLayer;
 
-enum { LIFE_NONE = -1 };
+enum { LOGGED_NONE = -1 };
 
-typedef struct LifeRay {
-    int parent; // number of the ray that it comes from; LIFE_NONE: the camera's
-    LifeKind kind;
+typedef struct LoggedRay {
+    int parent; // number of the ray that it comes from; LOGGED_NONE: the camera's
+    LoggedKind kind;
     int level;
     Vec3 origin, direction;
     Rgb share;                         // what its light is multiplied with
@@ -94,21 +94,21 @@ typedef struct LifeRay {
     Rgb light; // that of the hit, or of the background
     Rgb adds;  // share × light
     Rgb fog;   // what fog on its way adds beside that
-} LifeRay;
+} LoggedRay;
 
-typedef struct Life {
+typedef struct RayLog {
     Vec3 eye, screen; // the camera's ray goes from the one through the other
-    ARRAY(LifeRay) rays;
-    ARRAY(LifeSphere) spheres;
-    ARRAY(LifeLayer) layers;
-    ARRAY(LifeLight) lights;
+    ARRAY(LoggedRay) rays;
+    ARRAY(LoggedSphere) spheres;
+    ARRAY(LoggedLayer) layers;
+    ARRAY(LoggedLight) lights;
     size_t more_rays; // not told of
     Rgb colour;       // of the pixel, in the scene's working space
-} Life;
+} RayLog;
 
-// Follows the ray of the middle of a pixel of a picture of that size. False when out of memory; life_fini is to be
+// Follows the ray of the middle of a pixel of a picture of that size. False when out of memory; ray_log_fini is to be
 // called anyway.
-bool life_trace(Life *life, const Prepared *prepared, int width, int height, int x, int y) RT_MUST_CHECK;
-void life_fini(Life *life);
+bool ray_log_trace(RayLog *ray_log, const Prepared *prepared, int width, int height, int x, int y) RT_MUST_CHECK;
+void ray_log_fini(RayLog *ray_log);
 
 #endif

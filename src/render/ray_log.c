@@ -1,7 +1,7 @@
 // Follows one camera ray with the kernels' own steps and keeps what each found.
 //
 // SPDX-License-Identifier: MIT
-#include "render/life.h"
+#include "render/ray_log.h"
 
 #include <float.h>
 
@@ -19,11 +19,11 @@ enum {
 static const double U = DBL_EPSILON / 2;
 
 typedef struct Follower {
-    Life *life;
+    RayLog *ray_log;
     const Prepared *p;
     double scale; // from prepared lengths to the scene's
     bool failed;
-    const ShadePoint *at; // while layers are collected
+    const ShadingPoint *at; // while layers are collected
 } Follower;
 
 static Vec3 in_scene(const Follower *follower, Vec3 a)
@@ -46,7 +46,7 @@ static uint64_t sphere_source(const Scene *scene, uint32_t order)
 
 // The quadratic and its roots as a textbook has them. `unit`: what a distance in the ball's space is in the scene's
 // lengths.
-static void textbook(LifeSphere *out, Ray ray, const Ball *ball, double scale, double unit)
+static void textbook(LoggedSphere *out, Ray ray, const Ball *ball, double scale, double unit)
 {
     Vec3 f = vec3_sub(ray.origin, ball->centre);
     double a = vec3_dot(ray.direction, ray.direction);
@@ -64,19 +64,22 @@ static void textbook(LifeSphere *out, Ray ray, const Ball *ball, double scale, d
     }
 }
 
-static LifeChoice textbook_choice(const LifeSphere *sphere)
+static LoggedRoot textbook_choice(const LoggedSphere *sphere)
 {
-    return !(sphere->h >= 0.0) ? LIFE_MISSES : sphere->t1 > 0.0 ? LIFE_NEAR : sphere->t2 > 0.0 ? LIFE_FAR : LIFE_BEHIND;
+    return !(sphere->h >= 0.0) ? LOGGED_MISSES
+           : sphere->t1 > 0.0  ? LOGGED_NEAR
+           : sphere->t2 > 0.0  ? LOGGED_FAR
+                               : LOGGED_BEHIND;
 }
 
 // By the rules of query_spheres_closest.
-static void certify(LifeSphere *out, Ray ray, const Ball *ball, const StartSphere *on, double scale)
+static void certify(LoggedSphere *out, Ray ray, const Ball *ball, const StartSphere *on, double scale)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
     double rough;
     bool inside = false;
     if (ball_equal(ball, &on->ball)) {
-        out->choice = on->inward ? LIFE_GOES_THROUGH : LIFE_LEFT;
+        out->choice = on->inward ? LOGGED_GOES_THROUGH : LOGGED_LEFT;
         double t = on->inward ? sphere_root_inward(&sphere_ray, ball) : 0.0;
         Vec3 f = vec3_sub(ray.origin, ball->centre);
         double cosine = fabs(vec3_dot(f, ray.direction)) / (vec3_length(f) * vec3_length(ray.direction));
@@ -87,32 +90,32 @@ static void certify(LifeSphere *out, Ray ray, const Ball *ball, const StartSpher
     out->is_doubtful = sphere_test(&sphere_ray, ball, &rough, &inside) == SPHERE_DOUBTFUL;
     double t = sphere_hit(&sphere_ray, ball, &inside);
     bool is_behind = !(t > 0.0) && out->h >= 0.0 && out->t2 <= 0.0;
-    out->choice = t > 0.0 ? (inside ? LIFE_FAR : LIFE_NEAR) : is_behind ? LIFE_BEHIND : LIFE_MISSES;
-    LifeChoice plain = textbook_choice(out);
-    out->is_misjudged = (t > 0.0 || plain == LIFE_NEAR || plain == LIFE_FAR) && plain != out->choice;
+    out->choice = t > 0.0 ? (inside ? LOGGED_FAR : LOGGED_NEAR) : is_behind ? LOGGED_BEHIND : LOGGED_MISSES;
+    LoggedRoot plain = textbook_choice(out);
+    out->is_misjudged = (t > 0.0 || plain == LOGGED_NEAR || plain == LOGGED_FAR) && plain != out->choice;
     out->t = t * scale;
     out->bound = t > 0.0 ? spacing(t) * scale : 0.0;
 }
 
 // Keeps one that the line meets, or any of a few.
-static void keep_sphere(Follower *follower, LifeRay *ray, const LifeSphere *sphere, bool is_of_few)
+static void keep_sphere(Follower *follower, LoggedRay *ray, const LoggedSphere *sphere, bool is_of_few)
 {
     bool is_told = is_of_few || sphere->h >= 0.0 || sphere->t > 0.0;
-    if (!is_told || follower->life->spheres.count - ray->first_sphere >= SPHERES_MOST) {
+    if (!is_told || follower->ray_log->spheres.count - ray->first_sphere >= SPHERES_MOST) {
         ray->missed++;
     } else {
-        follower->failed |= !ARRAY_PUSH(&follower->life->spheres, *sphere);
+        follower->failed |= !ARRAY_PUSH(&follower->ray_log->spheres, *sphere);
     }
 }
 
 // A ball under a map, in its own space.
-static LifeSphere stretched(const Follower *follower, Ray object, const StartSphere *on, uint64_t source)
+static LoggedSphere stretched(const Follower *follower, Ray object, const StartSphere *on, uint64_t source)
 {
-    LifeSphere sphere = {.source = source,
-                         .is_stretched = true,
-                         .own_origin = object.origin,
-                         .own_direction = vec3_scale(1.0 / follower->scale, object.direction),
-                         .radius = 1.0};
+    LoggedSphere sphere = {.source = source,
+                           .is_stretched = true,
+                           .own_origin = object.origin,
+                           .own_direction = vec3_scale(1.0 / follower->scale, object.direction),
+                           .radius = 1.0};
     Ball ball = UNIT_BALL;
     textbook(&sphere, object, &ball, follower->scale, 1.0);
     certify(&sphere, object, &ball, on, follower->scale);
@@ -120,7 +123,7 @@ static LifeSphere stretched(const Follower *follower, Ray object, const StartSph
 }
 
 // Balls among the parts. Of one that is cut, what its roots lead to is decided with the rest of the composite.
-static void follow_part(Follower *follower, LifeRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
+static void follow_part(Follower *follower, LoggedRay *ray, const StackedRay *now, uint32_t index, bool is_of_few)
 {
     const Solid *solid = &follower->p->geometry->shapes.solids[index];
     uint64_t source = follower->p->scene->parts.items[index].source;
@@ -130,9 +133,9 @@ static void follow_part(Follower *follower, LifeRay *ray, const StackedRay *now,
     Ball ball = is_round ? (Ball){solid->centre, radius * radius} : UNIT_BALL;
     StartSphere on = {0, now->start.inward != solid->flips, is_start ? ball : (Ball){{0.0, 0.0, 0.0}, (double)NAN}};
     Ray object = solid_ray(solid, &now->ray);
-    LifeSphere sphere;
+    LoggedSphere sphere;
     if (is_round) {
-        sphere = (LifeSphere){
+        sphere = (LoggedSphere){
             .source = source, .centre = in_scene(follower, solid->centre), .radius = radius * follower->scale};
         textbook(&sphere, now->ray, &ball, follower->scale, follower->scale);
         certify(&sphere, now->ray, &ball, &on, follower->scale);
@@ -140,7 +143,7 @@ static void follow_part(Follower *follower, LifeRay *ray, const StackedRay *now,
         sphere = stretched(follower, object, &on, source);
     }
     if (is_cut) {
-        sphere.choice = sphere.t > 0.0 ? LIFE_CUT : sphere.choice;
+        sphere.choice = sphere.t > 0.0 ? LOGGED_CUT : sphere.choice;
         sphere.is_misjudged = false;
         sphere.t = sphere.bound = 0.0;
     } else if (sphere.t > 0.0) {
@@ -150,20 +153,20 @@ static void follow_part(Follower *follower, LifeRay *ray, const StackedRay *now,
 }
 
 // Spheres that the line meets, or all of a few.
-static void follow_spheres(Follower *follower, LifeRay *ray, const StackedRay *now)
+static void follow_spheres(Follower *follower, LoggedRay *ray, const StackedRay *now)
 {
     const Geometry *g = follower->p->geometry;
     const SphereTable *table = &g->spheres;
     StartSphere on = query_start_sphere(g, TRACE_ALL_FEATURES, now->start);
     bool is_of_few = table->count + g->shapes.solid_count <= SPHERES_FEW;
-    ray->first_sphere = follower->life->spheres.count;
+    ray->first_sphere = follower->ray_log->spheres.count;
     for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
         Ball ball = sphere_table_ball(table, slot);
         if (isnan(ball.radius_squared)) {
             continue;
         }
-        LifeSphere sphere = {.centre = in_scene(follower, ball.centre),
-                             .radius = sqrt(ball.radius_squared) * follower->scale};
+        LoggedSphere sphere = {.centre = in_scene(follower, ball.centre),
+                               .radius = sqrt(ball.radius_squared) * follower->scale};
         textbook(&sphere, now->ray, &ball, follower->scale, follower->scale);
         certify(&sphere, now->ray, &ball, &on, follower->scale);
         if (is_of_few || sphere.h >= 0.0 || sphere.t > 0.0) {
@@ -176,7 +179,7 @@ static void follow_spheres(Follower *follower, LifeRay *ray, const StackedRay *n
             follow_part(follower, ray, now, i, is_of_few);
         }
     }
-    ray->sphere_count = follower->life->spheres.count - ray->first_sphere;
+    ray->sphere_count = follower->ray_log->spheres.count - ray->first_sphere;
 }
 
 // ---- the hit
@@ -197,7 +200,7 @@ static double plane_error(const PlaneShape *plane, const Ray *ray, double t)
     return U * ((4.0 * above + 3.0 * t * below) / fabs(vec3_dot(n, d)) + t);
 }
 
-static void name_shape(const Follower *follower, const ShadePoint *at, const Ray *ray, LifeRay *out)
+static void name_shape(const Follower *follower, const ShadingPoint *at, const Ray *ray, LoggedRay *out)
 {
     const Geometry *g = follower->p->geometry;
     const Scene *scene = follower->p->scene;
@@ -245,12 +248,12 @@ static Rgb light_of(const Follower *follower, const ShadeMaterial *material, con
 
 static void follow_light(Follower *follower, const ShadeMaterial *material, const PreparedLight *light)
 {
-    const ShadePoint *at = follower->at;
+    const ShadingPoint *at = follower->at;
     RenderStatistics unused = {0};
     Vec3 offset = vec3_sub(light->position, at->point);
     double distance = light->parallel ? vec3_dot(offset, light->towards) : vec3_length(offset);
     Vec3 towards = light->parallel ? light->towards : vec3_scale(1.0 / distance, offset);
-    LifeLight out = {
+    LoggedLight out = {
         .number = light->number,
         .position = in_scene(follower, light->position),
         .distance = distance * follower->scale,
@@ -268,39 +271,39 @@ static void follow_light(Follower *follower, const ShadeMaterial *material, cons
                                                                light->parallel ? NULL : &light->position, towards,
                                                                distance, &blocker, &unused);
     }
-    follower->failed |= !ARRAY_PUSH(&follower->life->lights, out);
+    follower->failed |= !ARRAY_PUSH(&follower->ray_log->lights, out);
 }
 
 static Rgb follow_layer(void *client, const TextureLayer *layer)
 {
     Follower *follower = client;
     const Prepared *p = follower->p;
-    const ShadePoint *whole = follower->at;
-    ShadePoint at = *whole; // its normal may be another layer's
+    const ShadingPoint *whole = follower->at;
+    ShadingPoint at = *whole; // its normal may be another layer's
     at.normal = at.inside ? vec3_neg(at.outward) : at.outward;
     if (layer->normal != RECORD_NONE) {
         at.normal = texture_normal(&p->textures, layer, at.normal);
     }
     follower->at = &at;
     ShadeMaterial material = shade_material(p, FEATURES, layer->pigment, layer->finish);
-    LifeLayer out = {
+    LoggedLayer out = {
         .pigment = layer->pigment,
         .part = layer->part,
         .above = layer->above,
         .normal = at.normal,
         .glow = rgb_mul(material.opaque, material.finish->glow),
-        .first_light = follower->life->lights.count,
+        .first_light = follower->ray_log->lights.count,
     };
     for (size_t i = 0; i < p->light_count; i++) {
         follow_light(follower, &material, &p->lights[i]);
     }
     follower->at = whole;
-    out.light_count = follower->life->lights.count - out.first_light;
-    follower->failed |= !ARRAY_PUSH(&follower->life->layers, out);
+    out.light_count = follower->ray_log->lights.count - out.first_light;
+    follower->failed |= !ARRAY_PUSH(&follower->ray_log->layers, out);
     return shade_left_below(FEATURES, &material, follower->at);
 }
 
-static void follow_surface(Follower *follower, const ShadePoint *at)
+static void follow_surface(Follower *follower, const ShadingPoint *at)
 {
     const Prepared *p = follower->p;
     follower->at = at;
@@ -317,20 +320,20 @@ static void follow_surface(Follower *follower, const ShadePoint *at)
 // ---- the way
 
 // What a ray is that a step put on the list.
-static LifeKind child_kind(const ShadeStep *step, const StackedRay *child)
+static LoggedKind child_kind(const ShadeStep *step, const StackedRay *child)
 {
     Vec3 bent;
     bool has_bend = step->at.ior_ratio != 1.0;
     if (child->start.inward != step->at.inside) {
-        return has_bend ? LIFE_BENT : LIFE_THROUGH;
+        return has_bend ? LOGGED_BENT : LOGGED_THROUGH;
     }
     bool is_total = has_bend && !inside_bend(step->at.direction, step->at.normal, step->at.ior_ratio, &bent);
-    return is_total ? LIFE_TOTAL : LIFE_MIRRORED;
+    return is_total ? LOGGED_TOTAL : LOGGED_MIRRORED;
 }
 
-static void follow_hit(Follower *follower, const ShadeStep *step, LifeRay *ray)
+static void follow_hit(Follower *follower, const ShadeStep *step, LoggedRay *ray)
 {
-    const ShadePoint *at = &step->at;
+    const ShadingPoint *at = &step->at;
     const StackedRay *now = &step->ray;
     Hit hit = {.t = 0.0};
     ray->is_hit =
@@ -340,21 +343,21 @@ static void follow_hit(Follower *follower, const ShadeStep *step, LifeRay *ray)
     ray->point = in_scene(follower, at->point);
     ray->normal = at->normal;
     ray->ior_ratio = at->ior_ratio;
-    ray->through = step->onward.through;
-    ray->reflectance = step->onward.reflectance;
+    ray->through = step->scatter.through;
+    ray->reflectance = step->scatter.reflectance;
     name_shape(follower, at, &now->ray, ray);
     follow_surface(follower, at);
 }
 
-static void follow_step(Follower *follower, const ShadeStep *step, int parent, LifeKind kind)
+static void follow_step(Follower *follower, const ShadeStep *step, int parent, LoggedKind kind)
 {
-    Life *life = follower->life;
+    RayLog *ray_log = follower->ray_log;
     const StackedRay *now = &step->ray;
-    if (life->rays.count >= RAYS_MOST) {
-        life->more_rays++;
+    if (ray_log->rays.count >= RAYS_MOST) {
+        ray_log->more_rays++;
         return;
     }
-    LifeRay ray = {
+    LoggedRay ray = {
         .parent = parent,
         .kind = kind,
         .level = now->level,
@@ -362,7 +365,7 @@ static void follow_step(Follower *follower, const ShadeStep *step, int parent, L
         .direction = now->ray.direction,
         .share = now->share,
         .weight = now->weight,
-        .first_layer = life->layers.count,
+        .first_layer = ray_log->layers.count,
         .light = step->light,
         .adds = rgb_mul(now->share, step->light),
         .fog = step->fog,
@@ -371,60 +374,60 @@ static void follow_step(Follower *follower, const ShadeStep *step, int parent, L
     if (step->is_hit) {
         follow_hit(follower, step, &ray);
     }
-    ray.layer_count = life->layers.count - ray.first_layer;
-    follower->failed |= !ARRAY_PUSH(&life->rays, ray);
+    ray.layer_count = ray_log->layers.count - ray.first_layer;
+    follower->failed |= !ARRAY_PUSH(&ray_log->rays, ray);
 }
 
-bool life_trace(Life *life, const Prepared *prepared, int width, int height, int x, int y)
+bool ray_log_trace(RayLog *ray_log, const Prepared *prepared, int width, int height, int x, int y)
 {
-    *life = (Life){.more_rays = 0};
-    Follower follower = {.life = life, .p = prepared, .scale = prepared->textures.scale};
+    *ray_log = (RayLog){.more_rays = 0};
+    Follower follower = {.ray_log = ray_log, .p = prepared, .scale = prepared->textures.scale};
     double u = (x + 0.5) / width - 0.5, v = (y + 0.5) / height - 0.5;
     StackedRay first = {.start = RAY_START_CAMERA, .share = rgb_grey(1.0), .weight = 1.0, .level = 1};
     if (!camera_ray(&prepared->camera, u, v, &first.ray)) {
         return true;
     }
     const Camera *camera = &prepared->scene->camera;
-    life->eye = in_scene(&follower, first.ray.origin);
+    ray_log->eye = in_scene(&follower, first.ray.origin);
     Vec3 across = vec3_sub(vec3_scale(u, camera->right), vec3_scale(v, camera->up));
     Vec3 ahead = camera->type == CAMERA_PERSPECTIVE    ? vec3_add(camera->direction, across)
                  : camera->type == CAMERA_ORTHOGRAPHIC ? camera->direction
                                                        : first.ray.direction;
-    life->screen = vec3_add(life->eye, ahead);
+    ray_log->screen = vec3_add(ray_log->eye, ahead);
     RenderScratch *scratch = scratch_new();
     if (!scratch) {
         return false;
     }
     RayStack *stack = &scratch->rays;
     RenderStatistics unused = {0};
-    int parents[RAY_STACK_MAX] = {LIFE_NONE};
-    LifeKind kinds[RAY_STACK_MAX] = {LIFE_CAMERA};
+    int parents[RAY_STACK_MAX] = {LOGGED_NONE};
+    LoggedKind kinds[RAY_STACK_MAX] = {LOGGED_CAMERA};
     shade_path_begin(prepared, FEATURES, &first, stack);
     while (stack->count > 0 && !follower.failed) {
         ShadeStep step;
         int place = stack->count - 1;
         int parent = parents[place];
-        LifeKind kind = kinds[place];
+        LoggedKind kind = kinds[place];
         shade_step_all(prepared, stack, NULL, &unused, &step);
         if (step.ray.closes) {
             continue;
         }
-        int number = (int)life->rays.count;
+        int number = (int)ray_log->rays.count;
         follow_step(&follower, &step, parent, kind);
         for (int i = place; i < stack->count; i++) {
             parents[i] = number;
             kinds[i] = child_kind(&step, &stack->rays[i]);
         }
     }
-    life->colour = stack->sums[0];
+    ray_log->colour = stack->sums[0];
     scratch_free(scratch);
     return !follower.failed;
 }
 
-void life_fini(Life *life)
+void ray_log_fini(RayLog *ray_log)
 {
-    ARRAY_FREE(&life->rays);
-    ARRAY_FREE(&life->spheres);
-    ARRAY_FREE(&life->layers);
-    ARRAY_FREE(&life->lights);
+    ARRAY_FREE(&ray_log->rays);
+    ARRAY_FREE(&ray_log->spheres);
+    ARRAY_FREE(&ray_log->layers);
+    ARRAY_FREE(&ray_log->lights);
 }

@@ -4,8 +4,8 @@
 // is fixed. Everything is always-inline and takes the kernel's features as a constant.
 //
 // SPDX-License-Identifier: MIT
-#ifndef RENDER_SHADE_ONWARD_H
-#define RENDER_SHADE_ONWARD_H
+#ifndef RENDER_SHADE_SCATTER_H
+#define RENDER_SHADE_SCATTER_H
 
 #include "base/limits.h"
 #include "math/extreme.h"
@@ -65,7 +65,7 @@ RT_ALWAYS_INLINE void ray_stack_pop(unsigned features, RayStack *stack, StackedR
 }
 
 // What a surface sends on, all its layers together.
-typedef struct ShadeOnward {
+typedef struct ScatterRecord {
     Rgb through;     // what a ray that goes through is multiplied with
     Rgb reflectance; // the same for the mirrored ray
     double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
@@ -73,7 +73,7 @@ typedef struct ShadeOnward {
     double reflection_exponent;
     double part; // where there are bumps: of the textures of a map, those whose light goes through this way
     bool conserves_energy;
-} ShadeOnward;
+} ScatterRecord;
 
 RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
 {
@@ -83,7 +83,7 @@ RT_ALWAYS_INLINE Rgb shade_rgb_power(Rgb light, double exponent)
 
 // Where a mirror sends the ray. With bumps that may be into the surface: such a ray is mirrored once more, at the
 // surface as it is; or, when the normal is turned away from the viewer, mirrored there only. Measured.
-RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadePoint *at)
+RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadingPoint *at)
 {
     Vec3 mirrored = vec3_reflect(at->direction, at->normal);
     Vec3 facing = at->inside ? vec3_neg(at->outward) : at->outward;
@@ -101,23 +101,23 @@ RT_ALWAYS_INLINE bool shade_is_followed(const Prepared *p, int level, double wei
 }
 
 // The mirrored ray, if it is followed. The angle does not enter its weight.
-RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                    const ShadePoint *at, const StackedRay *from, RayStack *stack)
+RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const ScatterRecord *scatter,
+                                    const ShadingPoint *at, const StackedRay *from, RayStack *stack)
 {
-    double weight = from->weight * onward->reflection_weight;
+    double weight = from->weight * scatter->reflection_weight;
     if (!shade_is_followed(p, from->level, weight)) {
         return;
     }
     StackedRay ray = {
         .ray = {at->point, shade_mirrored(features, at)},
         .start = {at->shape, at->inside, HIDDEN_MIRROR},
-        .share = rgb_mul(from->share, onward->reflectance),
+        .share = rgb_mul(from->share, scatter->reflectance),
         .weight = weight,
         .level = from->level + 1,
         .inside = at->before,
     };
-    if ((features & RENDER_EXPONENT) && onward->reflection_exponent != 1.0) {
-        StackedRay end = {.share = ray.share, .exponent = 1.0 / onward->reflection_exponent, .closes = true};
+    if ((features & RENDER_EXPONENT) && scatter->reflection_exponent != 1.0) {
+        StackedRay end = {.share = ray.share, .exponent = 1.0 / scatter->reflection_exponent, .closes = true};
         ray_stack_push(features, stack, &end);
         ray.opens = true;
         ray.share = rgb_grey(1.0);
@@ -126,29 +126,30 @@ RT_ALWAYS_INLINE void shade_reflect(const Prepared *p, unsigned features, const 
 }
 
 // What light that goes straight on is multiplied with, and the weight of its ray; false when that is not followed.
-RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ShadeOnward *onward, double from_weight, int level,
+RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ScatterRecord *scatter, double from_weight, int level,
                                     uint64_t passed, Rgb *through, double *weight)
 {
-    *through = onward->through;
-    *weight = from_weight * (onward->through_weight > 0.0 ? onward->through_weight : rgb_max_abs(*through));
-    if (onward->conserves_energy) {
-        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, onward->reflectance);
+    *through = scatter->through;
+    *weight = from_weight * (scatter->through_weight > 0.0 ? scatter->through_weight : rgb_max_abs(*through));
+    if (scatter->conserves_energy) {
+        Rgb left = rgb_add_scaled(rgb_grey(1.0), -1.0, scatter->reflectance);
         *through = rgb_mul(*through, left);
         *weight *= rgb_max(left);
     }
     return !(level >= p->max_trace_level || *weight < p->adc_bailout || passed >= p->crossings_max ||
              prepared_is_abandoned(p) ||
-             (onward->through_weight == 0.0 && fabs(rgb_luminance(*through)) < p->adc_bailout));
+             (scatter->through_weight == 0.0 && fabs(rgb_luminance(*through)) < p->adc_bailout));
 }
 
 // The ray that goes straight on, whose share may be below 0. It stays on its level; what bounds it is that a line meets
 // only so many surfaces.
-RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                     const ShadePoint *at, const StackedRay *from, MediumStack behind, RayStack *stack)
+RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, unsigned features, const ScatterRecord *scatter,
+                                     const ShadingPoint *at, const StackedRay *from, MediumStack behind,
+                                     RayStack *stack)
 {
     Rgb through;
     double weight;
-    if (!shade_goes_on(p, onward, from->weight, from->level, from->passed, &through, &weight)) {
+    if (!shade_goes_on(p, scatter, from->weight, from->level, from->passed, &through, &weight)) {
         return;
     }
     StackedRay ray = {
@@ -166,7 +167,7 @@ RT_ALWAYS_INLINE void shade_transmit(const Prepared *p, unsigned features, const
 // Where a surface is between two interiors: how the index of refraction changes; returns what the ray is inside of behind
 // it. A ray leaves the body that it has entered, and enters any other, from whichever side it comes to a surface: one
 // that is open or flat, too. Measured.
-RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, ShadePoint *at)
+RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, ShadingPoint *at)
 {
     uint64_t body = scene_body_key(p->scene, at->order, at->body);
     MediumStack behind = at->before;
@@ -186,8 +187,8 @@ RT_ALWAYS_INLINE MediumStack shade_cross(const Prepared *p, unsigned features, S
 // The ray that is bent at the surface, or mirrored when none of it gets through; true in the second case. It goes to
 // the next level. There is none when it is too deep or worth too little, and then no other mirrored ray either.
 // Measured.
-RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ShadeOnward *onward, Rgb fade,
-                                 const ShadePoint *at, const StackedRay *from, MediumStack behind, RayStack *stack)
+RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const ScatterRecord *scatter, Rgb fade,
+                                 const ShadingPoint *at, const StackedRay *from, MediumStack behind, RayStack *stack)
 {
     Vec3 direction, normal = at->normal;
     if ((features & RENDER_NORMALS) && vec3_dot(normal, at->direction) > 0.0) {
@@ -195,14 +196,14 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sha
     }
     bool is_bent = inside_bend(at->direction, normal, at->ior_ratio, &direction);
     int place = stack->count;
-    shade_transmit(p, features, onward, at, from, is_bent ? behind : at->before, stack);
+    shade_transmit(p, features, scatter, at, from, is_bent ? behind : at->before, stack);
     if (stack->count == place) {
         return !is_bent;
     }
     StackedRay *ray = &stack->rays[place];
     if (!is_bent) {
         // Its weight is that of one that gets through, its light is not. Measured.
-        double part = features & RENDER_NORMALS ? onward->part : 1.0;
+        double part = features & RENDER_NORMALS ? scatter->part : 1.0;
         ray->share = rgb_mul(from->share, rgb_scale(part, fade));
         direction = shade_mirrored(features, at);
     }
@@ -217,23 +218,23 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sha
 }
 
 // What goes through; true when all of it is mirrored instead.
-RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                       const ShadePoint *at, const StackedRay *from, MediumStack behind,
+RT_ALWAYS_INLINE bool shade_go_through(const Prepared *p, unsigned features, const ScatterRecord *scatter,
+                                       const ShadingPoint *at, const StackedRay *from, MediumStack behind,
                                        RayStack *stack)
 {
-    ShadeOnward faded = *onward;
+    ScatterRecord faded = *scatter;
     Rgb fade = rgb_grey(1.0);
     if ((features & RENDER_INTERIORS) && at->leaves) {
         // Only what comes out of it or is mirrored for want of a way out; not what the surface's finish gives off or
         // mirrors. Measured.
         fade = shade_faded(p, at->interior, at->way);
-        faded.through = rgb_mul(onward->through, fade);
-        onward = &faded;
+        faded.through = rgb_mul(scatter->through, fade);
+        scatter = &faded;
     }
     if ((features & RENDER_INTERIORS) && at->ior_ratio != 1.0) {
-        return shade_bend(p, features, onward, fade, at, from, behind, stack);
+        return shade_bend(p, features, scatter, fade, at, from, behind, stack);
     }
-    shade_transmit(p, features, onward, at, from, behind, stack);
+    shade_transmit(p, features, scatter, at, from, behind, stack);
     return false;
 }
 
@@ -248,25 +249,25 @@ RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, int level, Rgb share, Re
 
 // The rays that go on from a hit; the reflected one will be traced first. `behind` is what the ray is inside of behind
 // the surface, where there are interiors.
-RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ShadeOnward *onward,
-                                  const ShadePoint *at, const StackedRay *from, MediumStack behind, RayStack *stack,
+RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ScatterRecord *scatter,
+                                  const ShadingPoint *at, const StackedRay *from, MediumStack behind, RayStack *stack,
                                   RenderStatistics *statistics)
 {
     int place = stack->count;
     bool is_total = false;
-    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(onward->through)) {
-        is_total = shade_go_through(p, features, onward, at, from, behind, stack);
+    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(scatter->through)) {
+        is_total = shade_go_through(p, features, scatter, at, from, behind, stack);
         statistics->transmitted_rays += (uint64_t)(stack->count - place);
         if (stack->count == place) {
-            shade_note_cut(p, from->level, rgb_mul(from->share, onward->through), statistics);
+            shade_note_cut(p, from->level, rgb_mul(from->share, scatter->through), statistics);
         }
     }
     place = stack->count;
-    if ((features & RENDER_REFLECTION) && onward->reflection_weight != 0.0 && !is_total) {
-        shade_reflect(p, features, onward, at, from, stack);
+    if ((features & RENDER_REFLECTION) && scatter->reflection_weight != 0.0 && !is_total) {
+        shade_reflect(p, features, scatter, at, from, stack);
         statistics->reflected_rays += stack->count > place;
         if (stack->count == place) {
-            shade_note_cut(p, from->level, rgb_mul(from->share, onward->reflectance), statistics);
+            shade_note_cut(p, from->level, rgb_mul(from->share, scatter->reflectance), statistics);
         }
     }
 }
