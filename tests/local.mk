@@ -200,19 +200,22 @@ tests_lang_typos_LDADD = $(tests_lang_run_lang_LDADD)
 
 check_PROGRAMS += tests/unit/count_sphere_tests
 tests_unit_count_sphere_tests_SOURCES = %D%/unit/count_sphere_tests.c
+tests_unit_count_sphere_tests_CFLAGS = $(numeric_cflags)
 tests_unit_count_sphere_tests_LDADD = $(UNIT_TRACE)
 # The same of the vector loop, in vectors of two and of four.
 count_block_programs = tests/unit/count_sphere_blocks
 tests_unit_count_sphere_blocks_SOURCES = %D%/unit/count_sphere_blocks.c
+tests_unit_count_sphere_blocks_CFLAGS = $(numeric_cflags)
 tests_unit_count_sphere_blocks_LDADD = $(UNIT_TRACE)
 if X86_64
 count_block_programs += tests/unit/count_sphere_blocks_v3
 tests_unit_count_sphere_blocks_v3_SOURCES = %D%/unit/count_sphere_blocks.c
-tests_unit_count_sphere_blocks_v3_CFLAGS = $(AM_CFLAGS) -march=x86-64-v3
+tests_unit_count_sphere_blocks_v3_CFLAGS = $(numeric_cflags) -march=x86-64-v3
 tests_unit_count_sphere_blocks_v3_LDADD = $(UNIT_TRACE)
 endif
 check_PROGRAMS += $(count_block_programs) tests/unit/count_kernels
 tests_unit_count_kernels_SOURCES = %D%/unit/count_kernels.c
+tests_unit_count_kernels_CFLAGS = $(numeric_cflags)
 tests_unit_count_kernels_LDADD = librender.la $(UNIT_TRACE)
 check_PROGRAMS += tests/fuzz/fuzz_exponents
 check_PROGRAMS += tests/exact/test_exact

@@ -73,6 +73,7 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
     scatter->through = rgb_scale(sum.refraction, through.light);
     scatter->through_weight = sum.refraction * through.weight;
+    scatter->part = through.part;
     return sum.light;
 }
 

@@ -71,7 +71,7 @@ typedef struct ScatterRecord {
     double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
     double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
     double reflection_exponent;
-    double part; // where there are bumps: of the textures of a map, those whose light goes through this way
+    double part; // of the textures of a map, of those that let light through, this way where there are bumps
     bool conserves_energy;
 } ScatterRecord;
 
@@ -203,8 +203,7 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sca
     StackedRay *ray = &stack->rays[place];
     if (!is_bent) {
         // Its weight is that of one that gets through, its light is not. Measured.
-        double part = features & RENDER_NORMALS ? scatter->part : 1.0;
-        ray->share = rgb_mul(from->share, rgb_scale(part, fade));
+        ray->share = rgb_mul(from->share, rgb_scale(scatter->part, fade));
         direction = shade_mirrored(features, at);
     }
     // Bumps may bend a ray back to the side that it came from.

@@ -320,13 +320,14 @@ static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, d
         }
     }
     walk->through.light = rgb_add_scaled(walk->through.light, part, above);
+    walk->through.part += part;
     walk->through.weight = greater_of(walk->through.weight, rgb_max_abs(above));
 }
 
 TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
                             void *client)
 {
-    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0}};
+    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0, 0.0}};
     TexturePlace place = {vec3_scale(table->scale, point), RECORD_NONE, NULL};
     walk_layers(&walk, texture, &place, 1.0, rgb_grey(1.0));
     return walk.through;

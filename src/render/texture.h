@@ -92,9 +92,11 @@ typedef struct TextureLayer {
 // Returns the share of light, by colour, that goes on to what is below, beside what the pigment lets through.
 typedef Rgb (*TextureVisit)(void *client, const TextureLayer *layer);
 
-// What all layers let through, by colour, and the greatest component of what one texture of a map does.
+// What all layers let through, by colour, the parts of those textures of a map that let any through, and the greatest
+// component of what one of them does.
 typedef struct TextureThrough {
     Rgb light;
+    double part;
     double weight;
 } TextureThrough;
 
