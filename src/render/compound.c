@@ -25,9 +25,15 @@ typedef struct LayerSum {
     double weight; // of the ray
     ScatterRecord *scatter;
     RenderStatistics *statistics;
-    double refraction; // the least of the layers
     Rgb light;
 } LayerSum;
+
+// Of layers the top one's; a map of textures has none of its own, nor have those in it. Measured.
+static double refraction_of(const Prepared *p, const Compound *compound)
+{
+    const Texture *top = &p->scene->textures.items[compound->texture];
+    return top->pattern.type == PATTERN_NONE ? p->finishes[top->finish].refraction : 1.0;
+}
 
 // A mirror is seen undimmed through the layers above, unless the ray would be worth too little; measured.
 RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const TextureLayer *layer,
@@ -57,7 +63,6 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
     if (shade_mirror(FLAT_FEATURES, &material, sum->at, &reflectance)) {
         add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->scatter);
     }
-    sum->refraction = less_of(sum->refraction, material.finish->refraction);
     add_light(FLAT_FEATURES, sum, layer, sum->at, &material);
     return shade_left_below(FLAT_FEATURES, &material, sum->at);
 }
@@ -68,11 +73,11 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
     ShadeArrived arrived;
     ShadingPoint shared = for_layers(at, &arrived);
-    LayerSum sum = {p, &shared, weight, scatter, statistics, HUGE_VAL, rgb_grey(0.0)};
-    *scatter = (ScatterRecord){.reflection_exponent = 1.0, .part = 1.0};
+    LayerSum sum = {p, &shared, weight, scatter, statistics, rgb_grey(0.0)};
+    *scatter = (ScatterRecord){.reflection_exponent = 1.0, .refraction = refraction_of(p, compound)};
     TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
-    scatter->through = rgb_scale(sum.refraction, through.light);
-    scatter->through_weight = sum.refraction * through.weight;
+    scatter->through = through.light;
+    scatter->through_weight = through.weight;
     scatter->part = through.part;
     return sum.light;
 }
@@ -81,21 +86,23 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
 
 // The layers of one texture of a map, from its top to the last one so far.
 typedef struct Stack {
-    Vec3 normal;    // of the top
-    double part, refraction;
+    Vec3 normal; // of the top
+    double part;
     Rgb through; // what all of them let through
 } Stack;
 
 typedef struct BumpSum {
-    LayerSum sum; // `onward` and `refraction` are not used
+    LayerSum sum; // `scatter` is not used
     ShadeWays *ways;
+    double refraction;
     Stack stack;
     bool has_stack;
 } BumpSum;
 
 // The way on for a normal; there is room for as many as the evaluator lets a texture have.
-static ScatterRecord *way_for(ShadeWays *ways, Vec3 normal)
+static ScatterRecord *way_for(BumpSum *bumps, Vec3 normal)
 {
+    ShadeWays *ways = bumps->ways;
     int i = 0;
     while (i < ways->count && (ways->normals[i].x != normal.x || ways->normals[i].y != normal.y ||
                                ways->normals[i].z != normal.z)) {
@@ -103,7 +110,7 @@ static ScatterRecord *way_for(ShadeWays *ways, Vec3 normal)
     }
     if (i == ways->count && ways->count < SHADE_WAYS_MAX) {
         ways->normals[i] = normal;
-        ways->scatter[i] = (ScatterRecord){.reflection_exponent = 1.0};
+        ways->scatter[i] = (ScatterRecord){.reflection_exponent = 1.0, .refraction = bumps->refraction};
         ways->count++;
     }
     return &ways->scatter[i < SHADE_WAYS_MAX ? i : SHADE_WAYS_MAX - 1];
@@ -118,9 +125,9 @@ static void end_stack(BumpSum *bumps)
     if (!bumps->has_stack || rgb_is_black(through) || fabs(rgb_luminance(through)) < sum->p->adc_bailout) {
         return;
     }
-    ScatterRecord *way = way_for(bumps->ways, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
-    way->through = rgb_add_scaled(way->through, stack->refraction * stack->part, through);
-    way->through_weight = greater_of(way->through_weight, stack->refraction * rgb_max_abs(through));
+    ScatterRecord *way = way_for(bumps, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
+    way->through = rgb_add_scaled(way->through, stack->part, through);
+    way->through_weight = greater_of(way->through_weight, rgb_max_abs(through));
     way->part += stack->part;
 }
 
@@ -128,7 +135,7 @@ static void begin_stack(BumpSum *bumps, const TextureLayer *layer, Vec3 normal)
 {
     end_stack(bumps);
     bumps->has_stack = true;
-    bumps->stack = (Stack){.normal = normal, .part = layer->part, .refraction = HUGE_VAL};
+    bumps->stack = (Stack){.normal = normal, .part = layer->part};
 }
 
 static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
@@ -146,9 +153,8 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
     Rgb reflectance, left = shade_left_below(ALL_FEATURES, &material, &at);
     if (shade_mirror(ALL_FEATURES, &material, &at, &reflectance)) {
-        add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, way_for(bumps->ways, at.normal));
+        add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, way_for(bumps, at.normal));
     }
-    stack->refraction = less_of(stack->refraction, material.finish->refraction);
     stack->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
     add_light(ALL_FEATURES, sum, layer, &at, &material);
     return left;
@@ -159,12 +165,16 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
     ShadeArrived arrived;
     ShadingPoint shared = for_layers(at, &arrived);
-    BumpSum bumps = {.sum = {p, &shared, weight, NULL, statistics, HUGE_VAL, rgb_grey(0.0)}, .ways = ways};
+    BumpSum bumps = {
+        .sum = {p, &shared, weight, NULL, statistics, rgb_grey(0.0)},
+        .ways = ways,
+        .refraction = refraction_of(p, compound),
+    };
     ways->count = 0;
     texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_bumpy_layer, &bumps);
     end_stack(&bumps);
     if (ways->count == 0) {
-        way_for(ways, at->normal);
+        way_for(&bumps, at->normal);
     }
     return bumps.sum.light;
 }

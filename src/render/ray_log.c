@@ -343,7 +343,7 @@ static void follow_hit(Follower *follower, const ShadeStep *step, LoggedRay *ray
     ray->point = in_scene(follower, at->point);
     ray->normal = at->normal;
     ray->ior_ratio = at->ior_ratio;
-    ray->through = step->scatter.through;
+    ray->through = shade_sent_through(&step->scatter);
     ray->reflectance = step->scatter.reflectance;
     name_shape(follower, at, &now->ray, ray);
     follow_surface(follower, at);

@@ -134,8 +134,8 @@ RT_ALWAYS_INLINE void shade_set_clear(const Prepared *p, unsigned features, cons
     }
     Rgb through = rgb_mul(shade_left_below(features, material, at), texture_pigment_through(layer->pigment));
     if (!rgb_is_black(through) && !(fabs(rgb_luminance(through)) < p->adc_bailout)) {
-        scatter->through = rgb_scale(finish->refraction, through);
-        scatter->through_weight = finish->refraction * rgb_max_abs(through);
+        scatter->through = through;
+        scatter->through_weight = rgb_max_abs(through);
     }
 }
 
@@ -145,13 +145,18 @@ RT_ALWAYS_INLINE Rgb shade_plain(const Prepared *p, unsigned features, const Sha
 {
     ShadeMaterial material = shade_material(p, features, layer->pigment, layer->finish);
     *scatter = (ScatterRecord){
-        .through = rgb_grey(0.0), .reflectance = rgb_grey(0.0), .reflection_exponent = 1.0, .part = 1.0};
+        .through = rgb_grey(0.0),
+        .reflectance = rgb_grey(0.0),
+        .reflection_exponent = 1.0,
+        .part = 1.0,
+        .refraction = material.finish->refraction,
+    };
     if ((features & RENDER_TEXTURES) && layer->is_clear) {
         shade_set_clear(p, features, &material, layer, at, weight, scatter);
     } else {
         shade_set_mirror(features, &material, at, scatter);
         if (features & RENDER_TRANSPARENCY) {
-            scatter->through = rgb_scale(material.finish->refraction, texture_pigment_through(layer->pigment));
+            scatter->through = texture_pigment_through(layer->pigment);
             scatter->conserves_energy = material.finish->conserves_energy;
         }
     }

@@ -66,12 +66,13 @@ RT_ALWAYS_INLINE void ray_stack_pop(unsigned features, RayStack *stack, StackedR
 
 // What a surface sends on, all its layers together.
 typedef struct ScatterRecord {
-    Rgb through;     // what a ray that goes through is multiplied with
+    Rgb through;     // what a ray that goes through is multiplied with, beside `refraction`
     Rgb reflectance; // the same for the mirrored ray
     double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
     double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
     double reflection_exponent;
     double part; // of the textures of a map, of those that let light through, this way where there are bumps
+    double refraction; // what light that goes through is multiplied with, too, but not the ray's weight; measured
     bool conserves_energy;
 } ScatterRecord;
 
@@ -136,9 +137,17 @@ RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ScatterRecord *scat
         *through = rgb_mul(*through, left);
         *weight *= rgb_max(left);
     }
-    return !(level >= p->max_trace_level || *weight < p->adc_bailout || passed >= p->crossings_max ||
-             prepared_is_abandoned(p) ||
-             (scatter->through_weight == 0.0 && fabs(rgb_luminance(*through)) < p->adc_bailout));
+    bool goes_on = !(level >= p->max_trace_level || *weight < p->adc_bailout || passed >= p->crossings_max ||
+                     prepared_is_abandoned(p) ||
+                     (scatter->through_weight == 0.0 && fabs(rgb_luminance(*through)) < p->adc_bailout));
+    *through = rgb_scale(scatter->refraction, *through);
+    return goes_on;
+}
+
+// Light that a surface sends through, 0 where its finish lets none go on.
+RT_ALWAYS_INLINE Rgb shade_sent_through(const ScatterRecord *scatter)
+{
+    return rgb_scale(scatter->refraction, scatter->through);
 }
 
 // The ray that goes straight on, whose share may be below 0. It stays on its level; what bounds it is that a line meets
@@ -203,7 +212,7 @@ RT_ALWAYS_INLINE bool shade_bend(const Prepared *p, unsigned features, const Sca
     StackedRay *ray = &stack->rays[place];
     if (!is_bent) {
         // Its weight is that of one that gets through, its light is not. Measured.
-        ray->share = rgb_mul(from->share, rgb_scale(scatter->part, fade));
+        ray->share = rgb_mul(from->share, rgb_scale(scatter->part * scatter->refraction, fade));
         direction = shade_mirrored(features, at);
     }
     // Bumps may bend a ray back to the side that it came from.
@@ -254,11 +263,11 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Sc
 {
     int place = stack->count;
     bool is_total = false;
-    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(scatter->through)) {
+    if ((features & RENDER_TRANSPARENCY) && !rgb_is_black(shade_sent_through(scatter))) {
         is_total = shade_go_through(p, features, scatter, at, from, behind, stack);
         statistics->transmitted_rays += (uint64_t)(stack->count - place);
         if (stack->count == place) {
-            shade_note_cut(p, from->level, rgb_mul(from->share, scatter->through), statistics);
+            shade_note_cut(p, from->level, rgb_mul(from->share, shade_sent_through(scatter)), statistics);
         }
     }
     place = stack->count;

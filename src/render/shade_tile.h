@@ -97,7 +97,7 @@ RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, Lig
         if (features & RENDER_TRANSPARENCY) {
             opaque = rgb_scale(texture_pigment_opaque(p->is_old, layer.pigment), pigment);
             lane_set(tile->opaque, (unsigned)i, vec3(opaque.red, opaque.green, opaque.blue));
-            through[i] = rgb_scale(finish->refraction, texture_pigment_through(layer.pigment));
+            through[i] = texture_pigment_through(layer.pigment);
         }
         Rgb glow = rgb_mul(opaque, finish->glow);
         tile->takes_light |= (uint64_t)shade_takes_light(finish, opaque) << i;
@@ -417,6 +417,7 @@ RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(unsigned features, const Lig
                              .reflectance = rgb_grey(0.0),
                              .reflection_exponent = 1.0,
                              .part = 1.0,
+                             .refraction = tile->finish[i]->refraction,
                              .conserves_energy = tile->finish[i]->conserves_energy};
     if ((features & RENDER_REFLECTION) && tile->finish[i]->reflects) {
         Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
@@ -435,12 +436,12 @@ RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile
     const TileSurfaces *surfaces = &tile->surfaces;
     unsigned ray = surfaces->ray[i];
     Rgb share;
-    if (rgb_is_black(scatter->through)) {
+    if (rgb_is_black(shade_sent_through(scatter))) {
         return false;
     }
     if (!shade_goes_on(p, scatter, paths->weight[ray], clear->level[ray], clear->passed[ray], &share,
                        &through->weight)) {
-        shade_note_cut(p, clear->level[ray], rgb_mul(paths->share[ray], scatter->through), statistics);
+        shade_note_cut(p, clear->level[ray], rgb_mul(paths->share[ray], shade_sent_through(scatter)), statistics);
         return false;
     }
     through->ray = (Ray){tile_surface_point(surfaces, i), lane_get(surfaces->direction, (unsigned)i)};

@@ -287,11 +287,12 @@ static void real_reflect(RealLevel *now, RealRgb light)
 // case, which leaves no mirrored ray.
 static bool real_secondary(const RealScene *s, const RealJunction *j, RealWay *way, MediumStack *inside, bool *is_total)
 {
-    RealRgb through = real_rgb_scale((Real)j->finish->refraction, real_pigment_through(j->pigment));
+    RealRgb through = real_pigment_through(j->pigment);
+    Real refraction = (Real)j->finish->refraction;
     RealRgb fade = j->leaves ? real_faded(s, j->at.material, j->at.t, false) : real_grey(1);
     RealVec direction = way->ray.d;
     *is_total = false;
-    if (real_rgb_is_black(through)) {
+    if (refraction == 0 || real_rgb_is_black(through)) {
         return false;
     }
     bool has_bend = j->ior_ratio != 1;
@@ -312,10 +313,10 @@ static bool real_secondary(const RealScene *s, const RealJunction *j, RealWay *w
     }
     way->weight = weight;
     if (*is_total) {
-        way->share = real_rgb_mul(way->share, fade);
+        way->share = real_rgb_mul(way->share, real_rgb_scale(refraction, fade));
         direction = real_mirrored(way->ray.d, j->normal);
     } else {
-        way->share = real_rgb_mul(way->share, real_rgb_mul(through, fade));
+        way->share = real_rgb_mul(way->share, real_rgb_mul(real_rgb_scale(refraction, through), fade));
         *inside = j->behind;
     }
     way->ray = (RealRay){j->at.point, direction};
