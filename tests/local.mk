@@ -187,6 +187,11 @@ tests_sampling_test_share_LDADD = libapi.la
 tests_sampling_test_intervals_SOURCES = %D%/sampling/test_intervals.c %D%/sampling/grid.h %D%/sampling/scenes.h \
   $(unit_headers)
 tests_sampling_test_intervals_LDADD = libapi.la
+# A run may do without strata: the call that makes them is taken.
+EXTRA_PROGRAMS += tests/sampling/measure
+tests_sampling_measure_SOURCES = %D%/sampling/measure.c %D%/sampling/grid.h %D%/sampling/scenes.h
+tests_sampling_measure_LDADD = libapi.la
+tests_sampling_measure_LDFLAGS = -Wl,--wrap=share_new
 tests_sampling_test_small_SOURCES = %D%/sampling/test_small.c %D%/sampling/scenes.h $(unit_headers)
 tests_sampling_test_small_LDADD = libapi.la
 tests_sampling_test_forward_SOURCES = %D%/sampling/test_forward.c %D%/sampling/scenes.h

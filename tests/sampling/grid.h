@@ -11,7 +11,7 @@
 
 // Rays along a side of a pixel, multiples of 3; they are doubled where these are too few. A filter reaches into the
 // pixels around, so a picture is seen with a border, of a quarter of its sides, in which the ratio of these stays.
-enum { GRID_LEAST = 48, GRID_MOST = 1536, GRID_REACH = 1, GRID_TEXT = 4096 };
+enum { GRID_LEAST = 48, GRID_MOST = 1536, GRID_REACH = 1, GRID_TEXT = 4096, SIDE_MOST = 65535 };
 
 typedef struct Grid {
     rt_session *session;
@@ -189,7 +189,8 @@ static void grid_trace(Grid *grid, double most)
             grid_render(grid, grid->left - reach, grid->width - grid->left + reach, y, GRID_LEAST);
         }
     }
-    for (int side = 2 * GRID_LEAST; side <= GRID_MOST && grid_error(grid) > most; side *= 2) {
+    for (int side = 2 * GRID_LEAST; side <= GRID_MOST && side * grid->width <= SIDE_MOST && grid_error(grid) > most;
+         side *= 2) {
         for (int y = 0; y < grid->height; y++) {
             for (int x = 0; x < grid->width; x++) {
                 bool is_off = grid->errors[(size_t)y * (size_t)grid->width + (size_t)x] > most * most;

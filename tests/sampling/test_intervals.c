@@ -288,8 +288,9 @@ static void hard_judge(const SamplingScene *scene, const Setting *setting, const
     enum { RUNS = 40 };
     Picture *reference = reference_make(scene, filter);
     Count count = count_held(scene, setting, filter, RUNS, reference);
-    tap_ok(count.held >= least_held(RUNS), "%s, %.0f samples%s, %s: the interval holds the error in %d of %d runs", scene->name,
-           setting->samples, setting->is_adaptive ? ", adaptive" : "", filter ? filter : "box", count.held, RUNS);
+    tap_ok(count.held >= least_held(RUNS), "%s, %.0f samples%s, %s: the interval holds the error in %d of %d runs",
+           scene->name, setting->samples, setting->is_adaptive ? ", adaptive" : "", filter ? filter : "box", count.held,
+           RUNS);
     picture_free(reference);
 }
 
@@ -442,8 +443,9 @@ static void judge_quickly(void)
     hard_judge(&scene_glints, &settings[5], NULL);
     test_chosen();
     test_grid();
-    tap_ok(known.held >= least_held(known.runs), "known scenes: the 95 %% interval holds the true error in %.1f %% of %d runs",
-           count_share(&known), known.runs);
+    tap_ok(known.held >= least_held(known.runs),
+           "known scenes: the 95 %% interval holds the true error in %.1f %% of %d runs", count_share(&known),
+           known.runs);
     tap_ok(drawn.held >= least_held(drawn.runs), "drawn scenes: the same in %.1f %% of %d runs", count_share(&drawn),
            drawn.runs);
 }
