@@ -110,7 +110,7 @@ static bool plane_point(const Ends *ends, const Shiny *shiny, Vec3 *point, Vec3 
 
 bool spot_has_light(const PreparedLight *light)
 {
-    return !light->shadowless && light->area.size1 == 0;
+    return !light->shadowless;
 }
 
 bool spot_is_lit(const Prepared *p, const PreparedLight *light, ShapeId shape, const Vec3 *plane, Vec3 point,
@@ -120,7 +120,7 @@ bool spot_is_lit(const Prepared *p, const PreparedLight *light, ShapeId shape, c
     Vec3 towards = spot_to_light(light, point, &distance), offset = vec3_sub(light->position, point);
     double along = light->parallel ? vec3_dot(offset, towards) : distance;
     return vec3_dot(towards, normal) > 0.0 && light_strength(light, offset, along) > 0.0 &&
-           ((p->features & RENDER_TRANSPARENCY) || !(along > 0.0) ||
+           ((p->features & RENDER_TRANSPARENCY) || light->area.size1 > 0 || !(along > 0.0) ||
             !extent_is_dark(p->geometry, shape, plane, (Ray){point, towards}, along));
 }
 

@@ -120,6 +120,15 @@ __attribute__((unused)) static const SamplingScene scene_glints = {
     "sphere { 0, 2 pigment { rgb 0.3 } finish { phong 3 phong_size 4000 } normal { bumps 0.3 scale 0.2 } }\n"
     "plane { y, -2 pigment { rgb 0.6 } }\n"};
 
+// An area light's highlights are those of its middle, one of them half in a pixel that its corners pass by.
+__attribute__((unused)) static const SamplingScene scene_area_glints = {
+    "mirrors under an area light", SCENE_HEAD
+    "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 } background { rgb <0.2,0.3,0.5> }\n"
+    "light_source { <-5,7,-6> rgb 1 area_light <3,0,0>, <0,0,3>, 5, 7 jitter }\n"
+    "#declare S = seed(2227); #macro R() rand(S) #end\n"
+    "#for (I, 1, 9) sphere { <R()*7-3.5, R()*5-2.5, R()*6-3>, 0.3+0.6*R() pigment { rgb R() }\n"
+    "finish { reflection 0.6 phong 2 phong_size 300 } } #end\n"};
+
 __attribute__((unused)) static const SamplingScene scene_lens_balls = {
     "lens before balls", SCENE_HEAD
     "camera { location <0,2,-9> look_at 0 right x*image_width/image_height angle 50 aperture 0.4 blur_samples 50\n"

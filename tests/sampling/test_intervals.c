@@ -441,6 +441,7 @@ static void judge_quickly(void)
     hard_judge(&scene_lamp, &settings[3], NULL);
     hard_judge(&scene_lamp, &settings[6], NULL); // shares that are off by 1e-4 of a pixel are half of this error
     hard_judge(&scene_glints, &settings[5], NULL);
+    hard_judge(&scene_area_glints, &settings[4], NULL);
     test_chosen();
     test_grid();
     tap_ok(known.held >= least_held(known.runs),
