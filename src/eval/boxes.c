@@ -3,8 +3,7 @@
 // A sphere of a negative radius has its box inside out, until a transform turns the corners of that box. No ray meets
 // it, and nothing is in it. What cuts it with others does not look at its box, but a union or merge that is one object
 // is seen in the box of its members, as they were when its block ended. And a ray starts inside of an object only where
-// it starts in the object's box. No ray looks
-// at boxes in a scene of few objects. Knows nothing of how shapes are placed.
+// it starts in the object's box. No ray looks at boxes in a scene of few objects. Knows nothing of how shapes are placed.
 //
 // SPDX-License-Identifier: MIT
 #include "eval/blocks.h"
@@ -63,12 +62,10 @@ static bool scaled_box(const Eval *ev, const BoxOwner *owner, StartShape *start)
     if (!ev->options.world) {
         return extent_box(owner, &start->low, &start->high);
     }
-    Transform world = world_transform(ev), inverse;
-    BoxOwner written = *owner;
-    if (!transform_invert(&world, &inverse)) {
-        inverse = transform_identity();
-    }
-    written.outer = transform_compose(owner->outer, inverse);
+    double smaller = 1.0 / ev->options.world->scale;
+    Transform world = world_transform(ev), back = transform_translate(vec3_neg(ev->options.world->shift));
+    back = transform_compose(back, transform_scale(vec3(smaller, smaller, smaller)));
+    BoxOwner written = {owner->kind, owner->object, transform_compose(owner->outer, back)};
     bool is_endless = extent_box(&written, &start->low, &start->high);
     start->low = transform_point(&world, start->low);
     start->high = transform_point(&world, start->high);

@@ -174,21 +174,21 @@ static void surfaces_try(const Geometry *g, unsigned features, const SphereTile 
 {
     MaterialIndex material[TILE_RAYS];
     geometry_tile_surfaces(g, features, tile, hits, hits->met, surfaces, material);
-    SecondaryRays onward = {.count = 0};
+    SecondaryRays secondary = {.count = 0};
     for (int i = 0; i < surfaces->count; i++) {
         SphereRay own = sphere_tile_ray(tile, surfaces->ray[i]);
         found->surfaces += surface_differs(g, (Ray){own.origin, own.direction}, hits, surfaces, material, i);
         Vec3 direction = random_direction(random);
-        secondary_ray_add(&onward, tile_surface_point(surfaces, i), direction, surfaces->shape[i],
+        secondary_ray_add(&secondary, tile_surface_point(surfaces, i), direction, surfaces->shape[i],
                           vec3_dot(tile_surface_outward(surfaces, i), direction) < 0.0);
     }
     TileHits beyond;
     TileSurfaces there;
-    geometry_closest_secondary(g, features, &onward, &beyond);
+    geometry_closest_secondary(g, features, &secondary, &beyond);
     if (beyond.met) {
-        geometry_secondary_surfaces(g, features, &onward, &beyond, &there, material);
+        geometry_secondary_surfaces(g, features, &secondary, &beyond, &there, material);
         for (int i = 0; i < there.count; i++) {
-            found->surfaces += surface_differs(g, secondary_ray(&onward, there.ray[i]), &beyond, &there, material, i);
+            found->surfaces += surface_differs(g, secondary_ray(&secondary, there.ray[i]), &beyond, &there, material, i);
         }
     }
 }

@@ -374,15 +374,15 @@ static void test_bounds(void)
         const Solid *solid = &geometry->shapes.solids[0];
         for (int k = 0; k < 20; k++) {
             Ray ray = random_ray(&random, size), object = solid_ray(solid, &ray);
-            RayInterval chord = INTERVAL_ALL;
+            RayInterval interval = INTERVAL_ALL;
             double t = 0.0;
             if (solid_is_flat(solid) ? !solid_flat_root(solid, &object, &t)
-                                     : !solid_interval(solid, &object, SIDE_NONE, &chord)) {
+                                     : !solid_interval(solid, &object, SIDE_NONE, &interval)) {
                 continue;
             }
             for (int end = 0; end < 2; end++) {
-                uint8_t side = end ? chord.leave_side : chord.enter_side;
-                t = solid_is_flat(solid) ? t : end ? chord.leave : chord.enter;
+                uint8_t side = end ? interval.leave_side : interval.enter_side;
+                t = solid_is_flat(solid) ? t : end ? interval.leave : interval.enter;
                 double span = vec3_sum_abs(ray.origin) + fabs(t) * vec3_sum_abs(ray.direction);
                 double error = solid_crossing_error(solid, &ray, &object, t, side);
                 double bound = solid_crossing_bound(solid, &ray, &object, t, side, span);
