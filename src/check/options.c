@@ -38,14 +38,12 @@ static bool parse_ratio(const char *text, double *value)
 
 static bool apply_width(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 65535";
-    return option_parse_integer(argument, 1, 65535, &options->width);
+    return option_take_integer(reading, argument, 1, 65535, &options->width);
 }
 
 static bool apply_height(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 65535";
-    return option_parse_integer(argument, 1, 65535, &options->height);
+    return option_take_integer(reading, argument, 1, 65535, &options->height);
 }
 
 static bool apply_clock(Options *options, const char *argument, OptionReading *reading)
@@ -57,8 +55,7 @@ static bool apply_clock(Options *options, const char *argument, OptionReading *r
 
 static bool apply_threads(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 512";
-    return option_parse_integer(argument, 1, 512, &options->threads);
+    return option_take_integer(reading, argument, 1, 512, &options->threads);
 }
 
 static bool apply_threshold(Options *options, const char *argument, OptionReading *reading)
@@ -110,26 +107,22 @@ static bool apply_stability(Options *options, const char *argument, OptionReadin
 
 static bool apply_cases(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 1000000000";
-    return option_parse_integer(argument, 1, 1000000000, &options->cases);
+    return option_take_integer(reading, argument, 1, 1000000000, &options->cases);
 }
 
 static bool apply_seed(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 0 to 1000000000";
-    return option_parse_integer(argument, 0, 1000000000, &options->seed);
+    return option_take_integer(reading, argument, 0, 1000000000, &options->seed);
 }
 
 static bool apply_doubts(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 1000";
-    return option_parse_integer(argument, 1, 1000, &options->doubts);
+    return option_take_integer(reading, argument, 1, 1000, &options->doubts);
 }
 
 static bool apply_elsewhere(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 100";
-    return option_parse_integer(argument, 1, ELSEWHERE_MOST, &options->elsewhere);
+    return option_take_integer(reading, argument, 1, ELSEWHERE_MOST, &options->elsewhere);
 }
 
 static bool apply_json(Options *options, const char *argument, OptionReading *reading)
@@ -157,8 +150,7 @@ static bool apply_color(Options *options, const char *argument, OptionReading *r
 
 static bool apply_most(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 64 to 65536";
-    return option_parse_integer(argument, 64, 65536, &options->most_samples);
+    return option_take_integer(reading, argument, 64, 65536, &options->most_samples);
 }
 
 static bool apply_race(Options *options, const char *argument, OptionReading *reading)
@@ -170,8 +162,7 @@ static bool apply_race(Options *options, const char *argument, OptionReading *re
 
 static bool apply_reference(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 64 to 1048576";
-    return option_parse_integer(argument, 64, 1048576, &options->reference);
+    return option_take_integer(reading, argument, 64, 1048576, &options->reference);
 }
 
 static bool apply_budget(Options *options, const char *argument, OptionReading *reading)

@@ -165,6 +165,13 @@ bool option_parse_integer(const char *text, long low, long high, int *value)
     return true;
 }
 
+bool option_take_integer(OptionReading *reading, const char *argument, int low, int high, int *value)
+{
+    snprintf(reading->range, sizeof reading->range, "a whole number from %d to %d", low, high);
+    reading->expected = reading->range;
+    return option_parse_integer(argument, low, high, value);
+}
+
 bool option_parse_number(const char *text, double *value)
 {
     char *end;

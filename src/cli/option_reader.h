@@ -13,12 +13,13 @@
 
 typedef struct Options Options;
 
-enum { COMPLAINT_SIZE = 512, ADVICE_SIZE = 128 };
+enum { COMPLAINT_SIZE = 512, ADVICE_SIZE = 128, RANGE_SIZE = 64 };
 
 // What is known of the option that is being read, and what is wrong with a command line.
 typedef struct OptionReading {
     bool is_letter;             // it was given by its letter
     const char *expected;       // of its argument; to be set by what takes it
+    char range[RANGE_SIZE];     // where that is a whole number of a range, its words
     const char *const *choices; // its argument is one of these, of which the last is NULL; NULL: it is none of a few
     char complaint[COMPLAINT_SIZE];
     char advice[ADVICE_SIZE]; // what may have been meant; empty: nothing near
@@ -62,6 +63,9 @@ void option_print_rows(const OptionTable *table, FILE *out);
 
 // A whole number of that range, and nothing else.
 bool option_parse_integer(const char *text, long low, long high, int *value);
+
+// The same of a whole argument; sets what is expected of it.
+bool option_take_integer(OptionReading *reading, const char *argument, int low, int high, int *value);
 
 // A finite number, and nothing else.
 bool option_parse_number(const char *text, double *value);

@@ -32,20 +32,17 @@ static bool apply_width(Options *options, const char *argument, OptionReading *r
     if (reading->is_letter && isalpha((unsigned char)argument[0])) {
         return apply_warnings(options, argument, reading);
     }
-    reading->expected = "a whole number from 1 to 65535";
-    return option_parse_integer(argument, 1, 65535, &options->width);
+    return option_take_integer(reading, argument, 1, 65535, &options->width);
 }
 
 static bool apply_height(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 65535";
-    return option_parse_integer(argument, 1, 65535, &options->height);
+    return option_take_integer(reading, argument, 1, 65535, &options->height);
 }
 
 static bool apply_threads(Options *options, const char *argument, OptionReading *reading)
 {
-    reading->expected = "a whole number from 1 to 1024";
-    return option_parse_integer(argument, 1, 1024, &options->threads);
+    return option_take_integer(reading, argument, 1, 1024, &options->threads);
 }
 
 static bool apply_isa(Options *options, const char *argument, OptionReading *reading)
