@@ -23,7 +23,7 @@ def compiles(header, language):
 
 
 def main():
-    headers = sorted(glob.glob(TOP + "/src/*/*.h") + glob.glob(TOP + "/grammar/grammar.h"))
+    headers = sorted(glob.glob(TOP + "/src/**/*.h", recursive=True) + glob.glob(TOP + "/grammar/grammar.h"))
     gnu17 = ["-std=gnu17", "-x", "c"]
     public = os.path.join(TOP, "include/rtlang/rtlang.h")
     cases = [(header, gnu17) for header in headers]

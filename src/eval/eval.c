@@ -6,10 +6,10 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
-#include "eval/blocks.h"
-#include "eval/painted.h"
-#include "eval/plan.h"
-#include "eval/probe.h"
+#include "eval/build/blocks.h"
+#include "eval/build/painted.h"
+#include "eval/build/plan.h"
+#include "eval/build/probe.h"
 
 // Levels of native recursion for each level that a text may nest: room for calls within calls.
 enum { DEEPENING_PER_AST_LEVEL = 6 };

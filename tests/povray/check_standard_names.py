@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""src/eval/standard_names.def lists what POV-Ray's include files declare: it is what the installed ones say.
+"""src/eval/run/standard_names.def lists what POV-Ray's include files declare: it is what the installed ones say.
 
 Only the names are read, outside of macros. `--update` writes the list again. Prints TAP.
 SPDX-License-Identifier: MIT
@@ -10,7 +10,7 @@ import re
 import sys
 import textwrap
 
-LIST = os.path.join(os.environ.get("top_srcdir", "."), "src/eval/standard_names.def")
+LIST = os.path.join(os.environ.get("top_srcdir", "."), "src/eval/run/standard_names.def")
 HEAD = """\
 // What the include files that come with POV-Ray 3.7 declare: STANDARD(file, "NAME NAME ... "), each name once. A name
 // that is not declared may be one of them when the files are not at hand.

@@ -1,0 +1,619 @@
+// The generic evaluator of blocks: `word { … }` becomes a description, as the schema says.
+//
+// Takes a leading identifier or the positional arguments, then the properties, each by its type or by the action that
+// the table names. Whatever does not fit is a located fault and is passed over, so that one run tells all faults. Knows
+// nothing of what a property means.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "eval/build/blocks.h"
+
+typedef bool (*BlockAction)(Block *block, const SchemaProperty *property, const AstNode *item);
+typedef bool (*BlockHook)(Block *block);
+
+static const BlockAction actions[ACTION_COUNT] = {
+    [ACTION_TRANSLATE] = transform_action,    [ACTION_ROTATE] = transform_action,
+    [ACTION_SCALE] = transform_action,        [ACTION_MATRIX] = transform_action,
+    [ACTION_TRANSFORM] = transform_action,    [ACTION_TEXTURE] = texture_action,
+    [ACTION_PIGMENT] = texture_action,        [ACTION_FINISH] = texture_action,
+    [ACTION_NORMAL] = texture_action,         [ACTION_PATTERN] = pattern_action,
+    [ACTION_WAVE] = pattern_wave_action,      [ACTION_PATTERN_SOLID] = pattern_solid_action,
+    [ACTION_MAP] = pattern_map_action,        [ACTION_INTERIOR] = interior_action,
+    [ACTION_MATERIAL] = material_action,      [ACTION_IMAGE_MAP] = image_map_action,
+    [ACTION_IMAGE] = image_action,
+    [ACTION_REFLECTION] = reflection_action,  [ACTION_ANGLE] = camera_angle_action,
+    [ACTION_LOOK_AT] = camera_look_at_action,
+    [ACTION_BLUR_SAMPLES] = camera_blur_action,
+    [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
+    [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
+    [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
+    [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
+    [ACTION_CHARSET] = settings_charset_action,
+    [ACTION_NOISE_GENERATOR] = settings_generator_action,
+    [ACTION_AREA_LIGHT] = light_area_action,     [ACTION_SHADOWLESS] = light_shadowless_action,
+    [ACTION_LOOKS_LIKE] = light_look_action,
+};
+
+// Between the arguments and the properties.
+static const BlockHook bodies[KIND_COUNT] = {
+    [KIND_UNION] = object_members,        [KIND_MERGE] = object_members,   [KIND_INTERSECTION] = object_members,
+    [KIND_DIFFERENCE] = object_members,   [KIND_OBJECT] = object_body,     [KIND_CLIPPED_BY] = clip_body,
+    [KIND_BOUNDED_BY] = clip_body,        [KIND_LOOKS_LIKE] = object_body,
+    [KIND_COLOUR_MAP] = pattern_map_body,
+    [KIND_PIGMENT_MAP] = pattern_map_body,
+    [KIND_TEXTURE_MAP] = pattern_map_body,
+    [KIND_IMAGE_MAP] = image_body,
+    [KIND_NORMAL_MAP] = pattern_map_body,
+    [KIND_SLOPE_MAP] = pattern_map_body,
+};
+
+// At the closing brace.
+static const BlockHook closings[KIND_COUNT] = {
+    [KIND_CAMERA] = camera_close, [KIND_PLANE] = plane_close,           [KIND_UNION] = union_close,
+    [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
+    [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close, [KIND_DISC] = disc_close,
+    [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
+    [KIND_PATTERN] = pattern_close,
+    [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
+    [KIND_TEXTURE] = pattern_close, [KIND_PIGMENT] = pattern_close, [KIND_NORMAL] = normal_close,
+    [KIND_IMAGE_MAP] = image_close, [KIND_LIGHT_SOURCE] = light_close,
+};
+
+SchemaKind block_kind(const Eval *ev, const AstNode *node)
+{
+    return node->kind == AST_BLOCK && node->symbol < WORD_COUNT ? (SchemaKind)ev->objects->kinds[node->symbol]
+                                                                : KIND_NONE;
+}
+
+bool block_is_name(const AstNode *item)
+{
+    return item->kind == AST_NAME || item->kind == AST_INDEX;
+}
+
+static Span block_here(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    return item ? item->span : cursor_end(&block->cursor);
+}
+
+void block_defaults(const Eval *ev, SchemaKind kind, Desc *record)
+{
+    const SchemaBlock *schema = schema_kind(kind);
+    const Settings *settings = &ev->scene->settings;
+    memcpy(record, schema->defaults, schema->size);
+    switch (kind) {
+    case KIND_TEXTURE: record->texture = *ev->objects->defaults; break;
+    case KIND_PIGMENT: record->pigment = ev->objects->defaults->pigment; break;
+    case KIND_NORMAL: record->normal = ev->objects->defaults->normal; break;
+    case KIND_FINISH: record->finish.finish = ev->objects->defaults->finish; break;
+    case KIND_GLOBAL_SETTINGS:
+        record->settings.ambient_light = settings->ambient_light;
+        record->settings.adc_bailout = settings->adc_bailout;
+        record->settings.max_trace_level = settings->max_trace_level;
+        record->settings.noise_generator = settings->noise_generator;
+        record->settings.number_of_waves = settings->number_of_waves;
+        break;
+    default: break;
+    }
+}
+
+// ---- values
+
+bool block_finite(Block *block, double number, Span span, const char *word)
+{
+    return isfinite(number) || block_fault(block, DIAG_E0340, span, "`%s` is not a finite number", word);
+}
+
+static bool check_range(Block *block, const SchemaProperty *property, double *number, Span span)
+{
+    const SchemaRange *range = &property->range;
+    bool is_low = range->low_is_open ? *number <= range->low : *number < range->low;
+    if (range->policy == RANGE_ANY || (!is_low && *number <= range->high)) {
+        return true;
+    }
+    double end = is_low ? range->low : range->high;
+    const char *relation = is_low ? range->low_is_open ? "greater than" : "at least" : "at most";
+    if (range->policy == RANGE_FAULT || (range->policy == RANGE_RAISE && !is_low)) {
+        return block_fault(block, DIAG_E0341, span, "`%s` must be %s %g, not %g", property->word, relation, end,
+                           *number);
+    }
+    eval_warn(block->ev, DIAG_W0341, span, "`%s` should be %s %g, not %g", property->word, relation, end, *number);
+    *number = range->policy == RANGE_WARN ? *number : end;
+    return true;
+}
+
+static bool read_number(Block *block, const SchemaProperty *property, double *number)
+{
+    Span span = block_here(block);
+    if (!cursor_number(&block->cursor, number, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    return block_finite(block, *number, span, property->word) && check_range(block, property, number, span);
+}
+
+static bool read_vector(Block *block, const SchemaProperty *property, Vec3 *vector)
+{
+    Span span = block_here(block);
+    if (!cursor_vector3(&block->cursor, vector, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    return vec3_is_finite(*vector) ||
+           block_fault(block, DIAG_E0340, span, "`%s` has a coordinate that is not finite", property->word);
+}
+
+static bool read_colour(Block *block, const SchemaProperty *property, Rgbft *colour)
+{
+    Span span = block_here(block);
+    if (!cursor_colour(&block->cursor, colour, &span)) {
+        block->has_fault = true;
+        return false;
+    }
+    double sum = colour->red + colour->green + colour->blue + colour->filter + colour->transmit;
+    return block_finite(block, sum - sum, span, property->word);
+}
+
+static bool at_expression(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    return item && item->kind != AST_WORD && cursor_at_value(&block->cursor);
+}
+
+// Whether a number begins with a component of a vector, which POV-Ray does not look for where a number may be left out.
+static bool begins_with_vector(const AstNode *item)
+{
+    while ((item->kind == AST_BINARY || item->kind == AST_UNARY) && !(item->flags & AST_IN_PARENTHESES)) {
+        item = item->a;
+    }
+    return item->kind == AST_MEMBER && !(item->flags & AST_IN_PARENTHESES);
+}
+
+static bool needs_value(const SchemaProperty *property)
+{
+    return property->type != TYPE_FLAG && property->type != TYPE_SWITCH && property->type != TYPE_OPTIONAL_NUMBER;
+}
+
+static bool read_share(Block *block, const SchemaProperty *property, double *shares)
+{
+    if (!read_number(block, property, &shares[0])) {
+        return false;
+    }
+    if (property->type == TYPE_SHARE_PAIR) {
+        cursor_take_comma(&block->cursor);
+    }
+    bool has_second = property->type == TYPE_SHARE_PAIR && at_expression(block);
+    if (property->type == TYPE_SHARE_PAIR && !has_second) {
+        shares[1] = 0.0;
+    }
+    return !has_second || read_number(block, property, &shares[1]);
+}
+
+static bool read_switch(Block *block, const SchemaProperty *property, bool *flag)
+{
+    double truth = 1.0;
+    if (property->type == TYPE_SWITCH && at_expression(block) && !read_number(block, property, &truth)) {
+        return false;
+    }
+    *flag = truth != 0.0;
+    return true;
+}
+
+static bool read_integer(Block *block, const SchemaProperty *property, int *integer)
+{
+    double number;
+    if (!read_number(block, property, &number)) {
+        return false;
+    }
+    *integer = (int)fmax(fmin(number, INT32_MAX), INT32_MIN);
+    return true;
+}
+
+static bool read_rgb(Block *block, const SchemaProperty *property, Rgb *rgb_at)
+{
+    Rgbft colour;
+    if (!read_colour(block, property, &colour)) {
+        return false;
+    }
+    *rgb_at = rgbft_rgb(colour);
+    return true;
+}
+
+static bool read_typed(Block *block, const SchemaProperty *property, void *at)
+{
+    switch (property->type) {
+    case TYPE_FLAG:
+    case TYPE_SWITCH: return read_switch(block, property, at);
+    case TYPE_OPTIONAL_NUMBER:
+        if (!at_expression(block)) {
+            memcpy(at, &property->bare, sizeof property->bare);
+            return true;
+        }
+        if (begins_with_vector(cursor_peek(&block->cursor))) {
+            return block_fault(block, DIAG_E0253, cursor_peek(&block->cursor)->span,
+                               "the number of `%s` may not begin with a vector; put it into parentheses",
+                               property->word);
+        }
+        return read_number(block, property, at);
+    case TYPE_NUMBER: return read_number(block, property, at);
+    case TYPE_SHARE:
+    case TYPE_SHARE_PAIR: return read_share(block, property, at);
+    case TYPE_INTEGER: return read_integer(block, property, at);
+    case TYPE_VECTOR: return read_vector(block, property, at);
+    case TYPE_COLOUR: return read_colour(block, property, at);
+    case TYPE_RGB: return read_rgb(block, property, at);
+    case TYPE_BLOCK:
+    case TYPE_ACTION: break; // never read by type
+    }
+    return false;
+}
+
+bool block_value(Block *block, const SchemaProperty *property, Span word)
+{
+    bool is_share = property->type == TYPE_SHARE || property->type == TYPE_SHARE_PAIR;
+    bool is_given = !is_share;
+    if (is_share && cursor_at_word(&block->cursor, W_albedo)) {
+        cursor_skip(&block->cursor);
+        is_given = true;
+    }
+    bool takes_colour = property->type == TYPE_COLOUR || property->type == TYPE_RGB;
+    if (needs_value(property) && !(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
+        return block_fault(block, DIAG_E0253, word, "`%s` needs %s after it", property->word,
+                           schema_type_need(property->type));
+    }
+    if (is_given && property->given) {
+        *((bool *)block->record + property->given) = true;
+    }
+    return read_typed(block, property, (char *)block->record + property->at);
+}
+
+// ---- the beginning of a block
+
+static bool name_fits(const Block *block, const Value *value)
+{
+    if (schema_kind(block->kind)->is_object || block->kind == KIND_LOOKS_LIKE) {
+        return schema_kind((SchemaKind)value->block)->is_object;
+    }
+    bool is_part = value->block == KIND_PIGMENT || value->block == KIND_NORMAL || value->block == KIND_FINISH;
+    return value->block == block->kind || (block->kind == KIND_TEXTURE && is_part);
+}
+
+static void take_name(Block *block, const Value *value, const AstNode *item)
+{
+    if (value->block == KIND_UNSUPPORTED) {
+        block_unsupported_name(block->ev, value->record, item->span);
+        block->has_unsupported = true;
+    } else if (!name_fits(block, value)) {
+        block_fault(block, DIAG_E0258, item->span, "`%s` cannot begin with %s", block_word(block),
+                    value_describe(value));
+    } else if (block->kind == KIND_TEXTURE && value->block != KIND_TEXTURE) {
+        texture_take_part(&block->record->texture, (SchemaKind)value->block, value->record);
+    } else if (block->kind == KIND_MATERIAL) {
+        block->has_fault = !material_take_name(block, value->record, item->span) || block->has_fault;
+    } else {
+        block->is = (SchemaKind)value->block;
+        memcpy(block->record, value->record, schema_kind(block->is)->size);
+    }
+}
+
+static bool is_declared(const Eval *ev, const AstNode *name)
+{
+    return name->flags & AST_KNOWN ? name->known != NULL : scope_find(ev, name->symbol) != NULL;
+}
+
+static const SchemaProperty *find_property(const Block *block, const AstNode *item)
+{
+    if ((item->kind != AST_WORD && item->kind != AST_BLOCK) || item->symbol >= WORD_COUNT) {
+        return NULL;
+    }
+    unsigned place = block->ev->objects->properties[block->kind][item->symbol];
+    return place ? schema_property(block->kind, place - 1) : NULL;
+}
+
+// Passes over what belongs to a word that was not understood.
+static void skip_values(Block *block)
+{
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item) &&
+           !block_is_misspelt(block, item)) {
+        cursor_skip(&block->cursor);
+    }
+}
+
+// A leading identifier of a block. One that stands for a number or a colour is left for the arguments.
+static void read_name(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    Value value;
+    bool takes_members = block->kind == KIND_CLIPPED_BY || block->kind == KIND_BOUNDED_BY; // names, too
+    if (!item || !block_is_name(item) || takes_members) {
+        return;
+    }
+    // A misspelt property rather than an identifier: where nothing but a block's name may stand, or where it is near.
+    const SchemaList *arguments = &schema_kind(block->kind)->arguments;
+    bool takes_values = arguments->count > 0 || bodies[block->kind];
+    bool may_lack_values = arguments->count == 0 || arguments->items[0].is_optional;
+    if ((item->kind == AST_NAME && !takes_values && !is_declared(block->ev, item)) ||
+        (may_lack_values && block_is_misspelt(block, item))) {
+        return;
+    }
+    block->ev->at_colour = block->kind == KIND_PIGMENT;
+    bool is_value = eval_expression(block->ev, item, &value);
+    block->ev->at_colour = false;
+    if (!is_value) {
+        block->has_name = block->has_fault = true;
+        cursor_skip(&block->cursor);
+        if (block->kind == KIND_PIGMENT) {
+            skip_values(block); // of a colour word that was not understood
+        }
+    } else if (value.kind == VALUE_BLOCK) {
+        block->has_name = true;
+        cursor_skip(&block->cursor);
+        take_name(block, &value, item);
+    }
+}
+
+static bool read_argument(Block *block, const SchemaProperty *argument)
+{
+    bool takes_colour = argument->type == TYPE_COLOUR || argument->type == TYPE_RGB;
+    if (!(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
+        return argument->is_optional ||
+               block_fault(block, DIAG_E0253, block_here(block), "`%s` needs %s here: its %s", block_word(block),
+                           schema_type_need(argument->type), argument->word);
+    }
+    const AstNode *item = cursor_peek(&block->cursor);
+    if (argument->is_optional && block_is_misspelt(block, item)) {
+        return true;
+    }
+    if (block->arguments == 0 && block->cursor.has_comma) {
+        block->cursor.has_comma = false;
+        block_fault(block, DIAG_E0259, item->span, "no comma may stand before the %s", argument->word);
+    }
+    if ((block->kind == KIND_PIGMENT || argument->is_anywhere) && !block_begins_like_colour(block, item)) {
+        block_fault(block, DIAG_E0254, item->span,
+                    "the colour of a %s begins with a colour word such as `rgb`, or with the name of a colour",
+                    block_word(block));
+    }
+    block->arguments++;
+    if (block->kind == KIND_PIGMENT) {
+        block->record->patterned.pattern.type = PATTERN_NONE; // of #default, or of what stood before
+    }
+    return read_typed(block, argument, (char *)block->record + argument->at);
+}
+
+static void read_arguments(Block *block)
+{
+    const SchemaList *list = &schema_kind(block->kind)->arguments;
+    // `pigment { P rgb … }` takes P's place in everything else, as does `normal { N 0.3 … }`.
+    if (block->has_name && block->kind != KIND_PIGMENT && block->kind != KIND_NORMAL) {
+        return;
+    }
+    for (size_t i = 0; i < list->count; i++) {
+        size_t before = block->arguments;
+        if (!read_argument(block, &list->items[i])) {
+            block->has_fault = true;
+        }
+        if (block->arguments == before) {
+            return; // left out, or missing
+        }
+        if (i + 1 < list->count) {
+            cursor_take_comma(&block->cursor);
+        }
+    }
+}
+
+// ---- properties
+
+static bool is_property_elsewhere(const Block *block, Symbol symbol)
+{
+    for (size_t kind = 0; kind < KIND_COUNT; kind++) {
+        if (block->ev->objects->properties[kind][symbol]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// POV-Ray has the word in many blocks, and rtlang in other ones than this.
+static bool is_advised_against(const Block *block, Symbol symbol)
+{
+    return block->ev->objects->advice[symbol] != 0;
+}
+
+// The type of a camera or light changes what its other words mean, so nothing more is said about those.
+static void refuse_unsupported(Block *block, const AstNode *item)
+{
+    if (!block->has_unsupported) {
+        block->has_unsupported = true;
+        const char *word = item->kind == AST_FUNCTION ? "function" : eval_text(block->ev, item->symbol);
+        block_unsupported(block->ev, word, item->span, block->kind);
+    }
+    while (schema_kind(block->kind)->is_fixed && cursor_peek(&block->cursor)) {
+        cursor_skip(&block->cursor);
+    }
+}
+
+// A word or block that is no property of this kind.
+static void refuse_word(Block *block, const AstNode *item)
+{
+    SchemaKind kind = block_kind(block->ev, item);
+    bool is_member = item->kind == AST_WORD && item->symbol < WORD_COUNT && object_is_group(block->kind) &&
+                     schema_kind((SchemaKind)block->ev->objects->kinds[item->symbol])->is_object;
+    if (block_is_lacking(block, item->symbol)) {
+        refuse_unsupported(block, item);
+    } else if (is_member) {
+        block_fault(block, DIAG_E0257, item->span, "`{` is missing after `%s`", eval_text(block->ev, item->symbol));
+    } else if (object_is_group(block->kind) && schema_kind(kind)->is_object) {
+        block_fault(block, DIAG_E0256, item->span, "`%s` must stand before the properties of the %s",
+                    schema_kind(kind)->word, block_word(block));
+    } else if (object_is_statement(kind)) {
+        block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand here", schema_kind(kind)->word);
+    } else if (word_class(item->symbol) == WORD_COLOUR) {
+        block_refuse_colour(block, item);
+    } else if (item->kind == AST_BLOCK && item->symbol >= WORD_COUNT && object_is_group(block->kind)) {
+        block->has_fault = true;
+        block_unknown(block->ev, item);
+    } else if (item->symbol >= WORD_COUNT ||
+               (is_property_elsewhere(block, item->symbol) && !is_advised_against(block, item->symbol))) {
+        block_unknown_property(block, item);
+    } else {
+        refuse_unsupported(block, item);
+    }
+    cursor_skip(&block->cursor);
+    skip_values(block);
+}
+
+// An expression where a property should stand; a name that was never declared is a misspelt one.
+static void refuse_value(Block *block, const AstNode *item)
+{
+    Value value;
+    item = block_leading_name(block, item);
+    bool is_undeclared = item->kind == AST_NAME && !is_declared(block->ev, item);
+    if (is_undeclared && (bodies[block->kind] || block_is_capital(block, item)) && !block_is_misspelt(block, item)) {
+        // Where objects stand it is more likely one of them, and no property begins with a capital.
+        block->has_fault = !eval_expression(block->ev, item, &value);
+    } else if (is_undeclared) {
+        block_unknown_property(block, item);
+    } else if (item->kind == AST_FUNCTION) {
+        refuse_unsupported(block, item);
+    } else if (block->has_fault) {
+        // It may be a value that would have had its place.
+    } else if (item->kind == AST_NAME) {
+        block_fault(block, DIAG_E0254, item->span, "`%s` cannot stand here in %s", eval_text(block->ev, item->symbol),
+                    block_word(block));
+    } else {
+        block_fault(block, DIAG_E0254, item->span, "one value too many in %s", block_word(block));
+    }
+    cursor_skip(&block->cursor);
+    skip_values(block);
+}
+
+static bool takes_braces(const SchemaProperty *property)
+{
+    return property->type == TYPE_BLOCK || property->action == ACTION_TRANSFORM ||
+           property->action == ACTION_REFLECTION;
+}
+
+static bool may_stand_here(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    if (property->is_first && (block->items > 0 || block->has_name)) {
+        return block_fault(block, DIAG_E0256, item->span, "`%s` must stand first in %s", property->word,
+                           block_word(block));
+    }
+    if (block->has_name && schema_kind(block->kind)->is_fixed && !schema_is_transform(property)) {
+        return block_fault(block, DIAG_E0255, item->span, "`%s` cannot follow an identifier in %s: only transforms can",
+                           property->word, block_word(block));
+    }
+    bool is_patterned = block->kind == KIND_TEXTURE || block->kind == KIND_PIGMENT || block->kind == KIND_NORMAL ||
+                        block->kind == KIND_PATTERN;
+    if (is_patterned && !pattern_allows(block, property, item)) {
+        return false;
+    }
+    if (item->kind == AST_BLOCK && !takes_braces(property)) {
+        return block_fault(block, DIAG_E0257, item->span, "`%s` takes no braces", property->word);
+    }
+    if (item->kind == AST_WORD && property->type == TYPE_BLOCK) {
+        return block_fault(block, DIAG_E0257, item->span, "`{` is missing after `%s`", property->word);
+    }
+    return true;
+}
+
+static void read_property(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    bool is_allowed = may_stand_here(block, property, item);
+    cursor_skip(&block->cursor);
+    block->items++;
+    bool is_action = property->type == TYPE_ACTION || property->type == TYPE_BLOCK;
+    if (!is_allowed || !(is_action ? actions[property->action](block, property, item)
+                                   : block_value(block, property, item->span))) {
+        block->has_fault = true;
+        skip_values(block);
+    }
+}
+
+// An argument that may stand among the properties, at its place; else NULL.
+static const SchemaProperty *find_loose_argument(Block *block, const AstNode *item)
+{
+    const SchemaList *list = &schema_kind(block->kind)->arguments;
+    bool is_loose = list->count == 1 && list->items[0].is_anywhere && cursor_at_value(&block->cursor);
+    return is_loose && !block_is_misspelt(block, item) && block_begins_like_colour(block, item) ? list->items : NULL;
+}
+
+// After a fault it may belong to what was not understood.
+static void check_comma(Block *block)
+{
+    if (!block->has_fault && !block->has_unsupported && !cursor_lacks_comma(&block->cursor, block_word(block))) {
+        block->has_fault = true;
+    }
+}
+
+static void read_properties(Block *block)
+{
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor))) {
+        const SchemaProperty *property = find_property(block, item);
+        bool is_word = item->kind == AST_WORD || item->kind == AST_BLOCK;
+        if (is_word) {
+            check_comma(block);
+        }
+        const SchemaProperty *loose = property ? NULL : find_loose_argument(block, item);
+        if (property) {
+            read_property(block, property, item);
+        } else if (loose) {
+            block->has_fault = !block_value(block, loose, item->span) || block->has_fault;
+        } else if (!property && block_is_idle_colour(block, item)) {
+            if (!block_pass_colour(block)) {
+                skip_values(block);
+            }
+        } else if (is_word) {
+            refuse_word(block, item);
+        } else {
+            refuse_value(block, item);
+        }
+    }
+    check_comma(block);
+}
+
+bool block_read_items(Block *block, SchemaKind *is)
+{
+    SchemaKind kind = block->kind;
+    read_name(block);
+    read_arguments(block);
+    if (bodies[kind] && !block->has_name && !bodies[kind](block)) {
+        block->has_fault = true;
+    }
+    if (block->moved && !block->has_fault && !block->has_unsupported && !block_transform(block, block->moved)) {
+        block->has_fault = true;
+    }
+    read_properties(block);
+    cursor_close(&block->cursor);
+    if (block->ev->stop || block->has_fault || (closings[kind] && !closings[kind](block))) {
+        return false;
+    }
+    *is = block->is;
+    return !block->has_unsupported || block->ev->objects->is_deferring;
+}
+
+bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Desc *record, SchemaKind *is)
+{
+    return block_read_moved(ev, node, kind, arena, NULL, record, is);
+}
+
+bool block_read_moved(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, const Transform *moved,
+                      Desc *record, SchemaKind *is)
+{
+    Block block = {.ev = ev, .node = node, .arena = arena, .record = record, .kind = kind, .is = kind, .moved = moved};
+    cursor_open(&block.cursor, ev, node->a, node->span);
+    if (!block_read_items(&block, is)) {
+        return false;
+    }
+    if (schema_kind(block.is)->is_object) {
+        record->part.span = node->span;
+    }
+    return true;
+}

@@ -1,0 +1,339 @@
+// Objects: blocks of shapes become immutable trees, which are kept or placed.
+//
+// A top-level object lives on the stack and in scratch memory, a declared one in the program's. Knows nothing of how a
+// tree becomes scene records.
+//
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "eval/build/plan.h"
+
+// ---- members of unions and objects
+
+bool object_is_group(SchemaKind kind)
+{
+    return kind >= KIND_UNION && kind <= KIND_DIFFERENCE;
+}
+
+typedef struct MemberList {
+    UnionMember **end;
+    uint32_t count, depth;
+} MemberList;
+
+uint32_t object_depth(SchemaKind kind, const void *object)
+{
+    return object_is_group(kind)       ? ((const UnionDesc *)object)->depth
+           : kind == KIND_LIGHT_SOURCE ? ((const LightDesc *)object)->look_depth
+                                       : 0;
+}
+
+static bool add_member(Block *block, MemberList *list, SchemaKind kind, const void *object)
+{
+    UnionMember *member = arena_alloc(block->arena, sizeof *member);
+    if (!member) {
+        return eval_no_memory(block->ev, block->node->span);
+    }
+    *member = (UnionMember){.object = object, .kind = kind};
+    *list->end = member;
+    list->end = &member->next;
+    list->count++;
+    uint32_t depth = object_depth(kind, object);
+    list->depth = depth > list->depth ? depth : list->depth;
+    return true;
+}
+
+static bool add_block_member(Block *block, MemberList *list, const AstNode *item)
+{
+    Desc record;
+    SchemaKind is;
+    SchemaKind kind = block_kind(block->ev, item);
+    block_defaults(block->ev, kind, &record);
+    if (!block_read(block->ev, item, kind, block->arena, &record, &is)) {
+        return false;
+    }
+    void *kept = arena_copy(block->arena, &record, schema_kind(is)->size);
+    if (!kept) {
+        return eval_no_memory(block->ev, item->span);
+    }
+    return add_member(block, list, is, kept);
+}
+
+static bool add_named_member(Block *block, MemberList *list, const AstNode *item)
+{
+    Value value;
+    if (!eval_expression(block->ev, item, &value)) {
+        return false;
+    }
+    if (value.kind == VALUE_BLOCK && value.block == KIND_UNSUPPORTED) {
+        block_unsupported_name(block->ev, value.record, item->span);
+        block->has_unsupported = true;
+        return true;
+    }
+    if (value.kind != VALUE_BLOCK || !schema_kind((SchemaKind)value.block)->is_object) {
+        return block_fault(block, DIAG_E0258, item->span, "expected an object, found %s", value_describe(&value));
+    }
+    return add_member(block, list, (SchemaKind)value.block, value.record);
+}
+
+// A kind of block that POV-Ray has and rtlang has not.
+static bool is_foreign_kind(const Eval *ev, const AstNode *item)
+{
+    unsigned place = item->kind == AST_BLOCK && item->symbol < WORD_COUNT ? ev->objects->advice[item->symbol] : 0;
+    return place && schema_unsupported(place - 1)->is_kind;
+}
+
+// One member; *is_member turns false at the first item that is none.
+static bool read_member(Block *block, MemberList *list, const AstNode *item, bool *is_member)
+{
+    *is_member = !block_is_misspelt(block, item);
+    if (!*is_member) {
+        return true;
+    }
+    if (block_is_name(item)) {
+        return add_named_member(block, list, item);
+    }
+    if (is_foreign_kind(block->ev, item)) {
+        block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, KIND_NONE);
+        block->has_unsupported = true;
+        return true;
+    }
+    if (block_is_misspelt_object(block->ev, item)) {
+        block_unknown(block->ev, item);
+        return false;
+    }
+    *is_member = schema_kind(block_kind(block->ev, item))->is_object;
+    return !*is_member || add_block_member(block, list, item);
+}
+
+bool object_members(Block *block)
+{
+    UnionDesc *group = &block->record->group;
+    UnionMember *first = NULL;
+    MemberList list = {.end = &first};
+    bool is_fine = true;
+    bool is_member = true;
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor))) {
+        bool has_comma = block->cursor.has_comma;
+        bool is_read = read_member(block, &list, item, &is_member);
+        if (!is_member) {
+            break;
+        }
+        block->cursor.has_comma = has_comma;
+        is_read = cursor_lacks_comma(&block->cursor, block_word(block)) && is_read;
+        is_fine = is_read && is_fine;
+        cursor_skip(&block->cursor);
+    }
+    group->members = first;
+    group->count = list.count;
+    group->depth = list.depth + 1;
+    if (group->depth > block->ev->options.limits->ast_depth) {
+        return block_fault(block, DIAG_E0601, block->node->span, "objects are nested more than %u deep",
+                           block->ev->options.limits->ast_depth);
+    }
+    return is_fine;
+}
+
+bool union_close(Block *block)
+{
+    if (!block->has_name && !block->has_unsupported && block->record->group.count < 2) {
+        bool begins_with_vowel = block->kind == KIND_INTERSECTION;
+        eval_warn(block->ev, DIAG_W0407, block->node->span, "%s %s should have at least two objects",
+                  begins_with_vowel ? "an" : "a", schema_kind(block->kind)->word);
+    }
+    return true;
+}
+
+bool object_body(Block *block)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    SchemaKind kind = item ? block_kind(block->ev, item) : KIND_NONE;
+    if (item && is_foreign_kind(block->ev, item)) {
+        block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, KIND_NONE);
+        block->has_unsupported = true;
+        cursor_skip(&block->cursor);
+        return true;
+    }
+    if (!schema_kind(kind)->is_object) {
+        return block_fault(block, DIAG_E0253, item ? item->span : block->node->span,
+                           "`object` needs an object, or the name of one, first");
+    }
+    block_defaults(block->ev, kind, block->record);
+    bool is_read = block_read(block->ev, item, kind, block->arena, block->record, &block->is);
+    cursor_skip(&block->cursor);
+    return is_read;
+}
+
+// ---- statements and right-hand sides
+
+static bool place_record(Eval *ev, const AstNode *item, SchemaKind is, const Desc *record)
+{
+    switch (is) {
+    case KIND_CAMERA: return camera_place(ev, &record->camera, item->span);
+    case KIND_SKY_SPHERE: return sky_place(ev, &record->sky, item->span);
+    case KIND_FOG: return fog_place(ev, &record->fog, item->span);
+    case KIND_BACKGROUND:
+    case KIND_GLOBAL_SETTINGS: return settings_place(ev, is, record);
+    default: return object_place(ev, is, record);
+    }
+}
+
+static bool place_name(Eval *ev, const AstNode *item)
+{
+    Value value;
+    if (!eval_expression(ev, item, &value)) {
+        return false;
+    }
+    if (value.kind == VALUE_BLOCK && value.block == KIND_UNSUPPORTED) {
+        block_unsupported_name(ev, value.record, item->span);
+        return false;
+    }
+    if (value.kind != VALUE_BLOCK || !schema_kind((SchemaKind)value.block)->is_object) {
+        return eval_fault(ev, DIAG_E0258, item->span, "expected an object or a directive, found %s",
+                          value_describe(&value));
+    }
+    return object_place(ev, (SchemaKind)value.block, value.record);
+}
+
+bool object_is_statement(SchemaKind kind)
+{
+    return schema_kind(kind)->is_object || kind == KIND_CAMERA || kind == KIND_BACKGROUND ||
+           kind == KIND_SKY_SPHERE || kind == KIND_FOG || kind == KIND_GLOBAL_SETTINGS;
+}
+
+bool object_takes_braces(const Eval *ev, Symbol word)
+{
+    if (word >= WORD_COUNT) {
+        return false;
+    }
+    unsigned advice = ev->objects->advice[word];
+    return ev->objects->kinds[word] != KIND_NONE || (advice && schema_unsupported(advice - 1)->is_kind);
+}
+
+bool eval_place(Eval *ev, const AstNode *item)
+{
+    if (block_is_name(item)) {
+        return place_name(ev, item);
+    }
+    SchemaKind kind = block_kind(ev, item);
+    if (kind == KIND_NONE && item->kind == AST_BLOCK) {
+        block_unknown(ev, item);
+        return false;
+    }
+    if (!object_is_statement(kind)) {
+        return eval_fault(ev, DIAG_E0256, item->span, "expected an object or a directive here");
+    }
+    PlanTrial trial = {.plan = NULL};
+    bool is_fine;
+    if (plan_is_for(kind) && !ev->options.no_literals && plan_begin(ev, item, kind, &trial, &is_fine)) {
+        return is_fine;
+    }
+    ArenaMark mark = scratch_mark(ev);
+    Arena *arena = kind == KIND_SKY_SPHERE ? &ev->program : &ev->scratch; // a sky is kept until the end
+    Desc record;
+    SchemaKind is;
+    block_defaults(ev, kind, &record);
+    is_fine = block_read(ev, item, kind, arena, &record, &is);
+    if (trial.plan && is_fine) {
+        plan_note(ev, &trial, is, &record);
+    }
+    is_fine = is_fine && place_record(ev, item, is, &record);
+    if (trial.plan && is_fine) {
+        plan_try(ev, &trial, item);
+    }
+    scratch_rewind(ev, mark);
+    return is_fine;
+}
+
+static bool keep(Eval *ev, Span span, SchemaKind kind, const void *record, Value *value)
+{
+    const void *kept = arena_copy(&ev->program, record, schema_kind(kind)->size);
+    *value = (Value){.kind = VALUE_BLOCK, .block = (uint16_t)kind, .record = kept};
+    return kept || eval_no_memory(ev, span);
+}
+
+bool block_read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Desc *record, Value *value)
+{
+    ObjectState *objects = ev->objects;
+    bool was_deferring = objects->is_deferring;
+    bool had_deferred = objects->has_deferred;
+    UnsupportedDesc outer = objects->deferred;
+    objects->is_deferring = true;
+    objects->has_deferred = false;
+    SchemaKind is;
+    bool is_read = block_read(ev, block, kind, &ev->program, record, &is);
+    if (objects->has_deferred) {
+        record->unsupported = objects->deferred;
+        is = KIND_UNSUPPORTED;
+    }
+    bool is_kept = is_read && keep(ev, block->span, is, record, value);
+    objects->is_deferring = was_deferring;
+    objects->has_deferred = had_deferred;
+    objects->deferred = outer;
+    return is_kept;
+}
+
+bool eval_block(Eval *ev, const AstNode *block, Value *value)
+{
+    SchemaKind kind = block_kind(ev, block);
+    if (kind == KIND_NONE && block->symbol >= WORD_COUNT) {
+        block_unknown(ev, block);
+        return false;
+    }
+    if (kind == KIND_NONE) {
+        UnsupportedDesc what = {block->span, eval_text(ev, block->symbol), KIND_NONE};
+        return keep(ev, block->span, KIND_UNSUPPORTED, &what, value);
+    }
+    if (!schema_kind(kind)->is_declarable) {
+        return eval_fault(ev, DIAG_E0256, block->span, "`%s` cannot be declared", schema_kind(kind)->word);
+    }
+    Desc record;
+    block_defaults(ev, kind, &record);
+    return block_read_declared(ev, block, kind, &record, value);
+}
+
+// ---- the state
+
+static Symbol word_symbol(const Eval *ev, const char *word)
+{
+    Symbol symbol = intern_find(ev->options.names, word, strlen(word));
+    return symbol < WORD_COUNT ? symbol : SYMBOL_NONE;
+}
+
+static void index_words(Eval *ev)
+{
+    ObjectState *objects = ev->objects;
+    for (size_t kind = KIND_NONE + 1; kind < KIND_UNSUPPORTED; kind++) {
+        const SchemaProperty *property;
+        if (kind != KIND_CLIPPED_BY && kind != KIND_BOUNDED_BY && kind != KIND_LOOKS_LIKE && kind != KIND_REFLECTION) {
+            objects->kinds[word_symbol(ev, schema_kind((SchemaKind)kind)->word)] = (uint8_t)kind;
+        }
+        for (size_t i = 0; (property = schema_property((SchemaKind)kind, i)); i++) {
+            objects->properties[kind][word_symbol(ev, property->word)] = (uint8_t)(i + 1);
+        }
+    }
+    objects->kinds[W_colour_map] = KIND_COLOUR_MAP; // another spelling
+    const SchemaUnsupported *entry;
+    for (size_t i = 0; (entry = schema_unsupported(i)); i++) {
+        objects->advice[word_symbol(ev, entry->word)] = (uint8_t)(i + 1);
+    }
+    objects->kinds[SYMBOL_NONE] = KIND_NONE;
+}
+
+bool objects_init(Eval *ev)
+{
+    ObjectState *objects = arena_alloc(&ev->program, sizeof *objects);
+    if (!objects) {
+        return eval_no_memory(ev, SPAN_NONE);
+    }
+    memset(objects, 0, sizeof *objects);
+    ev->objects = objects;
+    objects->defaults = schema_kind(KIND_TEXTURE)->defaults;
+    index_words(ev);
+    return true;
+}
+
+void objects_fini(Eval *ev)
+{
+    ev->objects = NULL; // its memory is the program arena's
+}

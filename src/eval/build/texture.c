@@ -1,0 +1,449 @@
+// Textures: pigments, finishes and layers.
+//
+// A block inside another one changes only what it says; the rest is the surrounding texture's, or that of #default at
+// the time. An object's texture is never changed in place, for copies may share it. Albedo forms are worked out at a
+// finish's closing brace, with the exponents it has by then. Knows nothing of shapes.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <string.h>
+
+#include "eval/build/blocks.h"
+#include "eval/build/shared_maps.h"
+
+void texture_transform(TextureDesc *texture, const Transform *transform)
+{
+    texture->part.transform = transform_compose(texture->part.transform, *transform);
+}
+
+// Whether anything was said of bumps.
+static bool has_normal(const TextureDesc *texture)
+{
+    return texture->normal.part.pattern.type != PATTERN_NONE || normal_lacks_pattern(&texture->normal);
+}
+
+// Hands the transform of a texture on to what it has by now, so that a part that comes later is not moved by it. Each
+// texture has a pigment, if only the default one.
+static bool settle(Eval *ev, Arena *arena, TextureDesc *texture, Span span)
+{
+    const Transform *transform = &texture->part.transform;
+    if (texture->part.pattern.type != PATTERN_NONE) {
+        return true;
+    }
+    texture->pigment.part.transform = transform_compose(texture->pigment.part.transform, *transform);
+    if (has_normal(texture)) {
+        texture->normal.part.transform = transform_compose(texture->normal.part.transform, *transform);
+    }
+    if (texture->below) {
+        TextureDesc *below = arena_copy(arena, texture->below, sizeof *below);
+        if (!below) {
+            return eval_no_memory(ev, span);
+        }
+        texture_transform(below, transform);
+        texture->below = below;
+    }
+    texture->part.transform = transform_identity();
+    return true;
+}
+
+static Rgbft without_filter(Rgbft colour)
+{
+    colour.transmit += colour.filter;
+    colour.filter = 0.0;
+    return colour;
+}
+
+static bool makes_filters_clear(const Eval *ev)
+{
+    return ev->version < 3.1 || numbers_equal(ev->version, 3.1);
+}
+
+static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentDesc *pigment, Span span);
+
+static bool clear_entries(Eval *ev, Arena *arena, SharedMaps *shared, const PatternMap *map, Span span,
+                          const PatternMap **cleared)
+{
+    PatternMap *changed = arena_copy(arena, map, sizeof *map);
+    PatternEntry *entries = changed ? arena_alloc_array(arena, map->count, sizeof *entries) : NULL;
+    bool is_fine = entries != NULL;
+    for (size_t i = 0; is_fine && i < map->count; i++) {
+        entries[i] = map->entries[i];
+        entries[i].colour = without_filter(entries[i].colour);
+        if (entries[i].pigment) {
+            PigmentDesc *inner = arena_copy(arena, entries[i].pigment, sizeof *inner);
+            is_fine = inner && clear_filters(ev, arena, shared, inner, span);
+            entries[i].pigment = inner;
+        }
+    }
+    if (!is_fine) {
+        return eval_no_memory(ev, span);
+    }
+    changed->entries = entries;
+    *cleared = changed;
+    return true;
+}
+
+static bool clear_filters(Eval *ev, Arena *arena, SharedMaps *shared, PigmentDesc *pigment, Span span)
+{
+    const PatternMap *map = pigment->part.map;
+    uint32_t place;
+    bool is_new;
+    pigment->colour = without_filter(pigment->colour);
+    if (!map) {
+        return true;
+    }
+    if (!shared_maps_place(shared, map, &place, &is_new)) {
+        return eval_no_memory(ev, span);
+    }
+    if (is_new) {
+        const PatternMap *cleared = NULL;
+        if (!clear_entries(ev, arena, shared, map, span, &cleared)) {
+            return false;
+        }
+        shared->made.items[place].changed = cleared;
+    }
+    pigment->part.map = shared->made.items[place].changed;
+    return true;
+}
+
+// Up to version 3.1 the filters of what lies over something let light through unchanged: POV-Ray makes `transmit` of
+// them. Measured, also of maps.
+static bool take_filters(Eval *ev, Arena *arena, PigmentDesc *pigment, Span span)
+{
+    SharedMaps shared = {0};
+    bool is_fine = clear_filters(ev, arena, &shared, pigment, span);
+    shared_maps_fini(&shared);
+    return is_fine;
+}
+
+static bool read_pigment(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
+{
+    Desc record;
+    SchemaKind is;
+    if (!settle(ev, arena, texture, item->span)) {
+        return false;
+    }
+    record.pigment = texture->pigment;
+    if (!block_read(ev, item, KIND_PIGMENT, arena, &record, &is)) {
+        return false;
+    }
+    texture->pigment = record.pigment;
+    return true;
+}
+
+static bool read_normal(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
+{
+    Desc record;
+    SchemaKind is;
+    if (!settle(ev, arena, texture, item->span)) {
+        return false;
+    }
+    record.normal = texture->normal;
+    if (!block_read(ev, item, KIND_NORMAL, arena, &record, &is)) {
+        return false;
+    }
+    texture->normal = record.normal;
+    return true;
+}
+
+// What a finish says, when it is words and numbers; 0: it is not.
+static unsigned finish_words(const AstNode *item, FinishWord *words)
+{
+    unsigned count = 0;
+    for (const AstNode *node = item->a; node; node = node->next) {
+        bool is_word = node->kind == AST_WORD && word_class(node->symbol) == WORD_PLAIN;
+        if (count == FINISH_WORDS_MOST || (!is_word && node->kind != AST_NUMBER)) {
+            return 0;
+        }
+        words[count++] = (FinishWord){is_word ? 0.0 : node->number, is_word ? node->symbol : SYMBOL_NONE, node->flags};
+    }
+    return count;
+}
+
+static bool finish_is_known(const Eval *ev, const TextureDesc *texture, const FinishWord *words, unsigned count)
+{
+    const FinishMemo *memo = &ev->objects->finish;
+    bool is_same = count > 0 && count == memo->count && numbers_equal(ev->version, memo->version) &&
+                   memcmp(&texture->ior, &memo->ior_before, sizeof texture->ior) == 0 &&
+                   memcmp(&texture->finish, &memo->before, sizeof memo->before) == 0;
+    for (unsigned i = 0; is_same && i < count; i++) {
+        const FinishWord *one = &words[i], *other = &memo->words[i];
+        is_same = one->word == other->word && one->flags == other->flags &&
+                  memcmp(&one->number, &other->number, sizeof one->number) == 0;
+    }
+    return is_same;
+}
+
+static bool read_new_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
+{
+    Desc record;
+    SchemaKind is;
+    block_defaults(ev, KIND_FINISH, &record);
+    record.finish.finish = texture->finish;
+    record.finish.ior = texture->ior;
+    record.finish.is_fresnel = texture->finish.flags & FINISH_FRESNEL;
+    if (!block_read(ev, item, KIND_FINISH, arena, &record, &is)) {
+        return false;
+    }
+    texture->finish = record.finish.finish;
+    texture->ior = record.finish.ior;
+    return true;
+}
+
+// Programs write the same finish again and again: it is worked out once, unless there was something to say about it.
+static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
+{
+    FinishMemo *memo = &ev->objects->finish;
+    FinishWord words[FINISH_WORDS_MOST];
+    unsigned count = finish_words(item, words);
+    if (!ev->options.no_literals && finish_is_known(ev, texture, words, count)) {
+        texture->finish = memo->after;
+        texture->ior = memo->ior_after;
+        return true;
+    }
+    size_t messages = ev->options.diags->error_count + ev->options.diags->warning_count;
+    Finish before = texture->finish;
+    double ior_before = texture->ior;
+    if (!read_new_finish(ev, item, arena, texture)) {
+        return false;
+    }
+    bool is_silent = ev->options.diags->error_count + ev->options.diags->warning_count == messages;
+    if (count > 0 && is_silent && !ev->objects->has_deferred) {
+        memcpy(memo->words, words, count * sizeof *words);
+        memo->count = count;
+        memo->version = ev->version;
+        memo->before = before;
+        memo->after = texture->finish;
+        memo->ior_before = ior_before;
+        memo->ior_after = texture->ior;
+    }
+    return true;
+}
+
+// Lays `top`, which may have layers of its own, over `below`.
+static bool lay_over(Eval *ev, Arena *arena, TextureDesc *top, const TextureDesc *below, Span span)
+{
+    TextureDesc *layer = top;
+    for (;;) {
+        if (!settle(ev, arena, layer, span) || !eval_step(ev, span)) {
+            return false;
+        }
+        if (layer->part.pattern.type != PATTERN_NONE || below->part.pattern.type != PATTERN_NONE) {
+            return eval_fault(ev, DIAG_E0290, span, "a pattern of textures can be no layer");
+        }
+        if (makes_filters_clear(ev) && !take_filters(ev, arena, &layer->pigment, span)) {
+            return false;
+        }
+        if (!layer->below) {
+            layer->below = below;
+            return true;
+        }
+        layer = (TextureDesc *)layer->below; // a copy that settle has made
+    }
+}
+
+const TextureDesc *texture_laid_over(Eval *ev, Arena *arena, const TextureDesc *top, const TextureDesc *below,
+                                     Span span)
+{
+    TextureDesc *texture = arena_copy(arena, top, sizeof *texture);
+    if (!texture) {
+        (void)eval_no_memory(ev, span);
+        return NULL;
+    }
+    return lay_over(ev, arena, texture, below, span) ? texture : NULL;
+}
+
+static bool read_texture(Eval *ev, const AstNode *item, Arena *arena, const TextureDesc *below, TextureDesc *texture)
+{
+    Desc record;
+    SchemaKind is;
+    block_defaults(ev, KIND_TEXTURE, &record);
+    if (!block_read(ev, item, KIND_TEXTURE, arena, &record, &is) ||
+        (below && !lay_over(ev, arena, &record.texture, below, item->span))) {
+        return false;
+    }
+    *texture = record.texture;
+    return true;
+}
+
+static bool read_part(Eval *ev, SchemaAction action, const AstNode *item, Arena *arena, TextureDesc *texture)
+{
+    switch (action) {
+    case ACTION_PIGMENT: return read_pigment(ev, item, arena, texture);
+    case ACTION_NORMAL: return read_normal(ev, item, arena, texture);
+    default: return read_finish(ev, item, arena, texture);
+    }
+}
+
+const TextureDesc **texture_place(Block *block)
+{
+    // The object of a `looks_like` may be missing: that is reported, and what follows it is read nevertheless.
+    bool is_object = schema_kind(block->is)->is_object || block->kind == KIND_LOOKS_LIKE;
+    return block->kind == KIND_MATERIAL ? &block->record->material.texture
+           : is_object                  ? &block->record->part.texture
+                                        : NULL;
+}
+
+bool texture_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    Eval *ev = block->ev;
+    const TextureDesc **place = texture_place(block);
+    const TextureDesc *before = block->kind == KIND_TEXTURE ? &block->record->texture : *place;
+    if (before && before->part.pattern.type != PATTERN_NONE && property->action != ACTION_TEXTURE) {
+        return eval_fault(ev, DIAG_E0290, item->span, "a pattern of textures has no %s of its own", property->word);
+    }
+    if (block->kind == KIND_TEXTURE) {
+        return read_part(ev, property->action, item, block->arena, &block->record->texture);
+    }
+    TextureDesc *texture = arena_copy(block->arena, before ? before : ev->objects->defaults, sizeof *texture);
+    if (!texture) {
+        return eval_no_memory(ev, item->span);
+    }
+    *place = texture;
+    return property->action == ACTION_TEXTURE ? read_texture(ev, item, block->arena, before, texture)
+                                              : read_part(ev, property->action, item, block->arena, texture);
+}
+
+bool reflection_action(Block *block, const SchemaProperty *property, const AstNode *item)
+{
+    static const SchemaProperty alone = {"reflection", TYPE_RGB, ACTION_NONE,
+                                         .at = offsetof(FinishDesc, finish.reflection_min)};
+    Finish *finish = &block->record->finish.finish;
+    (void)property;
+    if (item->kind == AST_WORD) {
+        bool is_read = block_value(block, &alone, item->span);
+        finish->reflection_max = finish->reflection_min;
+        return is_read;
+    }
+    Desc record;
+    SchemaKind is;
+    record.finish = block->record->finish;
+    record.finish.finish.reflection_min = record.finish.finish.reflection_max = rgb_grey(0.0);
+    if (!block_read(block->ev, item, KIND_REFLECTION, block->arena, &record, &is)) {
+        return false;
+    }
+    *finish = record.finish.finish;
+    block->record->finish.is_fresnel = record.finish.is_fresnel;
+    return true;
+}
+
+bool reflection_close(Block *block)
+{
+    Finish *finish = &block->record->finish.finish;
+    if (block->arguments == 1) {
+        finish->reflection_max = finish->reflection_min;
+    }
+    return true;
+}
+
+// The factors that make an albedo the share of light given back in all, as measured from POV-Ray 3.7; `specular`'s is
+// the normalisation of the Blinn-Phong lobe with exponent n = 1 / roughness.
+bool finish_close(Block *block)
+{
+    FinishDesc *record = &block->record->finish;
+    Finish *finish = &record->finish;
+    if (record->diffuse_is_albedo) {
+        double factor = (finish->brilliance + 1.0) / 2.0;
+        finish->diffuse *= factor;
+        finish->diffuse_back *= factor;
+    }
+    if (record->phong_is_albedo) {
+        finish->phong *= (finish->phong_size + 1.0) / 2.0;
+    }
+    if (record->specular_is_albedo) {
+        double n = 1.0 / finish->roughness;
+        finish->specular *= (n + 2.0) / (4.0 * (2.0 - exp2(-n / 2.0)));
+    }
+    if (record->conserve_energy) {
+        finish->flags |= FINISH_CONSERVE_ENERGY;
+    }
+    finish->flags = record->is_fresnel ? finish->flags | FINISH_FRESNEL : finish->flags & ~(uint64_t)FINISH_FRESNEL;
+    record->diffuse_is_albedo = record->phong_is_albedo = record->specular_is_albedo = false;
+    double sum = finish->diffuse + finish->diffuse_back + finish->phong + finish->specular;
+    return block_finite(block, sum, block->node->span, "albedo");
+}
+
+bool eval_texture_layer(Eval *ev, const AstNode *node, Value *layers)
+{
+    Value one;
+    const TextureDesc *below = layers->kind == VALUE_BLOCK ? layers->record : NULL;
+    if (!eval_block(ev, node, &one)) {
+        return false;
+    }
+    if (one.block == KIND_UNSUPPORTED || (below && layers->block == KIND_UNSUPPORTED)) {
+        *layers = one.block == KIND_UNSUPPORTED ? one : *layers;
+        return true;
+    }
+    TextureDesc *layer = arena_copy(&ev->program, one.record, sizeof *layer);
+    if (!layer) {
+        return eval_no_memory(ev, node->span);
+    }
+    *layers = (Value){.kind = VALUE_BLOCK, .block = KIND_TEXTURE, .record = layer};
+    return !below || lay_over(ev, &ev->program, layer, below, node->span);
+}
+
+bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value)
+{
+    bool fine = true;
+    *value = (Value){.kind = VALUE_NONE};
+    for (const AstNode *node = first; node && fine; node = node->next) {
+        fine = eval_texture_layer(ev, node, value);
+    }
+    return fine;
+}
+
+void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part)
+{
+    const FinishDesc *finish = part;
+    switch (kind) {
+    case KIND_PIGMENT:
+        texture->pigment = *(const PigmentDesc *)part;
+        break;
+    case KIND_NORMAL:
+        texture->normal = *(const NormalDesc *)part;
+        break;
+    default:
+        texture->finish = finish->finish;
+        texture->ior = finish->ior;
+        break;
+    }
+}
+
+static bool read_default(Eval *ev, const AstNode *item, TextureDesc *texture)
+{
+    switch (block_kind(ev, item)) {
+    case KIND_TEXTURE: return read_texture(ev, item, &ev->program, NULL, texture);
+    case KIND_PIGMENT: return read_pigment(ev, item, &ev->program, texture);
+    case KIND_NORMAL: return read_normal(ev, item, &ev->program, texture);
+    case KIND_FINISH: return read_finish(ev, item, &ev->program, texture);
+    default:
+        return eval_fault(ev, DIAG_E0256, item->span, "#default holds texture, pigment, normal and finish blocks only");
+    }
+}
+
+bool eval_default(Eval *ev, const AstNode *directive)
+{
+    Cursor cursor;
+    bool is_fine = true;
+    const AstNode *item;
+    TextureDesc *texture = arena_copy(&ev->program, ev->objects->defaults, sizeof *texture);
+    if (!texture) {
+        return eval_no_memory(ev, directive->span);
+    }
+    cursor_open(&cursor, ev, directive->a, directive->span);
+    while ((item = cursor_peek(&cursor))) {
+        is_fine = cursor_lacks_comma(&cursor, "`#default`") && read_default(ev, item, texture) && is_fine;
+        do {
+            cursor_skip(&cursor); // what is not understood, with all that belongs to it
+        } while (!is_fine && (item = cursor_peek(&cursor)) && item->kind != AST_BLOCK);
+    }
+    is_fine = cursor_lacks_comma(&cursor, "`#default`") && is_fine;
+    cursor_close(&cursor);
+    // What is made from it has its pigment and its bumps as they were moved, in the entries of maps, too.
+    is_fine = settle(ev, &ev->program, texture, directive->span) && is_fine;
+    if (is_fine && texture->part.pattern.type != PATTERN_NONE) {
+        return eval_fault(ev, DIAG_E0290, directive->span, "a pattern of textures can be no #default");
+    }
+    ev->objects->defaults = texture;
+    return is_fine;
+}

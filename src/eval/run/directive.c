@@ -1,0 +1,498 @@
+// Directives: what each one does when the walk through a block, or through the top level, comes to it.
+//
+// One function for each kind of directive, in a table. Branches and loops are frames pushed on the cursor. Knows
+// nothing of kinds of blocks.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "eval/run/scope.h"
+
+enum { FAULTY_STEPS = 100000 }; // that say nothing new, before loops of a faulty scene end
+
+// Measured: before it numbers have operators in parentheses only, so that <1 -2 3> is a vector of three.
+static const double VERSION_OF_OPERATORS = 1.5;
+
+typedef void (*DirectiveFn)(Cursor *cursor, const AstNode *node);
+
+// ---- declarations
+
+// Before its end POV-Ray has read the name that comes next, which is the one that is being declared.
+static bool runs_into_name(const AstNode *node)
+{
+    const AstNode *value = node->b->kind == AST_SEQUENCE ? node->b->a : node->b;
+    bool is_open = value->kind == AST_ARRAY || (value->kind == AST_BLOCK && value->symbol == W_texture);
+    return (node->flags & AST_BEFORE_NAME) && is_open;
+}
+
+// Since version 3.5 of the language numbers, vectors and colours end with a semicolon. So do functions and splines that
+// have a name already; before 3.5 POV-Ray takes these without one where no directive comes next.
+static bool needs_end(const Eval *ev, const AstNode *node, const Value *value)
+{
+    bool is_callable = value->kind == VALUE_FUNCTION || value->kind == VALUE_SPLINE;
+    bool is_expression = value->kind == VALUE_NUMBER || value_is_tuple(value);
+    return (is_expression && !(ev->version < 3.5)) || (is_callable && !ev->is_value_made) || runs_into_name(node);
+}
+
+// A second `;` may end numbers, vectors, colours and copies of functions and splines; none may follow the last directive
+// of the value.
+static bool has_too_many_ends(Eval *ev, const AstNode *node, const Value *value)
+{
+    Span last = {node->span.end - 1, node->span.end};
+    bool is_callable = value->kind == VALUE_FUNCTION || value->kind == VALUE_SPLINE;
+    bool takes_two = value->kind == VALUE_NUMBER || value_is_tuple(value) || (is_callable && !ev->is_value_made);
+    unsigned after = node->flags & AST_ENDED_TWICE ? 2 : node->flags & AST_ENDED ? 1 : 0;
+    if (after > 0 && ev->is_value_cut) {
+        return !eval_fault(ev, DIAG_E0106, last, "unexpected `;`: the directive before it ends the declaration");
+    }
+    if (takes_two && after + ev->value_ends > 2) {
+        return !eval_fault(ev, DIAG_E0106, last, "a third `;` cannot end %s", value_describe(value));
+    }
+    return !takes_two && after + ev->value_ends > 1 &&
+           !eval_fault(ev, DIAG_E0106, last, "a second `;` may end a number, a vector or a colour, not %s",
+                       value_describe(value));
+}
+
+static void check_end(Eval *ev, const AstNode *node, const Value *value)
+{
+    bool is_ended = (node->flags & AST_ENDED) || ev->value_ends > 0;
+    if (has_too_many_ends(ev, node, value) || is_ended || !needs_end(ev, node, value)) {
+        return;
+    }
+    Span end = {node->span.end > node->span.begin ? node->span.end - 1 : node->span.begin, node->span.end};
+    if (!eval_report(ev, DIAG_E0205, end, "a `;` is missing after the declaration of %s", value_describe(value))) {
+        return;
+    }
+    char next = ' ';
+    bool is_read = source_read_span(ev->options.diags->sources, (Span){end.end, end.end + 1}, &next);
+    if (is_read && node->b->kind == AST_NUMBER && (next == '_' || ((next | ' ') >= 'a' && (next | ' ') <= 'z'))) {
+        diag_suggest(ev->options.diags, "numbers are decimal and have no suffix: this one ends here");
+    } else {
+        diag_suggest(ev->options.diags, "write `;` after it");
+        diag_replace(ev->options.diags, (Span){end.end, end.end}, ";");
+    }
+}
+
+// After a fault the name is kept without a value, so that its uses are not reported as well.
+static void forget_value(Eval *ev, const AstNode *target, bool local)
+{
+    const Value *known = scope_find(ev, target->symbol);
+    bool is_free = target->kind == AST_NAME && (known == NULL || known->kind != VALUE_MACRO) &&
+                   scope_array(ev, target->symbol) == NULL;
+    ev->faulty = true;
+    if (is_free && !scope_declare(ev, target->symbol, local, &(Value){.kind = VALUE_NONE}, target->span)) {
+        ev->stop = true; // no memory even for that
+    }
+}
+
+// What a declaration gives a value to: an element of an array, or else a name.
+typedef struct Target {
+    Value *element; // NULL: the name
+    ValueArray *array;
+    bool is_left; // the element keeps the value that it has
+} Target;
+
+// As measured: #local leaves an array that it finds further out as it is, unless no element of it was ever set.
+static bool is_left(const Eval *ev, const AstNode *node, const ValueArray *array)
+{
+    const AstNode *base = node->a;
+    while (base->kind == AST_INDEX) {
+        base = base->a;
+    }
+    return node->op == AST_OP_LOCAL && array->first.kind != VALUE_NONE && scope_is_new(ev, base->symbol, true);
+}
+
+// Before the value is worked out: the macros that are called in an index come first.
+static bool find_target(Eval *ev, const AstNode *node, Target *target)
+{
+    *target = (Target){0};
+    if (node->a->kind == AST_NAME) {
+        return scope_declare_begin(ev, node->a->symbol, node->op == AST_OP_LOCAL, node->a->span);
+    }
+    bool is_found = array_locate(ev, node->a, &target->element, &target->array);
+    target->is_left = is_found && is_left(ev, node, target->array);
+    return is_found;
+}
+
+static bool assign(Eval *ev, const AstNode *node, const Target *target, const Value *value)
+{
+    if (target->is_left) {
+        Value kept;
+        return value_store(ev, value, &ev->scratch, node->b->span, &kept) &&
+               array_takes(ev, target->array, target->element, &kept, node->b->span);
+    }
+    return target->element == NULL
+               ? scope_declare(ev, node->a->symbol, node->op == AST_OP_LOCAL, value, node->a->span)
+               : array_assign(ev, target->array, target->element, value, node->b->span);
+}
+
+// A name that is a number becomes another one. False: nothing was done.
+static bool declare_number(Eval *ev, const AstNode *node)
+{
+    double number;
+    const AstNode *target = node->a;
+    if (target->kind != AST_NAME || (node->flags & (AST_ENDED | AST_UNREADABLE)) != AST_ENDED) {
+        return false;
+    }
+    const Binding *binding = scope_binding(ev, target->symbol);
+    Value *known = scope_number(binding);
+    bool is_here = known != NULL && (node->op == AST_OP_DECLARE || binding->level == ev->scope->levels.count);
+    if (!is_here || !quick_number(ev, node->b, &number)) {
+        return false;
+    }
+    value_set_number(known, number);
+    ev->value_ends = 0;
+    ev->is_value_cut = false;
+    return true;
+}
+
+static void run_declare(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    Value value;
+    Target target;
+    if (declare_number(ev, node)) {
+        return;
+    }
+    if (!find_target(ev, node, &target)) {
+        ev->faulty = true;
+        return;
+    }
+    ev->is_value_cut = ev->is_value_made = false;
+    ev->value_ends = 0;
+    ev->takes_end = true;
+    unsigned scopes = ev->scopes_within; // of this name, not of those that macros in its value declare
+    ev->scopes_within = 0;
+    ev->at_colour = node->b->kind == AST_NAME && !(node->flags & AST_ENDED); // with a vector behind it
+    bool fine = !(node->flags & AST_UNREADABLE) && eval_open_rvalue(ev, node->b, &value);
+    ev->at_colour = ev->takes_end = false;
+    ev->scopes_within = scopes;
+    if (!fine) {
+        forget_value(ev, node->a, node->op == AST_OP_LOCAL);
+        return;
+    }
+    check_end(ev, node, &value);
+    ev->is_value_made = ev->is_value_cut = false;
+    ev->value_ends = 0;
+    ev->faulty = !assign(ev, node, &target, &value) || ev->faulty;
+}
+
+static void run_undef(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    if (node->a->kind == AST_NAME) {
+        if (!scope_undef(ev, node->a->symbol)) {
+            eval_warn(ev, DIAG_W0202, node->a->span, "`%s` is not declared", eval_text(ev, node->a->symbol));
+        }
+        return;
+    }
+    Value *element;
+    ValueArray *array;
+    if (array_locate(ev, node->a, &element, &array)) {
+        element->kind = VALUE_NONE;
+    }
+}
+
+static void run_macro(Cursor *cursor, const AstNode *node)
+{
+    macro_define(cursor->ev, node, NULL);
+}
+
+static void run_default(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    ev->faulty = !eval_default(ev, node) || ev->faulty;
+    ev->watch.state++;
+}
+
+static void run_version(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    double version;
+    const AstNode *first = node->a;
+    while (first->kind == AST_BINARY && !(first->flags & AST_IN_PARENTHESES)) {
+        first = first->a;
+    }
+    if (first->kind == AST_CALL && !(first->flags & AST_KNOWN) && !call_is_value(ev, first)) {
+        eval_fault(ev, DIAG_E0202, first->span, "`#version` takes a number, not the call of a macro");
+        return;
+    }
+    ev->inner++;
+    bool fine = eval_number(ev, node->a, &version);
+    ev->inner--;
+    if (!fine) {
+        return;
+    }
+    if (!(version <= 3.7 || numbers_equal(version, 3.7))) {
+        eval_fault(ev, DIAG_E0212, node->a->span, "the scene asks for version %g of the language; this is 3.7",
+                   version);
+        return;
+    }
+    if (version < VERSION_OF_OPERATORS) {
+        eval_fault(ev, DIAG_E0212, node->a->span, "before version 1.5 the language is another one; %g is not supported",
+                   version);
+        return;
+    }
+    if (node->flags & AST_BEFORE_NAME) {
+        Span end = {node->span.end, node->span.end};
+        if (eval_report(ev, DIAG_E0205, end, "a `;` is missing between `#version` and the call of a macro")) {
+            diag_suggest(ev->options.diags, "write `;` after the number");
+            diag_replace(ev->options.diags, end, ";");
+        }
+    }
+    ev->version = version;
+    ev->version_given = true;
+    ev->watch.state++;
+}
+
+// ---- branches
+
+static void push_branch(Cursor *cursor, const AstNode *items)
+{
+    if (items != NULL) {
+        cursor_push(cursor, FRAME_ITEMS, items, NULL);
+    }
+}
+
+static void run_if(Cursor *cursor, const AstNode *node)
+{
+    bool holds;
+    if (eval_condition(cursor->ev, node->a, &holds)) {
+        push_branch(cursor, holds ? node->b : node->c);
+    }
+}
+
+static void run_ifdef(Cursor *cursor, const AstNode *node)
+{
+    if (node->a == NULL) {
+        return; // its condition was not readable
+    }
+    bool is_wanted = name_is_declared(cursor->ev, node->a) == (node->op == AST_OP_IFDEF);
+    push_branch(cursor, is_wanted ? node->b : node->c);
+}
+
+static bool case_holds(Eval *ev, const AstNode *node, double value, bool *holds)
+{
+    double low, high;
+    *holds = node->kind == AST_ELSE;
+    if (node->kind == AST_CASE && node->a != NULL) { // else its head was not readable
+        bool fine = eval_number(ev, node->a, &low);
+        *holds = fine && number_is_case(value, low);
+        return fine;
+    }
+    if (node->kind == AST_RANGE) {
+        bool fine = eval_number(ev, node->a, &low) && eval_number(ev, node->b, &high);
+        *holds = fine && low <= value && value <= high;
+        return fine;
+    }
+    return true;
+}
+
+// The first case that holds, or NULL; false after a fault.
+static bool find_case(Eval *ev, const AstNode *node, const AstNode **found)
+{
+    double value;
+    if (!eval_number(ev, node->a, &value)) {
+        return false;
+    }
+    for (*found = node->b; *found != NULL; *found = (*found)->next) {
+        bool holds;
+        if (!case_holds(ev, *found, value, &holds)) {
+            return false;
+        }
+        if (holds) {
+            return true;
+        }
+    }
+    return true;
+}
+
+static void run_switch(Cursor *cursor, const AstNode *node)
+{
+    const AstNode *found;
+    if (!find_case(cursor->ev, node, &found)) {
+        return;
+    }
+    if (found != NULL && cursor_push(cursor, FRAME_SWITCH, case_items(found), found) == NULL) {
+        return;
+    }
+    push_branch(cursor, node->c); // what stands before the first case
+}
+
+bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds)
+{
+    switch ((AstKind)node->kind) {
+    case AST_IFDEF: *holds = name_is_declared(ev, node->a) == (node->op == AST_OP_IFDEF); return true;
+    case AST_SWITCH: return eval_number(ev, node->a, subject);
+    case AST_CASE:
+    case AST_RANGE:
+    case AST_ELSE: return case_holds(ev, node, *subject, holds);
+    default: return eval_condition(ev, node->a, holds);
+    }
+}
+
+// ---- loops
+
+static void run_while(Cursor *cursor, const AstNode *node)
+{
+    bool holds;
+    if (eval_condition(cursor->ev, node->a, &holds) && holds && eval_step(cursor->ev, node->span)) {
+        cursor_push(cursor, FRAME_WHILE, node->b, node);
+    }
+}
+
+// As measured, with the language's tolerance at the end.
+static bool for_holds(double number, double end, double step)
+{
+    return step > 0.0 ? number < end + 1e-10 : number > end - 1e-10;
+}
+
+bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool *holds)
+{
+    double from = 0, end = 0, step = 1;
+    const AstNode *third = node->b->next->next;
+    ev->inner++;
+    bool fine = eval_number(ev, node->b, &from);
+    fine = eval_number(ev, node->b->next, &end) && fine;
+    fine = (third == NULL || eval_number(ev, third, &step)) && fine;
+    ev->inner--;
+    if (!fine) {
+        return false;
+    }
+    if (step == 0.0) {
+        return eval_fault(ev, DIAG_E0305, third->span, "the step of a loop must not be zero");
+    }
+    if (third != NULL && third->next != NULL) {
+        return eval_fault(ev, DIAG_E0203, third->next->span, "`#for` takes a name and at most three numbers");
+    }
+    Symbol name = node->a->symbol;
+    Value value = value_of_number(from);
+    if (scope_is_reference(ev, name)) {
+        return eval_fault(ev, DIAG_E0220, node->a->span,
+                          "`%s` stands for the caller's variable and cannot count a loop", eval_text(ev, name));
+    }
+    *loop = (GrammarLoop){.counter = name, .span = node->a->span, .end = end, .step = step};
+    *holds = for_holds(from, end, step);
+    return scope_declare(ev, name, true, &value, node->a->span);
+}
+
+bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds)
+{
+    Value *counter = scope_find(ev, loop->counter);
+    *holds = false;
+    if (counter == NULL || counter->kind != VALUE_NUMBER) {
+        return (counter == NULL || counter->kind != VALUE_NONE) &&
+               eval_fault(ev, DIAG_E0220, loop->span, "the loop has lost its counter: `%s` is %s now",
+                          eval_text(ev, loop->counter), counter != NULL ? value_describe(counter) : "not declared");
+    }
+    counter->number += loop->step;
+    *holds = for_holds(counter->number, loop->end, loop->step);
+    return true;
+}
+
+static void run_for(Cursor *cursor, const AstNode *node)
+{
+    GrammarLoop loop;
+    bool holds = false;
+    if (node->a == NULL || !directive_begin_for(cursor->ev, node, &loop, &holds) || !holds ||
+        !eval_step(cursor->ev, node->span)) {
+        return; // at the first, its head was not readable
+    }
+    CursorFrame *frame = cursor_push(cursor, FRAME_FOR, node->c, node);
+    if (frame != NULL) {
+        frame->loop = loop;
+    }
+}
+
+bool loop_continues(Eval *ev, CursorFrame *frame)
+{
+    const AstNode *node = frame->node;
+    if (frame->kind == FRAME_WHILE) {
+        bool holds;
+        double number;
+        if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
+            return false; // what would have ended the loop may be what is not understood
+        }
+        if (quick_number(ev, node->a, &number)) {
+            return number_is_true(number) && eval_step(ev, node->span);
+        }
+        ArenaMark mark = scratch_mark(ev);
+        bool fine = eval_condition(ev, node->a, &holds);
+        scratch_rewind(ev, mark);
+        return fine && holds && eval_step(ev, node->span);
+    }
+    bool holds;
+    return directive_next_for(ev, &frame->loop, &holds) && holds && eval_step(ev, node->span);
+}
+
+static void run_break(Cursor *cursor, const AstNode *node)
+{
+    cursor_break(cursor, node->span, false);
+}
+
+// ---- messages
+
+static const EvalStream streams[AST_OP_COUNT] = {
+    [AST_OP_DEBUG] = EVAL_STREAM_DEBUG,
+    [AST_OP_RENDER] = EVAL_STREAM_RENDER,
+    [AST_OP_STATISTICS] = EVAL_STREAM_STATISTICS,
+};
+
+// What is said, on one line.
+static int one_line(const Value *value, char *line, size_t size)
+{
+    size_t length = value->length < size ? value->length : size - 1;
+    for (size_t i = 0; i < length; i++) {
+        line[i] = (unsigned char)value->text[i] < ' ' ? ' ' : value->text[i];
+    }
+    while (length > 0 && line[length - 1] == ' ') {
+        length--;
+    }
+    return (int)length;
+}
+
+static void run_message(Cursor *cursor, const AstNode *node)
+{
+    Eval *ev = cursor->ev;
+    Value value;
+    char line[512];
+    if (!eval_string(ev, node->a, &value)) {
+        return;
+    }
+    if (node->op == AST_OP_WARNING) {
+        int length = one_line(&value, line, sizeof line);
+        eval_warn(ev, DIAG_W0201, node->span, "%.*s", length, line);
+    } else if (node->op == AST_OP_ERROR) {
+        int length = one_line(&value, line, sizeof line);
+        eval_fault(ev, DIAG_E0211, node->span, "%.*s", length, line);
+        ev->stop = true;
+    } else {
+        message_write(ev, streams[node->op], value.text, value.length, node->span);
+    }
+}
+
+// ---- the table
+
+static const DirectiveFn directives[AST_KIND_COUNT] = {
+    [AST_DECLARE] = run_declare, [AST_UNDEF] = run_undef,     [AST_IF] = run_if,         [AST_IFDEF] = run_ifdef,
+    [AST_SWITCH] = run_switch,   [AST_BREAK] = run_break,     [AST_WHILE] = run_while,   [AST_FOR] = run_for,
+    [AST_MACRO] = run_macro,     [AST_INCLUDE] = include_run, [AST_DEFAULT] = run_default, [AST_VERSION] = run_version,
+    [AST_MESSAGE] = run_message, [AST_FOPEN] = data_file_run, [AST_FCLOSE] = data_file_run, [AST_READ] = data_file_run,
+    [AST_WRITE] = data_file_run,
+};
+
+bool directive_run(Cursor *cursor, const AstNode *node)
+{
+    DirectiveFn run = directives[node->kind];
+    if (run == NULL) {
+        return false;
+    }
+    if (is_in_initialiser(cursor->ev)) {
+        (void)initialiser_fault(cursor->ev, node->span);
+        return true;
+    }
+    ArenaMark mark = scratch_mark(cursor->ev);
+    run(cursor, node);
+    scratch_rewind(cursor->ev, mark);
+    return true;
+}

@@ -1,0 +1,304 @@
+// Splines: points given at numbers, and curves through them.
+//
+// Turns `spline { … }` into points in rising order, and a number into the point of the curve there. The curves are
+// POV-Ray's, as measured: see each formula. Knows nothing of how a spline is called.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <string.h>
+
+#include "eval/values/function.h"
+
+static const struct {
+    Word word;
+    SplineType type;
+} types[] = {
+    {W_linear_spline, SPLINE_LINEAR},
+    {W_quadratic_spline, SPLINE_QUADRATIC},
+    {W_cubic_spline, SPLINE_CUBIC},
+    {W_natural_spline, SPLINE_NATURAL},
+};
+
+bool spline_type(Word word, SplineType *type)
+{
+    for (size_t i = 0; i < RT_COUNT_OF(types); i++) {
+        if (types[i].word == word) {
+            *type = types[i].type;
+            return true;
+        }
+    }
+    return false;
+}
+
+// ---- reading
+
+typedef ARRAY(SplinePoint) PointList;
+
+typedef struct SplineReader {
+    Eval *ev;
+    Cursor cursor;
+    PointList points;
+    SplineType type;
+    unsigned components;
+    double carry[5]; // of the point that was read last
+    bool has_head; // a name or a type stood first: no comma may follow
+} SplineReader;
+
+// Keeps the points in rising order. As in POV-Ray one at a place that is taken replaces what is there, unless that is the
+// last of several: then the new one is left out.
+static bool insert(SplineReader *reader, const SplinePoint *point)
+{
+    PointList *list = &reader->points;
+    size_t at = list->count;
+    while (at > 0 && list->items[at - 1].t >= point->t) {
+        at--;
+    }
+    if (at < list->count && list->items[at].t == point->t) {
+        if (at == 0 || at + 1 < list->count) {
+            list->items[at] = *point;
+        }
+        return true;
+    }
+    if (!ARRAY_PUSH(list, *point)) {
+        return false;
+    }
+    memmove(list->items + at + 1, list->items + at, (list->count - 1 - at) * sizeof *list->items);
+    list->items[at] = *point;
+    return true;
+}
+
+static bool copy_spline(SplineReader *reader, const Spline *from)
+{
+    for (unsigned i = 0; i < from->count; i++) {
+        if (!ARRAY_PUSH(&reader->points, from->points[i])) {
+            return eval_no_memory(reader->ev, reader->cursor.span);
+        }
+    }
+    reader->type = from->type;
+    reader->components = from->components;
+    reader->has_head = true;
+    return true;
+}
+
+// The name of another spline, then a type, both of which may be missing.
+static bool read_head(SplineReader *reader)
+{
+    const AstNode *item = cursor_peek(&reader->cursor);
+    Value value;
+    if (item != NULL && (item->kind == AST_NAME || item->kind == AST_INDEX)) {
+        if (!eval_expression(reader->ev, item, &value)) {
+            return false;
+        }
+        if (value.kind == VALUE_SPLINE) {
+            cursor_skip(&reader->cursor);
+            if (!copy_spline(reader, value.spline)) {
+                return false;
+            }
+            item = cursor_peek(&reader->cursor);
+        }
+    }
+    if (item != NULL && item->kind == AST_WORD && spline_type((Word)item->symbol, &reader->type)) {
+        cursor_skip(&reader->cursor);
+        reader->has_head = true;
+        item = cursor_peek(&reader->cursor);
+    }
+    return item == NULL || !reader->has_head || !(item->flags & AST_AFTER_COMMA) ||
+           eval_fault(reader->ev, DIAG_E0259, item->span, "no comma may stand before the first point of a spline");
+}
+
+// A number is two equal components. As in POV-Ray, what a point does not say is as in the point read before it, 0 in
+// the first.
+static bool read_point(SplineReader *reader)
+{
+    Eval *ev = reader->ev;
+    SplinePoint point = {0};
+    Span span;
+    Value value;
+    if (!cursor_number(&reader->cursor, &point.t, &span)) {
+        return false;
+    }
+    if (!isfinite(point.t)) {
+        return eval_fault(ev, DIAG_E0340, span, "the number of a spline's point is not finite");
+    }
+    const AstNode *item = cursor_peek(&reader->cursor);
+    if (item == NULL) {
+        return !ev->stop && eval_fault(ev, DIAG_E0263, span, "this number needs a point of the spline after it");
+    }
+    span = item->span;
+    if (!cursor_value(&reader->cursor, &value)) {
+        return false;
+    }
+    if (value.kind != VALUE_NUMBER && !value_is_tuple(&value)) {
+        return eval_fault(ev, DIAG_E0202, span, "a point of a spline is a vector, not %s", value_describe(&value));
+    }
+    double v[5];
+    memcpy(reader->carry, v, value_components(&value, v) * sizeof *v);
+    if (value.kind == VALUE_NUMBER) {
+        reader->carry[1] = value.number;
+    } else if (value.components > reader->components) {
+        reader->components = value.components;
+    }
+    memcpy(point.v, reader->carry, sizeof point.v);
+    return insert(reader, &point) || eval_no_memory(ev, span);
+}
+
+static bool read_points(SplineReader *reader)
+{
+    Eval *ev = reader->ev;
+    bool fine = true;
+    const AstNode *item;
+    while (fine && (item = cursor_peek(&reader->cursor)) != NULL) {
+        fine = cursor_at_value(&reader->cursor) && item->kind != AST_WORD
+                   ? read_point(reader)
+                   : eval_fault(ev, DIAG_E0263, item->span, "a spline holds numbers, each with a point after it");
+    }
+    return fine && !ev->stop;
+}
+
+// The second derivatives of the curve of third order that is twice continuously differentiable and straight at its
+// ends: a tridiagonal system for each component, by elimination. Numerical Recipes in C, 2nd edition, 3.3.
+static void bend(SplinePoint *points, unsigned count, double *factors)
+{
+    for (unsigned c = 0; c < 5; c++) {
+        factors[0] = points[0].bend[c] = points[count - 1].bend[c] = 0.0;
+        for (unsigned i = 1; i + 1 < count; i++) {
+            const SplinePoint *p = &points[i];
+            double before = p->t - p[-1].t, after = p[1].t - p->t;
+            double share = before / (before + after);
+            double pivot = share * factors[i - 1] + 2.0;
+            double change = (p[1].v[c] - p->v[c]) / after - (p->v[c] - p[-1].v[c]) / before;
+            factors[i] = (share - 1.0) / pivot;
+            points[i].bend[c] = (6.0 * change / (before + after) - share * p[-1].bend[c]) / pivot;
+        }
+        for (unsigned i = count - 1; i-- > 1;) {
+            points[i].bend[c] += factors[i] * points[i + 1].bend[c];
+        }
+    }
+}
+
+static bool make_spline(SplineReader *reader, Span span, Value *value)
+{
+    Eval *ev = reader->ev;
+    unsigned count = (unsigned)reader->points.count;
+    if (count == 0) {
+        return eval_fault(ev, DIAG_E0263, span, "a spline needs at least one point");
+    }
+    Spline *spline = arena_alloc(&ev->program, sizeof *spline);
+    SplinePoint *points = arena_copy(&ev->program, reader->points.items, count * sizeof *points);
+    double *factors = arena_alloc_array(&ev->scratch, count, sizeof *factors);
+    if (spline == NULL || points == NULL || factors == NULL) {
+        return eval_no_memory(ev, span);
+    }
+    bend(points, count, factors);
+    *spline = (Spline){.type = reader->type, .components = reader->components, .count = count, .points = points};
+    *value = (Value){.kind = VALUE_SPLINE, .spline = spline};
+    return true;
+}
+
+bool spline_create(Eval *ev, const AstNode *block, Value *value)
+{
+    SplineReader reader = {.ev = ev, .type = SPLINE_LINEAR, .components = 2};
+    ev->inner++;
+    cursor_open(&reader.cursor, ev, block->a, block->span);
+    bool fine = read_head(&reader) && read_points(&reader) && make_spline(&reader, block->span, value);
+    cursor_close(&reader.cursor);
+    ev->inner--;
+    ARRAY_FREE(&reader.points);
+    return fine && !ev->stop;
+}
+
+// ---- the curves
+
+static double linear_at(const SplinePoint *p, unsigned c, double t)
+{
+    return (p[1].v[c] - p[0].v[c]) * (t - p[0].t) / (p[1].t - p[0].t) + p[0].v[c]; // as POV-Ray rounds it
+}
+
+// The parabola through three points, its coefficients by Cramer's rule.
+static double parabola_at(const SplinePoint *p, unsigned c, double t)
+{
+    double t0 = p[0].t, t1 = p[1].t, t2 = p[2].t, v0 = p[0].v[c], v1 = p[1].v[c], v2 = p[2].v[c];
+    double determinant = (t0 - t1) * (t0 - t2) * (t1 - t2);
+    double square = (t2 * (v1 - v0) + t1 * (v0 - v2) + t0 * (v2 - v1)) / determinant;
+    double slope = (t2 * t2 * (v0 - v1) + t1 * t1 * (v2 - v0) + t0 * t0 * (v1 - v2)) / determinant;
+    double constant = (t1 * t2 * (t1 - t2) * v0 + t2 * t0 * (t2 - t0) * v1 + t0 * t1 * (t0 - t1) * v2) / determinant;
+    return (square * t + slope) * t + constant;
+}
+
+// Hermite's curve between p[1] and p[2]; at each the slope is the mean of the slopes of the chords on both sides.
+static double cubic_at(const SplinePoint *p, unsigned c, double t)
+{
+    double length = p[2].t - p[1].t, share = (t - p[1].t) / length;
+    double before = (p[1].v[c] - p[0].v[c]) / (p[1].t - p[0].t);
+    double chord = (p[2].v[c] - p[1].v[c]) / length;
+    double after = (p[3].v[c] - p[2].v[c]) / (p[3].t - p[2].t);
+    double square = share * share, cube = square * share;
+    return (2.0 * cube - 3.0 * square + 1.0) * p[1].v[c] +
+           (cube - 2.0 * square + share) * length * (before + chord) / 2.0 +
+           (3.0 * square - 2.0 * cube) * p[2].v[c] + (cube - square) * length * (chord + after) / 2.0;
+}
+
+static double natural_at(const SplinePoint *p, unsigned c, double t)
+{
+    double length = p[1].t - p[0].t, a = (p[1].t - t) / length, b = (t - p[0].t) / length;
+    return a * p[0].v[c] + b * p[1].v[c] +
+           ((a * a * a - a) * p[0].bend[c] + (b * b * b - b) * p[1].bend[c]) * length * length / 6.0;
+}
+
+typedef struct Curve {
+    double (*at)(const SplinePoint *p, unsigned component, double t);
+    unsigned before, after; // points that it needs beyond the ends of an interval
+    unsigned least;         // points; with fewer it is straight
+    bool shifts;            // at the first interval it takes the points from there on
+} Curve;
+
+static const Curve curves[] = {
+    [SPLINE_LINEAR] = {linear_at, 0, 0, 2, false},
+    [SPLINE_QUADRATIC] = {parabola_at, 1, 0, 3, true},
+    [SPLINE_CUBIC] = {cubic_at, 1, 1, 3, false},
+    [SPLINE_NATURAL] = {natural_at, 0, 0, 2, false},
+};
+
+// The last point at or before t, of a spline that t lies in.
+static unsigned find_interval(const Spline *spline, double t)
+{
+    unsigned low = 0, high = spline->count - 1;
+    while (high - low > 1) {
+        unsigned middle = low + (high - low) / 2;
+        if (spline->points[middle].t <= t) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+// POV-Ray's cubic spline of two points: halfway between them, wherever it is asked for.
+static bool is_mean(const Spline *spline, SplineType type)
+{
+    return type == SPLINE_CUBIC && spline->count == 2;
+}
+
+void spline_at(const Spline *spline, SplineType type, double t, double v[5])
+{
+    if (is_mean(spline, type)) {
+        for (unsigned c = 0; c < 5; c++) {
+            v[c] = (spline->points[0].v[c] + spline->points[1].v[c]) / 2.0;
+        }
+        return;
+    }
+    const Curve *curve = spline->count < curves[type].least ? &curves[SPLINE_LINEAR] : &curves[type];
+    unsigned first = curve->shifts ? 0 : curve->before, last = spline->count - 1 - curve->after;
+    const SplinePoint *points = spline->points;
+    // Not a number stays where the curve begins.
+    if (!(t > points[first].t) || t >= points[last].t) {
+        memcpy(v, points[t >= points[last].t ? last : first].v, 5 * sizeof *v);
+        return;
+    }
+    unsigned interval = find_interval(spline, t);
+    unsigned from = interval >= curve->before ? interval - curve->before : 0;
+    for (unsigned c = 0; c < 5; c++) {
+        v[c] = c < spline->components ? curve->at(points + from, c, t) : 0.0;
+    }
+}
