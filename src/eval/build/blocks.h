@@ -5,7 +5,7 @@
 #ifndef EVAL_BLOCKS_H
 #define EVAL_BLOCKS_H
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 #include "scene/description.h"
 #include "scene/form.h"
 
@@ -57,6 +57,32 @@ typedef struct Block {
     bool has_unsupported;
     bool has_fault;
 } Block;
+
+// object.c
+
+// The interface of this room to the text.
+extern const EvalBuilder builder_of_scene;
+// Whether a word of the language begins a block, supported or not.
+bool object_takes_braces(const Eval *ev, Symbol word);
+// Evaluates `word { items }` to a record in the program arena (block.c and the files of the kinds).
+bool eval_block(Eval *ev, const AstNode *block, Value *value) RT_MUST_CHECK;
+// Layers: texture{} texture{}.
+bool eval_texture_layers(Eval *ev, const AstNode *first, Value *value) RT_MUST_CHECK;
+// One more, over `layers`; VALUE_NONE: there are none yet.
+bool eval_texture_layer(Eval *ev, const AstNode *node, Value *layers) RT_MUST_CHECK;
+// A block, or an identifier of an object, as a statement: adds it to the scene.
+bool eval_place(Eval *ev, const AstNode *item) RT_MUST_CHECK;
+// #default { items }
+bool eval_default(Eval *ev, const AstNode *directive) RT_MUST_CHECK;
+
+bool objects_init(Eval *ev) RT_MUST_CHECK;
+// When the whole scene is read: places what only the last one of counts.
+bool objects_finish(Eval *ev) RT_MUST_CHECK;
+void objects_fini(Eval *ev);
+
+// The transform around the whole scene, and the factor of lengths that no transform changes.
+Transform world_transform(const Eval *ev);
+double world_scale(const Eval *ev);
 
 // block.c
 
@@ -217,6 +243,8 @@ bool settings_generator_action(Block *block, const SchemaProperty *property, con
 bool settings_place(Eval *ev, SchemaKind kind, const Desc *record) RT_MUST_CHECK;
 
 // extent.c
+// min_extent and max_extent
+bool builtin_extent(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // The object that the first argument of a call names; false after a fault.
 bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
 // Whether the inside of an object that is no union is more than what is in its box, or not what its surface is around;

@@ -6,7 +6,9 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
+#include "eval/build/painted.h"
 #include "eval/build/plan.h"
+#include "eval/build/probe.h"
 
 // ---- members of unions and objects
 
@@ -201,6 +203,12 @@ bool object_is_statement(SchemaKind kind)
            kind == KIND_SKY_SPHERE || kind == KIND_FOG || kind == KIND_GLOBAL_SETTINGS;
 }
 
+static bool begins_statement(const Eval *ev, const AstNode *item)
+{
+    bool has_word = (item->kind == AST_BLOCK || item->kind == AST_WORD) && item->symbol < WORD_COUNT;
+    return has_word && object_is_statement((SchemaKind)ev->objects->kinds[item->symbol]);
+}
+
 bool object_takes_braces(const Eval *ev, Symbol word)
 {
     if (word >= WORD_COUNT) {
@@ -337,3 +345,21 @@ void objects_fini(Eval *ev)
 {
     ev->objects = NULL; // its memory is the program arena's
 }
+
+const EvalBuilder builder_of_scene = {
+    .place = eval_place,
+    .block = eval_block,
+    .texture_layers = eval_texture_layers,
+    .texture_layer = eval_texture_layer,
+    .set_default = eval_default,
+    .is_statement = begins_statement,
+    .takes_braces = object_takes_braces,
+    .trace = builtin_trace,
+    .inside = builtin_inside,
+    .extent = builtin_extent,
+    .painted_create = painted_create,
+    .painted_at = painted_at,
+    .plan_hooks = plan_hooks,
+    .plan_watch_call = plan_watch_call,
+    .plan_turns = plan_turns,
+};

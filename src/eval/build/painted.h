@@ -4,7 +4,7 @@
 #ifndef EVAL_PAINTED_H
 #define EVAL_PAINTED_H
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 // A pattern or a pigment that is a function, in the program's memory.
 typedef struct Painted Painted;

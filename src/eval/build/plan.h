@@ -154,6 +154,11 @@ bool plan_turn(Eval *ev, PlanPlace *place, const AstNode *item, bool *is_fine) R
 // cursor then stands where it would by itself.
 void plan_turns(Cursor *cursor);
 
+// plan_text.c: what the grammar asks of plans, put to the other hooks.
+void plan_hooks(Eval *ev, GrammarHooks *hooks);
+// A call is evaluated next: makes a plan of it when it is the statement that is watched.
+void plan_watch_call(Eval *ev, const AstNode *call);
+
 // plan_many.c, see GrammarHooks
 extern const size_t plan_record_bytes;
 bool plan_prepare(const GrammarPlan *plan, const double *numbers, uint64_t begin, void *record) RT_MUST_CHECK;

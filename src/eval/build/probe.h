@@ -4,7 +4,7 @@
 #ifndef EVAL_PROBE_H
 #define EVAL_PROBE_H
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 typedef struct Probe Probe;
 

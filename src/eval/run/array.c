@@ -1,51 +1,11 @@
 // Arrays: making them, with or without their elements, and finding and setting an element.
 //
-// Elements stand in one block, the last index running fastest; an element may be an array itself. Knows nothing of
-// names.
+// Elements stand in one block, the last index running fastest; an element may be an array itself.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
-#include "eval/internal.h"
-
-// Objects are of one type, whatever their shapes; of what is not supported nobody knows.
-static bool same_block(const Value *one, const Value *other)
-{
-    bool are_objects =
-        schema_kind((SchemaKind)one->block)->is_object && schema_kind((SchemaKind)other->block)->is_object;
-    return one->block == other->block || are_objects || one->block == KIND_UNSUPPORTED ||
-           other->block == KIND_UNSUPPORTED;
-}
-
-static bool same_type(const Value *one, const Value *other)
-{
-    return one->kind == other->kind && one->components == other->components &&
-           (one->kind != VALUE_BLOCK || same_block(one, other));
-}
-
-bool array_takes(Eval *ev, const ValueArray *array, const Value *element, const Value *value, Span span)
-{
-    const Value *other = &array->first;
-    if (element->kind == VALUE_FUNCTION) {
-        return eval_fault(ev, DIAG_E0262, span, "this element is a function, which cannot be declared again");
-    }
-    return other->kind == VALUE_NONE || same_type(other, value) ||
-           eval_fault(ev, DIAG_E0215, span, "the elements of this array are each %s, not %s", value_describe(other),
-                      value_describe(value));
-}
-
-bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span)
-{
-    Value kept;
-    if (!value_store(ev, value, &ev->program, span, &kept) || !array_takes(ev, array, element, &kept, span)) {
-        return false;
-    }
-    *element = kept;
-    if (array->first.kind == VALUE_NONE || (kept.kind == VALUE_BLOCK && kept.block != KIND_UNSUPPORTED)) {
-        array->first = kept;
-    }
-    return true;
-}
+#include "eval/run/run.h"
 
 bool initialiser_fault(Eval *ev, Span span)
 {

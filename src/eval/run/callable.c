@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "eval/values/function.h"
+#include "eval/run/callable.h"
 
 const Value *call_callee(Eval *ev, const AstNode *call)
 {

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 enum { RED, GREEN, BLUE, FILTER, TRANSMIT, COMPONENTS };
 

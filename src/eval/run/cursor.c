@@ -4,7 +4,7 @@
 // program arena and used again. Owns the frames. Knows nothing of what the items mean.
 //
 // SPDX-License-Identifier: MIT
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 enum { CURSOR_WEIGHT = 4 }; // of native recursion, see eval_deepen
 

@@ -201,7 +201,7 @@ static void run_macro(Cursor *cursor, const AstNode *node)
 static void run_default(Cursor *cursor, const AstNode *node)
 {
     Eval *ev = cursor->ev;
-    ev->faulty = !eval_default(ev, node) || ev->faulty;
+    ev->faulty = !ev->builder->set_default(ev, node) || ev->faulty;
     ev->watch.state++;
 }
 

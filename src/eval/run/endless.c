@@ -4,7 +4,7 @@
 // shows: calls in the condition, included files, macros that are read token by token.
 //
 // SPDX-License-Identifier: MIT
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 enum { NAMES_MOST = 4, CALLS_MOST = 8 };
 

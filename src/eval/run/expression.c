@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "eval/values/characters.h"
-#include "eval/values/function.h"
+#include "eval/run/callable.h"
 #include "scene/description.h"
 
 bool eval_number(Eval *ev, const AstNode *node, double *number)
@@ -207,35 +207,6 @@ static bool eval_vector(Eval *ev, const AstNode *node, Value *value)
     return fine;
 }
 
-static const struct {
-    Word word;
-    unsigned component;
-} members[] = {
-    {W_x, 0}, {W_y, 1}, {W_z, 2}, {W_t, 3}, {W_u, 0}, {W_v, 1},
-    {W_red, 0}, {W_green, 1}, {W_blue, 2}, {W_filter, 3}, {W_transmit, 4},
-};
-
-double number_gray(const double v[3])
-{
-    // The weights of POV-Ray's manual, 2.2.1.4.4 "Vector Expressions".
-    return 0.297 * v[0] + 0.589 * v[1] + 0.114 * v[2];
-}
-
-bool value_component(Symbol name, unsigned width, unsigned *component)
-{
-    if (name == W_gray && width >= 2) {
-        *component = COMPONENT_GRAY;
-        return true;
-    }
-    for (size_t i = 0; i < RT_COUNT_OF(members); i++) {
-        if (members[i].word == (Word)name && members[i].component < width) {
-            *component = members[i].component;
-            return true;
-        }
-    }
-    return false;
-}
-
 static bool eval_member(Eval *ev, const AstNode *node, Value *value)
 {
     unsigned component;
@@ -348,7 +319,7 @@ bool eval_expression(Eval *ev, const AstNode *node, Value *value)
 static bool eval_sequence(Eval *ev, const AstNode *node, Value *value)
 {
     if (node->a->kind == AST_BLOCK) {
-        return eval_texture_layers(ev, node->a, value);
+        return ev->builder->texture_layers(ev, node->a, value);
     }
     Cursor cursor;
     Rgbft colour;
@@ -369,7 +340,7 @@ static bool eval_sequence(Eval *ev, const AstNode *node, Value *value)
 static bool eval_braces(Eval *ev, const AstNode *node, Value *value)
 {
     ev->inner++;
-    bool fine = node->symbol == W_spline ? spline_create(ev, node, value) : eval_block(ev, node, value);
+    bool fine = node->symbol == W_spline ? spline_create(ev, node, value) : ev->builder->block(ev, node, value);
     ev->inner--;
     return fine;
 }
@@ -422,3 +393,12 @@ bool eval_open_rvalue(Eval *ev, const AstNode *node, Value *value)
     ev->inner = inner;
     return fine;
 }
+
+const EvalText text_of_scene = {
+    .expression = eval_expression,
+    .number = eval_number,
+    .vector3 = eval_vector3,
+    .string = eval_string,
+    .is_declared = name_is_declared,
+    .has_file = file_is_there,
+};

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "base/suggest.h"
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 enum { LINKS_MOST = 40 }; // as many as the kernel follows
 

@@ -4,9 +4,8 @@
 // has not is kept as a function that is a fault where it is called. Knows nothing of calls.
 //
 // SPDX-License-Identifier: MIT
-#include "eval/build/blocks.h"
-#include "eval/values/function.h"
-#include "eval/build/painted.h"
+#include "scene/description.h"
+#include "eval/run/callable.h"
 
 static bool fault_parameter(FunctionBody *body, const AstNode *node, const char *why)
 {
@@ -72,7 +71,7 @@ static bool make_numeric(Eval *ev, const AstNode *node, Function *function)
 static bool make_transform(Eval *ev, const AstNode *block, Function *function)
 {
     Value value;
-    if (!eval_block(ev, block, &value)) {
+    if (!ev->builder->block(ev, block, &value)) {
         return false;
     }
     if (value.block == KIND_UNSUPPORTED) {
@@ -103,7 +102,7 @@ static bool make_painted(Eval *ev, const AstNode *block, Function *function)
     const char *unsupported = NULL;
     function->kind = block->symbol == W_pattern ? FUNCTION_PATTERN : FUNCTION_PIGMENT;
     function->parameter_count = 3;
-    if (!painted_create(ev, block, &function->painted, &unsupported)) {
+    if (!ev->builder->painted_create(ev, block, &function->painted, &unsupported)) {
         return false;
     }
     if (unsupported != NULL) {

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/suggest.h"
-#include "eval/build/blocks.h"
-#include "eval/values/function.h"
+#include "scene/description.h"
+#include "eval/run/callable.h"
 
 enum { CALL_HEIGHT = 8 }; // of native recursion, see eval_deepen
 

@@ -4,7 +4,7 @@
 // nothing of where files are: that is files.c.
 //
 // SPDX-License-Identifier: MIT
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 static bool take_item(void *client, const AstNode *item)
 {

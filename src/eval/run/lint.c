@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 enum { NAME_USED = 1, NAME_DECLARED = 2 };
 

@@ -395,7 +395,7 @@ static bool take_colour(Cursor *cursor, Value *value)
 static bool take_layer(Eval *ev, const AstNode *texture, Value *layers)
 {
     ev->inner++;
-    bool fine = eval_texture_layer(ev, texture, layers);
+    bool fine = ev->builder->texture_layer(ev, texture, layers);
     ev->inner--;
     return fine;
 }

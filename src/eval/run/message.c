@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "eval/values/characters.h"
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 // Measured: a line of more than 80 bytes is broken before the last blank or tab at 61 to 80, which begins the next
 // line; without one, after 80 bytes.

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 enum { BYTES_MOST = 1 << 20 };
 

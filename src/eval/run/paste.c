@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 static bool is_open_operation(const AstNode *node)
 {

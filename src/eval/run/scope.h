@@ -1,10 +1,10 @@
-// How names are kept, for those who look one up at every turn of a loop. What may be done with them is in internal.h.
+// How names are kept, for those who look one up at every turn of a loop. What may be done with them is in run.h.
 //
 // SPDX-License-Identifier: MIT
 #ifndef EVAL_SCOPE_H
 #define EVAL_SCOPE_H
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 typedef struct Binding Binding;
 struct Binding {

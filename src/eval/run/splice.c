@@ -7,7 +7,7 @@
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
 
-#include "eval/internal.h"
+#include "eval/run/run.h"
 
 struct SpliceStream {
     Splice splice;
@@ -77,7 +77,8 @@ static bool lacks_index(void *client, const AstNode *element)
 
 static bool takes_braces(void *client, Symbol word)
 {
-    return object_takes_braces(eval_of(client), word);
+    const Eval *ev = eval_of(client);
+    return ev->builder->takes_braces(ev, word);
 }
 
 static bool is_unbalanced(void *client, Symbol name)
@@ -271,7 +272,7 @@ void splice_init(Splice *splice, Eval *ev)
                   .is_stopped = is_stopped,
                   .is_top = true},
     };
-    plan_hooks(ev, &splice->hooks);
+    ev->builder->plan_hooks(ev, &splice->hooks);
 }
 
 void splice_fini(Splice *splice)

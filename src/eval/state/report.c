@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/state/state.h"
 
 enum { BYTES_A_STEP = 256 }; // of a string: as many are compared or copied in the time of a loop's turn
 

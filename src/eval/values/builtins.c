@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "base/number.h"
-#include "eval/build/probe.h"
+#include "eval/values/values.h"
 #include "math/transform.h"
 
 static bool give_number(Value *value, double number)
@@ -39,7 +39,7 @@ static bool numbers(Eval *ev, const AstNode *node, double *out, unsigned count)
     const AstNode *argument = node->a;
     for (unsigned i = 0; i < count && argument != NULL; i++, argument = argument->next) {
         out[i] = 0.0;
-        fine = eval_number(ev, argument, &out[i]) && fine;
+        fine = ask_number(ev, argument, &out[i]) && fine;
     }
     return fine;
 }
@@ -49,7 +49,7 @@ static bool vectors(Eval *ev, const AstNode *node, Vec3 *out, unsigned count)
     bool fine = true;
     const AstNode *argument = node->a;
     for (unsigned i = 0; i < count && argument != NULL; i++, argument = argument->next) {
-        fine = eval_vector3(ev, argument, &out[i]) && fine;
+        fine = ask_vector3(ev, argument, &out[i]) && fine;
     }
     return fine;
 }
@@ -131,7 +131,7 @@ static bool next_of_many(Eval *ev, const AstNode *call, const AstNode *argument,
         return eval_fault(ev, DIAG_E0203, argument->span, "a comma is missing before this argument of `%s`",
                           eval_text(ev, call->symbol));
     }
-    return eval_number(ev, argument, number);
+    return ask_number(ev, argument, number);
 }
 
 static bool least_or_greatest(Eval *ev, const AstNode *node, Value *value)
@@ -226,7 +226,7 @@ static bool vector_turbulence(Eval *ev, const AstNode *node, Value *value)
 {
     double a[3];
     Vec3 point;
-    if (!numbers(ev, node, a, 3) || !eval_vector3(ev, node->a->next->next->next, &point)) {
+    if (!numbers(ev, node, a, 3) || !ask_vector3(ev, node->a->next->next->next, &point)) {
         return false;
     }
     const Noise *noise = eval_noise(ev, node->span);
@@ -283,7 +283,7 @@ static bool rotate_about_axis(Eval *ev, const AstNode *node, Value *value)
     Vec3 a[2];
     double angle = 0.0;
     bool fine = vectors(ev, node, a, 2);
-    if (!eval_number(ev, node->a->next->next, &angle) || !fine) {
+    if (!ask_number(ev, node->a->next->next, &angle) || !fine) {
         return false;
     }
     Vec3 n = vec3_scale(1.0 / vec3_length(a[1]), a[1]);
@@ -305,21 +305,21 @@ static bool is_defined(Eval *ev, const AstNode *node, Value *value)
     if (!is_name || (node->a->flags & AST_IN_PARENTHESES)) {
         return eval_fault(ev, DIAG_E0202, node->a->span, "`defined` takes a name or an element of an array");
     }
-    return give_number(value, name_is_declared(ev, node->a) ? 1.0 : 0.0);
+    return give_number(value, ev->text->is_declared(ev, node->a) ? 1.0 : 0.0);
 }
 
 static bool array_dimensions(Eval *ev, const AstNode *node, Value *value)
 {
     Value array;
     double dimension = 0.0;
-    if (!eval_expression(ev, node->a, &array) || !value_array(ev, &array, node->a->span)) {
+    if (!ask_expression(ev, node->a, &array) || !value_array(ev, &array, node->a->span)) {
         return false;
     }
     if (node->symbol == W_dimensions) {
         return give_number(value, array.array->dimension_count);
     }
     const AstNode *second = node->a->next;
-    if (!eval_number(ev, second, &dimension)) {
+    if (!ask_number(ev, second, &dimension)) {
         return false;
     }
     // As POV-Ray: a dimension that the array does not have has no elements.
@@ -331,8 +331,18 @@ static bool file_exists(Eval *ev, const AstNode *node, Value *value)
 {
     Value name;
     bool is_there;
-    return eval_string(ev, node->a, &name) && file_is_there(ev, &name, node->a->span, &is_there) &&
+    return ask_string(ev, node->a, &name) && ev->text->has_file(ev, &name, node->a->span, &is_there) &&
            give_number(value, is_there ? 1.0 : 0.0);
+}
+
+// Of declared objects.
+static bool of_object(Eval *ev, const AstNode *node, Value *value)
+{
+    switch (node->symbol) {
+    case W_trace: return ev->builder->trace(ev, node, value);
+    case W_inside: return ev->builder->inside(ev, node, value);
+    default: return ev->builder->extent(ev, node, value);
+    }
 }
 
 static bool not_supported(Eval *ev, const AstNode *node, Value *value)
@@ -383,10 +393,10 @@ static const Builtin builtins[WORD_COUNT] = {
     [W_vrotate] = {vector_vector, NULL, 2, 2},
     [W_vnormalize] = {vector_vector, NULL, 1, 1},
     [W_vaxis_rotate] = {rotate_about_axis, NULL, 3, 3},
-    [W_min_extent] = {builtin_extent, NULL, 1, 1},
-    [W_max_extent] = {builtin_extent, NULL, 1, 1},
-    [W_trace] = {builtin_trace, NULL, 3, 4},
-    [W_inside] = {builtin_inside, NULL, 2, 2},
+    [W_min_extent] = {of_object, NULL, 1, 1},
+    [W_max_extent] = {of_object, NULL, 1, 1},
+    [W_trace] = {of_object, NULL, 3, 4},
+    [W_inside] = {of_object, NULL, 2, 2},
     [W_defined] = {is_defined, NULL, 1, 1},
     [W_dimensions] = {array_dimensions, NULL, 1, 1},
     [W_dimension_size] = {array_dimensions, NULL, 2, 2},
@@ -458,7 +468,7 @@ bool builtin_call(Eval *ev, const AstNode *node, Value *value)
     ev->inner++;
     if (builtin->of_number != NULL) {
         double argument;
-        fine = eval_number(ev, node->a, &argument) &&
+        fine = ask_number(ev, node->a, &argument) &&
                give_result(ev, node, value, builtin->of_number(argument), isfinite(argument));
     } else {
         fine = builtin->evaluate != NULL ? builtin->evaluate(ev, node, value) : not_supported(ev, node, value);

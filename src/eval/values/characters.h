@@ -7,7 +7,7 @@
 #ifndef EVAL_CHARACTERS_H
 #define EVAL_CHARACTERS_H
 
-#include "eval/internal.h"
+#include "eval/values/values.h"
 
 // The code of the character at `text`, which is before `end`, and how many bytes it takes.
 unsigned character_at(const char *text, const char *end, size_t *bytes);

@@ -1,18 +1,18 @@
-// Functions and splines as values, shared by the files that make, compile and call them.
+// Functions and splines as values.
 //
-//   function.c       `function (a, b) { … }` and its parameters      function_body.c  the body to a tree of nodes
-//   function_run.c   what each node computes                         callable.c       calls inside expressions
-//   function_given.c what `internal(n)` stands for
-//   spline.c         `spline { … }`, and its value at a number
+//   function_run.c   what each node of a body computes               function_given.c what `internal(n)` stands for
+//   spline.c         the curve of a spline
+//
+// Text becomes one of them by the files of run/callable.h.
 //
 // A function's body is a language of its own: numbers only, names of numbers taken at the declaration, exact
 // comparisons, `&` before `|`. Everything lives in the program arena and never changes.
 //
 // SPDX-License-Identifier: MIT
-#ifndef EVAL_FUNCTION_H
-#define EVAL_FUNCTION_H
+#ifndef EVAL_VALUES_FUNCTION_H
+#define EVAL_VALUES_FUNCTION_H
 
-#include "eval/internal.h"
+#include "eval/values/values.h"
 #include "math/transform.h"
 
 // ---- splines
@@ -34,6 +34,8 @@ struct Spline {
 
 // The type that a word names; false when it names none.
 bool spline_type(Word word, SplineType *type);
+// Fills in the second derivatives of points in rising order; `factors` is room for as many numbers.
+void spline_bend(SplinePoint *points, unsigned count, double *factors);
 // The point at t, or the nearest valid one outside of the spline's range.
 void spline_at(const Spline *spline, SplineType type, double t, double v[5]);
 
@@ -85,23 +87,9 @@ struct Function {
     const FunctionNode *body; // FUNCTION_NUMBER
     const Spline *spline;     // FUNCTION_SPLINE
     Transform transform;      // FUNCTION_TRANSFORM
-    struct Painted *painted;  // FUNCTION_PATTERN, FUNCTION_PIGMENT
+    Painted *painted;  // FUNCTION_PATTERN, FUNCTION_PIGMENT
 };
 
-// A body while it is compiled. u and v are called x and y here.
-typedef struct FunctionBody {
-    Eval *ev;
-    Symbol names[FUNCTION_SLOTS_MAX]; // of the slots
-    unsigned count;
-    const char *unsupported; // what rtlang has not, or NULL
-    bool keeps_numbers;      // numbers in a chain of operators are not joined where this is set
-} FunctionBody;
-
-Symbol function_slot_name(Symbol symbol);
-// What a name of a function's text stood for when it was read; NULL: nothing.
-const Value *function_meaning(const Eval *ev, const AstNode *name);
-// NULL when a fault was reported.
-const FunctionNode *function_compile(FunctionBody *body, const AstNode *node);
 // The node of a built-in function; false when a function's body may not hold the word. `least` and `greatest` are the
 // numbers of arguments.
 bool function_builtin(Word word, FunctionNode *node, unsigned *least, unsigned *greatest);
@@ -122,21 +110,5 @@ bool function_given(Eval *ev, const AstNode *internal, Function *function) RT_MU
 unsigned function_apply(Eval *ev, const Function *function, const double *arguments, Span span, double v[5]);
 // How many components function_apply gives.
 unsigned function_width(const Function *function);
-
-// Reports the use of a function that is not supported; returns false.
-bool function_fault_unsupported(Eval *ev, const Function *function, const AstNode *call);
-
-// ---- calls
-
-// What a CALL node names: an element of an array or an identifier. NULL when the identifier is not declared, or when a
-// fault in the element was reported.
-const Value *call_callee(Eval *ev, const AstNode *call);
-bool call_is_of_element(const AstNode *call);
-// Reports that what an identifier stands for cannot be called; NULL: it is not declared.
-void call_fault_callee(Eval *ev, const AstNode *call, const Value *callee);
-// False, with a fault, when a comma stands after the last argument.
-bool call_ends_well(Eval *ev, const AstNode *call) RT_MUST_CHECK;
-// Reports a wrong number of arguments; returns false.
-bool call_fault_count(Eval *ev, const AstNode *call, const char *what, unsigned wanted);
 
 #endif

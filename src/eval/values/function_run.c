@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "eval/values/function.h"
-#include "eval/build/painted.h"
 
 static double value_of(const FunctionNode *node, FunctionRun *run)
 {
@@ -211,7 +210,7 @@ static bool run_body(Eval *ev, const Function *function, const double *arguments
 static bool apply_made(Eval *ev, const Function *function, const double *arguments, Span span, double v[5])
 {
     if (function->painted != NULL) {
-        return painted_at(ev, function->painted, arguments, span, v);
+        return ev->builder->painted_at(ev, function->painted, arguments, span, v);
     }
     if (function->kind == FUNCTION_SPLINE) {
         spline_at(function->spline, function->spline->type, arguments[0], v);

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/values/values.h"
 
 // Measured: numbers that differ by 1e-10 are equal, and 1e-10 itself is false. Absolute, whatever the size. What is not
 // a number is equal to any, and false.
@@ -44,7 +44,7 @@ static const char *spelling(const AstNode *node)
 
 bool operator_unary(Eval *ev, const AstNode *node, Value *value)
 {
-    if (!eval_expression(ev, node->a, value)) {
+    if (!ask_expression(ev, node->a, value)) {
         return false;
     }
     value->name = SYMBOL_NONE;
@@ -221,8 +221,8 @@ static void check_nearness(Eval *ev, const AstNode *node, double one, double oth
 bool operator_binary(Eval *ev, const AstNode *node, Value *value)
 {
     Value right;
-    bool left_fine = eval_expression(ev, node->a, value);
-    if (!eval_expression(ev, node->b, &right) || !left_fine) {
+    bool left_fine = ask_expression(ev, node->a, value);
+    if (!ask_expression(ev, node->b, &right) || !left_fine) {
         return false;
     }
     value->name = SYMBOL_NONE;
@@ -250,9 +250,9 @@ bool operator_conditional(Eval *ev, const AstNode *node, Value *value)
 {
     double condition = 0;
     Value otherwise;
-    bool fine = eval_number(ev, node->a, &condition);
-    fine = eval_expression(ev, node->b, value) && fine;
-    fine = eval_expression(ev, node->c, &otherwise) && fine;
+    bool fine = ask_number(ev, node->a, &condition);
+    fine = ask_expression(ev, node->b, value) && fine;
+    fine = ask_expression(ev, node->c, &otherwise) && fine;
     if (!fine) {
         return false;
     }

@@ -1,7 +1,7 @@
-// Splines: points given at numbers, and curves through them.
+// Splines: curves through points that are given at numbers.
 //
-// Turns `spline { … }` into points in rising order, and a number into the point of the curve there. The curves are
-// POV-Ray's, as measured: see each formula. Knows nothing of how a spline is called.
+// Turns a number into the point of the curve there. The curves are POV-Ray's, as measured: see each formula. Knows
+// nothing of how a spline is written or called.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -30,134 +30,9 @@ bool spline_type(Word word, SplineType *type)
     return false;
 }
 
-// ---- reading
-
-typedef ARRAY(SplinePoint) PointList;
-
-typedef struct SplineReader {
-    Eval *ev;
-    Cursor cursor;
-    PointList points;
-    SplineType type;
-    unsigned components;
-    double carry[5]; // of the point that was read last
-    bool has_head; // a name or a type stood first: no comma may follow
-} SplineReader;
-
-// Keeps the points in rising order. As in POV-Ray one at a place that is taken replaces what is there, unless that is the
-// last of several: then the new one is left out.
-static bool insert(SplineReader *reader, const SplinePoint *point)
-{
-    PointList *list = &reader->points;
-    size_t at = list->count;
-    while (at > 0 && list->items[at - 1].t >= point->t) {
-        at--;
-    }
-    if (at < list->count && list->items[at].t == point->t) {
-        if (at == 0 || at + 1 < list->count) {
-            list->items[at] = *point;
-        }
-        return true;
-    }
-    if (!ARRAY_PUSH(list, *point)) {
-        return false;
-    }
-    memmove(list->items + at + 1, list->items + at, (list->count - 1 - at) * sizeof *list->items);
-    list->items[at] = *point;
-    return true;
-}
-
-static bool copy_spline(SplineReader *reader, const Spline *from)
-{
-    for (unsigned i = 0; i < from->count; i++) {
-        if (!ARRAY_PUSH(&reader->points, from->points[i])) {
-            return eval_no_memory(reader->ev, reader->cursor.span);
-        }
-    }
-    reader->type = from->type;
-    reader->components = from->components;
-    reader->has_head = true;
-    return true;
-}
-
-// The name of another spline, then a type, both of which may be missing.
-static bool read_head(SplineReader *reader)
-{
-    const AstNode *item = cursor_peek(&reader->cursor);
-    Value value;
-    if (item != NULL && (item->kind == AST_NAME || item->kind == AST_INDEX)) {
-        if (!eval_expression(reader->ev, item, &value)) {
-            return false;
-        }
-        if (value.kind == VALUE_SPLINE) {
-            cursor_skip(&reader->cursor);
-            if (!copy_spline(reader, value.spline)) {
-                return false;
-            }
-            item = cursor_peek(&reader->cursor);
-        }
-    }
-    if (item != NULL && item->kind == AST_WORD && spline_type((Word)item->symbol, &reader->type)) {
-        cursor_skip(&reader->cursor);
-        reader->has_head = true;
-        item = cursor_peek(&reader->cursor);
-    }
-    return item == NULL || !reader->has_head || !(item->flags & AST_AFTER_COMMA) ||
-           eval_fault(reader->ev, DIAG_E0259, item->span, "no comma may stand before the first point of a spline");
-}
-
-// A number is two equal components. As in POV-Ray, what a point does not say is as in the point read before it, 0 in
-// the first.
-static bool read_point(SplineReader *reader)
-{
-    Eval *ev = reader->ev;
-    SplinePoint point = {0};
-    Span span;
-    Value value;
-    if (!cursor_number(&reader->cursor, &point.t, &span)) {
-        return false;
-    }
-    if (!isfinite(point.t)) {
-        return eval_fault(ev, DIAG_E0340, span, "the number of a spline's point is not finite");
-    }
-    const AstNode *item = cursor_peek(&reader->cursor);
-    if (item == NULL) {
-        return !ev->stop && eval_fault(ev, DIAG_E0263, span, "this number needs a point of the spline after it");
-    }
-    span = item->span;
-    if (!cursor_value(&reader->cursor, &value)) {
-        return false;
-    }
-    if (value.kind != VALUE_NUMBER && !value_is_tuple(&value)) {
-        return eval_fault(ev, DIAG_E0202, span, "a point of a spline is a vector, not %s", value_describe(&value));
-    }
-    double v[5];
-    memcpy(reader->carry, v, value_components(&value, v) * sizeof *v);
-    if (value.kind == VALUE_NUMBER) {
-        reader->carry[1] = value.number;
-    } else if (value.components > reader->components) {
-        reader->components = value.components;
-    }
-    memcpy(point.v, reader->carry, sizeof point.v);
-    return insert(reader, &point) || eval_no_memory(ev, span);
-}
-
-static bool read_points(SplineReader *reader)
-{
-    Eval *ev = reader->ev;
-    bool fine = true;
-    const AstNode *item;
-    while (fine && (item = cursor_peek(&reader->cursor)) != NULL) {
-        fine = cursor_at_value(&reader->cursor) && item->kind != AST_WORD
-                   ? read_point(reader)
-                   : eval_fault(ev, DIAG_E0263, item->span, "a spline holds numbers, each with a point after it");
-    }
-    return fine && !ev->stop;
-}
-
 // The second derivatives of the curve of third order that is twice continuously differentiable and straight at its
 // ends: a tridiagonal system for each component, by elimination. Numerical Recipes in C, 2nd edition, 3.3.
-static void bend(SplinePoint *points, unsigned count, double *factors)
+void spline_bend(SplinePoint *points, unsigned count, double *factors)
 {
     for (unsigned c = 0; c < 5; c++) {
         factors[0] = points[0].bend[c] = points[count - 1].bend[c] = 0.0;
@@ -175,39 +50,6 @@ static void bend(SplinePoint *points, unsigned count, double *factors)
         }
     }
 }
-
-static bool make_spline(SplineReader *reader, Span span, Value *value)
-{
-    Eval *ev = reader->ev;
-    unsigned count = (unsigned)reader->points.count;
-    if (count == 0) {
-        return eval_fault(ev, DIAG_E0263, span, "a spline needs at least one point");
-    }
-    Spline *spline = arena_alloc(&ev->program, sizeof *spline);
-    SplinePoint *points = arena_copy(&ev->program, reader->points.items, count * sizeof *points);
-    double *factors = arena_alloc_array(&ev->scratch, count, sizeof *factors);
-    if (spline == NULL || points == NULL || factors == NULL) {
-        return eval_no_memory(ev, span);
-    }
-    bend(points, count, factors);
-    *spline = (Spline){.type = reader->type, .components = reader->components, .count = count, .points = points};
-    *value = (Value){.kind = VALUE_SPLINE, .spline = spline};
-    return true;
-}
-
-bool spline_create(Eval *ev, const AstNode *block, Value *value)
-{
-    SplineReader reader = {.ev = ev, .type = SPLINE_LINEAR, .components = 2};
-    ev->inner++;
-    cursor_open(&reader.cursor, ev, block->a, block->span);
-    bool fine = read_head(&reader) && read_points(&reader) && make_spline(&reader, block->span, value);
-    cursor_close(&reader.cursor);
-    ev->inner--;
-    ARRAY_FREE(&reader.points);
-    return fine && !ev->stop;
-}
-
-// ---- the curves
 
 static double linear_at(const SplinePoint *p, unsigned c, double t)
 {

@@ -13,7 +13,7 @@
 
 #include "base/number.h"
 #include "eval/values/characters.h"
-#include "eval/internal.h"
+#include "eval/values/values.h"
 
 enum {
     NUMBER_MAX = 254,     // characters of a number as text
@@ -88,7 +88,7 @@ static bool append_number(TextBuffer *out, double number, int width, int precisi
 static bool format_argument(Eval *ev, const AstNode *node, const char *what, int *out)
 {
     double number;
-    if (!eval_number(ev, node, &number)) {
+    if (!ask_number(ev, node, &number)) {
         return false;
     }
     if (!(fabs(number) < FORMAT_MAX + 1)) {
@@ -110,7 +110,7 @@ bool builtin_str(Eval *ev, const AstNode *node, Value *value)
 {
     double number;
     int width, precision;
-    if (!eval_number(ev, node->a, &number) || !format_argument(ev, argument(node, 1), "a width", &width) ||
+    if (!ask_number(ev, node->a, &number) || !format_argument(ev, argument(node, 1), "a width", &width) ||
         !format_argument(ev, argument(node, 2), "a precision", &precision)) {
         return false;
     }
@@ -130,8 +130,8 @@ bool builtin_vstr(Eval *ev, const AstNode *node, Value *value)
     double count;
     Value vector, separator;
     int width, precision;
-    if (!eval_number(ev, node->a, &count) || !eval_expression(ev, argument(node, 1), &vector) ||
-        !eval_string(ev, argument(node, 2), &separator) ||
+    if (!ask_number(ev, node->a, &count) || !ask_expression(ev, argument(node, 1), &vector) ||
+        !ask_string(ev, argument(node, 2), &separator) ||
         !format_argument(ev, argument(node, 3), "a width", &width) ||
         !format_argument(ev, argument(node, 4), "a precision", &precision)) {
         return false;
@@ -162,7 +162,7 @@ bool builtin_concat(Eval *ev, const AstNode *node, Value *value)
         Value string;
         if (fine && out.length > ev->options.limits->string_bytes) {
             fine = fault_long(ev, node);
-        } else if (eval_string(ev, part, &string)) {
+        } else if (ask_string(ev, part, &string)) {
             text_append_n(&out, string.text, string.length);
         } else {
             fine = false;
@@ -178,7 +178,7 @@ bool builtin_concat(Eval *ev, const AstNode *node, Value *value)
 bool builtin_chr(Eval *ev, const AstNode *node, Value *value)
 {
     double code;
-    if (!eval_number(ev, node->a, &code)) {
+    if (!ask_number(ev, node->a, &code)) {
         return false;
     }
     if (!(code > -1.0 && code < 65536.0)) {
@@ -195,7 +195,7 @@ bool builtin_chr(Eval *ev, const AstNode *node, Value *value)
 bool builtin_asc(Eval *ev, const AstNode *node, Value *value)
 {
     Value string;
-    if (!eval_string(ev, node->a, &string)) {
+    if (!ask_string(ev, node->a, &string)) {
         return false;
     }
     size_t bytes;
@@ -226,7 +226,7 @@ static size_t decimal_length(const char *text)
 bool builtin_val(Eval *ev, const AstNode *node, Value *value)
 {
     Value string;
-    if (!eval_string(ev, node->a, &string)) {
+    if (!ask_string(ev, node->a, &string)) {
         return false;
     }
     const char *text = string.text + strspn(string.text, " \t\n\v\f\r");
@@ -249,7 +249,7 @@ bool builtin_val(Eval *ev, const AstNode *node, Value *value)
 bool builtin_strlen(Eval *ev, const AstNode *node, Value *value)
 {
     Value string;
-    if (!eval_string(ev, node->a, &string)) {
+    if (!ask_string(ev, node->a, &string)) {
         return false;
     }
     if (!eval_work(ev, string.length, node->span)) {
@@ -262,8 +262,8 @@ bool builtin_strlen(Eval *ev, const AstNode *node, Value *value)
 bool builtin_strcmp(Eval *ev, const AstNode *node, Value *value)
 {
     Value one, other;
-    bool fine = eval_string(ev, node->a, &one);
-    if (!eval_string(ev, node->a->next, &other) || !fine) {
+    bool fine = ask_string(ev, node->a, &one);
+    if (!ask_string(ev, node->a->next, &other) || !fine) {
         return false;
     }
     const char *a = one.text, *b = other.text, *a_end = a + one.length, *b_end = b + other.length;
@@ -287,8 +287,8 @@ bool builtin_substr(Eval *ev, const AstNode *node, Value *value)
 {
     Value string;
     double start, count;
-    if (!eval_string(ev, node->a, &string) || !eval_number(ev, argument(node, 1), &start) ||
-        !eval_number(ev, argument(node, 2), &count)) {
+    if (!ask_string(ev, node->a, &string) || !ask_number(ev, argument(node, 1), &start) ||
+        !ask_number(ev, argument(node, 2), &count)) {
         return false;
     }
     start = trunc(start) - 1.0;
@@ -312,7 +312,7 @@ bool builtin_substr(Eval *ev, const AstNode *node, Value *value)
 static bool change_case(Eval *ev, const AstNode *node, Value *value, char first, char last, int change)
 {
     Value string;
-    if (!eval_string(ev, node->a, &string)) {
+    if (!ask_string(ev, node->a, &string)) {
         return false;
     }
     char *copy = arena_copy_text(&ev->scratch, string.text, string.length);
@@ -381,7 +381,7 @@ bool builtin_datetime(Eval *ev, const AstNode *node, Value *value)
     static const double first = -219145.0, last = 2921939.0; // the years 1400 to 9999
     double days;
     Value format = {.text = "%Y-%m-%d %H:%M:%SZ"};
-    if (!eval_number(ev, node->a, &days) || (node->count > 1 && !eval_string(ev, argument(node, 1), &format))) {
+    if (!ask_number(ev, node->a, &days) || (node->count > 1 && !ask_string(ev, argument(node, 1), &format))) {
         return false;
     }
     double seconds = floor(days * SECONDS_A_DAY + 0.5);

@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
-#include "eval/internal.h"
+#include "eval/values/values.h"
 
 static const char *const block_descriptions[KIND_COUNT] = {
     [KIND_NONE] = "nothing",
@@ -178,4 +178,76 @@ bool value_store(Eval *ev, const Value *value, Arena *arena, Span span, Value *c
         return fine;
     }
     return true;
+}
+
+// ---- elements of arrays
+
+// Objects are of one type, whatever their shapes; of what is not supported nobody knows.
+static bool same_block(const Value *one, const Value *other)
+{
+    bool are_objects =
+        schema_kind((SchemaKind)one->block)->is_object && schema_kind((SchemaKind)other->block)->is_object;
+    return one->block == other->block || are_objects || one->block == KIND_UNSUPPORTED ||
+           other->block == KIND_UNSUPPORTED;
+}
+
+static bool same_type(const Value *one, const Value *other)
+{
+    return one->kind == other->kind && one->components == other->components &&
+           (one->kind != VALUE_BLOCK || same_block(one, other));
+}
+
+bool array_takes(Eval *ev, const ValueArray *array, const Value *element, const Value *value, Span span)
+{
+    const Value *other = &array->first;
+    if (element->kind == VALUE_FUNCTION) {
+        return eval_fault(ev, DIAG_E0262, span, "this element is a function, which cannot be declared again");
+    }
+    return other->kind == VALUE_NONE || same_type(other, value) ||
+           eval_fault(ev, DIAG_E0215, span, "the elements of this array are each %s, not %s", value_describe(other),
+                      value_describe(value));
+}
+
+bool array_assign(Eval *ev, ValueArray *array, Value *element, const Value *value, Span span)
+{
+    Value kept;
+    if (!value_store(ev, value, &ev->program, span, &kept) || !array_takes(ev, array, element, &kept, span)) {
+        return false;
+    }
+    *element = kept;
+    if (array->first.kind == VALUE_NONE || (kept.kind == VALUE_BLOCK && kept.block != KIND_UNSUPPORTED)) {
+        array->first = kept;
+    }
+    return true;
+}
+
+// ---- components
+
+static const struct {
+    Word word;
+    unsigned component;
+} members[] = {
+    {W_x, 0}, {W_y, 1}, {W_z, 2}, {W_t, 3}, {W_u, 0}, {W_v, 1},
+    {W_red, 0}, {W_green, 1}, {W_blue, 2}, {W_filter, 3}, {W_transmit, 4},
+};
+
+double number_gray(const double v[3])
+{
+    // The weights of POV-Ray's manual, 2.2.1.4.4 "Vector Expressions".
+    return 0.297 * v[0] + 0.589 * v[1] + 0.114 * v[2];
+}
+
+bool value_component(Symbol name, unsigned width, unsigned *component)
+{
+    if (name == W_gray && width >= 2) {
+        *component = COMPONENT_GRAY;
+        return true;
+    }
+    for (size_t i = 0; i < RT_COUNT_OF(members); i++) {
+        if (members[i].word == (Word)name && members[i].component < width) {
+            *component = members[i].component;
+            return true;
+        }
+    }
+    return false;
 }

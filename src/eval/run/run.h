@@ -1,0 +1,323 @@
+// The text of a scene while it runs: names, expressions, the walk through items with directives run and macro calls
+// expanded on the way, files.
+//
+//   items.c      the top level                      scope.c     names and what they stand for
+//   expression.c AST expressions to values          quick.c     numbers that are worked out at once
+//   array.c      arrays and their elements          colour.c    colour phrases
+//   cursor.c     items of a block                   directive.c what each directive does
+//   macro.c      definitions, calls and their values
+//   callable.h   functions and splines              include.c   #include
+//   files.c      finding and opening files          datafile.c  #fopen, #read and #fclose
+//   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
+//   lint.c       what is suspicious in the text     message.c   the text streams of #debug and the like
+//   origin.c     which include file declares a name endless.c   why a loop does not end
+//
+// SPDX-License-Identifier: MIT
+#ifndef EVAL_RUN_RUN_H
+#define EVAL_RUN_RUN_H
+
+#include "eval/values/values.h"
+#include "grammar/grammar.h"
+
+// A macro's text lives in the program arena.
+struct Macro {
+    Symbol name;
+    Span span;
+    unsigned parameter_count;
+    Symbol *parameters;
+    AstNode *body;           // the definition; without items when `is_torn`
+    const GrammarText *text; // the body's tokens, in the program arena; NULL until a splice needs them
+    bool is_unbalanced;      // its braces pair up with those of other text
+    bool is_torn;            // holds no whole items: read in a splice at each call
+    bool is_loose;           // may give more or less than one value, or one that operators around it may tear apart
+};
+
+// ---- the top level
+
+// The interface of the values to the text.
+extern const EvalText text_of_scene;
+
+// One top-level item. EVAL_STREAM_DEBUG and the like go to message.c.
+void eval_item(Eval *ev, const AstNode *item);
+void message_write(Eval *ev, EvalStream stream, const char *text, size_t length, Span span);
+
+// A #version said that the text knows 3.7.
+bool eval_knows_37(const Eval *ev);
+// A loop that ends because there were too many steps: adds to the report why it does not end by itself, where its text
+// shows that (endless.c).
+void endless_explain(Eval *ev, const AstNode *loop);
+
+// ---- names
+
+bool scope_init(Eval *ev) RT_MUST_CHECK;
+void scope_fini(Eval *ev);
+
+// A level of local names, for a macro call or an included file.
+bool scope_push(Eval *ev, Span span) RT_MUST_CHECK;
+void scope_pop(Eval *ev);
+
+// What a name stands for, looking from the innermost level outwards, or NULL.
+Value *scope_find(const Eval *ev, Symbol name);
+
+// How many global names the scene has declared, and looked for nowhere.
+EvalNames scope_count(const Eval *ev);
+
+// #declare changes what the name stands for, or makes a global; #local makes or changes a name of the innermost level.
+bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span) RT_MUST_CHECK;
+
+// Before the value of a #declare or #local is worked out: a name that it will make is there already, without a value.
+bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span) RT_MUST_CHECK;
+// Whether the name is to be made, and would hide another or none.
+bool scope_is_new(const Eval *ev, Symbol name, bool local);
+
+// Names of the innermost level: a parameter by value, and one that stands for a variable of the caller. `array` is the
+// array of which the variable is an element, or NULL.
+bool scope_bind_value(Eval *ev, Symbol name, const Value *value, Span span) RT_MUST_CHECK;
+bool scope_bind_reference(Eval *ev, Symbol name, Value *variable, ValueArray *array, Span span) RT_MUST_CHECK;
+// The array of which a parameter by reference is an element, or NULL.
+ValueArray *scope_array(const Eval *ev, Symbol name);
+bool scope_is_reference(const Eval *ev, Symbol name);
+
+bool scope_define_macro(Eval *ev, Macro *macro) RT_MUST_CHECK;
+bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
+// Of the names in scope and the reserved words that could stand in the place of a NAME or CALL, the nearest.
+Suggest scope_nearest(const Eval *ev, const AstNode *node);
+// The first file of the include folders that declares a name, of NAME_MAX + 1 bytes; false when none does.
+bool name_find_include(const Eval *ev, const char *name, char *file);
+// The names of the include files that come with POV-Ray; NULL from their number on.
+const char *name_standard_file(size_t i);
+
+// ---- arrays
+
+bool array_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// The element that an INDEX node means, set or not, and its array.
+bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **array) RT_MUST_CHECK;
+// Reports the use of a name whose first value is being worked out; returns false.
+bool name_fault_unset(Eval *ev, const AstNode *node);
+// Reports that `what` of a name is not declared, once for each name; returns false.
+bool name_fault_undeclared(Eval *ev, const AstNode *node, const char *what);
+// Whether a NAME stands for something, or an INDEX node for an element that is set; false for any other node.
+bool name_is_declared(Eval *ev, const AstNode *target);
+// ---- expressions
+
+bool eval_expression(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// Any right-hand side: an expression, a SEQUENCE (colour phrase, texture layers), a block, an array, a function.
+bool eval_rvalue(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// A right-hand side with no parentheses of its own around it, see ev->inner.
+bool eval_open_rvalue(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool eval_number(Eval *ev, const AstNode *node, double *number) RT_MUST_CHECK;
+bool eval_vector3(Eval *ev, const AstNode *node, Vec3 *vector) RT_MUST_CHECK;
+bool eval_string(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// A condition of a directive.
+bool eval_condition(Eval *ev, const AstNode *node, bool *holds) RT_MUST_CHECK;
+
+// Numbers at once (quick.c): false, or 0, where the expression is to be worked out the usual way. `draws`: random
+// numbers may be drawn, which the caller takes back after that; else nothing has happened.
+bool quick_number_of(Eval *ev, const AstNode *node, bool draws, double *number) RT_MUST_CHECK;
+// A vector of three: 3; or a number, which then stands in all three: 1.
+unsigned quick_three_of(Eval *ev, const AstNode *node, bool draws, double *three) RT_MUST_CHECK;
+
+// What nests deeply, or where nesting may count, goes the usual way, as does all without literals.
+enum { QUICK_DEEPEST = 12 };
+static inline bool quick_is_flat(const AstNode *node)
+{
+    return node->depth <= QUICK_DEEPEST;
+}
+
+static inline bool quick_has_room(const Eval *ev)
+{
+    return ev->expression_depth + 2 * QUICK_DEEPEST <= ev->expression_depth_limit && !ev->options.no_literals;
+}
+
+RT_MUST_CHECK static inline bool quick_number(Eval *ev, const AstNode *node, double *number)
+{
+    return quick_is_flat(node) && quick_has_room(ev) && quick_number_of(ev, node, false, number);
+}
+
+// ---- the initialisers of arrays (array.c)
+
+// In the initialiser of an array, where no directive and no macro call may stand but inside an expression: reports one.
+bool initialiser_fault(Eval *ev, Span span);
+static inline bool is_in_initialiser(const Eval *ev)
+{
+    return RT_UNLIKELY(ev->initialiser != 0) && ev->initialiser == ev->call_depth + 1;
+}
+// Whether the text of a directive or macro begins the expression.
+bool begins_with_call(const Eval *ev, const AstNode *node);
+
+// ---- functions and splines
+
+// True when a CALL is one of a function, a spline or an element of an array, and not of a macro.
+bool call_is_value(const Eval *ev, const AstNode *call);
+bool call_value(Eval *ev, const AstNode *call, Value *value) RT_MUST_CHECK;
+bool function_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+bool spline_create(Eval *ev, const AstNode *block, Value *value) RT_MUST_CHECK;
+
+// ---- items of a block
+
+// Walks the items of one block. Directives are run and macro calls expanded on the way, so the user of a cursor sees
+// only words, blocks, entries and expressions (an expression that is a bare identifier included).
+struct Cursor {
+    Eval *ev;
+    CursorFrame *frame; // what is being walked, innermost first; NULL at the end
+    const AstNode *item; // the item that cursor_peek found; NULL when none is pending
+    Span span;           // of the block, for messages
+    bool top;            // walks the top level: included text is handed on item by item, and not kept
+    bool after_value;    // the last item was an expression
+    bool at_call;        // since then the text of a macro began
+    bool has_comma;      // one stands before the item that is pending, or before the end
+    bool included;       // text was included on the way, and stands in the parse arena since `mark`
+    bool counted;        // in expression_depth
+    bool is_lossy;       // a call was at fault: what is missing may have been its text
+    bool is_cut;         // a directive stands before the item that is pending, or before the end
+    bool takes_end;      // a `;` may stand after the last item
+    unsigned ends;       // how many do
+    ArenaMark mark;
+};
+
+void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span);
+void cursor_close(Cursor *cursor); // unwinds scopes of macro calls that were not walked to their end
+
+// cursor_peek gives the next item, not consumed; NULL at the end of the block or when evaluation must stop.
+// The same when none is pending: on to the next one, with directives run and calls expanded on the way.
+const AstNode *cursor_advance(Cursor *cursor);
+
+static inline const AstNode *cursor_peek(Cursor *cursor)
+{
+    return cursor->item == NULL ? cursor_advance(cursor) : cursor->ev->stop ? NULL : cursor->item;
+}
+
+// Consumes the item that cursor_peek returned.
+void cursor_skip(Cursor *cursor);
+
+// The last character of the block, where something is missing or too much.
+Span cursor_end(const Cursor *cursor);
+
+// Peeks: a comma may stand here, or none may, which is a fault.
+void cursor_take_comma(Cursor *cursor);
+bool cursor_lacks_comma(Cursor *cursor, const char *where);
+
+bool cursor_at_word(Cursor *cursor, Word word);  // peeks
+bool cursor_at_value(Cursor *cursor);            // an expression or a colour word stands next
+// Consume and evaluate. `owner` is what the value belongs to, for "expected a number after `radius`".
+bool cursor_value(Cursor *cursor, Value *value) RT_MUST_CHECK; // one expression
+bool cursor_number(Cursor *cursor, double *number, Span *span) RT_MUST_CHECK;
+bool cursor_vector3(Cursor *cursor, Vec3 *vector, Span *span) RT_MUST_CHECK;
+// A whole colour phrase: `color rgb <…> filter 0.5`, `Red`, `red 1 green 0.5`, `rgb 1`, …
+bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span) RT_MUST_CHECK;
+
+// What directives do to a cursor, and macro calls.
+typedef enum FrameKind { FRAME_ITEMS, FRAME_WHILE, FRAME_FOR, FRAME_SWITCH, FRAME_MACRO, FRAME_INCLUDE } FrameKind;
+
+struct CursorFrame {
+    CursorFrame *outer;
+    const AstNode *next; // the next item to look at
+    const AstNode *node; // the loop, the call, or the case of a #switch that is walked
+    FrameKind kind;
+    GrammarLoop loop;    // FRAME_FOR
+    DiagFrame diag;      // FRAME_MACRO, FRAME_INCLUDE
+    struct SpliceStream *stream; // items that are read in a splice, on demand; NULL: `next`
+    bool ends_in_comma;  // one stands after the item that was taken last
+};
+
+// NULL when out of memory, which stops the evaluation.
+CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, const AstNode *node);
+void cursor_pop(Cursor *cursor);
+// Pushes the items of a text that is read in a splice. False when out of memory, which stops the evaluation.
+bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned,
+                      bool is_call) RT_MUST_CHECK;
+// #break; is_from_file: in a file that was included here. It leaves no macro that is called around the #include.
+void cursor_break(Cursor *cursor, Span span, bool is_from_file);
+const AstNode *case_items(const AstNode *node); // of a CASE, RANGE or ELSE
+bool directive_run(Cursor *cursor, const AstNode *node); // false when the node is no directive
+bool loop_continues(Eval *ev, CursorFrame *frame); // at the end of a loop's body: one more turn
+void include_run(Cursor *cursor, const AstNode *node);
+// Opens the file of an #include and enters it; the frame becomes a FRAME_INCLUDE. NULL after a fault.
+Source *include_enter(Eval *ev, CursorFrame *frame, const AstNode *node) RT_MUST_CHECK;
+// For splices: what a directive asks, and the turns of a #for.
+bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds) RT_MUST_CHECK;
+bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
+bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
+
+// ---- files
+
+typedef enum FileUse { FILE_INCLUDE, FILE_DATA, FILE_IMAGE } FileUse;
+
+bool files_init(Eval *ev, const Source *scene) RT_MUST_CHECK;
+void files_fini(Eval *ev);
+// Opens the file whose name the expression gives. What is not found, outside the folders that may be read, or not
+// readable is reported.
+bool file_open(Eval *ev, const AstNode *name, FileUse use, Source **source) RT_MUST_CHECK;
+// Folder number `i`, from 0, of those that are searched after the current one; NULL past the end.
+const char *file_folder(const Eval *ev, size_t i);
+// Whether there is such a file. False when it may not be asked for; that is reported.
+bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MUST_CHECK;
+
+// The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a
+// list that NULL ends is added in turn. `node` is the expression that gave the name.
+const char *file_find(Eval *ev, const AstNode *node, const char *name, const char *const *endings) RT_MUST_CHECK;
+
+// #fopen, #fclose, #read and #write
+void data_file_run(Cursor *cursor, const AstNode *node);
+void data_files_fini(Eval *ev);
+
+// ---- macros
+
+// `text`: the body's, when it was read in a splice, else NULL.
+void macro_define(Eval *ev, const AstNode *node, const GrammarText *text);
+// The tokens of a macro's body; NULL after a fault.
+const GrammarText *macro_text(Eval *ev, Macro *macro) RT_MUST_CHECK;
+// Begins a call: a new level of names with the parameters in it. macro_leave ends it.
+bool macro_enter(Eval *ev, const AstNode *call, Macro *macro, DiagFrame *frame) RT_MUST_CHECK;
+void macro_leave(Eval *ev);
+// The macro that a CALL node means.
+bool macro_find(Eval *ev, const AstNode *call, Macro **macro) RT_MUST_CHECK;
+// The value of a call. `whole`: any right-hand side will do; else an expression.
+bool macro_value(Eval *ev, const AstNode *call, bool whole, Value *value) RT_MUST_CHECK;
+// The value that a directive in the place of an expression gives.
+bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MUST_CHECK;
+
+// ---- splices: text that is read again with its directives resolved (splice.c)
+
+// What grammar needs to parse one text; a splice of it keeps its calls and files in the cursor.
+typedef struct Splice {
+    GrammarContext context;
+    GrammarHooks hooks;
+    Cursor cursor;
+} Splice;
+
+typedef struct SpliceStream SpliceStream;
+
+void splice_init(Splice *splice, Eval *ev);
+void splice_fini(Splice *splice);
+
+// Items of a text, on demand, of the top level or not. `owned` (NULL or the text) is freed with it. NULL when out of memory.
+SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool top,
+                                 bool is_call) RT_MUST_CHECK;
+const AstNode *splice_stream_next(SpliceStream *stream, bool top) RT_MUST_CHECK;
+bool splice_stream_is_cut(const SpliceStream *stream);
+bool splice_stream_ends_in_comma(const SpliceStream *stream);
+void splice_stream_close(SpliceStream *stream);
+
+// True when a macro called in the expression may need its text to be pasted, not its value.
+bool paste_is_needed(const Eval *ev, const AstNode *node);
+// The value of an expression that is read again, with the text of its macros in it.
+bool paste_value(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
+// Whether directives or macro calls stand in a function; then its value is made of its text, read again with them
+// resolved.
+bool paste_is_needed_in_function(const Eval *ev, const AstNode *function);
+bool paste_function(Eval *ev, const AstNode *function, Value *value) RT_MUST_CHECK;
+// The same for the arguments of a call: a CALL node in the parse arena, or NULL after a fault.
+const AstNode *paste_arguments(Eval *ev, const AstNode *call) RT_MUST_CHECK;
+
+// ---- what is suspicious
+
+bool lint_init(Eval *ev) RT_MUST_CHECK; // false when out of memory
+void lint_fini(Eval *ev);
+// Looks at items that are about to be evaluated, when a warning of this kind is on.
+void lint_items(Eval *ev, const AstNode *first);
+// Some text is not seen as items, so nothing can be told of unused names.
+void lint_give_up(Eval *ev);
+void lint_finish(Eval *ev); // after the last item
+
+#endif
