@@ -49,12 +49,21 @@ static bool may_lack_value(const GrammarState *state, const AstNode *item)
            !(item->b->flags & AST_IN_PARENTHESES) && (state->torn || next == TOKEN_NUMBER);
 }
 
+// A block's word before a directive, which may give the `{`.
+static bool may_lack_brace(const GrammarState *state, const AstNode *item)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    return item->kind == AST_WORD && grammar_is_directive(state->current.kind) && hooks != NULL &&
+           hooks->takes_braces(hooks->client, item->symbol);
+}
+
 bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
 {
     if (state->builder.failed) {
         return false;
     }
-    bool is_doubtful = gives_word(item) || (has_lookahead && may_lack_value(state, item));
+    bool is_doubtful =
+        gives_word(item) || (has_lookahead && (may_lack_value(state, item) || may_lack_brace(state, item)));
     if (state->kept == NULL && is_doubtful && (state->torn || grammar_tear(state))) {
         state->torn_by_fault = true;
         return false;

@@ -270,8 +270,10 @@ class Writer:
         if choice < 0.2:
             word = self.dice.choice(["quilted"] * (not self.names["texture"]) + ["bumps", "dents", "wrinkles",
                                                                                  "ripples", "waves"])
+            mapped = [Block("normal_map {", self.entries(lambda: self.normal_items(1)))] * \
+                (word == "quilted" and depth == 0 and self.chance(0.3))
             # On whole numbers the last bits of a point tell to which cushion it belongs.
-            return [word + amount] + ["translate 0.123"] * (word == "quilted") + self.shuffled(more)
+            return [word + amount] + mapped + ["translate 0.123"] * (word == "quilted") + self.shuffled(more)
         if choice < 0.35 and depth == 0:
             return self.list_pattern(lambda: Block("normal {", self.normal_items(1)), True)
         if choice < 0.45:
@@ -498,7 +500,10 @@ class Writer:
         away = [self.dice.uniform(-1, 1) for _ in range(3)]
         size = max(sum(c * c for c in away) ** 0.5, 0.3)
         place = [far * c / size + 0.0371 for c in away]
-        words = [f"location <{', '.join(self.literal(c) for c in place)}>"]
+        # Some kinds draw another picture when their vectors are longer; of others these are the size of what is seen.
+        growth = self.growth() if kind == "orthographic" else []
+        grown = lambda text: text if growth else self.enlarged(text)
+        words = [f"location {grown('<' + ', '.join(self.literal(c) for c in place) + '>')}"]
         vector = lambda: self.dice.choice(AXES +
                                           [f"<{self.number(-1, 1)}, {self.number(-1, 1)}, {self.number(0.2, 1)}>"])
         vectors = {"direction": lambda: f"{self.number(0.7, 1.5)} * {vector()}", "up": vector,
@@ -507,11 +512,11 @@ class Writer:
         words += [f"{word} {make()}" for word, make in vectors.items() if self.chance(0.4)]
         if self.chance(0.4):
             words.append(f"sky {self.dice.choice([vector(), 'z', '-y'])}")
-        words.append(f"look_at {self.vector(-0.3, 0.3)}")
+        words.append(f"look_at {grown(self.vector(-0.3, 0.3))}")
         if self.chance(0.5):
             wide = self.number(160, 350) if kind == "spherical" and self.chance(0.5) else self.number(45, 90)
             words.append(f"angle {wide}" + f" {self.number(40, 90)}" * (kind == "spherical" and self.chance(0.5)))
-        moves = [f"translate {self.vector(-0.3, 0.3)}", f"rotate {self.vector(-20, 20)}",
+        moves = [f"translate {grown(self.vector(-0.3, 0.3))}", f"rotate {self.vector(-20, 20)}",
                  f"scale {self.number(0.9, 1.1)}",
                  f"scale <1, {self.number(0.8, 1.2)}, 1>"]
         words = self.torn(self.shuffled(words), 0.3) + [move for move in self.shuffled(moves) if self.chance(0.15)]
@@ -519,8 +524,8 @@ class Writer:
         if self.chance(0.2):
             camera = self.name("Camera")
             return [Block(f"#declare {camera} = camera {{", items), Block("camera {", [camera] +
-                                                                          [move for move in moves if self.chance(0.1)] + self.growth())]
-        return [Block("camera {", items + self.growth())]
+                                                                          [move for move in moves if self.chance(0.1)] + growth)]
+        return [Block("camera {", items + growth)]
 
     def light(self):
         place = f"<{self.number(3, 6) if self.chance(0.5) else self.number(-6, -3)}, {self.number(3, 7)}, {self.number(-7, -2)}>"

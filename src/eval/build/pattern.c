@@ -297,7 +297,7 @@ bool pattern_map_action(Block *block, const SchemaProperty *property, const AstN
     if (type == PATTERN_NONE && is_plain && !block->has_unsupported) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` needs a pattern before it", property->word);
     }
-    if (pattern_info(type)->blocks || (type == PATTERN_QUILTED && block->kind == KIND_NORMAL) || (type == PATTERN_AVERAGE && has_values)) {
+    if (pattern_info(type)->blocks || (type == PATTERN_AVERAGE && has_values)) {
         return block_fault(block, DIAG_E0256, item->span, "`%s` cannot stand beside `%s`", property->word,
                            pattern_info(type)->word);
     }
@@ -593,8 +593,8 @@ bool normal_close(Block *block)
     if (part->pattern.type == PATTERN_AVERAGE && !average_has_weights(block)) {
         return false;
     }
-    if (part->pattern.type == PATTERN_QUILTED && part->map) {
-        return block_fault(block, DIAG_E0256, block->node->span, "`normal_map` cannot stand beside `quilted`");
+    if (part->pattern.type == PATTERN_QUILTED) {
+        block->record->normal.slopes = NULL; // POV-Ray looks at the slopes of other patterns only
     }
     return settle_values(block);
 }
