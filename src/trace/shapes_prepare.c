@@ -17,8 +17,13 @@ static double times_power(double x, int exponent, double power)
 
 static Solid solid_of(const Part *part, int exponent, double down, double up)
 {
+    const PrimitiveClass *primitive = primitive_class(part->kind);
     Solid solid = {
-        .kind = part->kind,
+        .kind = (uint8_t)part->kind,
+        .family = (uint8_t)primitive->family,
+        .is_sized = primitive->is_sized,
+        .is_flat = primitive->interval_count == 0,
+        .is_convex = primitive->interval_count <= 1,
         .flags = part->flags,
         .hidden = part->hidden,
         .flips = part->flags & PART_INVERSE,
@@ -122,12 +127,18 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
 
 static void csg_init(ShapeTable *table, const Composite *composite, uint32_t index)
 {
-    table->csg_trees[index] = (CsgTree){composite->first_node, composite->node_count, composite->first_part,
-                                        composite->part_count, composite->hidden,     composite->order};
+    CsgTree *csg = &table->csg_trees[index];
+    *csg = (CsgTree){.first_node = composite->first_node,
+                     .node_count = composite->node_count,
+                     .first_solid = composite->first_part,
+                     .solid_count = composite->part_count,
+                     .hidden = composite->hidden,
+                     .order = composite->order};
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
         solid->composite = index;
-        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid);
+        csg->crossing_count += solid->is_convex ? 2 : 2 * INTERVALS_MOST;
+        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid->is_convex;
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             solid->flips = solid->flips != node->is_inverse;
