@@ -46,6 +46,7 @@ typedef struct FaceRef {
 typedef struct Rectangle {
     double low[2], high[2]; // in two of the coordinates
     FaceRef ref;
+    const Face *face; // it, made once
 } Rectangle;
 
 typedef struct Faces {
@@ -197,16 +198,17 @@ static bool overlap(const Face *a, const Face *b)
     return lies_in(a, b) && lies_in(b, a) && !separates(a, b) && !separates(b, a);
 }
 
-static void compare(Faces *faces, FaceRef one, FaceRef other, DiagSink *diags)
+static void compare(Faces *faces, const Rectangle *one, const Rectangle *other, DiagSink *diags)
 {
     const Camera *camera = &faces->scene->camera;
-    Face a = face_at(faces->scene, one), b = face_at(faces->scene, other);
-    if (a.order == b.order || !hidden_meet(a.hidden, b.hidden) ||
-        scene_materials_are_equal(faces->scene, a.material, b.material) || are_equal(faces->scene, one, other) || !is_turned_to(&a, camera) || !is_turned_to(&b, camera) ||
-        !overlap(&a, &b)) {
+    const Face *a = one->face, *b = other->face;
+    if (a->order == b->order || !hidden_meet(a->hidden, b->hidden) ||
+        scene_materials_are_equal(faces->scene, a->material, b->material) ||
+        are_equal(faces->scene, one->ref, other->ref) || !is_turned_to(a, camera) || !is_turned_to(b, camera) ||
+        !overlap(a, b)) {
         return;
     }
-    const Face *first = a.order < b.order ? &a : &b, *second = first == &a ? &b : &a;
+    const Face *first = a->order < b->order ? a : b, *second = first == a ? b : a;
     if (faces->told != second->order + UINT64_C(1) &&
         diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "a face of this %s coincides with one of a %s that was declared before it", second->word,
@@ -256,7 +258,7 @@ static Rectangle rectangle(const Face *face, Vec3 normal, FaceRef ref)
 {
     const double n[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
     int dropped = n[0] > n[1] ? (n[0] > n[2] ? 0 : 2) : n[1] > n[2] ? 1 : 2;
-    Rectangle out = {.ref = ref};
+    Rectangle out = {.ref = ref, .face = face};
     for (int k = 0; k < 2; k++) {
         int axis = k < dropped ? k : k + 1;
         out.low[k] = face->corner_count ? (double)INFINITY : -(double)INFINITY;
@@ -273,23 +275,26 @@ static Rectangle rectangle(const Face *face, Vec3 normal, FaceRef ref)
 static bool sweep(Faces *faces, const FaceRef *refs, size_t count, DiagSink *diags)
 {
     Rectangle *list = calloc(count, sizeof *list);
-    if (!list) {
+    Face *all = list ? calloc(count, sizeof *all) : NULL;
+    if (!all) {
+        free(list);
         return false;
     }
     Vec3 normal = plane_at(faces->scene, refs[0]).normal;
     for (size_t i = 0; i < count; i++) {
-        Face face = face_at(faces->scene, refs[i]);
-        list[i] = rectangle(&face, normal, refs[i]);
+        all[i] = face_at(faces->scene, refs[i]);
+        list[i] = rectangle(&all[i], normal, refs[i]);
     }
     qsort(list, count, sizeof *list, by_low);
     for (size_t i = 0; i < count; i++) {
         for (size_t j = i + 1; j < count && list[j].low[0] < list[i].high[0] && faces->compared < COMPARED_MOST; j++) {
             faces->compared++;
             if (list[j].low[1] < list[i].high[1] && list[i].low[1] < list[j].high[1]) {
-                compare(faces, list[i].ref, list[j].ref, diags);
+                compare(faces, &list[i], &list[j], diags);
             }
         }
     }
+    free(all);
     free(list);
     return true;
 }
