@@ -8,7 +8,7 @@
 
 #include "api/arrays.h"
 #include "scene/form.h"
-#include "scene/part.h"
+#include "scene/primitive.h"
 #include "scene/room.h"
 
 bool session_begin(rt_session *session)
@@ -297,7 +297,7 @@ static bool part_make(const List *list, MakePart make, const void *shapes, size_
     *fine = part_finish(part);
     if (!*fine) {
         diag_report(&list->session->diags, DIAG_E0460, span_of(list, element), "this %s cannot be represented",
-                    part_word(part->kind));
+                    primitive_class(part->kind)->word);
     }
     return *fine;
 }

@@ -14,9 +14,10 @@
 #include "base/parallel.h"
 #include "scene/opaque.h"
 #include "scene/part.h"
+#include "scene/primitive.h"
 #include "scene/range.h"
 
-enum { AHEAD = 32, KEY_NUMBERS = 18, KIND_SPHERE_KEY = PART_SMOOTH_TRIANGLE + 1 };
+enum { AHEAD = 32, KEY_NUMBERS = 18, KIND_SPHERE_KEY = PART_KINDS };
 
 // What makes a surface, -0 and 0 being one number.
 typedef struct Key {
@@ -96,11 +97,10 @@ static void key_part(Key *key, const Part *part)
         key_ball(key, &part->to_world);
         break;
     default:
-        key->kind = part->kind == PART_SMOOTH_TRIANGLE ? PART_TRIANGLE : part->kind;
+        key->kind = primitive_class(part->kind)->surface;
         key_transform(key, &part->to_world);
-        if (key->kind != PART_TRIANGLE) {
-            key_add(key, part->data[0]);
-            key_add(key, part->data[1]);
+        for (unsigned i = 0; i < primitive_class(part->kind)->key_count; i++) {
+            key_add(key, part->data[i]);
         }
     }
 }
@@ -198,7 +198,7 @@ static void tell(const Key *one, const Key *other, DiagSink *diags)
     const Key *first = one->order < other->order ? one : other, *second = first == one ? other : one;
     const char *word = one->kind == KIND_SPHERE_KEY ? "sphere"
                        : one->kind == PART_BALL     ? "stretched sphere"
-                                                    : part_word((PartKind)one->kind);
+                                                    : primitive_class((PartKind)one->kind)->word;
     if (diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "this %s coincides with one that was declared before it", word) &&
         first->source) {

@@ -3,34 +3,14 @@
 //
 // SPDX-License-Identifier: MIT
 #include "scene/dump.h"
+#include "scene/primitive.h"
 
 static void dump_form(const Part *part, TextBuffer *out)
 {
-    static const char *const heads[] = {
-        [PART_BALL] = "sphere { 0, 1",          [PART_PLANE] = "plane { ",
-        [PART_BOX] = "box { ",                  [PART_CONE] = "cone { 0, 1, z, ",
-        [PART_DISC] = "disc { 0, z, 1, ",       [PART_TRIANGLE] = "triangle { 0, x, y",
-        [PART_SMOOTH_TRIANGLE] = "smooth_triangle { 0, ",
-    };
-    text_append(out, heads[part->kind]);
-    switch (part->kind) {
-    case PART_BALL:
-    case PART_TRIANGLE: break;
-    case PART_PLANE:
-        dump_vector(out, "", part->data[0]);
-        dump_number(out, ", ", part->data[1].x);
-        break;
-    case PART_BOX:
-        dump_vector(out, "", part->data[0]);
-        dump_vector(out, ", ", part->data[1]);
-        break;
-    case PART_CONE:
-    case PART_DISC: dump_number(out, "", part->data[0].x); break;
-    case PART_SMOOTH_TRIANGLE:
-        dump_vector(out, "", part->data[0]);
-        dump_vector(out, ", x, ", part->data[1]);
-        dump_vector(out, ", y, ", part->data[2]);
-        break;
+    const PrimitiveClass *primitive = primitive_class(part->kind);
+    text_append(out, primitive->head);
+    if (primitive->dump) {
+        primitive->dump(part, out);
     }
 }
 

@@ -12,10 +12,10 @@
 #include <stdlib.h>
 
 #include "scene/part.h"
+#include "scene/primitive.h"
 #include "scene/range.h"
 
 enum {
-    CORNERS_MOST = 16,       // of the polygon in a disc
     COMPARED_MOST = 1 << 24, // rectangles, which take some tenths of a second
 };
 
@@ -28,7 +28,7 @@ typedef struct FacePlane {
 typedef struct Face {
     FacePlane plane;
     uint32_t corner_count; // 0: all of the plane
-    Vec3 corners[CORNERS_MOST];
+    Vec3 corners[FACE_CORNERS_MOST];
     bool is_flat; // has no inside: seen from both sides
     MaterialIndex material;
     uint8_t hidden;
@@ -46,6 +46,7 @@ typedef struct FaceRef {
 typedef struct Rectangle {
     double low[2], high[2]; // in two of the coordinates
     FaceRef ref;
+    const Face *face; // it, made once
 } Rectangle;
 
 typedef struct Faces {
@@ -61,77 +62,9 @@ typedef struct Faces {
 
 static uint32_t face_count(const Part *part)
 {
-    if (part->node != NODE_NONE || (part->flags & PART_UNSEEN)) {
-        return 0;
-    }
-    switch (part->kind) {
-    case PART_BALL:
-        return 0;
-    case PART_BOX:
-        return 6;
-    case PART_CONE:
-        return part->flags & PART_OPEN ? 0 : part->data[0].x > 0.0 ? 2 : 1;
-    case PART_DISC:
-        return part->data[0].x > 0.0 ? CORNERS_MOST : 1;
-    default:
-        return 1;
-    }
-}
-
-static uint32_t corner_count(const Part *part)
-{
-    bool is_round = part->kind == PART_CONE || (part->kind == PART_DISC && !(part->data[0].x > 0.0));
-    return part->kind >= PART_TRIANGLE ? 3 : is_round ? CORNERS_MOST : 4;
-}
-
-// Of a polygon in the circle of that radius.
-static Vec3 round_corner(double z, double radius, uint32_t i)
-{
-    double angle = 2.0 * M_PI * i / CORNERS_MOST;
-    return vec3(radius * cos(angle), radius * sin(angle), z);
-}
-
-// Of one of the pieces of a ring, its inner edge just outside of the hole.
-static Vec3 ring_corner(double hole, uint32_t number, uint32_t i)
-{
-    double angle = 2.0 * M_PI * (number + (i == 1 || i == 2)) / CORNERS_MOST;
-    double radius = i < 2 ? 1.0 : fmin(1.0, hole / cos(M_PI / CORNERS_MOST));
-    return vec3(radius * cos(angle), radius * sin(angle), 0.0);
-}
-
-static Vec3 box_corner(const Part *part, uint32_t number, uint32_t i)
-{
-    const double low[3] = {part->data[0].x, part->data[0].y, part->data[0].z};
-    const double high[3] = {part->data[1].x, part->data[1].y, part->data[1].z};
-    uint32_t axis = number / 2, second = (axis + 1) % 3, third = (axis + 2) % 3;
-    double p[3];
-    p[axis] = number % 2 ? high[axis] : low[axis];
-    p[second] = i == 1 || i == 2 ? high[second] : low[second];
-    p[third] = i >= 2 ? high[third] : low[third];
-    return vec3(p[0], p[1], p[2]);
-}
-
-// In the space of the part's fixed shape, as is the next.
-static Vec3 local_corner(const Part *part, uint32_t number, uint32_t i)
-{
-    switch (part->kind) {
-    case PART_BOX:
-        return box_corner(part, number, i);
-    case PART_CONE:
-        return round_corner(number, number ? part->data[0].x : 1.0, i);
-    case PART_DISC:
-        return part->data[0].x > 0.0 ? ring_corner(part->data[0].x, number, i) : round_corner(0.0, 1.0, i);
-    default:
-        return vec3(i == 1, i == 2, 0.0);
-    }
-}
-
-static Vec3 local_normal(const Part *part, uint32_t number)
-{
-    double side = number % 2 ? 1.0 : -1.0;
-    uint32_t axis = part->kind == PART_BOX ? number / 2 : 2;
-    side = part->kind >= PART_DISC ? 1.0 : side;
-    return vec3(axis == 0 ? side : 0.0, axis == 1 ? side : 0.0, axis == 2 ? side : 0.0);
+    const PrimitiveClass *primitive = primitive_class(part->kind);
+    bool has_none = part->node != NODE_NONE || (part->flags & PART_UNSEEN) || !primitive->face_count;
+    return has_none ? 0 : primitive->face_count(part);
 }
 
 static FacePlane plane_of_part(const Part *part, uint32_t number)
@@ -140,8 +73,9 @@ static FacePlane plane_of_part(const Part *part, uint32_t number)
     if (part->kind == PART_PLANE) {
         plane = (FacePlane){part->data[0], part->data[1].x, fabs(part->data[1].x)};
     } else {
-        Vec3 corner = transform_point(&part->to_world, local_corner(part, number, 0));
-        plane.normal = vec3_normalize(transform_normal(&part->to_object, local_normal(part, number)));
+        const PrimitiveClass *primitive = primitive_class(part->kind);
+        Vec3 corner = transform_point(&part->to_world, primitive->corner(part, number, 0));
+        plane.normal = vec3_normalize(transform_normal(&part->to_object, primitive->face_normal(number)));
         plane.distance = vec3_dot(plane.normal, corner);
         plane.reach = part_reach(part, plane.normal);
     }
@@ -177,16 +111,17 @@ static Face face_at(const Scene *scene, FaceRef ref)
         return face;
     }
     const Part *part = ref_part(scene, ref);
-    face.corner_count = part->kind == PART_PLANE ? 0 : corner_count(part);
+    const PrimitiveClass *primitive = primitive_class(part->kind);
+    face.corner_count = primitive->corner_count(part);
     for (uint32_t i = 0; i < face.corner_count; i++) {
-        face.corners[i] = transform_point(&part->to_world, local_corner(part, ref.face, i));
+        face.corners[i] = transform_point(&part->to_world, primitive->corner(part, ref.face, i));
     }
-    face.is_flat = part->kind >= PART_DISC;
+    face.is_flat = primitive_is_flat(part->kind);
     face.hidden = part->hidden;
     face.material = part->material;
     face.order = part->order;
     face.source = part->source;
-    face.word = part_word(part->kind);
+    face.word = primitive->word;
     return face;
 }
 
@@ -263,16 +198,17 @@ static bool overlap(const Face *a, const Face *b)
     return lies_in(a, b) && lies_in(b, a) && !separates(a, b) && !separates(b, a);
 }
 
-static void compare(Faces *faces, FaceRef one, FaceRef other, DiagSink *diags)
+static void compare(Faces *faces, const Rectangle *one, const Rectangle *other, DiagSink *diags)
 {
     const Camera *camera = &faces->scene->camera;
-    Face a = face_at(faces->scene, one), b = face_at(faces->scene, other);
-    if (a.order == b.order || !hidden_meet(a.hidden, b.hidden) ||
-        scene_materials_are_equal(faces->scene, a.material, b.material) || are_equal(faces->scene, one, other) || !is_turned_to(&a, camera) || !is_turned_to(&b, camera) ||
-        !overlap(&a, &b)) {
+    const Face *a = one->face, *b = other->face;
+    if (a->order == b->order || !hidden_meet(a->hidden, b->hidden) ||
+        scene_materials_are_equal(faces->scene, a->material, b->material) ||
+        are_equal(faces->scene, one->ref, other->ref) || !is_turned_to(a, camera) || !is_turned_to(b, camera) ||
+        !overlap(a, b)) {
         return;
     }
-    const Face *first = a.order < b.order ? &a : &b, *second = first == &a ? &b : &a;
+    const Face *first = a->order < b->order ? a : b, *second = first == a ? b : a;
     if (faces->told != second->order + UINT64_C(1) &&
         diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "a face of this %s coincides with one of a %s that was declared before it", second->word,
@@ -322,7 +258,7 @@ static Rectangle rectangle(const Face *face, Vec3 normal, FaceRef ref)
 {
     const double n[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
     int dropped = n[0] > n[1] ? (n[0] > n[2] ? 0 : 2) : n[1] > n[2] ? 1 : 2;
-    Rectangle out = {.ref = ref};
+    Rectangle out = {.ref = ref, .face = face};
     for (int k = 0; k < 2; k++) {
         int axis = k < dropped ? k : k + 1;
         out.low[k] = face->corner_count ? (double)INFINITY : -(double)INFINITY;
@@ -339,23 +275,26 @@ static Rectangle rectangle(const Face *face, Vec3 normal, FaceRef ref)
 static bool sweep(Faces *faces, const FaceRef *refs, size_t count, DiagSink *diags)
 {
     Rectangle *list = calloc(count, sizeof *list);
-    if (!list) {
+    Face *all = list ? calloc(count, sizeof *all) : NULL;
+    if (!all) {
+        free(list);
         return false;
     }
     Vec3 normal = plane_at(faces->scene, refs[0]).normal;
     for (size_t i = 0; i < count; i++) {
-        Face face = face_at(faces->scene, refs[i]);
-        list[i] = rectangle(&face, normal, refs[i]);
+        all[i] = face_at(faces->scene, refs[i]);
+        list[i] = rectangle(&all[i], normal, refs[i]);
     }
     qsort(list, count, sizeof *list, by_low);
     for (size_t i = 0; i < count; i++) {
         for (size_t j = i + 1; j < count && list[j].low[0] < list[i].high[0] && faces->compared < COMPARED_MOST; j++) {
             faces->compared++;
             if (list[j].low[1] < list[i].high[1] && list[i].low[1] < list[j].high[1]) {
-                compare(faces, list[i].ref, list[j].ref, diags);
+                compare(faces, &list[i], &list[j], diags);
             }
         }
     }
+    free(all);
     free(list);
     return true;
 }

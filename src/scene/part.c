@@ -1,4 +1,4 @@
-// The words for parts, and how far each reaches in a direction as the affine image of its fixed shape.
+// What parts are called, and how far each reaches in a direction as the affine image of its fixed shape.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/part.h"
@@ -6,19 +6,7 @@
 #include <float.h>
 #include <math.h>
 
-const char *part_word(PartKind kind)
-{
-    static const char *const words[] = {
-        [PART_BALL] = "sphere",
-        [PART_PLANE] = "plane",
-        [PART_BOX] = "box",
-        [PART_CONE] = "cylinder or cone",
-        [PART_DISC] = "disc",
-        [PART_TRIANGLE] = "triangle",
-        [PART_SMOOTH_TRIANGLE] = "smooth triangle",
-    };
-    return words[kind];
-}
+#include "scene/primitive.h"
 
 bool part_map_is_diagonal(const double (*r)[3])
 {
@@ -33,7 +21,7 @@ bool part_map_is_round(const double (*r)[3])
 const char *part_name(const Part *part)
 {
     bool is_stretched = part->kind == PART_BALL && !part_map_is_round(part->to_world.m);
-    return is_stretched ? "stretched sphere" : part_word(part->kind);
+    return is_stretched ? "stretched sphere" : primitive_class(part->kind)->word;
 }
 
 // The direction as the fixed shape sees it: p·n with p = q M + o is q·(M n) + o·n.
@@ -52,30 +40,6 @@ static ObjectDirection object_direction(const Part *part, Vec3 n)
     };
 }
 
-static double fixed_support(const Part *part, Vec3 n)
-{
-    double round = hypot(n.x, n.y);
-    const Vec3 *low = &part->data[0];
-    const Vec3 *high = &part->data[1];
-    switch (part->kind) {
-    case PART_BALL:
-        return hypot(round, n.z);
-    case PART_BOX:
-        return fmax(low->x * n.x, high->x * n.x) + fmax(low->y * n.y, high->y * n.y) +
-               fmax(low->z * n.z, high->z * n.z);
-    case PART_CONE:
-        return fmax(round, part->data[0].x * round + n.z);
-    case PART_DISC:
-        return round;
-    case PART_TRIANGLE:
-    case PART_SMOOTH_TRIANGLE:
-        return fmax(0.0, fmax(n.x, n.y));
-    case PART_PLANE:
-        break;
-    }
-    return (double)INFINITY;
-}
-
 double part_support(const Part *part, Vec3 direction)
 {
     if (part->kind == PART_PLANE) {
@@ -83,7 +47,7 @@ double part_support(const Part *part, Vec3 direction)
         return is_own ? part->data[1].x : (double)INFINITY;
     }
     ObjectDirection object = object_direction(part, direction);
-    return fixed_support(part, object.direction) + object.offset;
+    return primitive_class(part->kind)->support(part, object.direction) + object.offset;
 }
 
 void part_span(const Part *part, Vec3 direction, double *low, double *high)
@@ -94,7 +58,7 @@ void part_span(const Part *part, Vec3 direction, double *low, double *high)
         return;
     }
     ObjectDirection object = object_direction(part, direction);
-    double half = fixed_support(part, object.direction);
+    double half = primitive_class(part->kind)->support(part, object.direction);
     *low = object.offset - half;
     *high = object.offset + half;
 }
@@ -106,7 +70,7 @@ double part_reach(const Part *part, Vec3 direction)
     const Vec3 *low = &part->data[0];
     const Vec3 *high = &part->data[1];
     double sizes[4] = {1.0, 1.0, 1.0, 1.0};
-    if (part->kind == PART_BOX) {
+    if (primitive_class(part->kind)->is_sized) {
         sizes[0] = fmax(fabs(low->x), fabs(high->x));
         sizes[1] = fmax(fabs(low->y), fabs(high->y));
         sizes[2] = fmax(fabs(low->z), fabs(high->z));

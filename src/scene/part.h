@@ -8,10 +8,7 @@
 
 #include "scene/scene.h"
 
-// The word for a part of the kind, "cylinder or cone".
-const char *part_word(PartKind kind);
-
-// The same for a part: a ball may be a "stretched sphere".
+// What messages call a part: as its kind, "cylinder or cone", but a ball may be a "stretched sphere".
 const char *part_name(const Part *part);
 
 // Whether it only scales along the axes.

@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "scene/part.h"
+#include "scene/primitive.h"
 
 // As vec3_max_abs, for numbers.
 static inline double max_abs(Vec3 a)
@@ -105,20 +106,18 @@ static const char *extent_name(const Extent *extent)
 static Extent part_extent(const Part *part)
 {
     const Transform *map = &part->to_world;
+    const PrimitiveClass *primitive = primitive_class(part->kind);
     Extent extent = {
         .size = max_abs(vec3(row_size(map, 0), row_size(map, 1), row_size(map, 2))),
         .place = vec3(map->m[3][0], map->m[3][1], map->m[3][2]),
         .source = part->source,
         .part = part,
     };
-    if (part->kind == PART_BOX) {
-        const double *low = &part->data[0].x, *high = &part->data[1].x;
-        extent.size = 0.0;
-        for (int row = 0; row < 3; row++) {
-            extent.size = fmax(extent.size, 0.5 * (high[row] - low[row]) * row_size(&part->to_world, row));
-        }
-        Vec3 middle = vec3_add(vec3_scale(0.5, part->data[0]), vec3_scale(0.5, part->data[1]));
-        extent.place = transform_point(&part->to_world, middle);
+    if (primitive->measure) {
+        Vec3 half, middle;
+        primitive->measure(part, &half, &middle);
+        extent.size = fmax(fmax(half.x * row_size(map, 0), half.y * row_size(map, 1)), half.z * row_size(map, 2));
+        extent.place = transform_point(map, middle);
     }
     return extent;
 }

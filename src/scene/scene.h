@@ -244,6 +244,7 @@ typedef enum PartKind {
     PART_DISC,
     PART_TRIANGLE,
     PART_SMOOTH_TRIANGLE,
+    PART_KINDS
 } PartKind;
 
 typedef enum PartFlag {

@@ -3,33 +3,20 @@
 // SPDX-License-Identifier: MIT
 #include "scene/within.h"
 
-static bool is_between(double low, double value, double high)
-{
-    return low <= value && value <= high;
-}
+#include "scene/primitive.h"
 
 bool within_part(const Part *part, Vec3 point)
 {
-    const Vec3 *low = &part->data[0], *high = &part->data[1];
     const double *origin = part->to_world.m[3];
     Vec3 p = point;
     if (part->kind != PART_PLANE) { // a scene that is put near the origin has only the linear part of to_object
         p = transform_direction(&part->to_object, vec3_sub(point, vec3(origin[0], origin[1], origin[2])));
     }
-    double radius = 1.0 + (part->data[0].x - 1.0) * p.z; // of a cone
-    bool is_inside = false;
-    switch (part->kind) {
-    case PART_BALL: is_inside = vec3_dot(p, p) < 1.0; break;
-    case PART_PLANE: is_inside = vec3_dot(p, part->data[0]) < part->data[1].x; break;
-    case PART_BOX:
-        is_inside = is_between(low->x, p.x, high->x) && is_between(low->y, p.y, high->y) &&
-                    is_between(low->z, p.z, high->z);
-        break;
-    case PART_CONE: is_inside = is_between(0.0, p.z, 1.0) && p.x * p.x + p.y * p.y < radius * radius; break;
-    case PART_DISC: is_inside = p.z < 0.0; break;
-    case PART_TRIANGLE:
-    case PART_SMOOTH_TRIANGLE: return false;
+    const PrimitiveClass *primitive = primitive_class(part->kind);
+    if (!primitive->holds) {
+        return false;
     }
+    bool is_inside = primitive->holds(part, p);
     return is_inside != ((part->flags & PART_INVERSE) != 0);
 }
 

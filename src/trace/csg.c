@@ -12,12 +12,12 @@
 
 typedef struct Crossing {
     double t;
-    double error;     // how far t may be off by rounding; before has_error how long the interval is
+    double error;     // how far t may be off by rounding; before has_error how much it is at most
     double bound;     // of that, if has_bound
     uint32_t solid;   // within the CSG tree
     uint8_t side;
     bool leaves;    // the solid's own inside, not minding PART_INVERSE
-    bool is_flat;   // changes nothing
+    bool is_film;   // changes nothing: of a flat leaf, or within one
     bool is_hidden; // found before the crossings of its group
     bool has_error, has_bound; // worked out when they are asked for first: most crossings are never come to
 } Crossing;
@@ -142,10 +142,10 @@ static bool crossing_is_apart(const CsgTraversal *p, Crossing *a, Crossing *b)
 }
 
 static void traversal_add(CsgTraversal *p, uint32_t index, double t, double length, uint8_t side, bool leaves,
-                          bool is_flat)
+                          bool is_film)
 {
     p->crossings[p->count++] =
-        (Crossing){.t = t, .error = length, .solid = index, .side = side, .leaves = leaves, .is_flat = is_flat};
+        (Crossing){.t = t, .error = length, .solid = index, .side = side, .leaves = leaves, .is_film = is_film};
 }
 
 static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
@@ -190,6 +190,22 @@ RT_ALWAYS_INLINE bool traversal_is_past(const CsgTraversal *p, uint32_t index, d
            (is_beside && !(t > length + p->start_error) && end_is_at_start(p, index, t, side, length));
 }
 
+// Adds the ends of an interval that the ray crosses later; true when it starts inside of it.
+static bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterval *interval, double room, bool is_start,
+                               bool is_beside)
+{
+    bool is_film = solid_is_film(traversal_solid(p, index), interval->leave_side);
+    bool is_inside = (is_start && traversal_solid(p, index)->is_convex) ||
+                     traversal_is_past(p, index, interval->enter, interval->enter_side, room, is_beside);
+    if (!is_inside) {
+        traversal_add(p, index, interval->enter, room, interval->enter_side, is_film, is_film);
+    }
+    if (interval->leave < (double)INFINITY) {
+        traversal_add(p, index, interval->leave, room, interval->leave_side, !is_film, is_film);
+    }
+    return is_inside && !is_film;
+}
+
 // Puts a leaf into the state it has where the ray starts, and adds what the ray crosses of it later.
 static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart start, bool is_own)
 {
@@ -197,34 +213,34 @@ static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart star
     bool is_start = is_own && part_index(start.shape) == p->csg->first_solid + index;
     bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
-    RayInterval interval;
+    RayInterval intervals[INTERVALS_MOST];
+    unsigned count = 0;
     const Ray *object = p->ray;
     if (solid->kind != PART_PLANE) {
         p->objects[index] = solid_ray(solid, p->ray);
         object = &p->objects[index];
     }
-    if ((is_start && !inward) ||
-        !solid_interval(solid, object, is_start ? part_side(start.shape) : SIDE_NONE, &interval)) {
-        p->is_over = p->is_over || solid->decides;
-        return;
+    if (!is_start || inward || !solid->is_convex) {
+        SideLeft left = {is_start ? part_side(start.shape) : SIDE_NONE, inward};
+        count = solid_intervals(solid, object, left, intervals);
     }
-    double length = interval.leave - interval.enter;
-    if ((solid->decides && interval.leave < p->decided_from) || // whether it is past or not
-        traversal_is_past(p, index, interval.leave, interval.leave_side, length, is_beside)) {
-        p->is_over = p->is_over || solid->decides;
-        return;
-    }
-    bool is_inside = is_start || traversal_is_past(p, index, interval.enter, interval.enter_side, length, is_beside);
-    if (solid->decides) {
-        traversal_decide(p, is_inside ? 0.0 : interval.enter, interval.leave);
+    bool is_met = false, is_inside = false;
+    for (unsigned i = 0; i < count; i++) {
+        const RayInterval *interval = &intervals[i];
+        double room = solid->is_convex ? interval->leave - interval->enter : interval_room(intervals, count, i);
+        if ((solid->decides && interval->leave < p->decided_from) || // whether it is past or not
+            traversal_is_past(p, index, interval->leave, interval->leave_side, room, is_beside)) {
+            continue;
+        }
+        bool starts_inside = traversal_interval(p, index, interval, room, is_start, is_beside);
+        if (solid->decides) {
+            traversal_decide(p, starts_inside ? 0.0 : interval->enter, interval->leave);
+        }
+        is_inside = is_inside || starts_inside;
+        is_met = true;
     }
     p->is_inside[index] = is_inside;
-    if (!is_inside) {
-        traversal_add(p, index, interval.enter, length, interval.enter_side, false, false);
-    }
-    if (interval.leave < (double)INFINITY) {
-        traversal_add(p, index, interval.leave, length, interval.leave_side, true, false);
-    }
+    p->is_over = p->is_over || (solid->decides && !is_met);
 }
 
 // ---- what is seen
@@ -236,7 +252,7 @@ static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_aft
 {
     const Solid *solid = traversal_solid(p, c->solid);
     bool leaves = c->leaves != (bool)(solid->flags & PART_INVERSE);
-    bool is_child_inside = !c->is_flat && p->is_inside[c->solid];
+    bool is_child_inside = !solid_is_flat(solid) && p->is_inside[c->solid];
     uint32_t at = solid->node;
     while (at != NODE_NONE) {
         const TreeNode *node = &p->table->nodes[at];
@@ -270,7 +286,7 @@ static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Forem
     }
     for (uint32_t i = begin; i < end; i++) {
         const Crossing *c = &p->crossings[i];
-        if (!c->is_flat) {
+        if (!c->is_film) {
             traversal_toggle(p, c->solid);
             p->is_over = p->is_over || (c->leaves && traversal_solid(p, c->solid)->decides);
         }
@@ -363,7 +379,7 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
     }
     uint32_t inside[csg->node_count];
     bool is_inside[csg->solid_count];
-    Crossing crossings[2 * (size_t)csg->solid_count];
+    Crossing crossings[csg->crossing_count];
     Ray objects[csg->solid_count];
     CsgTraversal p = {.table = table,
                       .csg = csg,

@@ -14,40 +14,14 @@ uint32_t extent_count(const Geometry *g)
     return g->spheres.block_count * SPHERE_BLOCK + g->shapes.solid_count;
 }
 
-// The axes of an ellipsoid around a solid's fixed shape, about *middle, in its own space: the least one there is, but
-// for the cone, which counts as a cylinder. A flat one has two.
-static void fixed_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
-{
-    const double root2 = 0x1.6a09e667f3bcdp+0, root3 = 0x1.bb67ae8584caap+0;
-    *middle = vec3(0.0, 0.0, 0.0);
-    axes[0] = vec3(1.0, 0.0, 0.0);
-    axes[1] = vec3(0.0, 1.0, 0.0);
-    axes[2] = vec3(0.0, 0.0, solid->kind == PART_BALL ? 1.0 : 0.0);
-    if (solid->kind == PART_BOX) {
-        Vec3 half = vec3_scale(0.5 * root3, vec3_sub(solid->data[1], solid->data[0]));
-        *middle = vec3_scale(0.5, vec3_add(solid->data[0], solid->data[1]));
-        axes[0].x = half.x;
-        axes[1].y = half.y;
-        axes[2].z = half.z;
-    } else if (solid->kind == PART_CONE) {
-        *middle = vec3(0.0, 0.0, 0.5);
-        axes[0].x = axes[1].y = root3 / root2;
-        axes[2].z = 0.5 * root3;
-    } else if (solid->kind >= PART_TRIANGLE) { // J. Steiner's ellipse
-        *middle = vec3(1.0 / 3.0, 1.0 / 3.0, 0.0);
-        axes[0] = vec3(-1.0 / 3.0, 2.0 / 3.0, 0.0);
-        axes[1] = vec3(-1.0 / root3, 0.0, 0.0);
-    }
-}
-
 static bool solid_extent_of(const Solid *solid, Extent *extent)
 {
-    Vec3 axes[3], middle;
+    Vec3 axes[3], middle = {0.0, 0.0, 0.0};
     if (solid->kind == PART_PLANE || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
         (solid->hidden & HIDDEN_CAMERA)) {
         return false;
     }
-    fixed_axes(solid, axes, &middle);
+    solid_class(solid)->axes(solid, axes, &middle);
     extent->centre = vec3_add(solid->centre, linear_direction(&solid->to_world, middle));
     for (int i = 0; i < 3; i++) {
         extent->axes[i] = linear_direction(&solid->to_world, axes[i]);
@@ -95,10 +69,13 @@ bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
     }
     const Solid *solid = &g->shapes.solids[part_index(shape)];
     Ray object = solid_ray(solid, &ray);
-    RayInterval interval;
+    RayInterval intervals[INTERVALS_MOST];
     double t;
-    return solid_is_flat(solid) ? solid_flat_root(solid, &object, &t) && t > 0.0
-                                : solid_interval(solid, &object, SIDE_NONE, &interval) && interval.leave > 0.0;
+    if (solid_is_flat(solid)) {
+        return solid_flat_root(solid, &object, &t) && t > 0.0;
+    }
+    unsigned count = solid_intervals(solid, &object, LEFT_NONE, intervals);
+    return count > 0 && intervals[count - 1].leave > 0.0;
 }
 
 bool extent_plane(const Geometry *g, uint32_t number, ShapeId *shape, Vec3 *point, Vec3 *normal,

@@ -167,5 +167,5 @@ const char *geometry_isa_name(const Geometry *geometry)
 
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape)
 {
-    return shape_kind(shape) == SHAPE_PART && geometry->shapes.solids[part_index(shape)].kind >= PART_DISC;
+    return shape_kind(shape) == SHAPE_PART && solid_is_flat(&geometry->shapes.solids[part_index(shape)]);
 }

@@ -90,7 +90,7 @@ RT_ALWAYS_INLINE bool query_starts_beside_plane(const Geometry *g, unsigned feat
         return false;
     }
     if ((features & TRACE_PARTS) && starts_on_part(start)) {
-        return g->shapes.solids[part_index(start.shape)].kind != PART_BALL;
+        return g->shapes.solids[part_index(start.shape)].family == FAMILY_STRAIGHT;
     }
     return shape_kind(start.shape) == SHAPE_PLANE;
 }

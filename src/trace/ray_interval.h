@@ -1,7 +1,8 @@
-// An interval: the part of a ray's line that lies inside a convex shape, and the sides of the shape at its ends.
+// An interval: a part of a ray's line that lies inside a shape, and the sides of the shape at its ends. A line may have
+// several of them in a shape that is not convex.
 //
-// Sides are numbered by each shape. A ray that starts on a side and goes in has that side's own crossing left out, by
-// identity: the interval then begins at minus infinity.
+// Sides are numbered by each shape. A ray that starts on a side has that side's own crossing left out, by identity: where
+// it goes in, the interval begins at minus infinity; where it goes out, an interval that ends at the start is left out.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_RAY_INTERVAL_H
@@ -14,7 +15,18 @@
 #include "base/attributes.h"
 #include "math/vec3.h"
 
-enum { SIDE_NONE = 255 };
+enum { SIDE_NONE = 255, SIDES_MOST = 8 };
+
+// Of one shape. A shape that may have more makes this greater; all who ask for intervals have room for as many.
+enum { INTERVALS_MOST = 2 };
+
+// The side of a shape that a ray starts on, and whether it goes into the shape there.
+typedef struct SideLeft {
+    uint8_t side; // SIDE_NONE: it does not start on the shape
+    bool inward;
+} SideLeft;
+
+#define LEFT_NONE ((SideLeft){SIDE_NONE, false})
 
 typedef struct RayInterval {
     double enter, leave; // may be infinite

@@ -46,6 +46,7 @@ typedef struct TreeNode {
 typedef struct CsgTree {
     uint32_t first_node, node_count;
     uint32_t first_solid, solid_count;
+    uint32_t crossing_count; // of one ray, at most
     uint8_t hidden;
     uint32_t order;
 } CsgTree;
@@ -86,16 +87,18 @@ bool shapes_init(ShapeTable *table, const Scene *scene, int exponent, int thread
 void shapes_fini(ShapeTable *table);
 size_t shapes_bytes(const ShapeTable *table);
 
-// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: round ones with round
-// ones, others with others. Such a ray has passed what lies within rounding of its start.
+// Whether a ray starts on another surface that a solid's own may coincide with but for rounding: one of the same family.
+// Such a ray has passed what lies within rounding of its start.
 static inline bool starts_beside(const ShapeTable *table, RayStart start, const Solid *solid)
 {
     if (start.shape == SHAPE_NONE) {
         return false;
     }
     ShapeKind kind = shape_kind(start.shape);
-    bool is_round = kind == SHAPE_PART ? table->solids[part_index(start.shape)].kind == PART_BALL : kind != SHAPE_PLANE;
-    return is_round == (solid->kind == PART_BALL);
+    uint8_t family = kind == SHAPE_PART    ? table->solids[part_index(start.shape)].family
+                     : kind == SHAPE_PLANE ? FAMILY_STRAIGHT
+                                           : FAMILY_ROUND;
+    return family == solid->family;
 }
 
 // How far along the ray its start may be off the part that it starts on.
@@ -104,7 +107,7 @@ double shapes_start_error(const ShapeTable *table, const Ray *ray, RayStart star
 // Where the ray hit. The normal points out of what the solid is in.
 Surface shapes_surface(const ShapeTable *table, const Ray *ray, const Hit *hit);
 
-// composite.c: offers the nearest crossing of a CSG tree that is seen. None lies before `enter`, but for rounding.
+// csg.c: offers the nearest crossing of a CSG tree that is seen. None lies before `enter`, but for rounding.
 void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
                  double enter, Foremost *first);
 

@@ -9,6 +9,11 @@
 #include "trace/half_spaces.h"
 #include "trace/shapes.h"
 
+enum {
+    LOOSE_MOST = 8, // items that are asked for each ray for being far from all others
+    FAR_RATIO = 512, // how many times as far as the others, of a tree whose numbers have 2^22
+};
+
 // The same as ldexp where the power is a number.
 static double times_power(double x, int exponent, double power)
 {
@@ -17,8 +22,13 @@ static double times_power(double x, int exponent, double power)
 
 static Solid solid_of(const Part *part, int exponent, double down, double up)
 {
+    const PrimitiveClass *primitive = primitive_class(part->kind);
     Solid solid = {
-        .kind = part->kind,
+        .kind = (uint8_t)part->kind,
+        .family = (uint8_t)primitive->family,
+        .is_sized = primitive->is_sized,
+        .is_flat = primitive->interval_count == 0,
+        .is_convex = primitive->interval_count <= 1,
         .flags = part->flags,
         .hidden = part->hidden,
         .flips = part->flags & PART_INVERSE,
@@ -47,10 +57,10 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
     return solid;
 }
 
-// The box of a part, moved outward by the error of its support (see scene/part.c).
+// The box of a part's surface, moved outward by the error of its support (see scene/part.c).
 static Bounds part_bounds(const Part *part, int exponent, double down)
 {
-    if (part->kind == PART_PLANE || (part->flags & PART_INVERSE)) {
+    if (part->kind == PART_PLANE) {
         return BOUNDS_ALL;
     }
     double low[3], high[3];
@@ -96,18 +106,23 @@ static Bounds planes_bounds(const ShapeTable *table, const CsgTree *csg)
     return half_spaces_bounds(spaces, count, &bounds) ? bounds : BOUNDS_ALL;
 }
 
-// What the nodes count of children, from the leaves up, and their boxes. Children stand behind their parents.
-static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *solid_bounds, Bounds *node_bounds)
+// What the nodes count of children, from the leaves up, and the box of what is seen: that of the root, of which it does
+// not matter whether it is taken from all space, within that of all surfaces. Children stand behind their parents.
+static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *surfaces, Bounds *node_bounds)
 {
     uint32_t first = csg->first_node;
+    Bounds surface = BOUNDS_NONE;
     for (uint32_t i = first; i < first + csg->node_count; i++) {
         const TreeNode *node = &table->nodes[i];
         node_bounds[i] = node->op == NODE_UNION || node->op == NODE_MERGE ? BOUNDS_NONE : BOUNDS_ALL;
     }
     for (uint32_t i = csg->first_solid; i < csg->first_solid + csg->solid_count; i++) {
         TreeNode *node = &table->nodes[table->solids[i].node];
-        node->idle_inside += table->solids[i].flags & PART_INVERSE ? 1 : 0;
-        node_take(node, &node_bounds[table->solids[i].node], &solid_bounds[i]);
+        bool is_inverse = table->solids[i].flags & PART_INVERSE;
+        Bounds bounds = is_inverse ? BOUNDS_ALL : surfaces[i];
+        node->idle_inside += is_inverse;
+        node_take(node, &node_bounds[table->solids[i].node], &bounds);
+        surface = bounds_join(surface, surfaces[i]);
     }
     for (uint32_t i = first + csg->node_count; i-- > first + 1;) {
         const TreeNode *node = &table->nodes[i];
@@ -116,18 +131,24 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
         parent->idle_inside += (node->idle_inside >= node->needed) != node->is_inverse;
         node_take(parent, &node_bounds[node->parent], &bounds);
     }
-    Bounds bounds = table->nodes[first].is_inverse ? BOUNDS_ALL : node_bounds[first];
+    Bounds bounds = bounds_meet(surface, node_bounds[first]);
     return bounds_are_finite(bounds) ? bounds : bounds_meet(bounds, planes_bounds(table, csg));
 }
 
 static void csg_init(ShapeTable *table, const Composite *composite, uint32_t index)
 {
-    table->csg_trees[index] = (CsgTree){composite->first_node, composite->node_count, composite->first_part,
-                                        composite->part_count, composite->hidden,     composite->order};
+    CsgTree *csg = &table->csg_trees[index];
+    *csg = (CsgTree){.first_node = composite->first_node,
+                     .node_count = composite->node_count,
+                     .first_solid = composite->first_part,
+                     .solid_count = composite->part_count,
+                     .hidden = composite->hidden,
+                     .order = composite->order};
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
         solid->composite = index;
-        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid);
+        csg->crossing_count += solid->is_convex ? 2 : 2 * INTERVALS_MOST;
+        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid->is_convex;
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             solid->flips = solid->flips != node->is_inverse;
@@ -174,6 +195,75 @@ static void add_item(ShapeTable *table, Work *work, ShapeItem item, const Bounds
     }
 }
 
+// How far from a place a box reaches, along any axis.
+static double bounds_reach(const Bounds *bounds, Vec3 from)
+{
+    Vec3 low = vec3_sub(from, bounds->low), high = vec3_sub(bounds->high, from);
+    return fmax(fmax(fmax(low.x, low.y), low.z), fmax(fmax(high.x, high.y), high.z));
+}
+
+static int double_order(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// The middle one of some of the items by what is measured of them; `share` in place of 1/2 gives another rank.
+typedef double (*Measure)(const Bounds *bounds, Vec3 from, int axis);
+static double middle_of(const ShapeTable *table, const Work *work, Measure measure, Vec3 from, int axis, double share)
+{
+    enum { SAMPLES = 512 };
+    double samples[SAMPLES];
+    uint32_t count = 0, step = table->bounded_count / SAMPLES + 1;
+    for (uint32_t i = 0; i < table->bounded_count; i += step) {
+        samples[count++] = measure(item_bounds(table, work, work->bounded[i]), from, axis);
+    }
+    qsort(samples, count, sizeof samples[0], double_order);
+    return samples[(uint32_t)(share * count)];
+}
+
+static double measure_place(const Bounds *bounds, Vec3 from, int axis)
+{
+    (void)from;
+    return axis == 0 ? bounds->low.x : axis == 1 ? bounds->low.y : bounds->low.z;
+}
+
+static double measure_reach(const Bounds *bounds, Vec3 from, int axis)
+{
+    (void)axis;
+    return bounds_reach(bounds, from);
+}
+
+// A tree's boxes have the digits of a float beside the whole tree's size: a few items that are much larger than the
+// others, or much farther away, would blur all of them. Such items stand with the unbounded ones.
+static void part_with_far(ShapeTable *table, Work *work)
+{
+    if (table->bounded_count <= 2 * LOOSE_MOST) {
+        return;
+    }
+    Vec3 origin = {0.0, 0.0, 0.0}, middle;
+    middle.x = middle_of(table, work, measure_place, origin, 0, 0.5);
+    middle.y = middle_of(table, work, measure_place, origin, 1, 0.5);
+    middle.z = middle_of(table, work, measure_place, origin, 2, 0.5);
+    double limit = FAR_RATIO * middle_of(table, work, measure_reach, middle, 0, 0.5);
+    uint32_t far = 0, kept = 0;
+    for (uint32_t i = 0; i < table->bounded_count; i++) {
+        far += bounds_reach(item_bounds(table, work, work->bounded[i]), middle) > limit;
+    }
+    if (far == 0 || far > LOOSE_MOST) {
+        return;
+    }
+    for (uint32_t i = 0; i < table->bounded_count; i++) {
+        ShapeItem item = work->bounded[i];
+        if (bounds_reach(item_bounds(table, work, item), middle) > limit) {
+            table->items[table->unbounded_count++] = item;
+        } else {
+            work->bounded[kept++] = item;
+        }
+    }
+    table->bounded_count = kept;
+}
+
 static bool tree_init(ShapeTable *table, Work *work, int threads)
 {
     Bounds all = BOUNDS_NONE;
@@ -216,6 +306,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
             add_item(table, work, table->solid_count + i, root);
         }
     }
+    part_with_far(table, work);
     return table->bounded_count == 0 || tree_init(table, work, threads);
 }
 

@@ -247,39 +247,61 @@ static bool end_is_met(ShapeQuery *q, double to, const Foremost *first)
     return enter < first->from && enter < first->beaten && enter < first->limit;
 }
 
-static void interval_closest(ShapeQuery *q, uint32_t index, const Ray *object, bool is_start, Foremost *first)
+// An end of an interval that is no more off than `room`. False: the ray has passed it, or it has no surface.
+RT_ALWAYS_INLINE bool end_offer(ShapeQuery *q, uint32_t index, const Ray *object, double t, uint8_t side, bool leaves,
+                                double room, double passed, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
-    RayInterval interval;
-    if (!solid_interval(solid, object, is_start ? part_side(q->start.shape) : SIDE_NONE, &interval)) {
+    if (!(t > 0.0) || ((solid->flags & PART_OPEN) && side != 0)) {
+        return false;
+    }
+    if (!leaves && q->is_any && passed < 0.0 && end_is_met(q, t + 2.0 * room, first)) {
+        first->hit.shape = part_shape(index, side); // whatever its error is
+        return true;
+    }
+    double error = solid_end_error(solid, q->ray, object, t, side, room);
+    if (is_passed(t, error, passed)) {
+        return false;
+    }
+    root_offer(q, index, t, error, side, leaves, first);
+    return true;
+}
+
+// The first end of an interval that the ray has not passed; where it starts on the solid, what it starts in it leaves.
+RT_ALWAYS_INLINE void interval_offer(ShapeQuery *q, uint32_t index, const Ray *object, const RayInterval *interval,
+                                     double room, bool is_film, bool is_inside, double passed, Foremost *first)
+{
+    if (interval->enter - 2.0 * room > first->limit ||
+        (!is_inside &&
+         end_offer(q, index, object, interval->enter, interval->enter_side, is_film, room, passed, first))) {
         return;
     }
-    double length = interval.leave - interval.enter; // no error is greater
-    if (interval.enter - 2.0 * length > first->limit) {
+    (void)end_offer(q, index, object, interval->leave, interval->leave_side, !is_film, room, passed, first);
+}
+
+static void interval_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left, Foremost *first)
+{
+    const Solid *solid = &q->table->solids[index];
+    RayInterval intervals[INTERVALS_MOST];
+    unsigned count = solid_intervals(solid, object, left, intervals);
+    if (count == 0) {
         return;
     }
+    bool is_start = left.side != SIDE_NONE;
     double passed = is_start ? -1.0 : passed_error(q, solid);
-    bool is_open = solid->flags & PART_OPEN;
-    if (!is_start && interval.enter > 0.0 && !(is_open && interval.enter_side != 0)) {
-        if (q->is_any && passed < 0.0 && end_is_met(q, interval.enter + 2.0 * length, first)) {
-            first->hit.shape = part_shape(index, interval.enter_side); // whatever its error is
-            return;
-        }
-        double error = solid_interval_error(solid, q->ray, object, &interval, false);
-        if (!is_passed(interval.enter, error, passed)) {
-            root_offer(q, index, interval.enter, error, interval.enter_side, false, first);
-            return;
-        }
+    if (RT_LIKELY(solid->is_convex)) {
+        interval_offer(q, index, object, &intervals[0], intervals[0].leave - intervals[0].enter, false, is_start,
+                       passed, first);
+        return;
     }
-    if (interval.leave > 0.0 && !(is_open && interval.leave_side != 0)) {
-        double error = solid_interval_error(solid, q->ray, object, &interval, true);
-        if (!is_passed(interval.leave, error, passed)) {
-            root_offer(q, index, interval.leave, error, interval.leave_side, true, first);
-        }
+    for (unsigned i = 0; i < count; i++) {
+        bool is_film = solid_is_film(solid, intervals[i].leave_side);
+        interval_offer(q, index, object, &intervals[i], interval_room(intervals, count, i), is_film, false, passed,
+                       first);
     }
 }
 
-// A solid alone. Outward from itself, it is not met again: all are convex or flat.
+// A solid alone. Outward from itself, one that is convex or flat is not met again.
 static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
@@ -288,7 +310,7 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     }
     bool is_start = q->left && solid_equal(q->left, solid);
     bool inward = q->start.inward != solid->flips;
-    if (is_start && (!inward || solid_is_flat(solid))) {
+    if (is_start && ((!inward && solid->is_convex) || solid_is_flat(solid))) {
         return;
     }
     if (solid->kind == PART_BALL) {
@@ -300,7 +322,8 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     if (solid_is_flat(solid)) {
         flat_closest(q, index, &object, first);
     } else {
-        interval_closest(q, index, &object, is_start, first);
+        SideLeft left = {is_start ? part_side(q->start.shape) : SIDE_NONE, inward};
+        interval_closest(q, index, &object, left, first);
     }
 }
 

@@ -1,4 +1,4 @@
-// Parts of each kind behind one interface: a switch over kinds, each case a shape's own header.
+// Parts of each kind behind one interface: a table of kinds, each row a shape's own header.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/solid.h"
@@ -13,111 +13,287 @@
 #include "trace/plane.h"
 #include "trace/sphere.h"
 
-// Of the unit sphere; the roots are those of trace/sphere.h, both of them.
-static bool ball_interval(const Ray *object, uint8_t left_side, RayInterval *interval)
+static void unit_axes(Vec3 axes[3], double z)
 {
+    axes[0] = vec3(1.0, 0.0, 0.0);
+    axes[1] = vec3(0.0, 1.0, 0.0);
+    axes[2] = vec3(0.0, 0.0, z);
+}
+
+// ---- ball
+
+// Of the unit sphere; the roots are those of trace/sphere.h, both of them.
+static unsigned ball_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *interval)
+{
+    (void)solid;
     SphereRay ray = sphere_ray_make(object->origin, object->direction);
     Vec3 f = ray.origin;
     double t_middle = -vec3_dot(f, ray.direction_over_length2);
     *interval = (RayInterval){-(double)INFINITY, 2.0 * t_middle, 0, 0};
-    if (left_side == 0) {
-        return interval->leave > 0.0;
+    if (left.side == 0) {
+        return interval->leave > 0.0 ? 1u : 0u;
     }
     Vec3 l = vec3_add_scaled(f, t_middle, ray.direction);
     double discriminant = 1.0 - vec3_length_squared(l);
     if (!(discriminant >= 0.0)) {
-        return false;
+        return 0;
     }
     double sum = t_middle + copysign(sqrt(discriminant * ray.inverse_square), t_middle);
     double product = (vec3_length_squared(f) - 1.0) * ray.inverse_square;
     interval->enter = t_middle > 0.0 ? product / sum : sum;
     interval->leave = t_middle > 0.0 ? sum : product / sum;
-    return interval->enter <= interval->leave;
+    return interval->enter <= interval->leave ? 1u : 0u;
 }
 
+static Vec3 ball_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)solid;
+    (void)side;
+    return point;
+}
+
+static Vec3 ball_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)solid;
+    (void)side;
+    return vec3_normalize(point);
+}
+
+static void ball_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    (void)solid;
+    (void)middle;
+    unit_axes(axes, 1.0);
+}
+
+// ---- plane
+
 // The half space below a plane; a ray that leaves it inward never comes back.
-static bool plane_interval(const Solid *solid, const Ray *ray, uint8_t left_side, RayInterval *interval)
+static unsigned plane_intervals(const Solid *solid, const Ray *ray, SideLeft left, RayInterval *interval)
 {
     PlaneShape plane = {solid->data[0], solid->data[1].x};
     double rise = vec3_dot(plane.normal, ray->direction);
     *interval = INTERVAL_ALL;
-    if (left_side == 0) {
-        return true;
+    if (left.side == 0) {
+        return 1;
     }
     if (rise == 0.0) {
-        return vec3_dot(plane.normal, ray->origin) <= plane.distance;
+        return vec3_dot(plane.normal, ray->origin) <= plane.distance ? 1u : 0u;
     }
     double t = plane_root(&plane, ray->origin, ray->direction);
     *(rise > 0.0 ? &interval->leave : &interval->enter) = t;
     *(rise > 0.0 ? &interval->leave_side : &interval->enter_side) = 0;
-    return !isnan(t);
+    return isnan(t) ? 0u : 1u;
 }
 
-bool solid_interval(const Solid *solid, const Ray *object, uint8_t left_side, RayInterval *interval)
+static Vec3 plane_normal(const Solid *solid, Vec3 point, uint8_t side)
 {
-    switch (solid->kind) {
-    case PART_BALL:
-        return ball_interval(object, left_side, interval);
-    case PART_PLANE:
-        return plane_interval(solid, object, left_side, interval);
-    case PART_BOX:
-        return box_interval(solid->data[0], solid->data[1], object->origin, object->direction, left_side, interval);
-    case PART_CONE:
-        return cone_interval(solid->data[0].x, object->origin, object->direction, left_side, interval);
-    case PART_DISC:
-    case PART_TRIANGLE:
-    case PART_SMOOTH_TRIANGLE: break; // flat
-    }
-    return false;
+    (void)point;
+    (void)side;
+    return solid->data[0];
 }
 
-bool solid_flat_root(const Solid *solid, const Ray *object, double *t)
+static Vec3 same_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)solid;
+    (void)side;
+    return point;
+}
+
+// ---- box
+
+static unsigned box_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *interval)
+{
+    return box_interval(solid->data[0], solid->data[1], object->origin, object->direction, left.side, interval) ? 1u : 0u;
+}
+
+static Vec3 box_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)solid;
+    (void)point;
+    return box_normal(side);
+}
+
+static Vec3 box_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return box_point(solid->data[0], solid->data[1], point, side);
+}
+
+static const double ROOT2 = 0x1.6a09e667f3bcdp+0, ROOT3 = 0x1.bb67ae8584caap+0;
+
+static void box_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    Vec3 half = vec3_scale(0.5 * ROOT3, vec3_sub(solid->data[1], solid->data[0]));
+    *middle = vec3_scale(0.5, vec3_add(solid->data[0], solid->data[1]));
+    axes[0] = vec3(half.x, 0.0, 0.0);
+    axes[1] = vec3(0.0, half.y, 0.0);
+    axes[2] = vec3(0.0, 0.0, half.z);
+}
+
+// ---- cone
+
+static unsigned cone_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *interval)
+{
+    return cone_interval(solid->data[0].x, object->origin, object->direction, left.side, interval) ? 1u : 0u;
+}
+
+static Vec3 cone_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return cone_normal(solid->data[0].x, point, side);
+}
+
+static Vec3 cone_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return cone_gradient(solid->data[0].x, point, side);
+}
+
+static Vec3 cone_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return cone_point(solid->data[0].x, point, side);
+}
+
+// It counts as a cylinder.
+static void cone_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    (void)solid;
+    unit_axes(axes, 0.5 * ROOT3);
+    *middle = vec3(0.0, 0.0, 0.5);
+    axes[0].x = axes[1].y = ROOT3 / ROOT2;
+}
+
+// ---- flat ones
+
+static bool disc_root(const Solid *solid, const Ray *object, double *t)
 {
     double x, y;
-    return flat_root(object->origin, object->direction, t, &x, &y) &&
-           (solid->kind == PART_DISC ? disc_has(solid->data[0].x, x, y) : triangle_has(x, y));
+    return flat_root(object->origin, object->direction, t, &x, &y) && disc_has(solid->data[0].x, x, y);
+}
+
+static bool triangle_root(const Solid *solid, const Ray *object, double *t)
+{
+    double x, y;
+    (void)solid;
+    return flat_root(object->origin, object->direction, t, &x, &y) && triangle_has(x, y);
+}
+
+static Vec3 flat_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)solid;
+    (void)point;
+    (void)side;
+    return vec3(0.0, 0.0, 1.0);
 }
 
 // Where the normals at the corners cancel, that of the first.
-static Vec3 smooth_normal(const Solid *solid, Vec3 point)
+static Vec3 smooth_normal(const Solid *solid, Vec3 point, uint8_t side)
 {
+    (void)side;
     Vec3 n = vec3_scale(1.0 - point.x - point.y, solid->data[0]);
     n = vec3_add_scaled(vec3_add_scaled(n, point.x, solid->data[1]), point.y, solid->data[2]);
     return vec3_equal(n, vec3(0.0, 0.0, 0.0)) ? solid->data[0] : n;
 }
 
-static Vec3 object_normal(const Solid *solid, Vec3 point, uint8_t side)
+static Vec3 flat_point(const Solid *solid, Vec3 point, uint8_t side)
 {
-    switch (solid->kind) {
-    case PART_BALL: return point;
-    case PART_PLANE: return solid->data[0];
-    case PART_BOX: return box_normal(side);
-    case PART_CONE: return cone_normal(solid->data[0].x, point, side);
-    case PART_SMOOTH_TRIANGLE: return smooth_normal(solid, point);
-    case PART_DISC:
-    case PART_TRIANGLE: break;
-    }
-    return vec3(0.0, 0.0, 1.0);
+    (void)solid;
+    (void)side;
+    return vec3(point.x, point.y, 0.0);
 }
 
-static Vec3 object_point(const Solid *solid, Vec3 point, uint8_t side)
+static void disc_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
 {
-    switch (solid->kind) {
-    case PART_BALL: return vec3_normalize(point);
-    case PART_BOX: return box_point(solid->data[0], solid->data[1], point, side);
-    case PART_CONE: return cone_point(solid->data[0].x, point, side);
-    case PART_PLANE: break; // has no space of its own
-    case PART_DISC:
-    case PART_TRIANGLE:
-    case PART_SMOOTH_TRIANGLE: return vec3(point.x, point.y, 0.0);
-    }
-    return point;
+    (void)solid;
+    (void)middle;
+    unit_axes(axes, 0.0);
 }
+
+// J. Steiner's ellipse.
+static void triangle_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    (void)solid;
+    *middle = vec3(1.0 / 3.0, 1.0 / 3.0, 0.0);
+    axes[0] = vec3(-1.0 / 3.0, 2.0 / 3.0, 0.0);
+    axes[1] = vec3(-1.0 / ROOT3, 0.0, 0.0);
+    axes[2] = vec3(0.0, 0.0, 0.0);
+}
+
+// ---- the table
+
+static const SolidClass classes[PART_KINDS] = {
+    [PART_BALL] = {.intervals = ball_intervals,
+                   .normal = ball_normal,
+                   .gradient = ball_normal,
+                   .point = ball_point,
+                   .axes = ball_axes},
+    [PART_PLANE] = {.intervals = plane_intervals,
+                    .normal = plane_normal,
+                    .gradient = plane_normal,
+                    .point = same_point},
+    [PART_BOX] = {.intervals = box_intervals,
+                  .normal = box_side_normal,
+                  .gradient = box_side_normal,
+                  .point = box_side_point,
+                  .axes = box_axes,
+                  .across = {1, 1, 2, 2, 3, 3}},
+    [PART_CONE] = {.intervals = cone_intervals,
+                   .normal = cone_side_normal,
+                   .gradient = cone_side_gradient,
+                   .point = cone_side_point,
+                   .axes = cone_axes,
+                   .across = {0, 3, 3}},
+    [PART_DISC] = {.root = disc_root,
+                   .normal = flat_normal,
+                   .gradient = flat_normal,
+                   .point = flat_point,
+                   .axes = disc_axes,
+                   .across = {3}},
+    [PART_TRIANGLE] = {.root = triangle_root,
+                       .normal = flat_normal,
+                       .gradient = flat_normal,
+                       .point = flat_point,
+                       .axes = triangle_axes,
+                       .across = {3}},
+    [PART_SMOOTH_TRIANGLE] = {.root = triangle_root,
+                              .normal = smooth_normal,
+                              .gradient = flat_normal,
+                              .point = flat_point,
+                              .axes = triangle_axes,
+                              .across = {3}},
+};
+
+const SolidClass *solid_class(const Solid *solid)
+{
+    return &classes[solid->kind];
+}
+
+unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return classes[solid->kind].intervals(solid, object, left, intervals);
+}
+
+bool solid_flat_root(const Solid *solid, const Ray *object, double *t)
+{
+    return classes[solid->kind].root(solid, object, t);
+}
+
+double interval_room(const RayInterval *intervals, unsigned count, unsigned i)
+{
+    double room = intervals[i].leave - intervals[i].enter;
+    for (unsigned other = 0; other < count; other++) {
+        double apart = other < i   ? intervals[i].enter - intervals[other].leave
+                       : other > i ? intervals[other].enter - intervals[i].leave
+                                   : room;
+        room = apart >= 0.0 && apart < room ? apart : room; // less than 0: a film lies within
+    }
+    return room;
+}
+
+// ---- errors
 
 static double fixed_size(const Solid *solid, int axis)
 {
     const double *low = &solid->data[0].x, *high = &solid->data[1].x;
-    return solid->kind == PART_BOX ? greater_of(fabs(low[axis]), fabs(high[axis])) : 1.0;
+    return solid->is_sized ? greater_of(fabs(low[axis]), fabs(high[axis])) : 1.0;
 }
 
 static double extent_of(const Solid *solid)
@@ -189,9 +365,7 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
         PlaneShape plane = {solid->data[0], solid->data[1].x};
         return plane_crossing_error(&plane, *ray, t);
     }
-    Vec3 n = solid->kind == PART_BOX    ? box_normal(side)
-             : solid->kind == PART_CONE ? cone_gradient(solid->data[0].x, ray_at(*object, t), side)
-                                        : object_normal(solid, ray_at(*object, t), side);
+    Vec3 n = classes[solid->kind].gradient(solid, ray_at(*object, t), side);
     double reach = normal_reach(solid, n, ray, t);
     return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }
@@ -205,12 +379,12 @@ double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *objec
         return rounding * (span + fabs(solid->data[1].x)) / fabs(vec3_dot(solid->data[0], ray->direction));
     }
     const double *columns = &solid->columns.x, *d = &object->direction.x, reach = span + solid->spread;
-    if (solid->kind == PART_BOX || (solid->kind == PART_CONE && side != CONE_ROUND)) {
-        int axis = solid->kind == PART_BOX ? side / 2 : 2;
+    int across = classes[solid->kind].across[side];
+    if (across > 0) {
+        int axis = across - 1;
         return rounding * (fixed_size(solid, axis) + columns[axis] * reach) / fabs(d[axis]);
     }
-    Vec3 point = ray_at(*object, t);
-    Vec3 n = solid->kind == PART_CONE ? cone_gradient(solid->data[0].x, point, side) : object_normal(solid, point, side);
+    Vec3 n = classes[solid->kind].gradient(solid, ray_at(*object, t), side);
     double sum = vec3_sum_abs(n) + (fabs(n.x) * columns[0] + fabs(n.y) * columns[1] + fabs(n.z) * columns[2]) * reach;
     return rounding * sum / fabs(vec3_dot(n, object->direction));
 }
@@ -228,13 +402,7 @@ double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, do
     return error < length ? error : length;
 }
 
-double solid_interval_error(const Solid *solid, const Ray *ray, const Ray *object, const RayInterval *interval,
-                            bool leaves)
-{
-    double length = interval->leave - interval->enter;
-    return leaves ? solid_end_error(solid, ray, object, interval->leave, interval->leave_side, length)
-                  : solid_end_error(solid, ray, object, interval->enter, interval->enter_side, length);
-}
+// ---- surfaces
 
 void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, Vec3 *point, Vec3 *normal)
 {
@@ -245,9 +413,9 @@ void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, V
         return;
     }
     Ray object = solid_ray(solid, ray);
-    Vec3 own = object_point(solid, ray_at(object, t), side);
+    Vec3 own = classes[solid->kind].point(solid, ray_at(object, t), side);
     *point = vec3_add(solid->centre, linear_direction(&solid->to_world, own));
-    *normal = vec3_normalize(linear_normal(&solid->to_object, object_normal(solid, own, side)));
+    *normal = vec3_normalize(linear_normal(&solid->to_object, classes[solid->kind].normal(solid, own, side)));
 }
 
 bool solid_equal(const Solid *a, const Solid *b)

@@ -1,4 +1,5 @@
-// A ray against any part: prepared parts, their intervals, and surfaces at a hit.
+// A ray against any part: prepared parts, their intervals, and surfaces at a hit. What is known of each kind stands in one
+// table, SolidClass.
 //
 // The ray is taken into the part's own space, where its parameter means the same; its direction is not of unit length
 // there. Knows nothing of composites.
@@ -9,6 +10,7 @@
 
 #include "math/ray.h"
 #include "math/transform.h"
+#include "scene/primitive.h"
 #include "scene/scene.h"
 #include "trace/ray_interval.h"
 #include "trace/sphere.h"
@@ -16,10 +18,12 @@
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
 // the origin.
 typedef struct Solid {
-    PartKind kind;
+    uint8_t kind, family;  // PartKind, SurfaceFamily
+    bool is_sized;         // as in PrimitiveClass
+    bool is_flat, is_convex; // flat: it has no inside; convex: neither that nor meets a ray that leaves it outward again
     uint8_t flags, hidden; // of the composite, if it is in one
     bool flips;            // the outside of what the part is in is this part's inside
-    bool decides;          // outside of it nothing is seen of the composite; it is convex, so a line is inside once
+    bool decides;          // outside of it nothing is seen of the composite; a line is inside of it once
     uint32_t node;         // of the geometry; NODE_NONE alone
     uint32_t composite;    // NODE_NONE alone
     uint32_t twin;         // of a ball: the slot of a sphere that equals it, SLOT_NONE if there is none
@@ -35,8 +39,32 @@ typedef struct Solid {
 
 RT_ALWAYS_INLINE bool solid_is_flat(const Solid *solid)
 {
-    return solid->kind >= PART_DISC;
+    return solid->is_flat;
 }
+
+// How rays meet a kind of part; its numbers are those of the solid, its points in the solid's own space.
+typedef struct SolidClass {
+    // What of the line is inside, in order; returns how many intervals. What is met at the ends is the shape's surface.
+    unsigned (*intervals)(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals);
+    // Of a flat one instead: where it is met.
+    bool (*root)(const Solid *solid, const Ray *object, double *t);
+    Vec3 (*normal)(const Solid *solid, Vec3 point, uint8_t side);
+    // A vector along the surface's normal, of any length.
+    Vec3 (*gradient)(const Solid *solid, Vec3 point, uint8_t side);
+    Vec3 (*point)(const Solid *solid, Vec3 point, uint8_t side); // one near the side, put onto it
+    // The axes of an ellipsoid around it, about *middle.
+    void (*axes)(const Solid *solid, Vec3 axes[3], Vec3 *middle);
+    uint8_t films;            // a bit for each side that is seen and bounds nothing: within the shape
+    int8_t across[SIDES_MOST]; // of each side: 1 + the axis that it lies across, 0 if it is not flat or across none
+} SolidClass;
+
+const SolidClass *solid_class(const Solid *solid);
+
+static inline bool solid_is_film(const Solid *solid, uint8_t side)
+{
+    return solid_class(solid)->films >> side & 1;
+}
+
 
 // The ray in the solid's own space; for a plane as it is.
 RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)
@@ -48,8 +76,12 @@ RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)
                  linear_direction(&solid->to_object, ray->direction)};
 }
 
-// The line inside a solid that is not flat; `object` is the ray in its space. `left_side`: as in interval.h.
-bool solid_interval(const Solid *solid, const Ray *object, uint8_t left_side, RayInterval *interval) RT_MUST_CHECK;
+// What of the line is inside of a solid that is not flat, or within its films; `object` is the ray in its space. How many
+// intervals, INTERVALS_MOST at most.
+unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals) RT_MUST_CHECK;
+
+// How much the ends of an interval may be off at most: it is no longer, and its neighbours are no nearer.
+double interval_room(const RayInterval *intervals, unsigned count, unsigned i);
 
 // Where the line meets a flat solid.
 bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
@@ -70,9 +102,7 @@ double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *objec
 double solid_ball_error(const Solid *ball, const Ray *ray, const Ray *object, double t);
 
 // The same for an end of an interval. Where the ray grazes a round side the bound has no bounds, but a crossing is not
-// off by more than the interval is long. 0 for an end that is infinite.
-double solid_interval_error(const Solid *solid, const Ray *ray, const Ray *object, const RayInterval *interval,
-                            bool leaves);
+// off by more than `length`, interval_room. 0 for an end that is infinite.
 double solid_end_error(const Solid *solid, const Ray *ray, const Ray *object, double t, uint8_t side, double length);
 
 // The point of a hit put back onto the side, and the solid's own outward unit normal there.

@@ -374,12 +374,13 @@ static void test_bounds(void)
         const Solid *solid = &geometry->shapes.solids[0];
         for (int k = 0; k < 20; k++) {
             Ray ray = random_ray(&random, size), object = solid_ray(solid, &ray);
-            RayInterval interval = INTERVAL_ALL;
+            RayInterval intervals[INTERVALS_MOST] = {INTERVAL_ALL}, interval;
             double t = 0.0;
             if (solid_is_flat(solid) ? !solid_flat_root(solid, &object, &t)
-                                     : !solid_interval(solid, &object, SIDE_NONE, &interval)) {
+                                     : solid_intervals(solid, &object, LEFT_NONE, intervals) == 0) {
                 continue;
             }
+            interval = intervals[0];
             for (int end = 0; end < 2; end++) {
                 uint8_t side = end ? interval.leave_side : interval.enter_side;
                 t = solid_is_flat(solid) ? t : end ? interval.leave : interval.enter;

@@ -1,0 +1,322 @@
+// The rows of the table of primitives, and what each row's functions say; see PartKind in scene.h for the fixed shapes.
+//
+// SPDX-License-Identifier: MIT
+#include "scene/primitive.h"
+
+#include <math.h>
+
+#include "scene/dump.h"
+
+static bool is_between(double low, double value, double high)
+{
+    return low <= value && value <= high;
+}
+
+// Of a polygon in the circle of that radius.
+static Vec3 round_corner(double z, double radius, uint32_t i)
+{
+    double angle = 2.0 * M_PI * i / FACE_CORNERS_MOST;
+    return vec3(radius * cos(angle), radius * sin(angle), z);
+}
+
+static void dump_first(const Part *part, TextBuffer *out)
+{
+    dump_number(out, "", part->data[0].x);
+}
+
+// ---- ball
+
+static double ball_support(const Part *part, Vec3 n)
+{
+    (void)part;
+    return hypot(hypot(n.x, n.y), n.z);
+}
+
+static bool ball_holds(const Part *part, Vec3 p)
+{
+    (void)part;
+    return vec3_dot(p, p) < 1.0;
+}
+
+// ---- plane: part_support knows the only direction in which it ends, and faces.c what has no corners
+
+static double plane_support(const Part *part, Vec3 n)
+{
+    (void)part;
+    (void)n;
+    return (double)INFINITY;
+}
+
+static bool plane_holds(const Part *part, Vec3 p)
+{
+    return vec3_dot(p, part->data[0]) < part->data[1].x;
+}
+
+static void plane_dump(const Part *part, TextBuffer *out)
+{
+    dump_vector(out, "", part->data[0]);
+    dump_number(out, ", ", part->data[1].x);
+}
+
+static uint32_t one_face(const Part *part)
+{
+    (void)part;
+    return 1;
+}
+
+static uint32_t no_corners(const Part *part)
+{
+    (void)part;
+    return 0;
+}
+
+// ---- box
+
+static double box_support(const Part *part, Vec3 n)
+{
+    const Vec3 *low = &part->data[0], *high = &part->data[1];
+    return fmax(low->x * n.x, high->x * n.x) + fmax(low->y * n.y, high->y * n.y) + fmax(low->z * n.z, high->z * n.z);
+}
+
+static bool box_holds(const Part *part, Vec3 p)
+{
+    const Vec3 *low = &part->data[0], *high = &part->data[1];
+    return is_between(low->x, p.x, high->x) && is_between(low->y, p.y, high->y) && is_between(low->z, p.z, high->z);
+}
+
+static void box_dump(const Part *part, TextBuffer *out)
+{
+    dump_vector(out, "", part->data[0]);
+    dump_vector(out, ", ", part->data[1]);
+}
+
+static uint32_t box_faces(const Part *part)
+{
+    (void)part;
+    return 6;
+}
+
+static Vec3 box_corner(const Part *part, uint32_t number, uint32_t i)
+{
+    const double low[3] = {part->data[0].x, part->data[0].y, part->data[0].z};
+    const double high[3] = {part->data[1].x, part->data[1].y, part->data[1].z};
+    uint32_t axis = number / 2, second = (axis + 1) % 3, third = (axis + 2) % 3;
+    double p[3];
+    p[axis] = number % 2 ? high[axis] : low[axis];
+    p[second] = i == 1 || i == 2 ? high[second] : low[second];
+    p[third] = i >= 2 ? high[third] : low[third];
+    return vec3(p[0], p[1], p[2]);
+}
+
+static uint32_t four_corners(const Part *part)
+{
+    (void)part;
+    return 4;
+}
+
+static Vec3 box_normal(uint32_t number)
+{
+    double side = number % 2 ? 1.0 : -1.0;
+    uint32_t axis = number / 2;
+    return vec3(axis == 0 ? side : 0.0, axis == 1 ? side : 0.0, axis == 2 ? side : 0.0);
+}
+
+static void box_measure(const Part *part, Vec3 *half, Vec3 *middle)
+{
+    *half = vec3_scale(0.5, vec3_sub(part->data[1], part->data[0]));
+    *middle = vec3_add(vec3_scale(0.5, part->data[0]), vec3_scale(0.5, part->data[1]));
+}
+
+// ---- cone
+
+static double cone_support(const Part *part, Vec3 n)
+{
+    double round = hypot(n.x, n.y);
+    return fmax(round, part->data[0].x * round + n.z);
+}
+
+static bool cone_holds(const Part *part, Vec3 p)
+{
+    double radius = 1.0 + (part->data[0].x - 1.0) * p.z;
+    return is_between(0.0, p.z, 1.0) && p.x * p.x + p.y * p.y < radius * radius;
+}
+
+static uint32_t cone_faces(const Part *part)
+{
+    return part->flags & PART_OPEN ? 0 : part->data[0].x > 0.0 ? 2 : 1;
+}
+
+static uint32_t round_corners(const Part *part)
+{
+    (void)part;
+    return FACE_CORNERS_MOST;
+}
+
+static Vec3 cone_corner(const Part *part, uint32_t number, uint32_t i)
+{
+    return round_corner(number, number ? part->data[0].x : 1.0, i);
+}
+
+static Vec3 cone_normal(uint32_t number)
+{
+    return vec3(0.0, 0.0, number ? 1.0 : -1.0);
+}
+
+// ---- disc
+
+static double disc_support(const Part *part, Vec3 n)
+{
+    (void)part;
+    return hypot(n.x, n.y);
+}
+
+static bool disc_holds(const Part *part, Vec3 p)
+{
+    (void)part;
+    return p.z < 0.0;
+}
+
+// A ring is taken in pieces.
+static uint32_t disc_faces(const Part *part)
+{
+    return part->data[0].x > 0.0 ? FACE_CORNERS_MOST : 1;
+}
+
+// Of one of the pieces of a ring, its inner edge just outside of the hole.
+static Vec3 ring_corner(double hole, uint32_t number, uint32_t i)
+{
+    double angle = 2.0 * M_PI * (number + (i == 1 || i == 2)) / FACE_CORNERS_MOST;
+    double radius = i < 2 ? 1.0 : fmin(1.0, hole / cos(M_PI / FACE_CORNERS_MOST));
+    return vec3(radius * cos(angle), radius * sin(angle), 0.0);
+}
+
+static uint32_t disc_corners(const Part *part)
+{
+    return part->data[0].x > 0.0 ? 4 : FACE_CORNERS_MOST;
+}
+
+static Vec3 disc_corner(const Part *part, uint32_t number, uint32_t i)
+{
+    return part->data[0].x > 0.0 ? ring_corner(part->data[0].x, number, i) : round_corner(0.0, 1.0, i);
+}
+
+static Vec3 flat_normal(uint32_t number)
+{
+    (void)number;
+    return vec3(0.0, 0.0, 1.0);
+}
+
+// ---- triangles
+
+static double triangle_support(const Part *part, Vec3 n)
+{
+    (void)part;
+    return fmax(0.0, fmax(n.x, n.y));
+}
+
+static uint32_t three_corners(const Part *part)
+{
+    (void)part;
+    return 3;
+}
+
+static Vec3 triangle_corner(const Part *part, uint32_t number, uint32_t i)
+{
+    (void)part;
+    (void)number;
+    return vec3(i == 1, i == 2, 0.0);
+}
+
+static void smooth_triangle_dump(const Part *part, TextBuffer *out)
+{
+    dump_vector(out, "", part->data[0]);
+    dump_vector(out, ", x, ", part->data[1]);
+    dump_vector(out, ", y, ", part->data[2]);
+}
+
+// ---- the table
+
+static const PrimitiveClass classes[] = {
+    [PART_BALL] = {.word = "sphere",
+                   .head = "sphere { 0, 1",
+                   .family = FAMILY_ROUND,
+                   .surface = PART_BALL,
+                   .interval_count = 1,
+                   .support = ball_support,
+                   .holds = ball_holds},
+    [PART_PLANE] = {.word = "plane",
+                    .head = "plane { ",
+                    .family = FAMILY_STRAIGHT,
+                    .surface = PART_PLANE,
+                    .key_count = 2,
+                    .interval_count = 1,
+                    .support = plane_support,
+                    .holds = plane_holds,
+                    .dump = plane_dump,
+                    .face_count = one_face,
+                    .corner_count = no_corners},
+    [PART_BOX] = {.word = "box",
+                  .head = "box { ",
+                  .family = FAMILY_STRAIGHT,
+                  .surface = PART_BOX,
+                  .key_count = 2,
+                  .interval_count = 1,
+                  .is_sized = true,
+                  .support = box_support,
+                  .holds = box_holds,
+                  .dump = box_dump,
+                  .face_count = box_faces,
+                  .corner_count = four_corners,
+                  .corner = box_corner,
+                  .face_normal = box_normal,
+                  .measure = box_measure},
+    [PART_CONE] = {.word = "cylinder or cone",
+                   .head = "cone { 0, 1, z, ",
+                   .family = FAMILY_STRAIGHT,
+                   .surface = PART_CONE,
+                   .key_count = 2,
+                   .interval_count = 1,
+                   .support = cone_support,
+                   .holds = cone_holds,
+                   .dump = dump_first,
+                   .face_count = cone_faces,
+                   .corner_count = round_corners,
+                   .corner = cone_corner,
+                   .face_normal = cone_normal},
+    [PART_DISC] = {.word = "disc",
+                   .head = "disc { 0, z, 1, ",
+                   .family = FAMILY_STRAIGHT,
+                   .surface = PART_DISC,
+                   .key_count = 2,
+                   .support = disc_support,
+                   .holds = disc_holds,
+                   .dump = dump_first,
+                   .face_count = disc_faces,
+                   .corner_count = disc_corners,
+                   .corner = disc_corner,
+                   .face_normal = flat_normal},
+    [PART_TRIANGLE] = {.word = "triangle",
+                       .head = "triangle { 0, x, y",
+                       .family = FAMILY_STRAIGHT,
+                       .surface = PART_TRIANGLE,
+                       .support = triangle_support,
+                       .face_count = one_face,
+                       .corner_count = three_corners,
+                       .corner = triangle_corner,
+                       .face_normal = flat_normal},
+    [PART_SMOOTH_TRIANGLE] = {.word = "smooth triangle",
+                              .head = "smooth_triangle { 0, ",
+                              .family = FAMILY_STRAIGHT,
+                              .surface = PART_TRIANGLE,
+                              .support = triangle_support,
+                              .dump = smooth_triangle_dump,
+                              .face_count = one_face,
+                              .corner_count = three_corners,
+                              .corner = triangle_corner,
+                              .face_normal = flat_normal},
+};
+
+const PrimitiveClass *primitive_class(PartKind kind)
+{
+    return &classes[kind];
+}
