@@ -274,6 +274,10 @@ RT_API rt_status rt_check_format(rt_session *session, const char *path);
  * output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
+/* Whether what POV-Ray has and rtlang has not is left out with a warning, W0409, instead of being a fault (0, the default).
+ * The files of pictures then say what was. */
+RT_API void rt_set_lenient(rt_session *session, int on);
+
 /* Whether usual text is read and evaluated by faster ways than the general one, as is the default (1). With 0 nothing
  * is; the scene and its messages are the same. */
 RT_API void rt_set_literals(rt_session *session, int on);

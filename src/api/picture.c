@@ -136,20 +136,19 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
     }
     double start = clock_seconds();
     ImageError error = {.no_memory = false};
-    Image own, image;
+    Image own = {0}, image;
     PlaneChannels channels;
     SessionNotes notes;
-    session_make_notes(session, &notes);
+    bool has_notes = session_make_notes(session, &notes);
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
     bool is_made = plane_channels_make(session, output->planes, output->whole && session->crop.width, &channels) &&
-                   picture_of(session, output, image_path_names_channels(path), &own, &image);
+                   picture_of(session, output, image_path_names_channels(path), &own, &image) && has_notes;
     encoding.more = channels.items;
     encoding.more_count = channels.count;
     ImageStatus status = is_made ? image_write(&image, &encoding, path, &error) : IMAGE_NO_MEMORY;
-    if (is_made) {
-        image_fini(&own);
-    }
+    image_fini(&own);
     plane_channels_fini(&channels);
+    session_free_notes(&notes);
     session->write_seconds = clock_seconds() - start;
     return session_image_fault(session, status, path, &error);
 }
@@ -212,12 +211,13 @@ rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigne
     }
     free(session->png);
     session->png = NULL;
-    session_make_notes(session, &notes);
+    bool has_notes = session_make_notes(session, &notes);
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
-    ImageStatus status = picture_of(session, output, false, &own, &image)
+    ImageStatus status = picture_of(session, output, false, &own, &image) && has_notes
                              ? image_encode_png(&image, &encoding, &session->png, size, &error)
                              : IMAGE_NO_MEMORY;
     image_fini(&own);
+    session_free_notes(&notes);
     *bytes = session->png;
     return session_image_fault(session, status, "memory", &error);
 }

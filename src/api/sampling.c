@@ -98,14 +98,31 @@ bool session_picture_with_alpha(const rt_session *session, bool is_multiplied, I
     return true;
 }
 
+static void note_text(SessionNotes *notes, const char *name, const char *text, const char *more)
+{
+    TextBuffer *kept = &notes->texts[notes->count];
+    text_init(kept);
+    text_append(kept, text);
+    text_append(kept, more);
+    notes->items[notes->count++] = (ImageNote){name, text_get(kept)};
+}
+
+void session_free_notes(SessionNotes *notes)
+{
+    for (size_t i = 0; i < notes->count; i++) {
+        text_fini(&notes->texts[i]);
+    }
+    notes->count = 0;
+}
+
 __attribute__((format(printf, 3, 4))) static void note(SessionNotes *notes, const char *name, const char *format, ...)
 {
+    char formatted[128];
     va_list arguments;
-    char *text = notes->texts[notes->count];
     va_start(arguments, format);
-    vsnprintf(text, NOTE_TEXT, format, arguments);
+    vsnprintf(formatted, sizeof formatted, format, arguments);
     va_end(arguments);
-    notes->items[notes->count++] = (ImageNote){name, text};
+    note_text(notes, name, formatted, "");
 }
 
 static void note_sampling(SessionNotes *notes, const SamplingOptions *sampling, const SamplingError *error)
@@ -134,7 +151,7 @@ static void note_error(SessionNotes *notes, const SamplingError *error)
 }
 
 // Everything that the picture follows from, and its error; no times, so that the same run makes the same file.
-void session_make_notes(const rt_session *session, SessionNotes *notes)
+bool session_make_notes(const rt_session *session, SessionNotes *notes)
 {
     const SamplingOptions *sampling = &session->drawn.sampling;
     const SamplingError *error = &session->error;
@@ -152,4 +169,12 @@ void session_make_notes(const rt_session *session, SessionNotes *notes)
     if (error->is_known) {
         note_error(notes, error);
     }
+    if (session->left_out.length > 0) {
+        note_text(notes, "Warning", "drawn without ", text_get((TextBuffer *)&session->left_out));
+    }
+    bool is_whole = !session->left_out.failed;
+    for (size_t i = 0; i < notes->count; i++) {
+        is_whole = is_whole && !notes->texts[i].failed;
+    }
+    return is_whole;
 }

@@ -66,6 +66,12 @@ static bool apply_no_literals(Options *options, const char *argument, OptionRead
     return options->no_literals = true;
 }
 
+static bool apply_lenient(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    return options->is_lenient = true;
+}
+
 static bool apply_include_path(Options *options, const char *argument, OptionReading *reading)
 {
     reading->expected = "a folder";
@@ -528,6 +534,8 @@ static const OptionRow rows[] = {
      "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
     {0, "no-literals", NULL, apply_no_literals,
      "read and evaluate all text by the one general way, without what makes usual text faster; the scene is the same"},
+    {0, "lenient", NULL, apply_lenient,
+     "leave out what POV-Ray has and rtlang has not, with a warning that also the picture's file keeps"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
     {0, "no-povray-includes", NULL, apply_no_povray_includes,
      "do not look for #include where an installed POV-Ray has its files"},

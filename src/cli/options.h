@@ -73,6 +73,7 @@ struct Options {
     double clock;
     bool clock_given;
     bool no_literals;
+    bool is_lenient;
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     double max_time; // seconds of the whole run; 0: as many as it takes
     bool is_untrusted, is_unconfined;

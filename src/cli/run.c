@@ -65,6 +65,7 @@ static rt_status configure(rt_session *session, const Options *options)
         status = options->limits[i] ? rt_set_limit(session, (rt_limit)i, options->limits[i]) : RT_OK;
     }
     rt_set_literals(session, !options->no_literals);
+    rt_set_lenient(session, options->is_lenient);
     status = status ? status : rt_set_load_threads(session, options->threads);
     if (!status && options->clock_given) {
         status = rt_set_clock(session, options->clock);
