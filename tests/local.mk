@@ -255,6 +255,7 @@ test_scripts = \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
   %D%/system/check_lenient.py \
+  %D%/system/check_rerun.py \
   %D%/system/check_install.py \
   %D%/system/check_python.py \
   %D%/system/check_strip.py \

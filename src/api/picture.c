@@ -3,6 +3,7 @@
 // Owns nothing but the bytes that were asked for last, which the session keeps. Knows nothing of rendering.
 //
 // SPDX-License-Identifier: MIT
+#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,6 +13,7 @@
 #include "api/session.h"
 #include "base/clock.h"
 #include "image/encode.h"
+#include "image/note_read.h"
 
 rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
 {
@@ -151,6 +153,23 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
     session_free_notes(&notes);
     session->write_seconds = clock_seconds() - start;
     return session_image_fault(session, status, path, &error);
+}
+
+rt_status rt_read_note(rt_session *session, const char *path, const char *name, const char **text)
+{
+    text_clear(&session->note);
+    NoteResult result = note_read(path, name, &session->note);
+    *text = result == NOTE_FOUND ? text_get(&session->note) : NULL;
+    if (result == NOTE_NO_FILE) {
+        bool is_missing = errno == ENOENT || errno == ENOTDIR;
+        diag_report(&session->diags, DIAG_E0502, SPAN_NONE, is_missing ? "`%s` not found%s" : "cannot read `%s`: %s", path,
+                    is_missing ? "" : strerror(errno));
+        return session_status(session, false);
+    }
+    if (session->note.failed) {
+        return session_no_memory(session);
+    }
+    return RT_OK;
 }
 
 rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixels, size_t bytes)

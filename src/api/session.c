@@ -63,6 +63,7 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     text_init(&session->dump);
     text_init(&session->said);
     text_init(&session->left_out);
+    text_init(&session->note);
     session->sources = source_map_new();
     session->names = intern_new(session->limits.memory_most);
     diag_init(&session->diags, session->sources);
@@ -104,6 +105,8 @@ void rt_session_free(rt_session *session)
     text_fini(&session->dump);
     text_fini(&session->said);
     text_fini(&session->left_out);
+    text_fini(&session->note);
+    free(session->provenance);
     intern_free(session->names);
     source_map_free(session->sources);
     free(session);
@@ -298,6 +301,9 @@ static bool may_load(rt_session *session)
 static rt_status load_source(rt_session *session, Source *source, double start)
 {
     rt_status status = session_run_deep(session, load, source);
+    if (session->provenance && !session->is_built) {
+        session->has_digest = source_digest(source, session->scene_digest);
+    }
     source_close(source);
     session->parse_seconds = clock_seconds() - start;
     return status;

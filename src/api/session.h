@@ -52,6 +52,10 @@ struct rt_session {
     EvalWorld world;
     bool no_literals;
     bool is_lenient;
+    char *provenance;                          // the options, in the program's words; NULL: files do not say; owned
+    unsigned char scene_digest[DIGEST_BYTES];  // of the scene's text, where it has one
+    bool has_digest;
+    TextBuffer note; // that was read last
     TextBuffer left_out; // what a lenient evaluation left out
     int load_threads; // 0: as many as the machine has
     int width, height;
