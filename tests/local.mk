@@ -254,6 +254,8 @@ test_scripts = \
   %D%/system/check_hostile.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
+  %D%/system/check_lenient.py \
+  %D%/system/check_rerun.py \
   %D%/system/check_install.py \
   %D%/system/check_python.py \
   %D%/system/check_strip.py \
@@ -321,6 +323,7 @@ lang_cases = \
   %D%/lang/hints.test \
   %D%/lang/includes.test \
   %D%/lang/interior.test \
+  %D%/lang/lenient.test \
   %D%/lang/light.test \
   %D%/lang/limits.test \
   %D%/lang/loops.test \

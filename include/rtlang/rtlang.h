@@ -274,6 +274,18 @@ RT_API rt_status rt_check_format(rt_session *session, const char *path);
  * output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
+/* Whether what POV-Ray has and rtlang has not is left out with a warning, W0409, instead of being a fault (0, the default).
+ * The files of pictures then say what was. */
+RT_API void rt_set_lenient(rt_session *session, int on);
+
+/* Before rt_load_*, and with another text any time after it: the files of pictures, PNG and EXR, say what they were drawn from. `options` is the client's text for
+ * what it set, ASCII. PNG has it as text under "rtlang:options", beside "rtlang:scene", the digest of the scene's text (BLAKE2b
+ * with 256 bits), and "rtlang:files", the number and the digest of the digests of all files that it included or opened; EXR as
+ * attributes. "Software" always says program and version. There is no date: the same run makes the same file. */
+RT_API rt_status rt_set_provenance(rt_session *session, const char *options);
+/* One of these texts of a file; NULL: it has none. *text is valid until the next call on the session. */
+RT_API rt_status rt_read_note(rt_session *session, const char *path, const char *name, const char **text);
+
 /* Whether usual text is read and evaluated by faster ways than the general one, as is the default (1). With 0 nothing
  * is; the scene and its messages are the same. */
 RT_API void rt_set_literals(rt_session *session, int on);

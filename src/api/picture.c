@@ -3,6 +3,7 @@
 // Owns nothing but the bytes that were asked for last, which the session keeps. Knows nothing of rendering.
 //
 // SPDX-License-Identifier: MIT
+#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,6 +13,7 @@
 #include "api/session.h"
 #include "base/clock.h"
 #include "image/encode.h"
+#include "image/note_read.h"
 
 rt_status session_image_fault(rt_session *session, ImageStatus status, const char *path, const ImageError *error)
 {
@@ -136,22 +138,38 @@ rt_status rt_write(rt_session *session, const char *path, const rt_output *outpu
     }
     double start = clock_seconds();
     ImageError error = {.no_memory = false};
-    Image own, image;
+    Image own = {0}, image;
     PlaneChannels channels;
     SessionNotes notes;
-    session_make_notes(session, &notes);
+    bool has_notes = session_make_notes(session, &notes);
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
     bool is_made = plane_channels_make(session, output->planes, output->whole && session->crop.width, &channels) &&
-                   picture_of(session, output, image_path_names_channels(path), &own, &image);
+                   picture_of(session, output, image_path_names_channels(path), &own, &image) && has_notes;
     encoding.more = channels.items;
     encoding.more_count = channels.count;
     ImageStatus status = is_made ? image_write(&image, &encoding, path, &error) : IMAGE_NO_MEMORY;
-    if (is_made) {
-        image_fini(&own);
-    }
+    image_fini(&own);
     plane_channels_fini(&channels);
+    session_free_notes(&notes);
     session->write_seconds = clock_seconds() - start;
     return session_image_fault(session, status, path, &error);
+}
+
+rt_status rt_read_note(rt_session *session, const char *path, const char *name, const char **text)
+{
+    text_clear(&session->note);
+    NoteResult result = note_read(path, name, &session->note);
+    *text = result == NOTE_FOUND ? text_get(&session->note) : NULL;
+    if (result == NOTE_NO_FILE) {
+        bool is_missing = errno == ENOENT || errno == ENOTDIR;
+        diag_report(&session->diags, DIAG_E0502, SPAN_NONE, is_missing ? "`%s` not found%s" : "cannot read `%s`: %s", path,
+                    is_missing ? "" : strerror(errno));
+        return session_status(session, false);
+    }
+    if (session->note.failed) {
+        return session_no_memory(session);
+    }
+    return RT_OK;
 }
 
 rt_status rt_get_pixels(rt_session *session, const rt_output *output, void *pixels, size_t bytes)
@@ -212,12 +230,13 @@ rt_status rt_get_png(rt_session *session, const rt_output *output, const unsigne
     }
     free(session->png);
     session->png = NULL;
-    session_make_notes(session, &notes);
+    bool has_notes = session_make_notes(session, &notes);
     ImageEncoding encoding = encoding_of(session, output, output_depth(output, path), &notes);
-    ImageStatus status = picture_of(session, output, false, &own, &image)
+    ImageStatus status = picture_of(session, output, false, &own, &image) && has_notes
                              ? image_encode_png(&image, &encoding, &session->png, size, &error)
                              : IMAGE_NO_MEMORY;
     image_fini(&own);
+    session_free_notes(&notes);
     *bytes = session->png;
     return session_image_fault(session, status, "memory", &error);
 }

@@ -98,14 +98,31 @@ bool session_picture_with_alpha(const rt_session *session, bool is_multiplied, I
     return true;
 }
 
+static void note_text(SessionNotes *notes, const char *name, const char *text, const char *more)
+{
+    TextBuffer *kept = &notes->texts[notes->count];
+    text_init(kept);
+    text_append(kept, text);
+    text_append(kept, more);
+    notes->items[notes->count++] = (ImageNote){name, text_get(kept), false};
+}
+
+void session_free_notes(SessionNotes *notes)
+{
+    for (size_t i = 0; i < notes->count; i++) {
+        text_fini(&notes->texts[i]);
+    }
+    notes->count = 0;
+}
+
 __attribute__((format(printf, 3, 4))) static void note(SessionNotes *notes, const char *name, const char *format, ...)
 {
+    char formatted[128];
     va_list arguments;
-    char *text = notes->texts[notes->count];
     va_start(arguments, format);
-    vsnprintf(text, NOTE_TEXT, format, arguments);
+    vsnprintf(formatted, sizeof formatted, format, arguments);
     va_end(arguments);
-    notes->items[notes->count++] = (ImageNote){name, text};
+    note_text(notes, name, formatted, "");
 }
 
 static void note_sampling(SessionNotes *notes, const SamplingOptions *sampling, const SamplingError *error)
@@ -133,12 +150,35 @@ static void note_error(SessionNotes *notes, const SamplingError *error)
     }
 }
 
+static void note_origin(SessionNotes *notes, const rt_session *session)
+{
+    unsigned char digest[DIGEST_BYTES];
+    char text[DIGEST_TEXT];
+    note_text(notes, "Software", "rtlang ", PACKAGE_VERSION);
+    if (session->provenance && session->has_digest) {
+        digest_text(session->scene_digest, text);
+        note_text(notes, "rtlang:scene", "blake2b-256 ", text);
+    }
+    size_t files = session->provenance ? source_map_digest(session->sources, digest) : 0;
+    if (files > 0) {
+        digest_text(digest, text);
+        note(notes, "rtlang:files", "%zu, blake2b-256 %s", files, text);
+    }
+    if (session->provenance) {
+        note_text(notes, "rtlang:options", session->provenance, "");
+    }
+    for (size_t i = 0; i < notes->count; i++) {
+        notes->items[i].is_of_origin = true;
+    }
+}
+
 // Everything that the picture follows from, and its error; no times, so that the same run makes the same file.
-void session_make_notes(const rt_session *session, SessionNotes *notes)
+bool session_make_notes(const rt_session *session, SessionNotes *notes)
 {
     const SamplingOptions *sampling = &session->drawn.sampling;
     const SamplingError *error = &session->error;
     notes->count = 0;
+    note_origin(notes, session);
     if (session->drawn.method != RT_METHOD_BACKWARD) {
         note(notes, "rtlang:method", session->drawn.method == RT_METHOD_FORWARD ? "forward" : "forward-connect");
         note(notes, "rtlang:photons", "%llu", (unsigned long long)session->drawn.photons);
@@ -152,4 +192,12 @@ void session_make_notes(const rt_session *session, SessionNotes *notes)
     if (error->is_known) {
         note_error(notes, error);
     }
+    if (session->left_out.length > 0) {
+        note_text(notes, "Warning", "drawn without ", text_get((TextBuffer *)&session->left_out));
+    }
+    bool is_whole = !session->left_out.failed;
+    for (size_t i = 0; i < notes->count; i++) {
+        is_whole = is_whole && !notes->texts[i].failed;
+    }
+    return is_whole;
 }

@@ -62,6 +62,8 @@ rt_session *rt_session_new(const rt_callbacks *callbacks)
     scene_init(&session->scene);
     text_init(&session->dump);
     text_init(&session->said);
+    text_init(&session->left_out);
+    text_init(&session->note);
     session->sources = source_map_new();
     session->names = intern_new(session->limits.memory_most);
     diag_init(&session->diags, session->sources);
@@ -102,6 +104,9 @@ void rt_session_free(rt_session *session)
     diag_fini(&session->diags);
     text_fini(&session->dump);
     text_fini(&session->said);
+    text_fini(&session->left_out);
+    text_fini(&session->note);
+    free(session->provenance);
     intern_free(session->names);
     source_map_free(session->sources);
     free(session);
@@ -224,6 +229,8 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .clock_on = session->clock_on,
         .world = session->world.scale > 0.0 ? &session->world : NULL,
         .no_literals = session->no_literals,
+        .is_lenient = session->is_lenient,
+        .left_out = &session->left_out,
         .version = version,
         .threads = load_threads(session),
         .tracer = &probe_tracer,
@@ -294,6 +301,9 @@ static bool may_load(rt_session *session)
 static rt_status load_source(rt_session *session, Source *source, double start)
 {
     rt_status status = session_run_deep(session, load, source);
+    if (session->provenance && !session->is_built) {
+        session->has_digest = source_digest(source, session->scene_digest);
+    }
     source_close(source);
     session->parse_seconds = clock_seconds() - start;
     return status;

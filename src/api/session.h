@@ -51,6 +51,12 @@ struct rt_session {
     bool clock_on;
     EvalWorld world;
     bool no_literals;
+    bool is_lenient;
+    char *provenance;                          // the options, in the program's words; NULL: files do not say; owned
+    unsigned char scene_digest[DIGEST_BYTES];  // of the scene's text, where it has one
+    bool has_digest;
+    TextBuffer note; // that was read last
+    TextBuffer left_out; // what a lenient evaluation left out
     int load_threads; // 0: as many as the machine has
     int width, height;
     struct {
@@ -100,13 +106,15 @@ struct rt_session {
 };
 
 // What a picture's file says of how it was made: nothing, but of sampled pictures.
-enum { NOTES_MAX = 13, NOTE_TEXT = 48 };
+enum { NOTES_MAX = 24 };
 typedef struct SessionNotes {
     ImageNote items[NOTES_MAX];
-    char texts[NOTES_MAX][NOTE_TEXT];
+    TextBuffer texts[NOTES_MAX];
     size_t count;
 } SessionNotes;
-void session_make_notes(const rt_session *session, SessionNotes *notes);
+// False when out of memory; session_free_notes is to be called anyway.
+bool session_make_notes(const rt_session *session, SessionNotes *notes) RT_MUST_CHECK;
+void session_free_notes(SessionNotes *notes);
 
 // Whether errors of single pixels are known.
 bool session_has_pixel_errors(const rt_session *session);

@@ -275,6 +275,25 @@ rt_status rt_set_world(rt_session *session, double scale, const double shift[3])
     return RT_OK;
 }
 
+void rt_set_lenient(rt_session *session, int on)
+{
+    session->is_lenient = on != 0;
+}
+
+rt_status rt_set_provenance(rt_session *session, const char *options)
+{
+    char *copy = strdup(options);
+    if (!copy) {
+        return session_no_memory(session);
+    }
+    if (!session->provenance) {
+        source_map_keep_digests(session->sources);
+    }
+    free(session->provenance);
+    session->provenance = copy;
+    return RT_OK;
+}
+
 void rt_set_literals(rt_session *session, int on)
 {
     session->no_literals = !on;

@@ -50,6 +50,7 @@ struct Source {
     char *kept;        // the text, if it cannot be read twice
     uint64_t position; // of source_read
     bool is_list;      // without text
+    bool is_of_scene;  // a scene asked for it by its name, and it is not in the map's digest yet
     LineIndex *lines;  // checkpoint k stands at k * BLOCK; NULL until a message asks
     int file;          // NO_FILE when closed or kept
     dev_t device;      // of the file, with its number: another one of this name is not read in its place
@@ -64,6 +65,9 @@ struct SourceMap {
     uint64_t bytes_read;
     const atomic_bool *cancel; // may be NULL
     size_t memory_bytes;       // most that is kept of one text
+    bool keeps_digests;
+    size_t digest_count;
+    Digest digest;
     const Source *again; // whose file is open in again_file
     int again_file;
     char block[BLOCK];
@@ -309,7 +313,11 @@ SourceResult source_open_real(SourceMap *map, const char *real, const char *name
         close(file);
         return SOURCE_NOT_A_FILE;
     }
-    return source_opened(map, name, file, limit_bytes, source, error_number);
+    SourceResult result = source_opened(map, name, file, limit_bytes, source, error_number);
+    if (result == SOURCE_OK) {
+        (*source)->is_of_scene = true;
+    }
+    return result;
 }
 
 SourceResult source_open_stream(SourceMap *map, const char *name, int file, uint64_t limit_bytes, Source **source,
@@ -434,8 +442,47 @@ void source_seek(Source *source, uint64_t position)
     source->position = position;
 }
 
+bool source_digest(const Source *source, unsigned char out[DIGEST_BYTES])
+{
+    Digest digest;
+    char *block = source->map->block;
+    digest_init(&digest);
+    for (uint64_t at = 0; at < source->size; at += BLOCK) {
+        size_t part = source->size - at < BLOCK ? (size_t)(source->size - at) : BLOCK;
+        if (!source_read_at(source, at, block, part)) {
+            return false;
+        }
+        digest_add(&digest, block, part);
+    }
+    digest_end(&digest, out);
+    return true;
+}
+
+void source_map_keep_digests(SourceMap *map)
+{
+    map->keeps_digests = true;
+    map->digest_count = 0;
+    digest_init(&map->digest);
+}
+
+size_t source_map_digest(const SourceMap *map, unsigned char out[DIGEST_BYTES])
+{
+    Digest digest = map->digest;
+    if (map->digest_count > 0) {
+        digest_end(&digest, out);
+    }
+    return map->digest_count;
+}
+
 void source_close(Source *source)
 {
+    unsigned char digest[DIGEST_BYTES];
+    SourceMap *map = source->map;
+    if (map->keeps_digests && source->is_of_scene && source_digest(source, digest)) {
+        digest_add(&map->digest, digest, sizeof digest);
+        map->digest_count++;
+    }
+    source->is_of_scene = false;
     file_close(&source->file);
 }
 

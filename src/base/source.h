@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #include "base/attributes.h"
+#include "base/digest.h"
 
 // Global byte offsets, begin included and end not. Offset 0 belongs to no text.
 typedef struct Span {
@@ -74,6 +75,13 @@ uint64_t source_map_bytes(const SourceMap *map);
 
 // How many bytes may be kept of one pipe or device; at first any number.
 void source_map_set_memory(SourceMap *map, size_t bytes);
+
+// From now on the files that source_open_real opens are read once more when they are closed, for source_map_digest.
+void source_map_keep_digests(SourceMap *map);
+// How many there were, and the digest of their digests in the order of closing; of 0 files it is not set.
+size_t source_map_digest(const SourceMap *map, unsigned char digest[DIGEST_BYTES]);
+// That of all bytes of a text that is open or kept. False when it cannot be read.
+bool source_digest(const Source *source, unsigned char digest[DIGEST_BYTES]) RT_MUST_CHECK;
 
 // Opens a file, a pipe or a device for reading from its start. On success *source is set; on failure *error_number is
 // an errno value or 0.

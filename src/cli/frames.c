@@ -40,19 +40,26 @@ void frames_name(const Frames *frames, int frame, const char *output, char *name
     }
 }
 
-rt_status frames_declare(const Frames *frames, int frame, rt_session *session)
+void frames_declarations(const Frames *frames, int frame, char declarations[][FRAMES_DECLARATION_SIZE])
 {
     const struct {
         const char *name;
         double value;
-    } values[] = {{"clock_delta", frames_clock_delta(frames)}, {"initial_clock", frames->clock_from},
-                  {"final_clock", frames->clock_to},           {"initial_frame", frames->initial},
-                  {"final_frame", frames->final},              {"frame_number", frame}};
+    } values[FRAMES_DECLARATIONS] = {{"clock_delta", frames_clock_delta(frames)}, {"initial_clock", frames->clock_from},
+                                     {"final_clock", frames->clock_to},           {"initial_frame", frames->initial},
+                                     {"final_frame", frames->final},              {"frame_number", frame}};
+    for (size_t i = 0; i < FRAMES_DECLARATIONS; i++) {
+        snprintf(declarations[i], FRAMES_DECLARATION_SIZE, "%s=%.17g", values[i].name, values[i].value);
+    }
+}
+
+rt_status frames_declare(const Frames *frames, int frame, rt_session *session)
+{
+    char declarations[FRAMES_DECLARATIONS][FRAMES_DECLARATION_SIZE];
+    frames_declarations(frames, frame, declarations);
     rt_status status = rt_set_clock(session, frames_clock(frames, frame));
-    for (size_t i = 0; !status && i < sizeof values / sizeof values[0]; i++) {
-        char declaration[64];
-        snprintf(declaration, sizeof declaration, "%s=%.17g", values[i].name, values[i].value);
-        status = rt_declare(session, declaration);
+    for (size_t i = 0; !status && i < FRAMES_DECLARATIONS; i++) {
+        status = rt_declare(session, declarations[i]);
     }
     return status;
 }

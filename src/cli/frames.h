@@ -24,6 +24,10 @@ double frames_clock(const Frames *frames, int frame);
 // has the same name for all.
 void frames_name(const Frames *frames, int frame, const char *output, char *name, size_t size);
 
+// What a scene may ask about a frame beside the clock, by POV-Ray's names, as NAME=VALUE.
+enum { FRAMES_DECLARATIONS = 6, FRAMES_DECLARATION_SIZE = 64 };
+void frames_declarations(const Frames *frames, int frame, char declarations[][FRAMES_DECLARATION_SIZE]);
+
 // What a scene may ask about its animation: the clock, and POV-Ray's names for the rest.
 rt_status frames_declare(const Frames *frames, int frame, rt_session *session);
 

@@ -9,6 +9,7 @@
 
 #include "cli/options.h"
 #include "cli/povray.h"
+#include "cli/provenance.h"
 #include "cli/run.h"
 #include "cli/summary.h"
 #include "cli/voice.h"
@@ -172,6 +173,8 @@ static OptionsResult read_command_line(int argc, char **argv, Options *options, 
         *status = rt_report(session, "E0602", "out of memory", NULL);
     } else if (session && result == OPTIONS_WRONG) {
         *status = fail_parse(session, options);
+    } else if (session && result == OPTIONS_GO && options->rerun) {
+        *status = provenance_recall(session, argc, argv, options);
     }
     if (session && result == OPTIONS_DONE) {
         *status = run_print(session, "", RT_OK);

@@ -135,6 +135,7 @@ OptionsResult option_reader_run(const OptionTable *table, int argc, char **argv,
     make_getopt_tables(table, long_options, short_options);
     *stops = NULL;
     opterr = 0;
+    optind = 0; // from the first word, whatever was read before
     for (int val; (val = getopt_long(argc, argv, short_options, long_options, NULL)) != -1;) {
         const OptionRow *row = val == '?' || val == ':' ? NULL : find_row(table, val);
         if (!row) {

@@ -66,6 +66,33 @@ static bool apply_no_literals(Options *options, const char *argument, OptionRead
     return options->no_literals = true;
 }
 
+static bool apply_lenient(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    return options->is_lenient = true;
+}
+
+static bool apply_whole(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    options->encoding.whole = 1;
+    return true;
+}
+
+static bool apply_header(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a file name";
+    options->header = argument;
+    return argument[0] != '\0';
+}
+
+static bool apply_rerun(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "the file of a picture";
+    options->rerun = argument;
+    return argument[0] != '\0';
+}
+
 static bool apply_include_path(Options *options, const char *argument, OptionReading *reading)
 {
     reading->expected = "a folder";
@@ -363,23 +390,22 @@ static bool apply_error_map(Options *options, const char *argument, OptionReadin
     return argument[0] != '\0';
 }
 
+const OptionPlane option_planes[] = {{"error", RT_PLANE_ERROR},   {"samples", RT_PLANE_SAMPLES}, {"depth", RT_PLANE_DEPTH},
+                                     {"normal", RT_PLANE_NORMAL}, {"object", RT_PLANE_OBJECT},   {"albedo", RT_PLANE_ALBEDO}};
+const size_t option_plane_count = COUNT_OF(option_planes);
+
 static bool apply_planes(Options *options, const char *argument, OptionReading *reading)
 {
-    static const struct {
-        const char *name;
-        rt_plane plane;
-    } names[] = {{"error", RT_PLANE_ERROR},   {"samples", RT_PLANE_SAMPLES}, {"depth", RT_PLANE_DEPTH},
-                 {"normal", RT_PLANE_NORMAL}, {"object", RT_PLANE_OBJECT},   {"albedo", RT_PLANE_ALBEDO}};
     reading->expected = "error, samples, depth, normal, object or albedo, or several with commas between";
     for (;;) {
         size_t length = strcspn(argument, ","), i = 0;
-        while (i < COUNT_OF(names) && (strlen(names[i].name) != length || strncmp(names[i].name, argument, length) != 0)) {
+        while (i < option_plane_count && (strlen(option_planes[i].name) != length || strncmp(option_planes[i].name, argument, length) != 0)) {
             i++;
         }
-        if (i == COUNT_OF(names)) {
+        if (i == option_plane_count) {
             return false;
         }
-        options->encoding.planes |= names[i].plane;
+        options->encoding.planes |= option_planes[i].plane;
         if (!argument[length]) {
             return true;
         }
@@ -523,12 +549,16 @@ static const OptionRow rows[] = {
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
     {0, "crop", "L,T,W,H", apply_crop,
      "trace W x H pixels from column L and row T only; they are those of the whole picture"},
+    {0, "whole", NULL, apply_whole, "with --crop: the picture has its whole size, and is black where it was not traced"},
     {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
     {0, "isa", "NAME", apply_isa,
      "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
     {0, "no-literals", NULL, apply_no_literals,
      "read and evaluate all text by the one general way, without what makes usual text faster; the scene is the same"},
+    {0, "lenient", NULL, apply_lenient,
+     "leave out what POV-Ray has and rtlang has not, with a warning that also the picture's file keeps"},
     {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat, searched in order"},
+    {0, "header", "FILE", apply_header, "include FILE before the scene's first statement"},
     {0, "no-povray-includes", NULL, apply_no_povray_includes,
      "do not look for #include where an installed POV-Ray has its files"},
     {'D', "declare", "NAME=NUMBER", apply_declare, "declare a name before the scene begins; may repeat"},
@@ -585,6 +615,9 @@ static const OptionRow rows[] = {
     {0, "method", "NAME", apply_method,
      "backward (default), or for study photons from the lights: forward, forward-connect"},
     {0, "photons", "N", apply_photons, "photons of the forward methods (default 1e6)"},
+    {0, "rerun", "PICTURE", apply_rerun,
+     "draw PICTURE, of PNG or EXR, again from SCENE with the options that its file keeps,\n"
+     "and say whether the bytes are the same; the new file stays where -o names it"},
     {0, "check", NULL, apply_check, "read and evaluate the scene only; write nothing"},
     {0, "budget", NULL, apply_budget, "print how much memory rendering the scene takes at most, and stop"},
     {0, "warnings", "WHAT", apply_warnings,

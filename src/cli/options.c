@@ -136,6 +136,9 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
         return option_complain(&options->reading, "one file for the pictures of more than one scene: `%s` and `%s`", options->scenes[0],
                         options->scenes[1]);
     }
+    if (options->rerun && (options->scene_count > 1 || options->frames.step || options->action != ACTION_RENDER)) {
+        return option_complain(&options->reading, "`--rerun` wants one scene, and draws one picture");
+    }
     if (options->action == ACTION_TRACE_PIXEL &&
         (options->pixel_x >= options->width || options->pixel_y >= options->height)) {
         return option_complain(&options->reading, "pixel %d,%d is not in a picture of %d x %d pixels", options->pixel_x,
@@ -151,4 +154,7 @@ void options_fini(Options *options)
     free(options->warnings);
     free(options->read_folders);
     free(options->scenes);
+    free(options->rerun_text);
+    free(options->rerun_words);
+    free(options->rerun_output);
 }

@@ -41,6 +41,8 @@ struct Options {
     const char *scene; // the one that is being run
     Frames frames;
     int frame;          // the one that is being run
+    const char *rerun;  // the picture that is to be drawn again; NULL: none
+    char *rerun_text, **rerun_words, *rerun_output; // its options and what is drawn to compare, owned
     const char *header; // included before the scene; NULL: none
     bool is_povray;     // the options were POV-Ray's
     bool has_no_progress, has_no_output;
@@ -73,6 +75,7 @@ struct Options {
     double clock;
     bool clock_given;
     bool no_literals;
+    bool is_lenient;
     uint64_t limits[LIMIT_COUNT]; // by rt_limit; 0: the library's default
     double max_time; // seconds of the whole run; 0: as many as it takes
     bool is_untrusted, is_unconfined;

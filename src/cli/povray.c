@@ -345,7 +345,9 @@ OptionsResult povray_parse(rt_session *session, int argc, char **argv, Povray *p
     if (result == OPTIONS_WRONG) {
         *status = rt_report(session, "E0703", options->reading.complaint, options->reading.advice[0] ? options->reading.advice : NULL);
     }
-    if (result == OPTIONS_GO) {
+    if (result == OPTIONS_GO && options->rerun) {
+        *status = rt_report(session, "E0703", "`--rerun` does not go with POV-Ray's options", "its picture has its own");
+    } else if (result == OPTIONS_GO) {
         *status = povray_read(session, &povray->settings, words, count);
         *status = *status ? *status : follow(session, povray, options, voice);
     }

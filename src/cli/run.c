@@ -11,6 +11,7 @@
 
 #include "cli/confine.h"
 #include "cli/frames.h"
+#include "cli/provenance.h"
 #include "cli/summary.h"
 
 static rt_status fail_usage(rt_session *session, const char *message)
@@ -65,6 +66,7 @@ static rt_status configure(rt_session *session, const Options *options)
         status = options->limits[i] ? rt_set_limit(session, (rt_limit)i, options->limits[i]) : RT_OK;
     }
     rt_set_literals(session, !options->no_literals);
+    rt_set_lenient(session, options->is_lenient);
     status = status ? status : rt_set_load_threads(session, options->threads);
     if (!status && options->clock_given) {
         status = rt_set_clock(session, options->clock);
@@ -231,10 +233,21 @@ static void say_summary(const rt_session *session, const Options *options, const
     }
 }
 
+static rt_status set_provenance(rt_session *session, const Options *options)
+{
+    rt_error error;
+    rt_get_error(session, &error);
+    char *text = provenance_options(options, error.known ? error.samples : 0.0);
+    rt_status status = text ? rt_set_provenance(session, text) : rt_report(session, "E0602", "out of memory", NULL);
+    free(text);
+    return status;
+}
+
 // Writes what there is to write, and tells of it.
 static rt_status finish(rt_session *session, const Options *options, const char *output, Voice *voice)
 {
-    rt_status status = options->has_no_output ? RT_OK : rt_write(session, output, &options->encoding);
+    rt_status status = set_provenance(session, options); // with what is known now
+    status = status || options->has_no_output ? status : rt_write(session, output, &options->encoding);
     if (!status && options->error_map) {
         status = rt_write_error(session, options->error_map);
     }
@@ -244,6 +257,21 @@ static rt_status finish(rt_session *session, const Options *options, const char 
     }
     if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
         say_summary(session, options, output, voice);
+    }
+    return status;
+}
+
+// Of --rerun: what was drawn beside what it is to repeat. It goes unless it has a name of its own.
+static rt_status compare_again(rt_session *session, const Options *options, Voice *voice)
+{
+    char text[PATH_MAX + 64];
+    rt_status status = provenance_compare(session, options->rerun, options->output);
+    int length = snprintf(text, sizeof text, "%s: drawn again, the bytes are the same\n", options->rerun);
+    if (!status && !options->quiet) {
+        voice_say(voice, VOICE_STATISTICS, text, (size_t)length);
+    }
+    if (options->rerun_output) {
+        (void)remove(options->rerun_output);
     }
     return status;
 }
@@ -262,6 +290,7 @@ static rt_status render(rt_session *session, const Options *options, Voice *voic
     }
     rt_status status = set_sampling(session, options);
     status = status || options->has_no_output ? status : check_output(session, options, output);
+    status = status ? status : set_provenance(session, options);
     status = status ? status : rt_load_file(session, options->scene);
     if (status) {
         return status;
@@ -282,7 +311,8 @@ static rt_status render(rt_session *session, const Options *options, Voice *voic
         rt_status written = finish(session, options, output, voice);
         return written ? written : status;
     }
-    return status ? status : finish(session, options, output, voice);
+    status = status ? status : finish(session, options, output, voice);
+    return !status && options->rerun ? compare_again(session, options, voice) : status;
 }
 
 static rt_status check(rt_session *session, const Options *options)
@@ -314,7 +344,7 @@ static rt_status confine_runs(rt_session *session, Options *options)
     while (rt_include_path(session, folders)) {
         folders++;
     }
-    const char **reads = calloc(2 * scenes + 1 + folders + (size_t)options->read_folder_count, sizeof *reads);
+    const char **reads = calloc(2 * scenes + 2 + folders + (size_t)options->read_folder_count, sizeof *reads);
     char **own = calloc(scenes + 1, sizeof *own);
     bool is_whole = reads && own;
     for (size_t i = 0; is_whole && i < scenes; i++) {
@@ -324,6 +354,7 @@ static rt_status confine_runs(rt_session *session, Options *options)
     }
     if (is_whole) {
         reads[count++] = options->header;
+        reads[count++] = options->rerun;
         for (int i = 0; i < options->read_folder_count; i++) {
             reads[count++] = options->read_folders[i];
         }

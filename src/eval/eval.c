@@ -76,7 +76,13 @@ static bool declare_all(Eval *ev, const Source *source)
 
 static void init(Eval *ev, const EvalOptions *options, Scene *scene)
 {
-    *ev = (Eval){.options = *options, .text = &text_of_scene, .builder = &builder_of_scene, .scene = scene, .version = 3.7, .inner = 1};
+    *ev = (Eval){.options = *options,
+                 .text = &text_of_scene,
+                 .builder = &builder_of_scene,
+                 .scene = scene,
+                 .version = 3.7,
+                 .inner = 1,
+                 .errors_before = options->diags->error_count};
     if (options->version > 0.0) {
         ev->version = options->version;
         ev->version_given = true;
@@ -151,10 +157,14 @@ static void read_header(Eval *ev)
     text_fini(&text);
 }
 
+bool eval_leaves_out(const Eval *ev)
+{
+    return ev->options.is_lenient && !ev->stop && ev->options.diags->error_count == ev->errors_before;
+}
+
 bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
 {
     Eval ev;
-    size_t errors = options->diags->error_count;
     const DiagFrame *frame = options->diags->frame;
     init(&ev, options, scene);
     options->diags->frame = NULL;
@@ -178,7 +188,8 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
     if (options->declared != NULL) {
         *options->declared = scope_count(&ev);
     }
+    bool is_whole = eval_leaves_out(&ev) || (!ev.faulty && !ev.stop && options->diags->error_count == ev.errors_before);
     fini(&ev);
     options->diags->frame = frame;
-    return !ev.faulty && !ev.stop && options->diags->error_count == errors;
+    return is_whole;
 }

@@ -36,6 +36,7 @@ typedef enum ImageTransfer {
 typedef struct ImageNote {
     const char *name; // 1 to 79 printable characters
     const char *text; // ASCII
+    bool is_of_origin; // what the picture was drawn from; formats whose header is text do not have it, for their readers
 } ImageNote;
 
 // A channel beside light and alpha: a number of 4 bytes a pixel.

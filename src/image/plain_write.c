@@ -34,7 +34,9 @@ static bool put_ppm_header(const Image *image, const ImageEncoding *encoding, co
     text_init(&text);
     text_printf(&text, "P%c\n", image->channels < 3 ? '5' : '6');
     for (size_t i = 0; i < encoding->note_count; i++) {
-        text_printf(&text, "# %s: %s\n", encoding->notes[i].name, encoding->notes[i].text);
+        if (!encoding->notes[i].is_of_origin) {
+            text_printf(&text, "# %s: %s\n", encoding->notes[i].name, encoding->notes[i].text);
+        }
     }
     text_printf(&text, "%d %d\n%d\n", image->width, image->height, encoding->depth == IMAGE_DEPTH_8 ? 255 : 65535);
     bool fine = !text.failed && atomic_file_write(file, text_get(&text), text.length, error);

@@ -270,6 +270,7 @@ typedef struct UnsupportedDesc {
     Span span; // of the word
     const char *word;
     SchemaKind owner; // the kind it stands in; KIND_NONE when it is a kind itself
+    const struct UnsupportedDesc *next; // of those that a declared block was read without
 } UnsupportedDesc;
 
 // Room for any of them.

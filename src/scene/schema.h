@@ -158,11 +158,13 @@ typedef struct SchemaBlock {
     const char *doc;
 } SchemaBlock;
 
-// A word that POV-Ray has and rtlang has not, and what to do instead (NULL: nothing near).
+// A word that POV-Ray has and rtlang has not, what to do instead (NULL: nothing near), and what a picture lacks that is
+// drawn without it (NULL: the shape of a kind, else what the word would change).
 typedef struct SchemaUnsupported {
     const char *word;
     bool is_kind; // a block of its own
     const char *instead;
+    const char *lacks;
 } SchemaUnsupported;
 
 // The entry of a kind, never NULL.

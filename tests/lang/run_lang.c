@@ -6,6 +6,7 @@
 //     -- limit steps 1000      a limit of its own: steps, call_depth, include_depth, ast_depth, objects,
 //                              text_bytes, message_bytes or string_bytes
 //     -- declare N 5           a number declared before the scene begins, as with -D
+//     -- lenient               what rtlang has not is left out, as with --lenient
 //     -- warning all           which warnings are told, as after -W; may repeat
 //     -- validate              the scene as a whole is looked at, too, as before it is traced
 //     -- debug                 the lines that #debug gives, as POV-Ray shows them
@@ -256,6 +257,7 @@ static void evaluate(const Case *test, const Limits *limits, Outcome *outcome)
         .declaration_count = read_declarations(test, declared_names, declarations),
         .image_width = 320,
         .image_height = 240,
+        .is_lenient = wants(test, "lenient"),
         .tracer = &probe_tracer,
         .painter = &painter,
         .message = take_message,

@@ -287,8 +287,11 @@ static void take_name(Block *block, const Value *value, const AstNode *item)
 {
     if (value->block == KIND_UNSUPPORTED) {
         block_unsupported_name(block->ev, value->record, item->span);
-        block->has_unsupported = true;
-    } else if (!name_fits(block, value)) {
+        block->has_unsupported = block->is_lost = true;
+        return;
+    }
+    block_tell_lacks(block->ev, value, item->span);
+    if (!name_fits(block, value)) {
         block_fault(block, DIAG_E0258, item->span, "`%s` cannot begin with %s", block_word(block),
                     value_describe(value));
     } else if (block->kind == KIND_TEXTURE && value->block != KIND_TEXTURE) {
@@ -313,6 +316,20 @@ static const SchemaProperty *find_property(const Block *block, const AstNode *it
     }
     unsigned place = block->ev->objects->properties[block->kind][item->symbol];
     return place ? schema_property(block->kind, place - 1) : NULL;
+}
+
+// Passes over what belongs to a word that is left out: numbers, colours and names, none of them a mistyped property.
+static void skip_own_values(Block *block)
+{
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind != AST_BLOCK && !find_property(block, item)) {
+        bool is_word = item->kind == AST_WORD && word_class(item->symbol) != WORD_COLOUR;
+        bool is_name = item->kind == AST_NAME && !is_declared(block->ev, item);
+        if (is_word || is_name) {
+            return;
+        }
+        cursor_skip(&block->cursor);
+    }
 }
 
 // Passes over what belongs to a word that was not understood.
@@ -428,12 +445,12 @@ static bool is_advised_against(const Block *block, Symbol symbol)
 // The type of a camera or light changes what its other words mean, so nothing more is said about those.
 static void refuse_unsupported(Block *block, const AstNode *item)
 {
-    if (!block->has_unsupported) {
+    if (!block->has_unsupported || block->ev->options.is_lenient) {
         block->has_unsupported = true;
         const char *word = item->kind == AST_FUNCTION ? "function" : eval_text(block->ev, item->symbol);
         block_unsupported(block->ev, word, item->span, block->kind);
     }
-    while (schema_kind(block->kind)->is_fixed && cursor_peek(&block->cursor)) {
+    while (schema_kind(block->kind)->is_fixed && !block->ev->options.is_lenient && cursor_peek(&block->cursor)) {
         cursor_skip(&block->cursor);
     }
 }
@@ -463,6 +480,14 @@ static void refuse_word(Block *block, const AstNode *item)
         block_unknown_property(block, item);
     } else {
         refuse_unsupported(block, item);
+        if (block->ev->options.is_lenient) {
+            bool has_values = item->kind == AST_WORD;
+            cursor_skip(&block->cursor);
+            if (has_values) {
+                skip_own_values(block);
+            }
+            return;
+        }
     }
     cursor_skip(&block->cursor);
     skip_values(block);
@@ -531,7 +556,9 @@ static void read_property(Block *block, const SchemaProperty *property, const As
     bool is_action = property->type == TYPE_ACTION || property->type == TYPE_BLOCK;
     if (!is_allowed || !(is_action ? actions[property->action](block, property, item)
                                    : block_value(block, property, item->span))) {
-        block->has_fault = true;
+        bool is_left_out = eval_leaves_out(block->ev);
+        block->has_unsupported = is_left_out || block->has_unsupported;
+        block->has_fault = !is_left_out || block->has_fault;
         skip_values(block);
     }
 }
@@ -596,7 +623,8 @@ bool block_read_items(Block *block, SchemaKind *is)
         return false;
     }
     *is = block->is;
-    return !block->has_unsupported || block->ev->objects->is_deferring;
+    return block->ev->options.is_lenient ? !block->is_lost
+                                         : !block->has_unsupported || block->ev->objects->is_deferring;
 }
 
 bool block_read(Eval *ev, const AstNode *node, SchemaKind kind, Arena *arena, Desc *record, SchemaKind *is)

@@ -36,8 +36,8 @@ struct ObjectState {
     uint32_t groups;       // unions so far that say what their members are filled with
     bool may_lack_weights; // the map that is read belongs to `average`
     // A right-hand side is being evaluated: what rtlang has not is kept in `deferred` and told when it is used.
-    bool is_deferring, has_deferred;
-    UnsupportedDesc deferred;
+    bool is_deferring;
+    const UnsupportedDesc *deferred; // the first; NULL: none
 };
 
 // One block while it is read.
@@ -55,6 +55,7 @@ typedef struct Block {
     bool has_name;     // it began with an identifier
     bool is_plain, is_patterned; // a texture that begins with a part or a transform, or with a word of a pattern
     bool has_unsupported;
+    bool is_lost; // with what it lacks it is nothing
     bool has_fault;
 } Block;
 
@@ -138,6 +139,10 @@ void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner);
 void block_unknown(Eval *ev, const AstNode *item);
 // The same as block_unsupported for an identifier that was declared with such a word.
 void block_unsupported_name(Eval *ev, const UnsupportedDesc *what, Span use);
+// The same for all that a declared block was read without.
+void block_tell_lacks(Eval *ev, const Value *value, Span use);
+// What `other` was read without, `value` was, too.
+bool block_join_lacks(Eval *ev, Value *value, const Value *other, Span span) RT_MUST_CHECK;
 
 // True when the number is finite, else a fault.
 bool block_finite(Block *block, double number, Span span, const char *word) RT_MUST_CHECK;

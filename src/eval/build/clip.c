@@ -30,6 +30,7 @@ bool clip_body(Block *block)
     if (!object_members(block)) {
         return false;
     }
+    block->is_lost = group->count == 0 || block->is_lost;
     return group->count > 0 || block->has_unsupported ||
            block_fault(block, DIAG_E0253, block->node->span, "`%s` needs an object in its braces",
                        schema_kind(block->kind)->word);

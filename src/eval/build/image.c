@@ -211,6 +211,7 @@ bool image_close(Block *block)
 {
     ImageDesc *image = &block->record->image;
     image->map.is_once = image->is_once;
+    block->is_lost = !image->source.path;
     return image->source.path || block->has_unsupported ||
            block_fault(block, DIAG_E0253, block->node->span, "`%s` needs the name of an image file", block_word(block));
 }

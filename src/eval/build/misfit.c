@@ -229,9 +229,56 @@ bool block_is_lacking(const Block *block, Symbol symbol)
     return false;
 }
 
+static const SchemaUnsupported *find_entry(const Eval *ev, Symbol symbol)
+{
+    unsigned place = symbol < WORD_COUNT ? ev->objects->advice[symbol] : 0;
+    return place ? schema_unsupported(place - 1) : NULL;
+}
+
+static const char *lacks_text(const UnsupportedDesc *what, const SchemaUnsupported *entry)
+{
+    return entry && entry->lacks         ? entry->lacks
+           : what->owner == KIND_NONE    ? "the shape"
+           : what->owner == KIND_CAMERA  ? "its way to see: it is that of a perspective camera"
+                                         : "what it would change";
+}
+
+// Lenient: the picture is drawn without it, and says so. Told where it stands, since one use may lack several words.
+static bool tell_left_out(Eval *ev, const UnsupportedDesc *what, const SchemaUnsupported *entry, Span use)
+{
+    TextBuffer *list = ev->options.left_out;
+    const char *in = what->owner == KIND_NONE ? "" : " in ";
+    const char *owner = what->owner == KIND_NONE ? "" : schema_kind(what->owner)->word;
+    if (list) {
+        text_printf(list, "%s%s%s%s", list->length > 0 ? ", " : "", what->word, in, owner);
+    }
+    if (!eval_report(ev, DIAG_W0409, what->span, "`%s`%s%s is left out: the picture lacks %s", what->word, in, owner,
+                     lacks_text(what, entry))) {
+        return false;
+    }
+    if (use.begin != what->span.begin) {
+        diag_note(ev->options.diags, use, "it is used here");
+    }
+    return true;
+}
+
+static bool tell_fault(Eval *ev, const UnsupportedDesc *what, Symbol symbol, Span use)
+{
+    if (what->owner == KIND_NONE) {
+        return eval_report(ev, DIAG_E0252, use, "`%s` is not supported", what->word);
+    }
+    if (what->owner == KIND_TEXTURE && symbol == W_texture) {
+        return eval_report(ev, DIAG_E0251, use,
+                           "a texture over another one is not supported by rtlang if it lets light through");
+    }
+    return eval_report(ev, DIAG_E0251, use, "`%s` is not supported in %s by rtlang", what->word,
+                       schema_kind(what->owner)->word);
+}
+
 static void tell_unsupported(Eval *ev, const UnsupportedDesc *what, Span use)
 {
     ObjectState *objects = ev->objects;
+    bool is_lenient = ev->options.is_lenient;
     Symbol symbol = intern_find(ev->options.names, what->word, strlen(what->word));
     if (symbol < WORD_COUNT) {
         if (objects->is_told[symbol]) {
@@ -239,42 +286,68 @@ static void tell_unsupported(Eval *ev, const UnsupportedDesc *what, Span use)
         }
         objects->is_told[symbol] = true;
     }
-    bool is_kept;
-    if (what->owner == KIND_NONE) {
-        is_kept = eval_report(ev, DIAG_E0252, use, "`%s` is not supported", what->word);
-    } else if (what->owner == KIND_TEXTURE && symbol == W_texture) {
-        is_kept = eval_report(ev, DIAG_E0251, use,
-                              "a texture over another one is not supported by rtlang if it lets light through");
-    } else {
-        is_kept = eval_report(ev, DIAG_E0251, use, "`%s` is not supported in %s by rtlang", what->word,
-                              schema_kind(what->owner)->word);
-    }
-    if (!is_kept) {
+    const SchemaUnsupported *entry = find_entry(ev, symbol);
+    if (!(is_lenient ? tell_left_out(ev, what, entry, use) : tell_fault(ev, what, symbol, use))) {
         return;
     }
-    if (use.begin != what->span.begin) {
+    if (use.begin != what->span.begin && !is_lenient) {
         diag_note(ev->options.diags, what->span, "it stands here");
     }
-    const SchemaUnsupported *entry =
-        symbol < WORD_COUNT && objects->advice[symbol] ? schema_unsupported(objects->advice[symbol] - 1u) : NULL;
     if (entry && entry->instead) {
         diag_suggest(ev->options.diags, "%s", entry->instead);
+    } else if (entry && entry->lacks && !is_lenient) {
+        diag_suggest(ev->options.diags, "`--lenient` draws without it; the picture then lacks %s", entry->lacks);
     }
 }
 
+static bool is_deferred(const UnsupportedDesc *list, const UnsupportedDesc *what)
+{
+    while (list && (strcmp(list->word, what->word) != 0 || list->owner != what->owner)) {
+        list = list->next;
+    }
+    return list != NULL;
+}
+
+// A fault is told of the first word alone, what is left out of each.
 void block_unsupported_name(Eval *ev, const UnsupportedDesc *what, Span use)
 {
     ObjectState *objects = ev->objects;
     if (!objects->is_deferring) {
         tell_unsupported(ev, what, use);
-    } else if (!objects->has_deferred) {
-        objects->has_deferred = true;
-        objects->deferred = *what;
+    } else if (!objects->deferred || (ev->options.is_lenient && !is_deferred(objects->deferred, what))) {
+        UnsupportedDesc one = *what;
+        one.next = objects->deferred;
+        const UnsupportedDesc *kept = arena_copy(&ev->program, &one, sizeof one);
+        if (kept) {
+            objects->deferred = kept;
+        } else {
+            (void)eval_no_memory(ev, use);
+        }
+    }
+}
+
+bool block_join_lacks(Eval *ev, Value *value, const Value *other, Span span)
+{
+    for (const UnsupportedDesc *what = other->lacks; what; what = what->next) {
+        UnsupportedDesc one = *what;
+        one.next = value->lacks;
+        value->lacks = arena_copy(&ev->program, &one, sizeof one);
+        if (!value->lacks) {
+            return eval_no_memory(ev, span);
+        }
+    }
+    return true;
+}
+
+void block_tell_lacks(Eval *ev, const Value *value, Span use)
+{
+    for (const UnsupportedDesc *what = value->lacks; what; what = what->next) {
+        block_unsupported_name(ev, what, use);
     }
 }
 
 void block_unsupported(Eval *ev, const char *word, Span span, SchemaKind owner)
 {
-    UnsupportedDesc what = {span, word, owner};
+    UnsupportedDesc what = {span, word, owner, NULL};
     block_unsupported_name(ev, &what, span);
 }

@@ -44,6 +44,14 @@ static bool add_member(Block *block, MemberList *list, SchemaKind kind, const vo
     return true;
 }
 
+// A member that is not there. What is cut with it is lost with it.
+static bool leave_out(Block *block)
+{
+    block->has_unsupported = true;
+    block->is_lost = block->kind == KIND_INTERSECTION || block->kind == KIND_DIFFERENCE || block->is_lost;
+    return !block->ev->options.is_lenient || eval_leaves_out(block->ev);
+}
+
 static bool add_block_member(Block *block, MemberList *list, const AstNode *item)
 {
     Desc record;
@@ -51,7 +59,7 @@ static bool add_block_member(Block *block, MemberList *list, const AstNode *item
     SchemaKind kind = block_kind(block->ev, item);
     block_defaults(block->ev, kind, &record);
     if (!block_read(block->ev, item, kind, block->arena, &record, &is)) {
-        return false;
+        return leave_out(block);
     }
     void *kept = arena_copy(block->arena, &record, schema_kind(is)->size);
     if (!kept) {
@@ -68,8 +76,10 @@ static bool add_named_member(Block *block, MemberList *list, const AstNode *item
     }
     if (value.kind == VALUE_BLOCK && value.block == KIND_UNSUPPORTED) {
         block_unsupported_name(block->ev, value.record, item->span);
-        block->has_unsupported = true;
-        return true;
+        return leave_out(block);
+    }
+    if (value.kind == VALUE_BLOCK) {
+        block_tell_lacks(block->ev, &value, item->span);
     }
     if (value.kind != VALUE_BLOCK || !schema_kind((SchemaKind)value.block)->is_object) {
         return block_fault(block, DIAG_E0258, item->span, "expected an object, found %s", value_describe(&value));
@@ -96,8 +106,7 @@ static bool read_member(Block *block, MemberList *list, const AstNode *item, boo
     }
     if (is_foreign_kind(block->ev, item)) {
         block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, KIND_NONE);
-        block->has_unsupported = true;
-        return true;
+        return leave_out(block);
     }
     if (block_is_misspelt_object(block->ev, item)) {
         block_unknown(block->ev, item);
@@ -152,7 +161,7 @@ bool object_body(Block *block)
     SchemaKind kind = item ? block_kind(block->ev, item) : KIND_NONE;
     if (item && is_foreign_kind(block->ev, item)) {
         block_unsupported(block->ev, eval_text(block->ev, item->symbol), item->span, KIND_NONE);
-        block->has_unsupported = true;
+        block->has_unsupported = block->is_lost = true;
         cursor_skip(&block->cursor);
         return true;
     }
@@ -189,6 +198,9 @@ static bool place_name(Eval *ev, const AstNode *item)
     if (value.kind == VALUE_BLOCK && value.block == KIND_UNSUPPORTED) {
         block_unsupported_name(ev, value.record, item->span);
         return false;
+    }
+    if (value.kind == VALUE_BLOCK) {
+        block_tell_lacks(ev, &value, item->span);
     }
     if (value.kind != VALUE_BLOCK || !schema_kind((SchemaKind)value.block)->is_object) {
         return eval_fault(ev, DIAG_E0258, item->span, "expected an object or a directive, found %s",
@@ -260,23 +272,24 @@ static bool keep(Eval *ev, Span span, SchemaKind kind, const void *record, Value
     return kept || eval_no_memory(ev, span);
 }
 
+// A lenient evaluation keeps what there is of it; where that is nothing, what it would need.
 bool block_read_declared(Eval *ev, const AstNode *block, SchemaKind kind, Desc *record, Value *value)
 {
     ObjectState *objects = ev->objects;
     bool was_deferring = objects->is_deferring;
-    bool had_deferred = objects->has_deferred;
-    UnsupportedDesc outer = objects->deferred;
+    const UnsupportedDesc *outer = objects->deferred;
     objects->is_deferring = true;
-    objects->has_deferred = false;
+    objects->deferred = NULL;
     SchemaKind is;
     bool is_read = block_read(ev, block, kind, &ev->program, record, &is);
-    if (objects->has_deferred) {
-        record->unsupported = objects->deferred;
-        is = KIND_UNSUPPORTED;
+    const UnsupportedDesc *deferred = objects->deferred;
+    bool is_lost = deferred && (ev->options.is_lenient ? !is_read && eval_leaves_out(ev) : is_read);
+    bool is_kept = is_lost ? keep(ev, block->span, KIND_UNSUPPORTED, deferred, value)
+                           : is_read && keep(ev, block->span, is, record, value);
+    if (is_kept && !is_lost) {
+        value->lacks = deferred;
     }
-    bool is_kept = is_read && keep(ev, block->span, is, record, value);
     objects->is_deferring = was_deferring;
-    objects->has_deferred = had_deferred;
     objects->deferred = outer;
     return is_kept;
 }
@@ -289,7 +302,7 @@ bool eval_block(Eval *ev, const AstNode *block, Value *value)
         return false;
     }
     if (kind == KIND_NONE) {
-        UnsupportedDesc what = {block->span, eval_text(ev, block->symbol), KIND_NONE};
+        UnsupportedDesc what = {block->span, eval_text(ev, block->symbol), KIND_NONE, NULL};
         return keep(ev, block->span, KIND_UNSUPPORTED, &what, value);
     }
     if (!schema_kind(kind)->is_declarable) {

@@ -584,6 +584,7 @@ bool normal_close(Block *block)
     const PatternPart *part = &block->record->patterned;
     bool lacks_pattern = part->pattern.type == PATTERN_NONE;
     if (block->has_unsupported) {
+        block->is_lost = lacks_pattern || block->is_lost;
         return true; // which may have been the pattern
     }
     block->record->normal.span = lacks_pattern ? block->node->span : (Span){0, 0};
@@ -612,7 +613,9 @@ bool pattern_close(Block *block)
     if (part->pattern.type == PATTERN_AVERAGE && !average_has_weights(block)) {
         return false;
     }
-    if (block->kind == KIND_PATTERN && part->pattern.type == PATTERN_NONE && !block->has_unsupported) {
+    bool lacks_pattern = block->kind == KIND_PATTERN && part->pattern.type == PATTERN_NONE;
+    block->is_lost = lacks_pattern || block->is_lost;
+    if (lacks_pattern && !block->has_unsupported) {
         return block_fault(block, DIAG_E0253, block->node->span, "`pattern` needs the word of a pattern");
     }
     if (block->kind == KIND_TEXTURE && part->pattern.type != PATTERN_NONE && !part->map) {

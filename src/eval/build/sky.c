@@ -28,6 +28,7 @@ bool sky_layer_action(Block *block, const SchemaProperty *property, const AstNod
 
 bool sky_close(Block *block)
 {
+    block->is_lost = !block->record->sky.top;
     return block->record->sky.top || block->has_unsupported ||
            block_fault(block, DIAG_E0253, block->node->span, "`sky_sphere` needs a pigment in it");
 }

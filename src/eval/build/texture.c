@@ -208,7 +208,7 @@ static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc
         return false;
     }
     bool is_silent = ev->options.diags->error_count + ev->options.diags->warning_count == messages;
-    if (count > 0 && is_silent && !ev->objects->has_deferred) {
+    if (count > 0 && is_silent && !ev->objects->deferred) {
         memcpy(memo->words, words, count * sizeof *words);
         memo->count = count;
         memo->version = ev->version;
@@ -378,7 +378,11 @@ bool eval_texture_layer(Eval *ev, const AstNode *node, Value *layers)
     if (!layer) {
         return eval_no_memory(ev, node->span);
     }
-    *layers = (Value){.kind = VALUE_BLOCK, .block = KIND_TEXTURE, .record = layer};
+    Value lower = *layers;
+    *layers = (Value){.kind = VALUE_BLOCK, .block = KIND_TEXTURE, .record = layer, .lacks = one.lacks};
+    if (below && !block_join_lacks(ev, layers, &lower, node->span)) {
+        return false;
+    }
     return !below || lay_over(ev, &ev->program, layer, below, node->span);
 }
 

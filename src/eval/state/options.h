@@ -13,6 +13,7 @@
 #include "base/library.h"
 #include "base/limits.h"
 #include "base/source.h"
+#include "base/text.h"
 #include "math/noise.h"
 #include "scene/scene.h"
 
@@ -88,6 +89,8 @@ typedef struct EvalOptions {
     bool clock_on;             // a clock was given
     const EvalWorld *world;    // NULL: where it says
     double version;            // of the language, in force at the beginning; 0: the source says it
+    bool is_lenient;           // what rtlang has not is left out, with a warning
+    TextBuffer *left_out;      // what was, with commas between; NULL: nobody asks
     bool no_literals;          // nothing is read or evaluated by a faster way than all else is
     int threads;               // for long runs of such statements; 0 and 1: the caller's alone
     size_t literal_piece;      // bytes of text that each of these takes at a time; 0: as is best

@@ -148,6 +148,7 @@ struct Eval {
     bool lacks_brace;    // so is what follows a block's word without its brace, up to an object
     bool explains_steps; // too many steps were reported, and not yet which loop does not end
     bool faulty;         // something was reported, if only before
+    size_t errors_before; // that were reported when the evaluation began
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
     unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are worked out; 0: none
     bool at_colour;      // the value that is being worked out stands where a colour word could
@@ -156,6 +157,8 @@ struct Eval {
 
 // A syntax fault was reported inside of a span: what is missing there may have been in what was not understood.
 bool eval_follows_syntax(const Eval *ev, Span whole);
+// What was not read has no fault: it was left out, as a lenient evaluation does with what rtlang has not.
+bool eval_leaves_out(const Eval *ev);
 // Reports a fault at a span; the return value is false, so that `return eval_fault(…)` reads well. What was reported at
 // the same place before is not reported again.
 bool eval_fault(Eval *ev, DiagCode code, Span span, const char *format, ...) RT_PRINTF(4, 5);

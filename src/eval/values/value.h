@@ -50,7 +50,10 @@ struct Value {
         const Function *function;
         const Spline *spline;
         DataFile *file;
-        const void *record; // of schema_kind(block)->size bytes, in the scene arena
+        struct {
+            const void *record; // of schema_kind(block)->size bytes, in the scene arena
+            const struct UnsupportedDesc *lacks; // what it was read without
+        };
     };
 };
 
