@@ -77,6 +77,7 @@ struct rt_session {
         uint64_t photons;
         rt_precision precision;
         bool is_sampled;
+        Rgb sky_light;
         unsigned planes;
     } drawn;       // with which settings
     bool rendered; // the film holds a picture in linear light
@@ -100,7 +101,7 @@ struct rt_session {
 };
 
 // What a picture's file says of how it was made: nothing, but of sampled pictures.
-enum { NOTES_MAX = 13, NOTE_TEXT = 48 };
+enum { NOTES_MAX = 14, NOTE_TEXT = 48 };
 typedef struct SessionNotes {
     ImageNote items[NOTES_MAX];
     char texts[NOTES_MAX][NOTE_TEXT];
