@@ -72,6 +72,7 @@ unit_programs = \
   tests/unit/test_tiles \
   tests/unit/test_race \
   tests/sampling/test_sampling \
+  tests/sampling/test_sky_light \
   tests/sampling/test_share \
   tests/sampling/test_intervals \
   tests/sampling/test_small \
@@ -182,6 +183,8 @@ tests_unit_test_tiles_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_race_SOURCES = %D%/unit/test_race.c src/check/race_ratio.c src/check/race_settings.c $(unit_headers)
 tests_sampling_test_sampling_SOURCES = %D%/sampling/test_sampling.c %D%/sampling/scenes.h
 tests_sampling_test_sampling_LDADD = libapi.la
+tests_sampling_test_sky_light_SOURCES = %D%/sampling/test_sky_light.c
+tests_sampling_test_sky_light_LDADD = libapi.la
 tests_sampling_test_share_SOURCES = %D%/sampling/test_share.c %D%/sampling/scenes.h $(unit_headers)
 tests_sampling_test_share_LDADD = libapi.la
 tests_sampling_test_intervals_SOURCES = %D%/sampling/test_intervals.c %D%/sampling/grid.h %D%/sampling/scenes.h \

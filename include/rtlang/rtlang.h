@@ -341,6 +341,13 @@ typedef struct rt_antialias {
 /* RT_FAULT_USAGE for a number out of range. */
 RT_API rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias);
 
+/* Light from all sides, as of an even sky: red, green and blue of what a surface gets that nothing covers, 0 or more; all
+ * 0, the default: none. What is in the way dims corners and pockets: ambient occlusion. It has no highlights, the
+ * background stays what it is, and scenes do not know of it. It is sampled as area lights are; with one ray a pixel each
+ * surface asks in 16 directions. RT_FAULT_USAGE for other numbers; rt_render refuses it with RT_PRECISION_FLOAT, QUAD and
+ * REFERENCE and with the forward methods. Call it before rt_load_*, else a scene without lights is warned of. */
+RT_API rt_status rt_set_sky_light(rt_session *session, const double color[3]);
+
 /* Whether pictures tell, beside their light, how much each pixel shows of what is behind the scene: of the clear part of
  * its background, or of all of it in scenes of before version 3.7. 0, the default: the background is light like all
  * else. RT_FAULT_USAGE from rt_render with another precision than double or a forward method. */

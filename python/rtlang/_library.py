@@ -116,6 +116,7 @@ _FUNCTIONS = {  # name: (result, arguments after the session)
     "rt_set_camera": (c_int, [POINTER(Camera)]),
     "rt_add_light": (c_int, [POINTER(Light)]),
     "rt_clear_lights": (c_int, []),
+    "rt_set_sky_light": (c_int, [Vector]),
     "rt_set_background": (c_int, [c_double * 4]),
     "rt_get_box": (c_int, [Vector, Vector]),
     "rt_render": (c_int, [c_int]),

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _library as c
 from ._arrays import colors_of, count_of, numbers, pass_on, rows
-from ._errors import UsageError
+from ._errors import SceneError, UsageError
 from ._session import Session
 from .image import Image
 
@@ -229,8 +229,21 @@ class Scene:
                         int(parallel_to is not None), int(shadowless), radius, size)
         self._session.call("rt_add_light", ctypes.byref(light))
 
+    def sky(self, strength: float = 1.0, color: Union[float, Vector] = (1.0, 1.0, 1.0)) -> None:
+        """Light from all sides, as of an even sky: ambient occlusion. Instead of the one before; 0 for none.
+
+        strength  of the light that a surface gets which nothing covers, 0 or more; color multiplies it. It has no
+                  highlights, and the background stays what it is. Render with samples: with one ray a pixel it is noisy
+        """
+        light = numbers("strength", strength, (3,)) * numbers("color", color, (3,)).astype(np.float64)
+        light = np.broadcast_to(light, 3)
+        if not np.all(np.isfinite(light)) or np.any(light < 0):
+            raise SceneError(f"strength and color of the sky must be 0 or more, and finite, not {strength!r} and {color!r}",
+                             "E0460", "sky")
+        self._session.call("rt_set_sky_light", c.Vector(*light))
+
     def clear_lights(self) -> None:
-        """Takes all lights away."""
+        """Takes all lights of `light` and of texts away; the sky stays."""
         self._session.call("rt_clear_lights")
 
     def background(self, color: Union[float, Vector]) -> None:

@@ -166,6 +166,10 @@ static void tell_layer(const Printer *p, const LoggedLayer *layer, Vec3 normal)
         tell_colour(p, ", adds ", light->adds);
         put(p, "\n");
     }
+    if (!rgb_is_black(layer->dome)) {
+        tell_colour(p, "    sky light adds ", layer->dome);
+        put(p, "\n");
+    }
 }
 
 static void tell_hit(const Printer *p, const LoggedRay *ray)
@@ -384,6 +388,9 @@ static void json_hit(const Printer *p, const LoggedRay *ray)
         json_vector(p, "normal", layer->normal);
         json_colour(p, "glow", layer->glow);
         json_lights(p, layer);
+        if (!rgb_is_black(layer->dome)) {
+            json_colour(p, "sky_light", layer->dome);
+        }
         put(p, "}");
     }
     put(p, "]}");

@@ -185,6 +185,10 @@ bool session_make_notes(const rt_session *session, SessionNotes *notes)
         note(notes, "rtlang:seed", "%llu", (unsigned long long)sampling->seed);
     } else if (session->drawn.is_sampled) {
         note_sampling(notes, sampling, error);
+        Rgb sky = session->drawn.sky_light;
+        if (!rgb_is_black(sky)) {
+            note(notes, "rtlang:sky-light", "%.8g, %.8g, %.8g", sky.red, sky.green, sky.blue);
+        }
         if (session->drawn.precision != RT_PRECISION_DOUBLE) {
             note(notes, "rtlang:precision", "%s", session->kernel);
         }

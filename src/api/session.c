@@ -534,6 +534,7 @@ rt_status rt_render(rt_session *session, int threads)
     session->drawn.precision = session->precision;
     session->drawn.is_sampled = session_is_sampled(session);
     session->drawn.planes = session->planes;
+    session->drawn.sky_light = session->scene.settings.sky_light;
     Settings *settings = &session->scene.settings;
     int max_trace_level = settings->max_trace_level;
     settings->max_trace_level = session->max_trace_level > 0 ? session->max_trace_level : max_trace_level;

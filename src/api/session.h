@@ -83,6 +83,7 @@ struct rt_session {
         uint64_t photons;
         rt_precision precision;
         bool is_sampled;
+        Rgb sky_light;
         unsigned planes;
     } drawn;       // with which settings
     bool rendered; // the film holds a picture in linear light

@@ -260,6 +260,18 @@ rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias)
     return RT_OK;
 }
 
+rt_status rt_set_sky_light(rt_session *session, const double color[3])
+{
+    for (int i = 0; i < 3; i++) {
+        if (!(color[i] >= 0.0) || !isfinite(color[i])) {
+            return RT_FAULT_USAGE;
+        }
+    }
+    session->scene.settings.sky_light = rgb(color[0], color[1], color[2]);
+    session->is_viewed = false;
+    return RT_OK;
+}
+
 void rt_set_alpha(rt_session *session, int on)
 {
     session->has_alpha = on != 0;

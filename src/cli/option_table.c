@@ -420,6 +420,13 @@ static bool apply_alpha(Options *options, const char *argument, OptionReading *r
     return true;
 }
 
+static bool apply_sky_light(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a number from 0 to 1e6";
+    return option_parse_number(argument, &options->sky_light) && options->sky_light >= 0.0 &&
+           options->sky_light <= 1e6;
+}
+
 static bool apply_quiet(Options *options, const char *argument, OptionReading *reading)
 {
     (void)argument, (void)reading;
@@ -608,6 +615,8 @@ static const OptionRow rows[] = {
     {0, "alpha", NULL, apply_alpha,
      "with a channel that tells where what is behind the scene is seen, as POV-Ray's `+UA`:\n"
      "no background, or its transmit and filter; the picture must be PNG or EXR"},
+    {0, "sky-light", "STRENGTH", apply_sky_light,
+     "light from all sides beside the scene's own: what a surface gets of it that nothing covers (default 0)"},
     {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
     {0, "planes", "LIST", apply_planes,
      "channels beside the light, in EXR: error and samples of sampled pictures; depth, normal,\n"

@@ -65,6 +65,8 @@ static rt_status configure(rt_session *session, const Options *options)
     for (int i = 0; !status && i < LIMIT_COUNT; i++) {
         status = options->limits[i] ? rt_set_limit(session, (rt_limit)i, options->limits[i]) : RT_OK;
     }
+    status = status ? status : rt_set_sky_light(session, (const double[]){options->sky_light, options->sky_light,
+                                                                          options->sky_light});
     rt_set_literals(session, !options->no_literals);
     rt_set_lenient(session, options->is_lenient);
     status = status ? status : rt_set_load_threads(session, options->threads);

@@ -37,6 +37,9 @@ const char *forward_misfit(const Prepared *prepared, const ForwardOptions *optio
     if (!options->connects && !(camera->lens_radius > 0.0)) {
         return "a camera without `aperture`, which no photon can hit";
     }
+    if (prepared->has_dome) {
+        return "light from all sides";
+    }
     if (prepared->light_count == 0) {
         return "a scene without light sources";
     }

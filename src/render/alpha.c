@@ -89,6 +89,7 @@ void alpha_part(const Prepared *p, const KernelPlaces *places, uint64_t wanted, 
 {
     Prepared dark = *p;
     dark.light_count = 0;
+    dark.has_dome = false;
     for (; wanted; wanted &= wanted - 1) {
         int i = __builtin_ctzll(wanted);
         Ray ray;

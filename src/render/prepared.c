@@ -205,6 +205,7 @@ static unsigned needed_features(const Prepared *p, const Scene *scene, int threa
         features |= p->lights[i].shadowless ? 0 : (unsigned)RENDER_SHADOWS;
         features |= p->lights[i].is_plain ? 0 : (unsigned)RENDER_LIGHTS;
     }
+    features |= p->has_dome ? (unsigned)(RENDER_SHADOWS | RENDER_LIGHTS) : 0;
     features |= textures_features(&p->textures, features);
     features |= scene->normals.count ? (unsigned)RENDER_NORMALS : 0;
     features |= scene->interiors.count ? (unsigned)RENDER_INTERIORS : 0;
@@ -227,6 +228,8 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
             p->lights[p->light_count++].number = i;
         }
     }
+    p->dome = scene->settings.sky_light;
+    p->has_dome = !rgb_is_black(p->dome);
     p->materials = scene->materials.items;
     p->compounds = scene->compounds.items;
     p->interiors = scene->interiors.items;
@@ -239,8 +242,9 @@ static void prepare_lists(Prepared *p, const Scene *scene, int exponent)
 
 void prepared_seed(Prepared *prepared, uint64_t seed)
 {
+    prepared->seed = seed * UINT64_C(0x9e3779b97f4a7c15); // all bits of it count
     for (size_t i = 0; i < prepared->light_count; i++) {
-        prepared->lights[i].seed = seed * UINT64_C(0x9e3779b97f4a7c15); // all bits of it count
+        prepared->lights[i].seed = prepared->seed;
     }
 }
 

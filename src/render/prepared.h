@@ -76,6 +76,9 @@ struct Prepared {
     bool is_by_rays; // for tests: no surface is shaded together with others where a kernel traces ray by ray
     PreparedLight *lights;
     size_t light_count;
+    bool has_dome;
+    Rgb dome;      // has_dome: of light from all sides (render/dome.h)
+    uint64_t seed; // of what is drawn by places: `jitter`, and light from all sides of single rays
     const Material *materials; // the scene's
     const Compound *compounds; // the scene's
     const Interior *interiors; // the scene's

@@ -297,6 +297,10 @@ static Rgb follow_layer(void *client, const TextureLayer *layer)
     for (size_t i = 0; i < p->light_count; i++) {
         follow_light(follower, &material, &p->lights[i]);
     }
+    if (p->has_dome && shade_takes_light(material.finish, material.opaque)) {
+        RenderStatistics unused = {0};
+        out.dome = dome_light(p, &material, &at, &unused);
+    }
     follower->at = whole;
     out.light_count = follower->ray_log->lights.count - out.first_light;
     follower->failed |= !ARRAY_PUSH(&follower->ray_log->layers, out);

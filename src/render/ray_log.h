@@ -68,6 +68,7 @@ typedef struct LoggedLayer {
     Rgb above;   // what the layers above let through
     Vec3 normal; // with the layer's bumps
     Rgb glow;    // ambient and emission
+    Rgb dome;    // what light from all sides adds
     size_t first_light, light_count;
 } LoggedLayer;
 

@@ -521,7 +521,7 @@ static bool draws_more(const Prepared *prepared)
     for (size_t i = 0; i < prepared->light_count; i++) {
         has_area = has_area || prepared->lights[i].area.size1 > 0;
     }
-    return has_area || prepared->camera.lens_radius > 0.0;
+    return has_area || prepared->has_dome || prepared->camera.lens_radius > 0.0;
 }
 
 static void sampling_free(Sampling *s)

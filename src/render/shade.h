@@ -7,6 +7,7 @@
 #ifndef RENDER_SHADE_H
 #define RENDER_SHADE_H
 
+#include "render/dome.h"
 #include "render/shade_scatter.h"
 #include "render/sky.h"
 
@@ -34,6 +35,9 @@ RT_ALWAYS_INLINE Rgb shade_local_of(const Prepared *p, unsigned features, const 
     Rgb light = rgb_mul(material->opaque, material->finish->glow);
     for (size_t i = 0; i < p->light_count; i++) {
         light = rgb_add(light, shade_light(p, features, material, &p->lights[i], at, statistics));
+    }
+    if (RT_UNLIKELY(p->has_dome) && shade_takes_light(material->finish, material->opaque)) {
+        light = rgb_add(light, dome_light(p, material, at, statistics));
     }
     return light;
 }

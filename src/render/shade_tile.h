@@ -303,6 +303,24 @@ RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned feature
                        : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked));
 }
 
+// What the sky adds that is asked for beside the scene.
+RT_SELDOM void shade_tile_dome(const Prepared *p, unsigned features, TileScratch *scratch, SampleStream *streams,
+                               RenderStatistics *statistics)
+{
+    LightTile *tile = &scratch->tile;
+    for (uint64_t rest = tile->takes_light; rest; rest &= rest - 1) {
+        int i = __builtin_ctzll(rest);
+        ShadingPoint at = shade_tile_lit_point(features, scratch, i);
+        at.stream = streams ? &streams[tile->surfaces.ray[i]] : NULL;
+        ShadeMaterial material = {rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]),
+                                  rgb(tile->diffuse[0][i], tile->diffuse[1][i], tile->diffuse[2][i]), tile->finish[i]};
+        Rgb own = dome_light(p, &material, &at, statistics);
+        tile->light[0][i] += own.red;
+        tile->light[1][i] += own.green;
+        tile->light[2][i] += own.blue;
+    }
+}
+
 // What all lights add.
 RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, TileScratch *scratch,
                                         SampleStream *streams, RenderStatistics *statistics)
@@ -324,6 +342,9 @@ RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, Ti
             lit &= ~shade_tile_shadows(p, features, scratch, light, asked, streams, statistics);
         }
         p->tile_lights->add(tile, light, lit);
+    }
+    if (RT_UNLIKELY(p->has_dome)) {
+        shade_tile_dome(p, features, scratch, streams, statistics);
     }
 }
 

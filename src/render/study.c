@@ -34,6 +34,9 @@ static bool refuse(DiagSink *diags, Span span, const char *what)
 
 static bool lights_are_covered(const Scene *scene, const Prepared *p, DiagSink *diags)
 {
+    if (p->has_dome) {
+        return refuse(diags, scene->whole, "light from all sides");
+    }
     for (size_t i = 0; i < p->light_count; i++) {
         if (!p->lights[i].is_plain) {
             return refuse(diags, scene->lights.items[p->lights[i].number].span,

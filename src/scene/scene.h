@@ -360,6 +360,7 @@ typedef struct Settings {
     double adc_bailout;
     int noise_generator; // 1 to 3, 0: that of the version
     int number_of_waves; // of the patterns `ripples` and `waves`, >= 1
+    Rgb sky_light; // from all sides; black: none. Of the run, not of the language
     double version; // the language version in force at the end, SCENE_VERSION_UNSAID if none was given
 } Settings;
 

@@ -154,7 +154,7 @@ static void warn_of_what_is_missing(const Scene *scene, DiagSink *diags)
     }
     if (scene->shape_count == 0) {
         diag_report(diags, DIAG_W0403, scene->whole, "no objects: only the background is drawn");
-    } else if (scene->lights.count == 0) {
+    } else if (scene->lights.count == 0 && rgb_is_black(scene->settings.sky_light)) {
         diag_report(diags, DIAG_W0402, scene->whole, "no lights: only ambient and emission are seen");
     }
 }

@@ -526,6 +526,9 @@ static void random_scene(Random *random, const Extras *extras, Scene *scene)
             abort();
         }
     }
+    if (extras->any_lights && random_bits(random) % 3 == 0) {
+        scene->settings.sky_light = rgb(0.9, random_between(random, 0, 1), 0.4);
+    }
     for (uint64_t i = random_bits(random) % 4; i-- > 0;) {
         random_light(random, extras->any_lights ? 2 : 1, scene);
     }
