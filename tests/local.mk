@@ -244,6 +244,7 @@ test_scripts = \
   %D%/check-docs.py \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
+  %D%/golden/check_gallery.py \
   %D%/system/check_growth.py \
   %D%/system/check_grid.py \
   %D%/system/check_color.py \
@@ -362,6 +363,7 @@ EXTRA_DIST += \
 .PHONY: update-golden update-docs update-measured
 update-golden: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_golden.py
+	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_gallery.py
 update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_diagnostics$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py
 # What docs/language.md tells of differences from POV-Ray, which must be there.

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""The scenes of examples/gallery, small, against the pictures that are committed in tests/golden/gallery.
+
+Four samples a pixel at 64x48 with 3 threads; a scene that says `-D Particles` gets fewer. The scene at 2^-400 makes the bytes
+that it makes at 1. With UPDATE_GOLDEN=1 (`make update-golden`) the pictures are written anew. Prints TAP.
+SPDX-License-Identifier: MIT
+"""
+import glob
+import os
+import sys
+import tempfile
+
+TOP = os.environ.get("top_srcdir", ".")
+sys.path.insert(0, os.path.join(TOP, "tests/povray"))
+sys.path.insert(0, os.path.join(TOP, "tests/golden"))
+sys.dont_write_bytecode = True
+import check_golden  # noqa: E402
+import pictures  # noqa: E402
+
+GOLDEN = os.path.join(TOP, "tests/golden/gallery")
+
+
+def render(scene, folder, more=()):
+    picture = os.path.join(folder, "picture.png")
+    pictures.render_rtlang(scene, picture, [*pictures.include_folders(), os.path.dirname(scene)], 64, 48,
+                           ["-t3", "--samples=4", "-DParticles=20000", "-DLevels=3", *more])
+    return check_golden.read(picture)
+
+
+def check(scene, folder):
+    golden = os.path.join(GOLDEN, os.path.splitext(os.path.basename(scene))[0] + ".png")
+    found = render(scene, folder)
+    if check_golden.UPDATE:
+        check_golden.write(golden, found)
+    yield "the picture is the golden one", check_golden.apart(found, golden, folder)
+    if "Exponent" in check_golden.read(scene).decode():
+        for exponent in (0, 300):
+            other = render(scene, folder, [f"-DExponent={exponent}"])
+            yield f"the same bytes at 2^{exponent}", "" if other == found else "they differ"
+
+
+def main():
+    number, failed = 0, 0
+    for scene in sorted(glob.glob(os.path.join(TOP, "examples/gallery/*.scn")) +
+                        glob.glob(os.path.join(TOP, "examples/gallery/*.pov"))):
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                results = list(check(scene, folder))
+            except pictures.RunFailed as failure:
+                results = [("rtlang accepts it", f"{failure}: {failure.text.splitlines()[:1]}")]
+        for what, fault in results:
+            number += 1
+            failed += bool(fault)
+            line = f"{number} - {os.path.basename(scene)}: {what}"
+            print(f"not ok {line}: {fault}" if fault else f"ok {line}")
+    print(f"1..{number}")
+    return 1 if failed or not number else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
