@@ -157,11 +157,6 @@ static void read_header(Eval *ev)
     text_fini(&text);
 }
 
-bool eval_leaves_out(const Eval *ev)
-{
-    return ev->options.is_lenient && !ev->stop && ev->options.diags->error_count == ev->errors_before;
-}
-
 bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
 {
     Eval ev;

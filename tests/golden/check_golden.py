@@ -78,7 +78,7 @@ def render(scene, folder, folders, threads):
     return read(picture)
 
 
-def apart(data, golden, folder):
+def apart(data, golden, folder, bar=CODE_BAR):
     if not os.path.exists(golden):
         return "there is no golden picture"
     picture = os.path.join(folder, "golden.png")
@@ -87,7 +87,7 @@ def apart(data, golden, folder):
     if one[:2] != other[:2]:
         return "the pictures differ in size"
     greatest = max(abs(a - b) for a, b in zip(one[2], other[2]))
-    return f"max {greatest}/65535" if greatest > CODE_BAR else ""
+    return f"max {greatest}/65535" if greatest > bar else ""
 
 
 def without_texts(png):

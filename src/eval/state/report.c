@@ -113,6 +113,11 @@ bool eval_report(Eval *ev, DiagCode code, Span span, const char *format, ...)
     return kept;
 }
 
+bool eval_leaves_out(const Eval *ev)
+{
+    return ev->options.is_lenient && !ev->stop && ev->options.diags->error_count == ev->errors_before;
+}
+
 bool eval_follows_syntax(const Eval *ev, Span whole)
 {
     const DiagSink *diags = ev->options.diags;
