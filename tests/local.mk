@@ -242,6 +242,7 @@ test_scripts = \
   %D%/check-draws.py \
   %D%/check-diagnostics.py \
   %D%/check-docs.py \
+  %D%/check-tour.py \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
   %D%/golden/check_gallery.py \
@@ -366,6 +367,7 @@ update-golden: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_gallery.py
 update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_diagnostics$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py
+	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-tour.py
 # What docs/language.md tells of differences from POV-Ray, which must be there.
 update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_apart.py --update
