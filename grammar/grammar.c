@@ -72,7 +72,7 @@ bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead)
         *state->kept = ast_append(*state->kept, item);
         return true;
     }
-    // It was run as a splice, as far as that went.
+    // It was run when it was found torn, as far as that went.
     bool is_told = item->span.begin < state->told_to && item->kind != AST_MACRO;
     if (!is_told && !state->item(state->client, item)) {
         state->client_ended = true;
@@ -119,6 +119,50 @@ static void report_no_memory(GrammarState *state)
     grammar_fault(state, DIAG_E0602, (Span){state->offset, state->offset}, "out of memory while reading the scene");
 }
 
+// Has the statement that was found torn read again, with its directives resolved. False when the parse is to stop.
+static bool read_torn(GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    Token torn = state->torn_at;
+    uint64_t begin = state->item_begin;
+    bool is_refused = false;
+    state->torn = state->ended = state->skips = false;
+    state->is_quiet = true;
+    state->openers.count = 0;
+    grammar_hold_token(state, torn);
+    bool fine = hooks->read_torn(hooks->client, state, begin, &torn, &is_refused);
+    arena_rewind(state->context->arena, state->mark);
+    state->faulty |= !fine;
+    state->item_begin = 0;
+    state->is_quiet = state->torn_by_fault = false;
+    if (is_refused && !state->client_ended) {
+        state->told_to = torn.span.begin + 1;
+        grammar_scan_seek(state, begin);
+    }
+    return (fine || is_refused) && !state->client_ended;
+}
+
+void grammar_live_read(GrammarState *live, Token *token)
+{
+    grammar_read_token(live, token);
+}
+
+void grammar_live_unread(GrammarState *live, const Token *token)
+{
+    grammar_hold_token(live, *token);
+}
+
+bool grammar_live_is_before(const GrammarState *live, uint64_t offset)
+{
+    return live->held_count == 0 || live->held[live->held_count - 1].span.begin > offset;
+}
+
+bool grammar_live_emit(GrammarState *live, AstNode *item)
+{
+    (void)grammar_emit(live, item, false);
+    return !live->client_ended;
+}
+
 // Statement by statement; one that is torn apart by directives is read again with them resolved.
 static void parse(GrammarState *state)
 {
@@ -126,7 +170,7 @@ static void parse(GrammarState *state)
     while (goes_on) {
         state->start = TOKEN_START_TEXT;
         bool fine = grammar_yyparse(state) == 0;
-        goes_on = state->torn && state->kept == NULL && grammar_splice_statement(state);
+        goes_on = state->torn && state->kept == NULL && read_torn(state);
         state->faulty |= !fine && !state->torn && !goes_on && !state->client_ended;
     }
 }
@@ -168,7 +212,7 @@ bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *i
     return fine && !state.torn;
 }
 
-// ---- text for splices
+// ---- text that is kept as tokens
 
 // Whether an expression may be going on beyond the first or the last token of a text.
 static bool goes_on(const GrammarText *text)
@@ -234,6 +278,23 @@ static bool read_tokens(GrammarState *state, Tokens *tokens)
     }
     grammar_scan_end(state);
     return fine;
+}
+
+GrammarText *grammar_text_new(const Token *tokens, size_t count)
+{
+    GrammarText *text = malloc(sizeof *text + count * sizeof *tokens);
+    if (text != NULL) {
+        text->count = count;
+        if (count > 0) {
+            memcpy(text->tokens, tokens, count * sizeof *tokens);
+        }
+    }
+    return text;
+}
+
+GrammarText *grammar_text_copy(const GrammarText *text, Arena *arena)
+{
+    return arena_copy(arena, text, sizeof *text + text->count * sizeof *text->tokens);
 }
 
 static GrammarText *read_text(GrammarState *state)
@@ -320,6 +381,28 @@ GrammarText *grammar_text_body(const GrammarContext *context, Span macro)
     memmove(text->tokens, text->tokens + begin + 1, count * sizeof *text->tokens);
     text->count = count;
     return text;
+}
+
+AstNode *grammar_text_macro(const GrammarContext *context, const Token *macro, const Token *tokens, size_t count)
+{
+    GrammarContext quiet_context = *context;
+    GrammarState state;
+    DiagSink quiet;
+    AstList items = {0};
+    diag_init(&quiet, context->diags->sources);
+    quiet_context.diags = &quiet;
+    quiet_context.hooks = NULL;
+    grammar_begin(&state, &quiet_context);
+    state.tokens = tokens;
+    state.token_count = count;
+    state.kept = &items;
+    state.start = TOKEN_START_TEXT;
+    state.can_splice = true;
+    grammar_hold_token(&state, *macro);
+    bool fine = grammar_yyparse(&state) == 0 && !state.torn && quiet.error_count == 0 && items.count == 1;
+    ARRAY_FREE(&state.openers);
+    diag_fini(&quiet);
+    return fine && items.first->kind == AST_MACRO ? items.first : NULL;
 }
 
 static GrammarToken plain_token(const Token *token)

@@ -15,15 +15,42 @@
 #include "ast/words.h"
 #include "base/text.h"
 
-// Text that was read to be read again: a macro's body, a loop's. Opaque.
-typedef struct GrammarText GrammarText;
+// ---- tokens
 
-// A #for while it runs.
-typedef struct GrammarLoop {
-    Symbol counter;
+typedef struct Token {
+    int kind; // enum grammar_yytokentype, or a character
     Span span;
-    double end, step;
-} GrammarLoop;
+    union {
+        Symbol symbol; // words, names, strings; the directive's word
+        double number;
+    };
+    const void *known; // of a name of a fragment: what it stood for when it was read; NULL: nothing. Of INVALID: not
+                       // NULL while it is not reported
+} Token;
+
+// Text that was read to be read again: a macro's body, a loop's.
+typedef struct GrammarText {
+    size_t count;
+    Token tokens[];
+} GrammarText;
+
+typedef enum DirectiveRole {
+    ROLE_NONE,
+    ROLE_SIMPLE, // stands alone
+    ROLE_OPENS,  // wants an #end
+    ROLE_MIDDLE, // inside one that wants an #end, with parentheses of its own
+    ROLE_ELSE,
+    ROLE_END,
+} DirectiveRole;
+
+enum { GRAMMAR_END_OF_TEXT = 0 }; // the kind of a token
+
+bool grammar_is_directive(int token);
+DirectiveRole grammar_role(int token);
+Symbol grammar_directive_word(int token); // of a token that is a directive
+bool grammar_is_name(int token);          // of something declared, or of nothing
+
+// ---- statements by their plans
 
 // Statements of a text that are like an earlier one but for their numbers (grammar/template.h). What becomes of the
 // numbers is the evaluator's plan.
@@ -50,42 +77,27 @@ typedef enum GrammarTaken {
     GRAMMAR_STOP, // taken, and reading is to stop
 } GrammarTaken;
 
-// Where a directive holds no whole items, text is read again in a *splice*: conditions, loops and macro calls are
-// resolved token by token, as POV-Ray does it, and what is left is parsed. These functions are the evaluator's part:
-// all before a token has been worked out when it is delivered. None of them is called otherwise.
+typedef struct GrammarContext GrammarContext;
+typedef struct GrammarState GrammarState; // one parse
+
+// What the grammar asks of those who know what names stand for, and of plans.
 typedef struct GrammarHooks {
     void *client;
-    unsigned *nesting; // of fragments, all together; kept by the grammar
-    // What a name stands for now, kept in the parse arena; NULL: nothing.
-    const void *(*capture)(void *client, Symbol name, Span span);
-    bool (*is_number)(void *client, const void *captured); // or a vector or colour
-    bool (*is_macro)(void *client, Symbol name);
-    bool (*lacks_index)(void *client, const AstNode *element); // its array has more dimensions
     bool (*takes_braces)(void *client, Symbol word); // `{` stands after this word of the language
+    bool (*is_macro)(void *client, Symbol name);
     // A macro whose text holds unpaired braces; *has_unbalanced: there are any.
     bool (*is_unbalanced)(void *client, Symbol name);
     const bool *has_unbalanced;
-    // Works an expression out: sets AST_KNOWN and `known`.
-    void (*fold)(void *client, AstNode *node);
-    // Runs a directive other than those below; `within`: inside an item. Since it began so many calls and files have
-    // begun that have not ended. False: stop.
-    bool (*run)(void *client, const AstNode *directive, bool within, unsigned scopes);
-    // Whether the condition holds (IF, IFDEF, WHILE) or *subject meets it (CASE, RANGE); SWITCH sets *subject. False: a
-    // fault was reported.
-    bool (*decide)(void *client, const AstNode *directive, double *subject, bool *holds);
-    // Begins a #for, and takes its next turn.
-    bool (*loop_begin)(void *client, const AstNode *header, GrammarLoop *loop, bool *holds);
-    bool (*loop_turn)(void *client, const GrammarLoop *loop, bool *holds);
-    bool (*step)(void *client, Span span); // counts a turn; false: stop
-    // Defines a macro: MACRO without a body when it holds no whole items, and all its text after the parameters.
-    bool (*define)(void *client, const AstNode *macro, const GrammarText *body);
-    // Begins a call: its body; NULL after a fault. `leave` ends it, and an included file.
-    const GrammarText *(*call)(void *client, const AstNode *call);
-    // Opens an #include inside an item; NULL after a fault.
-    Source *(*include)(void *client, const AstNode *directive);
-    void (*leave)(void *client);
-    bool (*is_stopped)(void *client);
-    bool is_top; // what stands between items is of the scene and no part of anything
+    // A statement that directives tear apart, begun at `begin`, found torn at a token that is held: reads it from the
+    // parse with its directives resolved, and hands its items over. False after a fault; *is_refused: it is to be
+    // parsed once more for its messages.
+    bool (*read_torn)(void *client, GrammarState *live, uint64_t begin, const Token *torn, bool *is_refused);
+    // Of the fragments of such a text. What a name stands for now, kept in the parse arena; NULL: nothing.
+    const void *(*capture)(void *client, Symbol name, Span span);
+    bool (*is_number)(void *client, const void *captured); // or a vector or colour
+    bool (*lacks_index)(void *client, const AstNode *element); // its array has more dimensions
+    // Works an expression out: sets AST_KNOWN and `known`. False: stop.
+    bool (*fold)(void *client, AstNode *node);
     // Statements by their plans. Whether one that begins with this word may have one. A statement of these numbers is
     // the next item: to be watched. Then: its plan; NULL: it has none; *is_batched: those of a text may be handed over
     // together, as below. Each plan is dropped once. Then others of that kind, without a tree. `plan_state` changes
@@ -108,15 +120,15 @@ typedef struct GrammarHooks {
 } GrammarHooks;
 
 // Everything a parse needs; plain data, filled by the caller, shared by nested parses (#include).
-typedef struct GrammarContext {
+struct GrammarContext {
     InternTable *names; // reserved words interned
     Arena *arena;       // parse arena
     DiagSink *diags;
     const Limits *limits;
-    GrammarHooks *hooks; // NULL: text is parsed only, and what would need a splice is a fault
+    GrammarHooks *hooks; // NULL: text is parsed only, and what directives tear apart is a fault
     bool token_by_token; // all tokens come from flex one by one, for comparison: the same comes of it
     bool *has_mark;      // set where the text begins with a byte order mark; may be NULL
-} GrammarContext;
+};
 
 // Called for each complete top-level item (a directive, a block, an expression, a word). The node is valid during the
 // call only. Returning false stops the parse.
@@ -128,30 +140,77 @@ typedef bool (*GrammarItemFn)(void *client, const AstNode *item);
 bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn item, void *client) RT_MUST_CHECK;
 
 // The same, but keeps all items in the arena as one list, for an #include inside a block. *torn: nothing was reported,
-// but the text needs a splice.
+// but the text is torn.
 bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *items, bool *torn) RT_MUST_CHECK;
 
-// A text that is read in a splice, item by item, on demand. The items live in the parse arena.
-typedef struct GrammarStream GrammarStream;
+// ---- fragments: parts of a text whose tokens somebody else delivers, with directives and macro calls resolved
 
-// The text stays the caller's. `within`: it stands inside braces or parentheses; `is_call`: it is a macro's, which
-// #break leaves. NULL when out of memory.
-GrammarStream *grammar_stream_open(const GrammarContext *context, const GrammarText *text, bool within,
-                                   bool is_call) RT_MUST_CHECK;
-// The next item; NULL at the end, or when reading cannot go on (`*failed`).
-AstNode *grammar_stream_next(GrammarStream *stream, bool *failed) RT_MUST_CHECK;
-// One expression, or `name(arguments)` as a CALL; NULL when there is none, which is reported.
-AstNode *grammar_stream_expression(GrammarStream *stream) RT_MUST_CHECK;
-AstNode *grammar_stream_arguments(GrammarStream *stream) RT_MUST_CHECK;
-// Reads a `;` that stands right after what was read last; false: there is none.
-bool grammar_stream_take_semicolon(GrammarStream *stream);
-// True when a directive stood right after the last item, and may have ended it.
-bool grammar_stream_is_cut(const GrammarStream *stream);
-// After the last item: a comma stood behind it.
-bool grammar_stream_ends_in_comma(const GrammarStream *stream);
-void grammar_stream_close(GrammarStream *stream);
+enum { GRAMMAR_NO_BASE = -1 };
 
-// Reads all of a source, or a span of one again, for a splice; NULL after a fault. The caller's to free.
+typedef enum FragmentKind {
+    FRAGMENT_ITEM,
+    FRAGMENT_EXPRESSION,
+    FRAGMENT_DIRECTIVE, // a simple one, which comes next
+    FRAGMENT_CONDITION, // the heads of others, in their parentheses
+    FRAGMENT_SUBJECT,
+    FRAGMENT_RANGE,
+    FRAGMENT_FOR,
+    FRAGMENT_MACRO,
+    FRAGMENT_ARGUMENTS, // of a call
+} FragmentKind;
+
+typedef struct Fragment {
+    FragmentKind kind;
+    int base_depth; // directives end an expression that is complete with so many brackets open, or GRAMMAR_NO_BASE
+    bool is_raw;    // names and directives are delivered as they stand
+    // What came of it.
+    bool is_cut;            // a directive or a call ended it
+    unsigned counter_place; // of a #for: where its name stands
+} Fragment;
+
+typedef struct GrammarFeed GrammarFeed;
+
+typedef struct GrammarFeedCalls {
+    void (*read)(GrammarFeed *feed, Token *token);         // the next token, as it stands
+    void (*unread)(GrammarFeed *feed, const Token *token); // takes back the one that was read last
+    int (*peek)(GrammarFeed *feed);                        // the kind of the next one
+    bool (*is_before)(GrammarFeed *feed, int kind);        // one of this kind comes next in the same text
+    void (*resolve)(GrammarFeed *feed, const Token *token); // the text of a directive or call takes its place
+    bool (*is_at_end)(GrammarFeed *feed, unsigned place);  // a directive that began there has no more text
+} GrammarFeedCalls;
+
+// Those who deliver. `place` counts the texts around a token from 1 on.
+struct GrammarFeed {
+    const GrammarContext *context;
+    const GrammarFeedCalls *calls;
+    GrammarState *live; // the parse that gives the text after the one that is kept; NULL: there is none
+    unsigned macros;    // that the text stands in
+    bool failed;        // reading cannot go on: nothing but the end is delivered
+    bool is_refused;    // at the place where the statement was torn, see GrammarHooks
+    Span end;           // of the last token
+    unsigned place;     // of the last token
+    bool is_kept, is_call; // it stands in a text that was kept for reading; in that of a macro
+    Token silent;       // the name of a macro that gave nothing before the present token; kind 0: none
+};
+
+// NULL after a fault.
+AstNode *grammar_parse_fragment(GrammarFeed *feed, Fragment *fragment);
+// Reports once for each feed, and ends its reading.
+void grammar_feed_fault(GrammarFeed *feed, DiagCode code, Span span, const char *text);
+// Whether a fault may be reported still.
+bool grammar_feed_may_report(GrammarFeed *feed);
+
+// What the parse of a torn statement delivers and takes.
+void grammar_live_read(GrammarState *live, Token *token);
+void grammar_live_unread(GrammarState *live, const Token *token);
+// Nothing was read ahead that begins after an offset.
+bool grammar_live_is_before(const GrammarState *live, uint64_t offset);
+bool grammar_live_emit(GrammarState *live, AstNode *item); // false: the client wants no more
+
+GrammarText *grammar_text_new(const Token *tokens, size_t count) RT_MUST_CHECK;
+// The definition of a macro from its tokens as a tree; NULL when its body holds no whole items.
+AstNode *grammar_text_macro(const GrammarContext *context, const Token *macro, const Token *tokens, size_t count);
+// Reads all of a source, or a span of one again, as tokens; NULL after a fault. The caller's to free.
 GrammarText *grammar_text_read(const GrammarContext *context, Source *source) RT_MUST_CHECK;
 GrammarText *grammar_text_again(const GrammarContext *context, Span span) RT_MUST_CHECK;
 // The body of a macro, whose definition stands in the span.

@@ -2,8 +2,8 @@
 //
 // One GrammarState is one parse. The scanner (lexer.l) turns text into tokens; the token stream (tokens.c) stands
 // between it and the parser: it knows the brackets and directives that are open and skips what cannot be understood;
-// splice.h tells of another such stream, which resolves directives and macro calls while it reads; messages.c says what
-// is wrong; the facade (grammar.c) sets all up.
+// fragment.c parses parts of a text whose tokens somebody else delivers, with directives and macro calls resolved;
+// messages.c says what is wrong; the facade (grammar.c) sets all up.
 //
 // SPDX-License-Identifier: MIT
 #ifndef GRAMMAR_LEXER_H
@@ -16,38 +16,13 @@
 #include "base/array.h"
 #include "grammar/grammar.h"
 
-typedef struct Token {
-    int kind; // enum grammar_yytokentype, or a character
-    Span span;
-    union {
-        Symbol symbol; // words, names, strings; the directive's word
-        double number;
-    };
-    const void *known; // of a name that a splice delivers: what it stood for then; NULL: nothing. Of INVALID: not NULL
-                       // while it is not reported
-} Token;
-
-struct GrammarText {
-    size_t count;
-    Token tokens[];
-};
-
-typedef enum DirectiveRole {
-    ROLE_NONE,
-    ROLE_SIMPLE, // stands alone
-    ROLE_OPENS,  // wants an #end
-    ROLE_MIDDLE, // inside one that wants an #end, with parentheses of its own
-    ROLE_ELSE,
-    ROLE_END,
-} DirectiveRole;
-
 // A bracket or a directive that still wants its other end.
 typedef struct Opener {
     int kind;
     Span span;
     Symbol word;      // the word before a `{`, or the directive's; SYMBOL_NONE if there is none
     bool header_done; // of a directive: its parentheses are closed
-    const void *callee; // of a `(` in a splice: what the name before it stands for
+    const void *callee; // of a `(` in a fragment: what the name before it stands for
 } Opener;
 
 typedef struct StatementReader StatementReader; // statements.c
@@ -86,7 +61,7 @@ typedef struct GrammarState {
     bool torn;         // it was found to be one: nothing is said of it, and the end of the file is delivered
     Token torn_at;       // the token where that was found
     bool torn_by_fault;  // which the parser refused: what is skipped may be anything
-    uint64_t told_to;    // the end of what is parsed once more for its messages, as it was found to be no splice either
+    uint64_t told_to;    // the end of what is parsed once more for its messages, as reading it again failed, too
     uint64_t item_begin; // where the present top-level item begins; 0 before its first token
     size_t faults_before; // errors that were reported before it
 
@@ -107,7 +82,7 @@ typedef struct GrammarState {
 
     // Tokens that are read at once.
     GrammarQuick *quick; // NULL: there are none
-    bool after_dot;      // the token before the previous one was a `.`; in a splice, the one before the current
+    bool after_dot;      // the token before the previous one was a `.`; in a fragment, the one before the current
     AstNode *node;       // of the current token VECTOR
     AstList list;        // of the current token ITEMS
 
@@ -127,8 +102,8 @@ typedef struct GrammarState {
     bool past_directive; // the fault is a directive inside an expression: skip all of it
     ARRAY(Opener) openers;
 
-    // A fragment of a splice: one item, one directive, one list of arguments.
-    GrammarStream *stream; // NULL: not a fragment
+    // A fragment: one item, one directive, one list of arguments.
+    GrammarFeed *feed;     // NULL: not a fragment
     int base_depth;        // directives end an expression that is complete with so many openers
     bool is_raw;           // names and directives are delivered as they stand
     bool begins_raw;       // so is its first token
@@ -136,11 +111,10 @@ typedef struct GrammarState {
     bool function_begins;  // the next brace opens one
     size_t array_level;    // openers around the elements of an array; 0: none
     bool array_begins;     // the next brace opens them
-    size_t own_frame;      // of the stream, in which this directive began; 0: it is none
+    unsigned own_place;    // of the feed, where this directive began; 0: it is none
     bool takes_elements;   // elements of arrays may stand for themselves in it
     bool is_target;        // the last token delivered is that name, or an index of it
-    size_t counter_frame;  // of the stream, in which the name of a #for stands
-    size_t open_before;    // directives of the stream that were open when it began
+    unsigned counter_place; // of the feed, where the name of a #for stands
     int fragment;          // what it begins with: TOKEN_START_…
     bool is_declared;      // the last token delivered is the name that it declares
     bool takes_mode;   // it is #fopen, which goes on behind the name of the file
@@ -204,9 +178,6 @@ int grammar_word_token(Symbol symbol);
 int grammar_directive_token(GrammarState *state, const char *word, size_t length, Span span);
 // Whether a `#` before a `}` is passed over, with a warning: in a block of items.
 bool grammar_is_idle_hash(GrammarState *state, Span span);
-bool grammar_is_directive(int token);
-DirectiveRole grammar_role(int token);
-Symbol grammar_directive_word(int token);       // of a token that is a directive
 Opener *grammar_innermost(GrammarState *state); // NULL when nothing is open
 
 // The next token as the text has it.
@@ -216,20 +187,13 @@ void grammar_track(GrammarState *state, const Token *token); // keeps the stack 
 // Gives the present statement up so that it is read again with its directives resolved. False when that cannot be.
 bool grammar_tear(GrammarState *state);
 
-// Splices (splice.h): the token after the current one, of a fragment.
-void grammar_splice_token(GrammarState *state, Token *token);
-// Reads the statement that was found torn at the current token, and hands its items over. False when the parse is to
-// stop.
-bool grammar_splice_statement(GrammarState *state) RT_MUST_CHECK;
+// Fragments (fragment.c): the token after the current one.
+void grammar_fragment_token(GrammarState *state, Token *token);
+// Whether the place at which the statement was torn is wrong for those who read it again, too: the parser reads it once
+// more, and what it then says of it is all that is said. Ends the reading.
+bool grammar_feed_is_refused(GrammarFeed *feed, Span at);
 
-// The name of a macro that gave nothing between the last two tokens, or NULL.
-const Token *grammar_stream_silent(const GrammarStream *stream);
-bool grammar_stream_has_failed(const GrammarStream *stream);
-// Whether the place at which the statement was torn is wrong for the splice, too: the parser reads it once more, and
-// what it then says of it is all that is said. Ends the reading of the stream.
-bool grammar_stream_is_refused(GrammarStream *stream, Span at);
-
-// Builders for names and expressions, which are worked out at once in a splice.
+// Builders for names and expressions, which are worked out at once in a fragment.
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span);
 AstNode *grammar_element(GrammarState *state, AstNode *node);
 AstNode *grammar_call(GrammarState *state, AstNode *node); // of a name
@@ -275,6 +239,5 @@ void grammar_describe_token(const GrammarState *state, const Token *token, TextB
 bool grammar_emit(GrammarState *state, AstNode *item, bool has_lookahead);
 void grammar_end_in_comma(GrammarState *state, Span comma); // of a text
 void grammar_begin(GrammarState *state, const GrammarContext *context);
-GrammarText *grammar_text_new(const Token *tokens, size_t count) RT_MUST_CHECK;
 
 #endif

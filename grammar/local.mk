@@ -5,6 +5,7 @@ AM_YFLAGS = -d -Wall -Wno-yacc
 noinst_LTLIBRARIES += libgrammar.la
 libgrammar_la_SOURCES = \
   %D%/block_template.c \
+  %D%/fragment.c \
   %D%/grammar.c \
   %D%/grammar.h \
   %D%/hints.c \
@@ -13,11 +14,6 @@ libgrammar_la_SOURCES = \
   %D%/messages.c \
   %D%/parser.y \
   %D%/quick.c \
-  %D%/splice.c \
-  %D%/splice.h \
-  %D%/splice_directives.c \
-  %D%/splice_stream.c \
-  %D%/splice_tokens.c \
   %D%/statements.c \
   %D%/statements.h \
   %D%/statements_many.c \
@@ -26,6 +22,5 @@ libgrammar_la_SOURCES = \
   %D%/tokens.c \
   %D%/window.c
 # The generated header is included by files of this folder only, so the rule stands here by hand.
-%D%/grammar.lo %D%/hints.lo %D%/block_template.lo %D%/lexer.lo %D%/messages.lo %D%/statements_many.lo %D%/quick.lo %D%/statements.lo %D%/tokens.lo %D%/window.lo: %D%/parser.h
-%D%/splice.lo %D%/splice_directives.lo %D%/splice_stream.lo %D%/splice_tokens.lo: %D%/parser.h
+%D%/fragment.lo %D%/grammar.lo %D%/hints.lo %D%/block_template.lo %D%/lexer.lo %D%/messages.lo %D%/statements_many.lo %D%/quick.lo %D%/statements.lo %D%/tokens.lo %D%/window.lo: %D%/parser.h
 MAINTAINERCLEANFILES = %D%/parser.c %D%/parser.h %D%/lexer.c

@@ -283,8 +283,8 @@ static const Opener *outer_opener(GrammarState *state, bool directive)
 // A macro without a text where one is needed, and a directive that ends what is parsed.
 static bool report_cut(GrammarState *state)
 {
-    const Token *silent = grammar_stream_silent(state->stream);
-    if (silent != NULL) {
+    const Token *silent = &state->feed->silent;
+    if (silent->kind != 0) {
         grammar_fault(state, DIAG_E0213, silent->span, "the macro `%s` gives no value here",
                       intern_get(state->context->names, silent->symbol));
         return true;
@@ -391,7 +391,7 @@ static bool report_misplaced_directive(GrammarState *state, const Expected *expe
 static bool report_unopened(GrammarState *state)
 {
     int kind = state->current.kind;
-    bool knows_openers = state->stream == NULL; // a fragment knows its own only
+    bool knows_openers = state->feed == NULL; // a fragment knows its own only
     int opener = !knows_openers ? 0 : kind == '}' ? '{' : kind == ')' ? '(' : kind == ']' ? '[' : 0;
     for (size_t i = 0; i < state->openers.count; i++) {
         opener = state->openers.items[i].kind == opener ? 0 : opener;
@@ -522,11 +522,11 @@ void grammar_report_syntax(GrammarState *state, const char *const *names, size_t
     state->skips = true;
     state->past_directive = false;
     Expected expected = sort_expected(names, count);
-    if (state->stream != NULL) {
+    if (state->feed != NULL) {
         state->ended = true;
         state->skips = false;
         Span at = state->ended_by.kind != 0 ? state->ended_by.span : state->current.span;
-        if (grammar_stream_has_failed(state->stream) || grammar_stream_is_refused(state->stream, at)) {
+        if (state->feed->failed || grammar_feed_is_refused(state->feed, at)) {
             return;
         }
         if (state->current.kind == TOKEN_INVALID) {

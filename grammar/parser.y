@@ -61,7 +61,7 @@ int grammar_yylex(GRAMMAR_YYSTYPE *value, Span *span, GrammarState *state);
 static void grammar_yyerror(Span *at, GrammarState *state, const char *message);
 }
 
-// What is parsed: a whole text, or a fragment of a splice.
+// What is parsed: a whole text, or a fragment of one.
 %token START_TEXT "a text" START_ITEM "an item" START_DIRECTIVE "a directive"
 %token START_CONDITION "a condition" START_SUBJECT "a subject" START_RANGE "a range" START_FOR "the head of a loop"
 %token START_FULL "an expression" START_MACRO "the head of a macro" START_ARGUMENTS "arguments"

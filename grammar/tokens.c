@@ -81,6 +81,11 @@ DirectiveRole grammar_role(int token)
     return grammar_is_directive(token) ? find_directive(token)->role : ROLE_NONE;
 }
 
+bool grammar_is_name(int token)
+{
+    return token == TOKEN_NAME;
+}
+
 Symbol grammar_directive_word(int token)
 {
     return (Symbol)find_directive(token)->word;
@@ -153,7 +158,7 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
 bool grammar_is_idle_hash(GrammarState *state, Span span)
 {
     const Opener *open = grammar_innermost(state);
-    bool is_idle = state->stream == NULL && state->source != NULL && open != NULL && open->kind == '{';
+    bool is_idle = state->feed == NULL && state->source != NULL && open != NULL && open->kind == '{';
     for (size_t i = 0; i < state->openers.count; i++) { // but not among the elements of an array
         is_idle = is_idle && (state->openers.items[i].kind != '{' || state->openers.items[i].word != SYMBOL_NONE);
     }
@@ -475,7 +480,7 @@ static bool is_doubtful_sign(const GrammarState *state)
     }
 }
 
-// Faults within what was found to be wrong as a splice, too, are reported as they are met.
+// Faults within what was found to be wrong when it was read again, too, are reported as they are met.
 static bool can_tear(const GrammarState *state)
 {
     return state->can_splice && state->context->diags->error_count == state->faults_before &&
@@ -549,9 +554,9 @@ static void pass_current(GrammarState *state)
 static void next_token(GrammarState *state)
 {
     grammar_track(state, &state->current);
-    if (RT_UNLIKELY(state->stream != NULL)) {
+    if (RT_UNLIKELY(state->feed != NULL)) {
         state->previous = state->current;
-        grammar_splice_token(state, &state->current);
+        grammar_fragment_token(state, &state->current);
         return;
     }
     pass_current(state);
@@ -564,7 +569,7 @@ static void next_token(GrammarState *state)
     if (!read_quick(state)) {
         grammar_read_token(state, &state->current);
     }
-    if (RT_UNLIKELY(state->current.symbol == W_internal && state->current.kind == TOKEN_BUILTIN)) {
+    if (RT_UNLIKELY(state->current.kind == TOKEN_BUILTIN && state->current.symbol == W_internal)) {
         settle_internal(state);
     }
     if (state->item_begin == 0) {

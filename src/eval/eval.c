@@ -133,10 +133,7 @@ static void settle_version(const Eval *ev)
 
 static void read_items(Eval *ev, Source *source)
 {
-    Splice reading;
-    splice_init(&reading, ev);
-    bool is_whole = grammar_parse(&reading.context, source, take_item, ev);
-    splice_fini(&reading);
+    bool is_whole = grammar_parse(ev->grammar, source, take_item, ev);
     ev->faulty = ev->faulty || !is_whole;
 }
 
@@ -167,7 +164,7 @@ bool eval_source(const EvalOptions *options, Source *source, Scene *scene)
         Transform world = world_transform(&ev);
         scene->camera.location = transform_point(&world, scene->camera.location);
     }
-    if (!scope_init(&ev) || !objects_init(&ev) || !files_init(&ev, source) || !lint_init(&ev) ||
+    if (!scope_init(&ev) || !objects_init(&ev) || !files_init(&ev, source) || !lint_init(&ev) || !reading_init(&ev) ||
         !declare_all(&ev, source)) {
         eval_no_memory(&ev, SPAN_NONE);
     } else {

@@ -74,13 +74,13 @@ void plan_turns(Cursor *cursor)
 {
     Eval *ev = cursor->ev;
     CursorFrame *frame = cursor->frame;
-    bool is_loop = frame && (frame->kind == FRAME_WHILE || frame->kind == FRAME_FOR) && !frame->next && !frame->stream;
+    bool is_loop = frame && (frame->kind == FRAME_WHILE || frame->kind == FRAME_FOR) && !frame->next && !frame->is_text;
     const AstNode *body = !is_loop ? NULL : frame->kind == FRAME_WHILE ? frame->node->b : frame->node->c;
     if (!body || ev->options.no_literals || !is_simple(ev, body)) {
         return;
     }
     while (!ev->stop) {
-        if (!loop_continues(ev, frame)) {
+        if (!loop_continues(cursor, frame)) {
             cursor_pop(cursor);
             return;
         }

@@ -69,7 +69,7 @@ static bool reserve(Eval *ev, size_t spheres, size_t materials, size_t more)
 
 bool plan_keep(void *client, const void *list, size_t count, size_t more)
 {
-    Eval *ev = ((Splice *)client)->cursor.ev;
+    Eval *ev = client;
     Scene *scene = ev->scene;
     const PlanRecord *records = list;
     // The places in the text have one upper half.

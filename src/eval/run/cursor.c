@@ -4,7 +4,9 @@
 // program arena and used again. Owns the frames. Knows nothing of what the items mean.
 //
 // SPDX-License-Identifier: MIT
-#include "eval/run/run.h"
+#include <stdlib.h>
+
+#include "eval/run/expansion.h"
 
 enum { CURSOR_WEIGHT = 4 }; // of native recursion, see eval_deepen
 
@@ -25,22 +27,16 @@ CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, c
     frame->next = items;
     frame->node = node;
     frame->kind = kind;
-    frame->stream = NULL;
+    frame->is_text = false;
     frame->ends_in_comma = false;
     cursor->frame = frame;
     return frame;
 }
 
-void cursor_pop(Cursor *cursor)
+// What a frame has entered is left.
+void frame_leave(Cursor *cursor, CursorFrame *frame)
 {
     Eval *ev = cursor->ev;
-    CursorFrame *frame = cursor->frame;
-    if (frame->stream != NULL) {
-        splice_stream_close(frame->stream);
-    }
-    if (RT_UNLIKELY(ev->explains_steps) && frame->kind == FRAME_WHILE) {
-        endless_explain(ev, frame->node);
-    }
     if (frame->kind == FRAME_MACRO) {
         macro_leave(ev);
     } else if (frame->kind == FRAME_INCLUDE) {
@@ -48,9 +44,31 @@ void cursor_pop(Cursor *cursor)
         eval_frame_leave(ev);
         ev->include_depth--;
     }
+    if (RT_UNLIKELY(frame->is_text)) {
+        cursor->expansion->feed.macros -= frame->kind == FRAME_MACRO && frame != cursor->expansion->bottom;
+        free(frame->text.owned);
+        frame->text.owned = NULL;
+    }
+}
+
+void frame_free(Cursor *cursor, CursorFrame *frame)
+{
+    frame->outer = cursor->ev->free_frames;
+    cursor->ev->free_frames = frame;
+}
+
+void cursor_pop(Cursor *cursor)
+{
+    CursorFrame *frame = cursor->frame;
+    if (RT_UNLIKELY(cursor->ev->explains_steps) && frame->kind == FRAME_WHILE && !frame->is_text) {
+        endless_explain(cursor->ev, frame->node);
+    }
+    frame_leave(cursor, frame);
+    if (RT_UNLIKELY(frame->is_text) && frame == cursor->expansion->bottom) {
+        expansion_end(cursor);
+    }
     cursor->frame = frame->outer;
-    frame->outer = ev->free_frames;
-    ev->free_frames = frame;
+    frame_free(cursor, frame);
 }
 
 void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span)
@@ -88,13 +106,13 @@ static void end_of_frame(Cursor *cursor)
     CursorFrame *frame = cursor->frame;
     switch (frame->kind) {
     case FRAME_WHILE:
-        if (loop_continues(cursor->ev, frame)) {
+        if (loop_continues(cursor, frame)) {
             frame->next = frame->node->b;
             return;
         }
         break;
     case FRAME_FOR:
-        if (loop_continues(cursor->ev, frame)) {
+        if (loop_continues(cursor, frame)) {
             frame->next = frame->node->c;
             return;
         }
@@ -112,58 +130,69 @@ static void end_of_frame(Cursor *cursor)
     cursor_pop(cursor);
 }
 
-void cursor_break(Cursor *cursor, Span span, bool is_from_file)
-{
-    Eval *ev = cursor->ev;
-    const CursorFrame *frame = cursor->frame;
-    while (frame != NULL && (frame->kind == FRAME_ITEMS || frame->kind == FRAME_INCLUDE)) {
-        is_from_file |= frame->kind == FRAME_INCLUDE;
-        frame = frame->outer;
-    }
-    if (frame == NULL && cursor->top && ev->include_depth > 0) {
-        ev->break_at = span; // what it leaves may stand around the #include
-        while (cursor->frame != NULL) {
-            cursor_pop(cursor);
-        }
-        return;
-    }
-    if (frame == NULL || (is_from_file && frame->kind == FRAME_MACRO)) { // as in POV-Ray
-        eval_fault(ev, DIAG_E0209, span, "no loop, `#switch` or macro that `#break` could leave");
-        return;
-    }
-    const CursorFrame *rest = frame->outer;
-    while (cursor->frame != rest) {
-        cursor_pop(cursor);
-    }
-}
-
-bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned, bool is_call)
+bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned)
 {
     Eval *ev = cursor->ev;
     if (!cursor->included && !cursor->top) {
         cursor->included = true;
         cursor->mark = arena_mark(&ev->parse);
     }
-    frame->stream = splice_stream_open(ev, text, owned, cursor->top, is_call);
-    return frame->stream != NULL || eval_no_memory(ev, cursor->span);
+    frame->text = (FrameText){.begin = arena_mark(&ev->parse)};
+    frame_set_text(frame, text, owned);
+    if (expansion_begin(cursor, NULL, !cursor->top && ev->inner > 0) == NULL) {
+        free(owned);
+        return false;
+    }
+    return true;
+}
+
+// The next item of the text of the innermost frames.
+static const AstNode *take_from_text(Cursor *cursor)
+{
+    Eval *ev = cursor->ev;
+    Expansion *expansion = cursor->expansion;
+    cursor->is_cut = cursor->is_cut || expansion->is_cut;
+    // At the top level the items before this one are done with.
+    if (cursor->top) {
+        arena_rewind(&ev->parse, expansion->bottom->text.begin);
+    }
+    const AstNode *item = reading_item(expansion, 0);
+    ev->faulty = ev->faulty || expansion->feed.failed;
+    if (item == NULL) {
+        expansion->bottom->ends_in_comma = expansion->ends_in_comma;
+        while (cursor->frame != expansion->bottom) {
+            cursor_pop(cursor);
+        }
+    }
+    return item;
 }
 
 // The item that a frame has next.
 static const AstNode *take_next(Cursor *cursor)
 {
-    CursorFrame *frame = cursor->frame;
-    if (RT_UNLIKELY(frame->stream != NULL)) {
-        cursor->is_cut = cursor->is_cut || splice_stream_is_cut(frame->stream);
-        const AstNode *item = splice_stream_next(frame->stream, cursor->top);
-        frame->ends_in_comma = item == NULL && splice_stream_ends_in_comma(frame->stream);
-        return item;
+    if (RT_UNLIKELY(cursor->expansion != NULL)) {
+        return take_from_text(cursor);
     }
+    CursorFrame *frame = cursor->frame;
     const AstNode *item = frame->next;
     if (item != NULL) {
         frame->next = item->next;
         frame->ends_in_comma = item->flags & AST_BEFORE_COMMA;
     }
     return item;
+}
+
+CursorFrame *cursor_enter(Cursor *cursor, const AstNode *call, CursorFrame *frame, Macro *macro)
+{
+    if (frame == NULL) {
+        return NULL;
+    }
+    if (!macro_enter(cursor->ev, call, macro, &frame->diag)) {
+        cursor_pop(cursor);
+        return NULL;
+    }
+    frame->kind = FRAME_MACRO;
+    return frame;
 }
 
 static void expand(Cursor *cursor, const AstNode *call)
@@ -174,18 +203,14 @@ static void expand(Cursor *cursor, const AstNode *call)
     CursorFrame *frame;
     bool was_lossy = cursor->is_lossy;
     cursor->is_lossy = true;
-    if (!macro_find(ev, call, &macro) || (frame = cursor_push(cursor, FRAME_ITEMS, NULL, call)) == NULL) {
+    if (!macro_find(ev, call, &macro) ||
+        (frame = cursor_enter(cursor, call, cursor_push(cursor, FRAME_ITEMS, NULL, call), macro)) == NULL) {
         return;
     }
-    if (macro_enter(ev, call, macro, &frame->diag)) {
-        frame->kind = FRAME_MACRO;
-        cursor->is_lossy = was_lossy;
-        if (!macro->is_torn) {
-            frame->next = macro->body->b;
-        } else if (!cursor_push_text(cursor, frame, macro->text, NULL, true)) {
-            cursor_pop(cursor);
-        }
-    } else {
+    cursor->is_lossy = was_lossy;
+    if (!macro->is_torn) {
+        frame->next = macro->body->b;
+    } else if (!cursor_push_text(cursor, frame, macro->text, NULL)) {
         cursor_pop(cursor);
     }
 }

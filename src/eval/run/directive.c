@@ -1,14 +1,12 @@
 // Directives: what each one does when the walk through a block, or through the top level, comes to it.
 //
-// One function for each kind of directive, in a table. Branches and loops are frames pushed on the cursor. Knows
-// nothing of kinds of blocks.
+// One function for each kind of directive, in a table; those of branches and loops are in control.c. Knows nothing of
+// kinds of blocks.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
 #include "eval/run/scope.h"
-
-enum { FAULTY_STEPS = 100000 }; // that say nothing new, before loops of a faulty scene end
 
 // Measured: before it numbers have operators in parentheses only, so that <1 -2 3> is a vector of three.
 static const double VERSION_OF_OPERATORS = 1.5;
@@ -245,31 +243,7 @@ static void run_version(Cursor *cursor, const AstNode *node)
     ev->watch.state++;
 }
 
-// ---- branches
-
-static void push_branch(Cursor *cursor, const AstNode *items)
-{
-    if (items != NULL) {
-        cursor_push(cursor, FRAME_ITEMS, items, NULL);
-    }
-}
-
-static void run_if(Cursor *cursor, const AstNode *node)
-{
-    bool holds;
-    if (eval_condition(cursor->ev, node->a, &holds)) {
-        push_branch(cursor, holds ? node->b : node->c);
-    }
-}
-
-static void run_ifdef(Cursor *cursor, const AstNode *node)
-{
-    if (node->a == NULL) {
-        return; // its condition was not readable
-    }
-    bool is_wanted = name_is_declared(cursor->ev, node->a) == (node->op == AST_OP_IFDEF);
-    push_branch(cursor, is_wanted ? node->b : node->c);
-}
+// ---- what directives decide
 
 static bool case_holds(Eval *ev, const AstNode *node, double value, bool *holds)
 {
@@ -288,37 +262,6 @@ static bool case_holds(Eval *ev, const AstNode *node, double value, bool *holds)
     return true;
 }
 
-// The first case that holds, or NULL; false after a fault.
-static bool find_case(Eval *ev, const AstNode *node, const AstNode **found)
-{
-    double value;
-    if (!eval_number(ev, node->a, &value)) {
-        return false;
-    }
-    for (*found = node->b; *found != NULL; *found = (*found)->next) {
-        bool holds;
-        if (!case_holds(ev, *found, value, &holds)) {
-            return false;
-        }
-        if (holds) {
-            return true;
-        }
-    }
-    return true;
-}
-
-static void run_switch(Cursor *cursor, const AstNode *node)
-{
-    const AstNode *found;
-    if (!find_case(cursor->ev, node, &found)) {
-        return;
-    }
-    if (found != NULL && cursor_push(cursor, FRAME_SWITCH, case_items(found), found) == NULL) {
-        return;
-    }
-    push_branch(cursor, node->c); // what stands before the first case
-}
-
 bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds)
 {
     switch ((AstKind)node->kind) {
@@ -333,21 +276,13 @@ bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *hold
 
 // ---- loops
 
-static void run_while(Cursor *cursor, const AstNode *node)
-{
-    bool holds;
-    if (eval_condition(cursor->ev, node->a, &holds) && holds && eval_step(cursor->ev, node->span)) {
-        cursor_push(cursor, FRAME_WHILE, node->b, node);
-    }
-}
-
 // As measured, with the language's tolerance at the end.
 static bool for_holds(double number, double end, double step)
 {
     return step > 0.0 ? number < end + 1e-10 : number > end - 1e-10;
 }
 
-bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool *holds)
+bool directive_begin_for(Eval *ev, const AstNode *node, ForLoop *loop, bool *holds)
 {
     double from = 0, end = 0, step = 1;
     const AstNode *third = node->b->next->next;
@@ -371,12 +306,12 @@ bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool 
         return eval_fault(ev, DIAG_E0220, node->a->span,
                           "`%s` stands for the caller's variable and cannot count a loop", eval_text(ev, name));
     }
-    *loop = (GrammarLoop){.counter = name, .span = node->a->span, .end = end, .step = step};
+    *loop = (ForLoop){.counter = name, .span = node->a->span, .end = end, .step = step};
     *holds = for_holds(from, end, step);
     return scope_declare(ev, name, true, &value, node->a->span);
 }
 
-bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds)
+bool directive_next_for(Eval *ev, const ForLoop *loop, bool *holds)
 {
     Value *counter = scope_find(ev, loop->counter);
     *holds = false;
@@ -390,44 +325,9 @@ bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds)
     return true;
 }
 
-static void run_for(Cursor *cursor, const AstNode *node)
-{
-    GrammarLoop loop;
-    bool holds = false;
-    if (node->a == NULL || !directive_begin_for(cursor->ev, node, &loop, &holds) || !holds ||
-        !eval_step(cursor->ev, node->span)) {
-        return; // at the first, its head was not readable
-    }
-    CursorFrame *frame = cursor_push(cursor, FRAME_FOR, node->c, node);
-    if (frame != NULL) {
-        frame->loop = loop;
-    }
-}
-
-bool loop_continues(Eval *ev, CursorFrame *frame)
-{
-    const AstNode *node = frame->node;
-    if (frame->kind == FRAME_WHILE) {
-        bool holds;
-        double number;
-        if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
-            return false; // what would have ended the loop may be what is not understood
-        }
-        if (quick_number(ev, node->a, &number)) {
-            return number_is_true(number) && eval_step(ev, node->span);
-        }
-        ArenaMark mark = scratch_mark(ev);
-        bool fine = eval_condition(ev, node->a, &holds);
-        scratch_rewind(ev, mark);
-        return fine && holds && eval_step(ev, node->span);
-    }
-    bool holds;
-    return directive_next_for(ev, &frame->loop, &holds) && holds && eval_step(ev, node->span);
-}
-
 static void run_break(Cursor *cursor, const AstNode *node)
 {
-    cursor_break(cursor, node->span, false);
+    control_break(cursor, node->span, false);
 }
 
 // ---- messages
@@ -474,8 +374,8 @@ static void run_message(Cursor *cursor, const AstNode *node)
 // ---- the table
 
 static const DirectiveFn directives[AST_KIND_COUNT] = {
-    [AST_DECLARE] = run_declare, [AST_UNDEF] = run_undef,     [AST_IF] = run_if,         [AST_IFDEF] = run_ifdef,
-    [AST_SWITCH] = run_switch,   [AST_BREAK] = run_break,     [AST_WHILE] = run_while,   [AST_FOR] = run_for,
+    [AST_DECLARE] = run_declare, [AST_UNDEF] = run_undef,     [AST_IF] = control_if,     [AST_IFDEF] = control_if,
+    [AST_SWITCH] = control_switch, [AST_BREAK] = run_break, [AST_WHILE] = control_while, [AST_FOR] = control_for,
     [AST_MACRO] = run_macro,     [AST_INCLUDE] = include_run, [AST_DEFAULT] = run_default, [AST_VERSION] = run_version,
     [AST_MESSAGE] = run_message, [AST_FOPEN] = data_file_run, [AST_FCLOSE] = data_file_run, [AST_READ] = data_file_run,
     [AST_WRITE] = data_file_run,

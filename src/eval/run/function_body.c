@@ -1,7 +1,7 @@
 // The body of a function becomes a tree of nodes that compute.
 //
 // Names that are no parameters are taken as the text is read, as POV-Ray takes them: where directives and macros stand
-// in the body, it has been read in a splice (paste_function), and each name knows what it stood for then. A body that
+// in the body, it has been read token by token (paste_function), and each name knows what it stood for then. A body that
 // holds what rtlang has not makes a function that is a fault where it is called.
 //
 // Numbers that follow one another in a chain of operators of one rank are joined as POV-Ray joins them, and these are

@@ -25,33 +25,33 @@ static bool enter(Eval *ev, DiagFrame *frame, const Source *source, Span span)
 }
 
 // At the top level: item by item.
-static void stream(Eval *ev, Source *source, const GrammarContext *context, Span span)
+static void stream(Eval *ev, Source *source, Span span)
 {
     DiagFrame frame;
     if (!enter(ev, &frame, source, span)) {
         return;
     }
     // What it finds stands in the diagnostics, which decide in the end.
-    bool is_whole = grammar_parse(context, source, take_item, ev);
+    bool is_whole = grammar_parse(ev->grammar, source, take_item, ev);
     ev->faulty = ev->faulty || (!is_whole && !span_exists(ev->break_at));
     scope_pop(ev);
     eval_frame_leave(ev);
     ev->include_depth--;
 }
 
-// A text with items that directives tear apart: read again, item by item.
-static void splice_again(Cursor *cursor, CursorFrame *frame, const Source *source, const GrammarContext *context)
+// A text with items that directives tear apart is read again, item by item.
+static void read_again(Cursor *cursor, CursorFrame *frame, const Source *source)
 {
     Eval *ev = cursor->ev;
-    GrammarText *text = grammar_text_again(context, source_extent(source));
+    GrammarText *text = grammar_text_again(ev->grammar, source_extent(source));
     frame->next = NULL;
-    if (text == NULL || !cursor_push_text(cursor, frame, text, text, false)) {
+    if (text == NULL || !cursor_push_text(cursor, frame, text, text)) {
         ev->faulty = true;
     }
 }
 
 // Inside a block: all items, kept until the block is closed.
-static void splice(Cursor *cursor, Source *source, const GrammarContext *context, Span span)
+static void keep(Cursor *cursor, Source *source, Span span)
 {
     Eval *ev = cursor->ev;
     AstList items = {0};
@@ -65,11 +65,11 @@ static void splice(Cursor *cursor, Source *source, const GrammarContext *context
     }
     frame->kind = FRAME_INCLUDE;
     bool is_torn = false;
-    bool is_whole = grammar_parse_all(context, source, &items, &is_torn);
+    bool is_whole = grammar_parse_all(ev->grammar, source, &items, &is_torn);
     lint_items(ev, items.first);
     frame->next = items.first;
     if (is_torn) {
-        splice_again(cursor, frame, source, context);
+        read_again(cursor, frame, source);
     } else {
         ev->faulty = ev->faulty || !is_whole;
     }
@@ -119,18 +119,15 @@ void include_run(Cursor *cursor, const AstNode *node)
     if (source == NULL) {
         return;
     }
-    Splice reading;
-    splice_init(&reading, ev);
     if (cursor->top) {
-        stream(ev, source, &reading.context, node->span);
+        stream(ev, source, node->span);
         Span span = ev->break_at;
         ev->break_at = SPAN_NONE;
         if (span_exists(span)) {
-            cursor_break(cursor, span, true);
+            control_break(cursor, span, true);
         }
     } else {
-        splice(cursor, source, &reading.context, node->span);
+        keep(cursor, source, node->span);
     }
-    splice_fini(&reading);
     source_close(source);
 }

@@ -477,8 +477,9 @@ static bool call_for_value(Eval *ev, const AstNode *call, bool whole, Value *val
         Wanted wanted = {call->span, eval_text(ev, call->symbol)};
         cursor_open(&cursor, ev, macro->is_torn ? NULL : macro->body->b, call->span);
         cursor.takes_end = takes_end;
+        cursor.is_call = true;
         if (macro->is_torn && cursor.frame != NULL &&
-            !cursor_push_text(&cursor, cursor.frame, macro->text, NULL, true)) {
+            !cursor_push_text(&cursor, cursor.frame, macro->text, NULL)) {
             ev->faulty = true;
         }
         fine = take_value(&cursor, &wanted, whole, value);

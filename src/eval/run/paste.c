@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "eval/run/run.h"
+#include "eval/run/expansion.h"
 
 static bool is_open_operation(const AstNode *node)
 {
@@ -112,20 +112,20 @@ static const GrammarText *text_of(Eval *ev, Span span)
 
 // ---- values
 
-static bool read_value(Eval *ev, const AstNode *node, GrammarStream *stream, Value *value)
+static bool read_value(Eval *ev, const AstNode *node, Expansion *expansion, Value *value)
 {
-    const AstNode *read = grammar_stream_expression(stream);
+    const AstNode *read = reading_expression(expansion);
     if (read == NULL) {
         ev->faulty = true;
         return false;
     }
-    if (grammar_stream_is_cut(stream)) {
+    if (expansion->is_cut) {
         if (eval_report(ev, DIAG_E0221, node->span, "a directive after the value of a macro ends the expression")) {
             diag_suggest(ev->options.diags, "put parentheses around the call");
         }
         return false;
     }
-    bool is_ended = grammar_stream_take_semicolon(stream), is_cut = grammar_stream_is_cut(stream);
+    bool is_ended = reading_take_semicolon(expansion), is_cut = expansion->is_cut;
     if (!eval_expression(ev, read, value)) {
         return false;
     }
@@ -133,8 +133,8 @@ static bool read_value(Eval *ev, const AstNode *node, GrammarStream *stream, Val
     if (has_memory && !value_store(ev, value, &ev->scratch, node->span, value)) {
         return false;
     }
-    bool failed = false;
-    const AstNode *rest = grammar_stream_next(stream, &failed);
+    const AstNode *rest = reading_item(expansion, 0);
+    bool failed = expansion->feed.failed;
     if (rest != NULL) {
         return eval_fault(ev, DIAG_E0213, node->span, "macros give more than one value here");
     }
@@ -144,23 +144,29 @@ static bool read_value(Eval *ev, const AstNode *node, GrammarStream *stream, Val
     return !failed;
 }
 
+// Begins to read a text, from a cursor that is closed after it; NULL after a fault.
+static Expansion *begin(Eval *ev, Cursor *cursor, const AstNode *node, bool is_inner)
+{
+    *cursor = (Cursor){.ev = ev, .span = node->span, .top = true};
+    const GrammarText *text = text_of(ev, node->span);
+    CursorFrame *frame = text != NULL ? cursor_push(cursor, FRAME_ITEMS, NULL, NULL) : NULL;
+    if (frame == NULL) {
+        return NULL;
+    }
+    frame->text = (FrameText){.owned = NULL};
+    frame_set_text(frame, text, NULL);
+    return expansion_begin(cursor, NULL, is_inner);
+}
+
 // Reads from the text of a node, its macros and directives carried out, by a function; the text is let go again.
 static bool paste(Eval *ev, const AstNode *node, bool is_inner,
-                  bool (*read)(Eval *ev, const AstNode *node, GrammarStream *stream, Value *value), Value *value)
+                  bool (*read)(Eval *ev, const AstNode *node, Expansion *expansion, Value *value), Value *value)
 {
-    Splice splice;
-    const GrammarText *text = text_of(ev, node->span);
-    if (text == NULL) {
-        return false;
-    }
+    Cursor cursor;
     ArenaMark mark = arena_mark(&ev->parse);
-    splice_init(&splice, ev);
-    GrammarStream *stream = grammar_stream_open(&splice.context, text, is_inner, false);
-    bool fine = stream != NULL ? read(ev, node, stream, value) : eval_no_memory(ev, node->span);
-    if (stream != NULL) {
-        grammar_stream_close(stream);
-    }
-    splice_fini(&splice);
+    Expansion *expansion = begin(ev, &cursor, node, is_inner);
+    bool fine = expansion != NULL && read(ev, node, expansion, value);
+    cursor_close(&cursor);
     arena_rewind(&ev->parse, mark);
     return fine && !ev->stop;
 }
@@ -178,33 +184,25 @@ bool paste_value(Eval *ev, const AstNode *node, Value *value)
 
 const AstNode *paste_arguments(Eval *ev, const AstNode *call)
 {
-    Splice splice;
-    const GrammarText *text = text_of(ev, call->span);
-    if (text == NULL) {
-        return NULL;
-    }
-    splice_init(&splice, ev);
-    GrammarStream *stream = grammar_stream_open(&splice.context, text, false, false);
-    AstNode *pasted = stream != NULL ? grammar_stream_arguments(stream) : NULL;
+    Cursor cursor;
+    Expansion *expansion = begin(ev, &cursor, call, false);
+    AstNode *pasted = expansion != NULL ? reading_arguments(expansion) : NULL;
     if (pasted != NULL) {
         pasted->symbol = call->symbol;
         pasted->span = call->span;
     }
-    if (stream != NULL) {
-        grammar_stream_close(stream);
-    }
-    splice_fini(&splice);
+    cursor_close(&cursor);
     ev->faulty = ev->faulty || pasted == NULL;
     return pasted;
 }
 
-static bool read_function(Eval *ev, const AstNode *function, GrammarStream *stream, Value *value)
+static bool read_function(Eval *ev, const AstNode *function, Expansion *expansion, Value *value)
 {
-    (void)function;  // The stream holds its text.
-    bool failed = false;
-    const AstNode *read = grammar_stream_next(stream, &failed);
+    (void)function;  // The expansion holds its text.
+    const AstNode *read = reading_item(expansion, 0);
     bool fine = read != NULL && read->kind == AST_FUNCTION && function_create(ev, read, value);
-    const AstNode *rest = fine ? grammar_stream_next(stream, &failed) : NULL;
+    const AstNode *rest = fine ? reading_item(expansion, 0) : NULL;
+    bool failed = expansion->feed.failed;
     if (rest != NULL) {
         fine = eval_fault(ev, DIAG_E0213, rest->span, "the function has ended before this");
     }

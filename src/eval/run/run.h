@@ -8,7 +8,8 @@
 //   macro.c      definitions, calls and their values
 //   callable.h   functions and splines              include.c   #include
 //   files.c      finding and opening files          datafile.c  #fopen, #read and #fclose
-//   splice.c     the evaluator's part in splices    paste.c     expressions with the text of macros in them
+//   control.c    branches, loops and calls          paste.c     expressions with the text of macros in them
+//   expansion.h  text with its directives resolved
 //   lint.c       what is suspicious in the text     message.c   the text streams of #debug and the like
 //   origin.c     which include file declares a name endless.c   why a loop does not end
 //
@@ -26,9 +27,9 @@ struct Macro {
     unsigned parameter_count;
     Symbol *parameters;
     AstNode *body;           // the definition; without items when `is_torn`
-    const GrammarText *text; // the body's tokens, in the program arena; NULL until a splice needs them
+    const GrammarText *text; // the body's tokens, in the program arena; NULL until they are needed
     bool is_unbalanced;      // its braces pair up with those of other text
-    bool is_torn;            // holds no whole items: read in a splice at each call
+    bool is_torn;            // holds no whole items: its tokens are read at each call
     bool is_loose;           // may give more or less than one value, or one that operators around it may tear apart
 };
 
@@ -171,8 +172,10 @@ struct Cursor {
     bool is_lossy;       // a call was at fault: what is missing may have been its text
     bool is_cut;         // a directive stands before the item that is pending, or before the end
     bool takes_end;      // a `;` may stand after the last item
+    bool is_call;        // the items are those of a macro, which #break leaves
     unsigned ends;       // how many do
     ArenaMark mark;
+    struct Expansion *expansion; // of the text that the innermost frames walk; NULL: they walk nodes
 };
 
 void cursor_open(Cursor *cursor, Eval *ev, const AstNode *items, Span span);
@@ -207,37 +210,80 @@ bool cursor_vector3(Cursor *cursor, Vec3 *vector, Span *span) RT_MUST_CHECK;
 bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span) RT_MUST_CHECK;
 
 // What directives do to a cursor, and macro calls.
-typedef enum FrameKind { FRAME_ITEMS, FRAME_WHILE, FRAME_FOR, FRAME_SWITCH, FRAME_MACRO, FRAME_INCLUDE } FrameKind;
+typedef enum FrameKind {
+    FRAME_ITEMS,
+    FRAME_LIVE, // of a text: what the scanner of a parse gives
+    FRAME_MACRO,
+    FRAME_INCLUDE,
+    FRAME_WHILE, // of a text: its condition and body
+    FRAME_FOR,
+    FRAME_BRANCH, // of a text: the branch of an #if that was chosen; no tokens of its own, like the next two
+    FRAME_SWITCH,
+    FRAME_LEFT, // a text at its end, under directives that began in it: keeps their places
+} FrameKind;
 
+// A #for while it runs.
+typedef struct ForLoop {
+    Symbol counter;
+    Span span;
+    double end, step;
+} ForLoop;
+
+// What a frame has that walks tokens, see expansion.h.
+typedef struct FrameText {
+    const Token *tokens;
+    size_t count, at;
+    GrammarText *owned; // freed with the frame
+    Token opened_by;
+    double subject;  // of a #switch
+    ArenaMark begin; // of the outermost one: of the items
+    unsigned place;  // 1 is the outermost one
+    bool is_found;   // its case
+    bool has_cases;  // at least one
+    bool is_last;    // the #else of an #if: no other branch may follow
+} FrameText;
+
+// Walks nodes, or the tokens of a text.
 struct CursorFrame {
     CursorFrame *outer;
     const AstNode *next; // the next item to look at
     const AstNode *node; // the loop, the call, or the case of a #switch that is walked
     FrameKind kind;
-    GrammarLoop loop;    // FRAME_FOR
-    DiagFrame diag;      // FRAME_MACRO, FRAME_INCLUDE
-    struct SpliceStream *stream; // items that are read in a splice, on demand; NULL: `next`
     bool ends_in_comma;  // one stands after the item that was taken last
+    bool is_text;        // `text`, not `next` and `node`
+    ForLoop loop;        // FRAME_FOR
+    DiagFrame diag;      // FRAME_MACRO, FRAME_INCLUDE
+    FrameText text;
 };
 
 // NULL when out of memory, which stops the evaluation.
 CursorFrame *cursor_push(Cursor *cursor, FrameKind kind, const AstNode *items, const AstNode *node);
 void cursor_pop(Cursor *cursor);
-// Pushes the items of a text that is read in a splice. False when out of memory, which stops the evaluation.
-bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned,
-                      bool is_call) RT_MUST_CHECK;
-// #break; is_from_file: in a file that was included here. It leaves no macro that is called around the #include.
-void cursor_break(Cursor *cursor, Span span, bool is_from_file);
+void frame_leave(Cursor *cursor, CursorFrame *frame);
+void frame_free(Cursor *cursor, CursorFrame *frame); // it is on no list
+// The items of a text become those of the innermost frame. `owned` (NULL or the text) is freed with it. False when out
+// of memory, which stops the evaluation.
+bool cursor_push_text(Cursor *cursor, CursorFrame *frame, const GrammarText *text, GrammarText *owned) RT_MUST_CHECK;
+// The innermost frame (NULL: there was no memory for it) becomes that of a call; NULL after a fault, and it is gone.
+CursorFrame *cursor_enter(Cursor *cursor, const AstNode *call, CursorFrame *frame, Macro *macro);
 const AstNode *case_items(const AstNode *node); // of a CASE, RANGE or ELSE
 bool directive_run(Cursor *cursor, const AstNode *node); // false when the node is no directive
-bool loop_continues(Eval *ev, CursorFrame *frame); // at the end of a loop's body: one more turn
 void include_run(Cursor *cursor, const AstNode *node);
 // Opens the file of an #include and enters it; the frame becomes a FRAME_INCLUDE. NULL after a fault.
 Source *include_enter(Eval *ev, CursorFrame *frame, const AstNode *node) RT_MUST_CHECK;
-// For splices: what a directive asks, and the turns of a #for.
+// What a directive asks, and the turns of a #for.
 bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds) RT_MUST_CHECK;
-bool directive_begin_for(Eval *ev, const AstNode *node, GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
-bool directive_next_for(Eval *ev, const GrammarLoop *loop, bool *holds) RT_MUST_CHECK;
+bool directive_begin_for(Eval *ev, const AstNode *node, ForLoop *loop, bool *holds) RT_MUST_CHECK;
+bool directive_next_for(Eval *ev, const ForLoop *loop, bool *holds) RT_MUST_CHECK;
+
+// control.c
+void control_if(Cursor *cursor, const AstNode *node); // an #ifdef, too
+void control_switch(Cursor *cursor, const AstNode *node);
+void control_while(Cursor *cursor, const AstNode *node);
+void control_for(Cursor *cursor, const AstNode *node);
+bool loop_continues(Cursor *cursor, CursorFrame *frame); // at the end of a loop's body: one more turn
+// #break; is_from_file: in a file that was included here. It leaves no macro that is called around the #include.
+void control_break(Cursor *cursor, Span span, bool is_from_file);
 
 // ---- files
 
@@ -263,7 +309,7 @@ void data_files_fini(Eval *ev);
 
 // ---- macros
 
-// `text`: the body's, when it was read in a splice, else NULL.
+// `text`: the body's tokens, where they are known, else NULL.
 void macro_define(Eval *ev, const AstNode *node, const GrammarText *text);
 // The tokens of a macro's body; NULL after a fault.
 const GrammarText *macro_text(Eval *ev, Macro *macro) RT_MUST_CHECK;
@@ -277,27 +323,10 @@ bool macro_value(Eval *ev, const AstNode *call, bool whole, Value *value) RT_MUS
 // The value that a directive in the place of an expression gives.
 bool inline_value(Eval *ev, const AstNode *node, bool whole, Value *value) RT_MUST_CHECK;
 
-// ---- splices: text that is read again with its directives resolved (splice.c)
+// ---- text that is read with its directives resolved (expansion.h)
 
-// What grammar needs to parse one text; a splice of it keeps its calls and files in the cursor.
-typedef struct Splice {
-    GrammarContext context;
-    GrammarHooks hooks;
-    Cursor cursor;
-} Splice;
-
-typedef struct SpliceStream SpliceStream;
-
-void splice_init(Splice *splice, Eval *ev);
-void splice_fini(Splice *splice);
-
-// Items of a text, on demand, of the top level or not. `owned` (NULL or the text) is freed with it. NULL when out of memory.
-SpliceStream *splice_stream_open(Eval *ev, const GrammarText *text, GrammarText *owned, bool top,
-                                 bool is_call) RT_MUST_CHECK;
-const AstNode *splice_stream_next(SpliceStream *stream, bool top) RT_MUST_CHECK;
-bool splice_stream_is_cut(const SpliceStream *stream);
-bool splice_stream_ends_in_comma(const SpliceStream *stream);
-void splice_stream_close(SpliceStream *stream);
+// What the grammar is given, ev->grammar; false when out of memory.
+bool reading_init(Eval *ev) RT_MUST_CHECK;
 
 // True when a macro called in the expression may need its text to be pasted, not its value.
 bool paste_is_needed(const Eval *ev, const AstNode *node);

@@ -38,6 +38,7 @@ typedef struct GrammarText GrammarText; // grammar/grammar.h
 typedef struct GrammarSlot GrammarSlot;
 typedef struct GrammarPlan GrammarPlan;
 typedef struct GrammarHooks GrammarHooks;
+typedef struct GrammarContext GrammarContext;
 
 // A room calls what lies above it through one of these two tables only.
 
@@ -98,6 +99,7 @@ struct Eval {
     EvalOptions options;
     const EvalText *text;
     const EvalBuilder *builder;
+    const GrammarContext *grammar; // what texts are parsed with
     Scene *scene;
     MemoryBudget memory; // of all arenas of the evaluation
     Arena parse;   // the AST of the current top-level item
@@ -128,7 +130,7 @@ struct Eval {
     // As POV-Ray counts: of a union each member, unless it is one object. Spheres that were read quickly come on top.
     uint64_t object_count, slow_spheres;
     bool has_unbalanced;          // a macro that is_unbalanced was defined
-    unsigned splice_nesting;      // of fragments that are being parsed
+    unsigned fragment_nesting;    // of fragments that are being parsed
     uint64_t steps_reported;         // at the last message that said something new
     ARRAY(struct Probe *) probes; // objects that were traced, see probe.c
     ARRAY(Painted *) painted; // functions of patterns and pigments, see painted.c

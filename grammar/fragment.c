@@ -1,10 +1,12 @@
-// What the parser is given of a splice: tokens without directives and calls, and names with what they stand for.
+// Fragments: an item, an expression or the head of a directive, parsed from tokens that somebody else delivers.
 //
-// Runs the directives and calls that stand before the next token, and decides where one ends what is being parsed.
-// Builds the nodes of names and operators, which are worked out as soon as they are whole. Owns nothing.
+// Has the directives and calls resolved that stand before the next token, and decides where one ends what is being
+// parsed. Builds the nodes of names and operators, which are worked out as soon as they are whole. Owns nothing. Knows
+// nothing of what directives do.
 //
 // SPDX-License-Identifier: MIT
-#include "grammar/splice.h"
+#include "grammar/lexer.h"
+#include "grammar/parser.h"
 
 enum { MATRIX_COMPONENTS = 12 };
 
@@ -84,41 +86,27 @@ static bool is_between_elements(const GrammarState *state)
     return open != NULL && open->kind == '{' && (state->ends_before || last == '{' || last == ',');
 }
 
-bool stream_is_at_call(GrammarStream *stream, const GrammarState *state, const Token *token)
+static bool is_at_call(const GrammarState *state, const Token *token)
 {
-    return token->kind == TOKEN_NAME && state->previous.kind != '.' &&
-           stream->hooks->is_macro(stream->hooks->client, token->symbol) && stream_peek_kind(stream) == '(';
-}
-
-// True when a directive, which is complete, stands at the end of the text in which it began: what it declares belongs
-// to the scope of that text, which is not left before.
-static bool is_at_own_end(GrammarStream *stream, const GrammarState *state)
-{
-    size_t at;
-    while ((at = stream_innermost_text(stream)) > state->own_frame && at == stream->frames.count) {
-        const Frame *frame = &stream->frames.items[at - 1];
-        if ((frame->kind != FRAME_MACRO && frame->kind != FRAME_FILE) || frame->at < frame->count) {
-            return false;
-        }
-        stream_drop(stream, at - 1);
-    }
-    const Frame *own = at == state->own_frame && at > 0 ? &stream->frames.items[at - 1] : NULL;
-    return own != NULL && own->kind != FRAME_LIVE && own->at == own->count;
+    const GrammarHooks *hooks = state->context->hooks;
+    return token->kind == TOKEN_NAME && state->previous.kind != '.' && hooks->is_macro(hooks->client, token->symbol) &&
+           state->feed->calls->peek(state->feed) == '(';
 }
 
 // A directive or a call that ends what is parsed.
-static void cut(GrammarStream *stream, GrammarState *state, Token *token)
+static void cut(GrammarState *state, Token *token)
 {
     state->ended_by = *token;
-    stream_unread(stream, token);
+    state->feed->calls->unread(state->feed, token);
     *token = (Token){.kind = TOKEN_END_OF_FILE, .span = {token->span.begin, token->span.begin}};
 }
 
-static void capture(GrammarStream *stream, Token *token)
+static void capture(const GrammarState *state, Token *token)
 {
     // The base of an element is looked up with its index, which stands right behind it.
-    if (token->kind == TOKEN_NAME && !stream_is_before(stream, '[')) {
-        token->known = stream->hooks->capture(stream->hooks->client, token->symbol, token->span);
+    if (token->kind == TOKEN_NAME && !state->feed->calls->is_before(state->feed, '[')) {
+        const GrammarHooks *hooks = state->context->hooks;
+        token->known = hooks->capture(hooks->client, token->symbol, token->span);
     }
 }
 
@@ -160,113 +148,109 @@ static bool is_as_it_stands(const GrammarState *state, const Token *token)
     }
 }
 
-// A part of a directive, in the head of another, that began before that head.
-static bool ends_outside(const GrammarState *state, const Token *token)
+// Has a directive or a call resolved, if one may stand here.
+static void resolve(const GrammarState *state, const Token *token)
 {
-    DirectiveRole role = grammar_role(token->kind);
-    bool is_part = role == ROLE_ELSE || role == ROLE_MIDDLE || role == ROLE_END;
-    return stream_is_head(state->fragment) && is_part && stream_open_directives(state->stream) <= state->open_before;
-}
-
-// Runs a directive or a call, if one may stand here.
-static void resolve(GrammarState *state, const Token *token)
-{
-    GrammarStream *stream = state->stream;
-    bool is_directive = grammar_is_directive(token->kind);
     if (is_between_elements(state)) {
-        stream_fault(stream, DIAG_E0223, token->span,
-                     "no directive and no macro call can stand here, in the elements of an array");
-    } else if (is_directive && ends_outside(state, token)) {
-        stream_fault_stray(stream, token);
-    } else if (is_directive) {
-        stream_run_directive(stream, token);
+        grammar_feed_fault(state->feed, DIAG_E0223, token->span,
+                           "no directive and no macro call can stand here, in the elements of an array");
     } else {
-        stream_call_macro(stream, token);
+        state->feed->calls->resolve(state->feed, token);
     }
 }
 
 // A string, a block, or the name of what is no number: no directive ends that.
-static bool is_no_number(const GrammarStream *stream, const Token *token)
+static bool is_no_number(const GrammarState *state, const Token *token)
 {
-    const GrammarHooks *hooks = stream->hooks;
+    const GrammarHooks *hooks = state->context->hooks;
     return token->kind == TOKEN_STRING || token->kind == '}' ||
            (token->kind == TOKEN_NAME && token->known != NULL && !hooks->is_number(hooks->client, token->known));
 }
 
-void grammar_splice_token(GrammarState *state, Token *token)
+static void deliver_end(const GrammarFeed *feed, Token *token)
 {
-    GrammarStream *stream = state->stream;
+    *token = (Token){.kind = TOKEN_END_OF_FILE, .span = {feed->end.end, feed->end.end}};
+}
+
+// The first token of a directive, whose text it is in.
+static void begin_directive(GrammarState *state, const Token *token)
+{
+    const GrammarFeed *feed = state->feed;
+    state->takes_string = takes_string(token->kind);
+    state->takes_mode = token->kind == TOKEN_HASH_FOPEN;
+    state->takes_elements = token->kind == TOKEN_HASH_UNDEF || token->kind == TOKEN_HASH_READ;
+    // What is read again ends where the live text goes on.
+    state->own_place = feed->live != NULL && feed->is_kept ? 1 : feed->place;
+}
+
+void grammar_fragment_token(GrammarState *state, Token *token)
+{
+    GrammarFeed *feed = state->feed;
     track_more(state);
-    stream->silent.kind = 0;
+    feed->silent.kind = 0;
     state->ends_before = ends_operand(state);
     bool begins = state->begins_raw;
     state->begins_raw = false;
     for (;;) {
         bool may_end = (state->ends_before || state->previous.kind == ';') && !state->function_begins;
-        bool is_over = may_end && state->own_frame > 0 && state->openers.count == 0 && is_at_own_end(stream, state);
-        if (is_over || stream->failed || state->ended || state->builder.failed) {
-            stream_deliver_end(stream, token);
+        bool is_over = may_end && state->own_place > 0 && state->openers.count == 0 &&
+                       feed->calls->is_at_end(feed, state->own_place);
+        if (is_over || feed->failed || state->ended || state->builder.failed) {
+            deliver_end(feed, token);
             return;
         }
-        stream_read(stream, token);
+        feed->calls->read(feed, token);
         bool is_directive = grammar_is_directive(token->kind);
         if (begins) {
-            state->takes_string = takes_string(token->kind);
-            state->takes_mode = token->kind == TOKEN_HASH_FOPEN;
-            state->takes_elements = token->kind == TOKEN_HASH_UNDEF || token->kind == TOKEN_HASH_READ;
-            state->own_frame = stream_innermost_text(stream);
-            if (stream->live != NULL && stream->frames.items[state->own_frame - 1].kind == FRAME_TEXT) {
-                state->own_frame = 1; // what is read again ends where the live text goes on
-            }
+            begin_directive(state, token);
             break;
         }
         // What follows a declaration may be anything, but for a second semicolon.
         bool is_past_end = state->fragment == TOKEN_START_DIRECTIVE && state->previous.kind == ';' &&
                            state->openers.count == 0 && token->kind != ';';
         if (is_past_end) {
-            stream_unread(stream, token);
-            stream_deliver_end(stream, token);
+            feed->calls->unread(feed, token);
+            deliver_end(feed, token);
             return;
         }
         // No operator continues a string.
         if (state->takes_string && state->ends_before && state->openers.count == 0 && token->kind != '[') {
-            stream_unread(stream, token);
-            stream_deliver_end(stream, token);
+            feed->calls->unread(feed, token);
+            deliver_end(feed, token);
             return;
         }
-        if (state->is_raw || is_as_it_stands(state, token) || (!is_directive && !stream_is_at_call(stream, state, token))) {
+        if (state->is_raw || is_as_it_stands(state, token) || (!is_directive && !is_at_call(state, token))) {
             break;
         }
         bool is_passed = state->fragment == TOKEN_START_SUBJECT && grammar_role(token->kind) == ROLE_SIMPLE;
         is_passed |= state->takes_mode;
-        is_passed |= state->fragment == TOKEN_START_ARGUMENTS && is_no_number(stream, &state->previous);
-        if (may_end && !is_passed && state->base_depth != NO_BASE &&
+        is_passed |= state->fragment == TOKEN_START_ARGUMENTS && is_no_number(state, &state->previous);
+        if (may_end && !is_passed && state->base_depth != GRAMMAR_NO_BASE &&
             state->openers.count <= (size_t)state->base_depth) {
-            cut(stream, state, token);
+            cut(state, token);
             return;
         }
         resolve(state, token);
     }
     if (token->kind == '[' && state->previous.kind == TOKEN_NAME && state->previous.known != NULL) {
-        stream_fault(stream, DIAG_E0106, token->span, "`[` must stand right behind the name of the array");
+        grammar_feed_fault(feed, DIAG_E0106, token->span, "`[` must stand right behind the name of the array");
     }
-    size_t from = stream_innermost_text(stream);
     if (state->fragment == TOKEN_START_FOR && token->kind == TOKEN_NAME && state->previous.kind == '(' &&
         state->openers.count == 1) {
-        state->counter_frame = from > 0 && stream->frames.items[from - 1].kind == FRAME_TEXT ? 0 : from;
+        state->counter_place = feed->is_kept ? 0 : feed->place;
     }
-    if (from > 0 && stream->frames.items[from - 1].kind == FRAME_MACRO) {
-        stream->silent.kind = 0;
+    if (feed->is_call) {
+        feed->silent.kind = 0;
     }
     if (!state->is_raw) {
-        capture(stream, token);
+        capture(state, token);
     }
 }
 
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span)
 {
     AstNode *node = ast_node(&state->builder, AST_NAME, AST_OP_NONE, symbol, span, NULL, NULL, NULL);
-    if (RT_UNLIKELY(state->stream != NULL)) {
+    if (RT_UNLIKELY(state->feed != NULL)) {
         // With a token after it read, the name is the one before.
         const Token *token = state->current.span.begin == span.begin ? &state->current : &state->previous;
         ast_flag(node, AST_KNOWN)->known = token->known;
@@ -277,7 +261,7 @@ AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span)
 // The name of a function that is called stands for what it is now, too. Its `(` is still open.
 AstNode *grammar_call(GrammarState *state, AstNode *node)
 {
-    if (RT_LIKELY(state->stream == NULL) || !is_in_function(state)) {
+    if (RT_LIKELY(state->feed == NULL) || !is_in_function(state)) {
         return grammar_fold(state, node);
     }
     node->b = ast_node(&state->builder, AST_NAME, AST_OP_NONE, node->symbol, node->span, NULL, NULL, NULL);
@@ -344,16 +328,16 @@ static bool is_matrix(const AstNode *node)
 
 static AstNode *fold(GrammarState *state, AstNode *node)
 {
-    if (!is_matrix(node) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->stream->failed) {
-        state->stream->hooks->fold(state->stream->hooks->client, node);
-        state->stream->failed = state->stream->hooks->is_stopped(state->stream->hooks->client);
+    const GrammarHooks *hooks = state->context->hooks;
+    if (!is_matrix(node) && !(node->flags & AST_KNOWN) && !state->builder.failed && !state->feed->failed) {
+        state->feed->failed = !hooks->fold(hooks->client, node);
     }
     return node;
 }
 
 AstNode *grammar_fold(GrammarState *state, AstNode *node)
 {
-    if (RT_LIKELY(state->stream == NULL)) {
+    if (RT_LIKELY(state->feed == NULL)) {
         return mark_pastes(node);
     }
     return is_in_function(state) ? node : fold(state, node);
@@ -362,11 +346,71 @@ AstNode *grammar_fold(GrammarState *state, AstNode *node)
 // Before a token after it is read, which may be a call that changes the array.
 AstNode *grammar_element(GrammarState *state, AstNode *node)
 {
-    if (RT_LIKELY(state->stream == NULL) || state->takes_elements) {
+    if (RT_LIKELY(state->feed == NULL) || state->takes_elements) {
         return node;
     }
-    GrammarHooks *hooks = state->stream->hooks;
-    int next = stream_peek_kind(state->stream);
+    const GrammarHooks *hooks = state->context->hooks;
+    int next = state->feed->calls->peek(state->feed);
     bool is_whole = next != '[' && next != '=' && !hooks->lacks_index(hooks->client, node);
     return is_whole ? fold(state, node) : node;
+}
+
+// ---- the whole
+
+static const int starts[] = {
+    [FRAGMENT_ITEM] = TOKEN_START_ITEM,           [FRAGMENT_EXPRESSION] = TOKEN_START_FULL,
+    [FRAGMENT_DIRECTIVE] = TOKEN_START_DIRECTIVE, [FRAGMENT_CONDITION] = TOKEN_START_CONDITION,
+    [FRAGMENT_SUBJECT] = TOKEN_START_SUBJECT,     [FRAGMENT_RANGE] = TOKEN_START_RANGE,
+    [FRAGMENT_FOR] = TOKEN_START_FOR,             [FRAGMENT_MACRO] = TOKEN_START_MACRO,
+    [FRAGMENT_ARGUMENTS] = TOKEN_START_ARGUMENTS,
+};
+
+AstNode *grammar_parse_fragment(GrammarFeed *feed, Fragment *fragment)
+{
+    GrammarState state;
+    grammar_begin(&state, feed->context);
+    state.offset = feed->end.end;
+    state.feed = feed;
+    state.start = state.fragment = starts[fragment->kind];
+    state.base_depth = fragment->base_depth;
+    state.is_raw = fragment->is_raw;
+    state.takes_elements = fragment->kind == FRAGMENT_SUBJECT;
+    state.begins_raw = fragment->kind == FRAGMENT_DIRECTIVE;
+    bool fine = grammar_yyparse(&state) == 0 && !state.faulty && !state.builder.failed && !feed->failed;
+    fragment->counter_place = state.counter_place;
+    fragment->is_cut = state.ended_by.kind != 0;
+    if (fine && state.has_lookahead && state.ended_by.kind == 0) {
+        feed->calls->unread(feed, &state.current);
+    }
+    ARRAY_FREE(&state.openers);
+    return fine ? state.result : NULL;
+}
+
+void grammar_finish(GrammarState *state, AstNode *result, bool has_lookahead)
+{
+    state->result = result;
+    state->has_lookahead = has_lookahead;
+}
+
+bool grammar_feed_is_refused(GrammarFeed *feed, Span at)
+{
+    const GrammarState *live = feed->live;
+    // The text of a macro was fine when it was defined.
+    bool is_there = live != NULL && live->torn_by_fault && at.begin == live->torn_at.span.begin && feed->macros == 0;
+    feed->is_refused = feed->is_refused || (is_there && !feed->failed);
+    feed->failed = feed->failed || is_there;
+    return feed->is_refused;
+}
+
+bool grammar_feed_may_report(GrammarFeed *feed)
+{
+    return !feed->failed && !grammar_feed_is_refused(feed, feed->end);
+}
+
+void grammar_feed_fault(GrammarFeed *feed, DiagCode code, Span span, const char *text)
+{
+    if (!grammar_feed_is_refused(feed, feed->end)) {
+        diag_report(feed->context->diags, code, span, "%s", text);
+    }
+    feed->failed = true;
 }

@@ -1,0 +1,436 @@
+// Control: branches, loops, #switch and #break, of nodes and of texts.
+//
+// What decides, counts and searches is written once; a directive that is a node has its parts, one of a text reads each
+// when it comes to it, since what stands before may change what it means. Knows nothing of blocks and of what
+// expressions mean.
+//
+// SPDX-License-Identifier: MIT
+#include <stdlib.h>
+
+#include "eval/run/expansion.h"
+
+enum { FAULTY_STEPS = 100000 }; // that say nothing new, before loops of a faulty scene end
+
+// ---- heads of directives in a text
+
+// Works out a head that was just parsed; false after a fault.
+static bool decide(Expansion *expansion, AstKind kind, const Token *directive, AstNode *a, AstNode *b, double *subject,
+                   bool *holds)
+{
+    Eval *ev = expansion_eval(expansion);
+    *holds = false;
+    if (a == NULL) {
+        return false;
+    }
+    Symbol word = grammar_directive_word(directive->kind);
+    AstNode node = {.kind = (uint8_t)kind, .span = span_join(directive->span, expansion->feed.end), .a = a, .b = b};
+    node.op = word == W_ifndef ? AST_OP_IFNDEF : word == W_ifdef ? AST_OP_IFDEF : AST_OP_NONE;
+    ArenaMark mark = arena_mark(&ev->scratch);
+    bool fine = directive_decide(ev, &node, subject, holds);
+    arena_rewind(&ev->scratch, mark);
+    ev->faulty = ev->faulty || !fine;
+    if (!fine || ev->stop) {
+        expansion_fail(expansion);
+    }
+    *holds = *holds && !expansion->feed.failed;
+    return !expansion->feed.failed;
+}
+
+// The head of an #if, #while, #case or the like stands next.
+static bool read_head(Expansion *expansion, const Token *directive, double *subject, bool *holds)
+{
+    Eval *ev = expansion_eval(expansion);
+    ArenaMark mark = arena_mark(&ev->parse);
+    AstKind kind = AST_IF;
+    FragmentKind fragment = FRAGMENT_CONDITION;
+    switch (grammar_directive_word(directive->kind)) {
+    case W_ifdef:
+    case W_ifndef: kind = AST_IFDEF; fragment = FRAGMENT_SUBJECT; break;
+    case W_switch: kind = AST_SWITCH; break;
+    case W_case: kind = AST_CASE; break;
+    case W_range: kind = AST_RANGE; fragment = FRAGMENT_RANGE; break;
+    default: break;
+    }
+    AstNode *head = expansion_parse(expansion, fragment, 1, false);
+    bool is_range = head != NULL && kind == AST_RANGE;
+    AstNode *first = is_range ? head->a : head, *second = is_range ? head->b : NULL;
+    bool fine = decide(expansion, kind, directive, first, second, subject, holds);
+    arena_rewind(&ev->parse, mark);
+    return fine;
+}
+
+// ---- branches
+
+// The parts of an #if or #switch, looked at one after the other.
+typedef struct Choice {
+    Cursor *cursor;
+    double subject;      // of a #switch
+    const AstNode *part; // of nodes: an #if, or a case; NULL: what an #if has else, or no further case
+    bool is_switch, has_cases;
+    Token opener, at;    // of a text: the directive, and the head of the part
+} Choice;
+
+// A part of a text that belongs to another directive.
+static bool is_stray(const Choice *choice)
+{
+    Symbol word = grammar_directive_word(choice->at.kind);
+    if (choice->is_switch) {
+        return word == W_elseif || (word == W_else && !choice->has_cases);
+    }
+    return grammar_role(choice->at.kind) == ROLE_MIDDLE && word != W_elseif;
+}
+
+static bool part_holds(Choice *choice, bool *holds)
+{
+    Expansion *expansion = choice->cursor->expansion;
+    if (expansion == NULL) {
+        *holds = choice->part == NULL;
+        return choice->part == NULL || directive_decide(choice->cursor->ev, choice->part, &choice->subject, holds);
+    }
+    if (is_stray(choice)) {
+        expansion_fault_stray(expansion, &choice->at);
+        return false;
+    }
+    choice->has_cases = true;
+    *holds = grammar_role(choice->at.kind) == ROLE_ELSE;
+    return *holds || read_head(expansion, &choice->at, &choice->subject, holds);
+}
+
+// False: there is none, or after a fault.
+static bool next_part(Choice *choice)
+{
+    Expansion *expansion = choice->cursor->expansion;
+    if (expansion == NULL) {
+        choice->part = choice->is_switch ? choice->part->next : NULL;
+        return choice->part != NULL || !choice->is_switch;
+    }
+    return expansion_skip(expansion, &choice->opener, 1, true, NULL, &choice->at) &&
+           grammar_role(choice->at.kind) != ROLE_END;
+}
+
+// The first part that holds, from the present one on. False after a fault.
+static bool find_part(Choice *choice, bool *is_found)
+{
+    *is_found = false;
+    bool fine = true, has_more = true;
+    while (fine && has_more && !*is_found) {
+        fine = part_holds(choice, is_found);
+        has_more = fine && !*is_found && next_part(choice);
+    }
+    return fine;
+}
+
+static void push_branch(Cursor *cursor, const AstNode *items)
+{
+    if (items != NULL) {
+        cursor_push(cursor, FRAME_ITEMS, items, NULL);
+    }
+}
+
+void control_if(Cursor *cursor, const AstNode *node)
+{
+    Choice choice = {.cursor = cursor, .part = node};
+    bool is_found;
+    if (node->a != NULL && find_part(&choice, &is_found)) { // else its condition was not readable
+        push_branch(cursor, choice.part != NULL ? node->b : node->c);
+    }
+}
+
+void control_switch(Cursor *cursor, const AstNode *node)
+{
+    Choice choice = {.cursor = cursor, .part = node->b, .is_switch = true};
+    bool is_found = false;
+    if (!directive_decide(cursor->ev, node, &choice.subject, &is_found) ||
+        (choice.part != NULL && !find_part(&choice, &is_found))) {
+        return;
+    }
+    if (is_found && cursor_push(cursor, FRAME_SWITCH, case_items(choice.part), choice.part) == NULL) {
+        return;
+    }
+    push_branch(cursor, node->c); // what stands before the first case
+}
+
+// The first branch that holds, of an #if in a text.
+void control_begin_if(Expansion *expansion, const Token *directive)
+{
+    Choice choice = {.cursor = expansion->cursor, .opener = *directive, .at = *directive};
+    bool is_found;
+    bool fine = find_part(&choice, &is_found);
+    CursorFrame *frame = fine && is_found ? expansion_push(expansion, FRAME_BRANCH, directive) : NULL;
+    if (frame != NULL) {
+        frame->text.is_last = grammar_role(choice.at.kind) == ROLE_ELSE;
+    }
+}
+
+void control_begin_switch(Expansion *expansion, const Token *directive)
+{
+    double subject = 0;
+    bool holds;
+    CursorFrame *frame = read_head(expansion, directive, &subject, &holds)
+                             ? expansion_push(expansion, FRAME_SWITCH, directive)
+                             : NULL;
+    if (frame != NULL) {
+        frame->text.subject = subject;
+    }
+}
+
+// A case, or the #else, of a #switch in a text. The head of one that is run into is worked out.
+static void next_case(Expansion *expansion, CursorFrame *frame, const Token *at)
+{
+    FrameText *text = &frame->text;
+    Choice choice = {.cursor = expansion->cursor, .subject = text->subject, .is_switch = true,
+                     .has_cases = text->has_cases, .opener = text->opened_by, .at = *at};
+    bool is_found = text->is_found;
+    bool fine = is_found ? part_holds(&choice, &(bool){false}) : find_part(&choice, &is_found);
+    text->has_cases = true;
+    text->is_found = is_found;
+    if (fine && !is_found && !expansion->feed.failed) {
+        expansion_drop(expansion, frame);
+    }
+}
+
+// A `#else`, `#case` or the like: what was chosen ends before it.
+void control_between(Expansion *expansion, const Token *directive)
+{
+    CursorFrame *frame = expansion_owner_of_middle(expansion);
+    Token last;
+    Symbol word = grammar_directive_word(directive->kind);
+    if (frame != NULL && frame->kind == FRAME_SWITCH && word != W_elseif) {
+        next_case(expansion, frame, directive);
+    } else if (frame != NULL && frame->kind == FRAME_BRANCH && (word == W_else || word == W_elseif) &&
+               !frame->text.is_last) {
+        Token opener = frame->text.opened_by;
+        if (expansion_skip(expansion, &opener, 1, false, NULL, &last)) {
+            expansion_drop(expansion, frame);
+        }
+    } else {
+        expansion_fault_stray(expansion, directive);
+    }
+}
+
+// ---- loops
+
+// Whether a loop begins its next turn, which is counted; false after a fault.
+static bool begin_turn(Cursor *cursor, CursorFrame *frame, bool *holds)
+{
+    Eval *ev = cursor->ev;
+    double number;
+    bool fine = true;
+    *holds = false;
+    if (frame->is_text) {
+        frame->text.at = 0;
+    }
+    if (frame->kind == FRAME_FOR) {
+        fine = directive_next_for(ev, &frame->loop, holds);
+    } else if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
+        return true; // what would have ended the loop may be what is not understood
+    } else if (frame->is_text) {
+        Token opener = frame->text.opened_by;
+        fine = read_head(cursor->expansion, &opener, NULL, holds);
+    } else if (quick_number(ev, frame->node->a, &number)) {
+        *holds = number_is_true(number);
+    } else {
+        ArenaMark mark = scratch_mark(ev);
+        fine = eval_condition(ev, frame->node->a, holds);
+        scratch_rewind(ev, mark);
+    }
+    return fine && (!*holds || eval_step(ev, frame->is_text ? frame->text.opened_by.span : frame->node->span));
+}
+
+bool loop_continues(Cursor *cursor, CursorFrame *frame)
+{
+    bool holds;
+    return begin_turn(cursor, frame, &holds) && holds;
+}
+
+void control_while(Cursor *cursor, const AstNode *node)
+{
+    bool holds;
+    if (eval_condition(cursor->ev, node->a, &holds) && holds && eval_step(cursor->ev, node->span)) {
+        cursor_push(cursor, FRAME_WHILE, node->b, node);
+    }
+}
+
+void control_for(Cursor *cursor, const AstNode *node)
+{
+    ForLoop loop;
+    bool holds = false;
+    if (node->a == NULL || !directive_begin_for(cursor->ev, node, &loop, &holds) || !holds ||
+        !eval_step(cursor->ev, node->span)) {
+        return; // at the first, its head was not readable
+    }
+    CursorFrame *frame = cursor_push(cursor, FRAME_FOR, node->c, node);
+    if (frame != NULL) {
+        frame->loop = loop;
+    }
+}
+
+// The `#end` of a loop in a text, or its beginning.
+static void next_turn(Expansion *expansion, CursorFrame *frame)
+{
+    Eval *ev = expansion_eval(expansion);
+    bool holds, fine = begin_turn(expansion->cursor, frame, &holds) && !ev->stop;
+    if (!fine) {
+        ev->faulty = true;
+        expansion_fail(expansion);
+    } else if (!holds) {
+        expansion_drop_from(expansion, frame);
+    }
+}
+
+// Keeps a loop's text up to its `#end` and pushes it.
+static CursorFrame *push_loop(Expansion *expansion, FrameKind kind, const Token *opener)
+{
+    Tokens kept = {0};
+    Token last;
+    CursorFrame *frame = NULL;
+    if (expansion_skip(expansion, opener, 1, false, &kept, &last) &&
+        (frame = expansion_push(expansion, kind, opener)) != NULL) {
+        GrammarText *text = grammar_text_new(kept.items, kept.count);
+        if (text != NULL) {
+            frame_set_text(frame, text, text);
+        } else {
+            grammar_feed_fault(&expansion->feed, DIAG_E0602, opener->span, "out of memory while reading the scene");
+        }
+    }
+    ARRAY_FREE(&kept);
+    return expansion->feed.failed ? NULL : frame;
+}
+
+void control_begin_while(Expansion *expansion, const Token *directive)
+{
+    CursorFrame *frame = push_loop(expansion, FRAME_WHILE, directive);
+    if (frame != NULL) {
+        next_turn(expansion, frame);
+    }
+}
+
+void control_begin_for(Expansion *expansion, const Token *directive)
+{
+    Eval *ev = expansion_eval(expansion);
+    ArenaMark mark = arena_mark(&ev->parse);
+    AstNode *head = expansion_parse(expansion, FRAGMENT_FOR, GRAMMAR_NO_BASE, false);
+    ForLoop loop = {0};
+    bool holds = false;
+    bool fine = head != NULL && directive_begin_for(ev, head, &loop, &holds);
+    ev->faulty = ev->faulty || (head != NULL && !fine);
+    if (!fine || ev->stop) {
+        expansion_fail(expansion);
+        return;
+    }
+    arena_rewind(&ev->parse, mark);
+    Token last;
+    if (!holds) {
+        (void)expansion_skip(expansion, directive, 1, false, NULL, &last);
+        return;
+    }
+    CursorFrame *frame = push_loop(expansion, FRAME_FOR, directive);
+    if (frame != NULL) {
+        frame->loop = loop;
+        if (!eval_step(ev, directive->span)) {
+            expansion_fail(expansion);
+        }
+    }
+}
+
+void control_end(Expansion *expansion, const Token *directive)
+{
+    CursorFrame *frame = expansion_owner_of_middle(expansion);
+    if (frame == NULL || (frame->kind == FRAME_SWITCH && !frame->text.has_cases)) {
+        expansion_fault_stray(expansion, directive);
+    } else if (frame->kind == FRAME_WHILE || frame->kind == FRAME_FOR) {
+        next_turn(expansion, frame);
+    } else {
+        expansion_drop(expansion, frame);
+    }
+}
+
+// ---- #break
+
+// The innermost directive that is a #switch at a place or stands in it.
+static CursorFrame *directive_since(const Expansion *expansion, unsigned place)
+{
+    CursorFrame *frame = expansion->cursor->frame;
+    while (frame->text.place > place && frame->kind != FRAME_BRANCH && frame->kind != FRAME_SWITCH) {
+        frame = frame->outer;
+    }
+    return frame->text.place >= place && !frame_has_text(frame) ? frame : NULL;
+}
+
+// Out of a #switch in a text, with `branches` open inside it.
+static void leave_switch(Expansion *expansion, CursorFrame *frame, unsigned branches)
+{
+    Token opener = frame->text.opened_by, last;
+    unsigned place = frame->text.place;
+    if (expansion_skip(expansion, &opener, branches + 1, false, NULL, &last)) {
+        while ((frame = directive_since(expansion, place)) != NULL) {
+            expansion_drop(expansion, frame);
+        }
+    }
+}
+
+static void pop_from(Cursor *cursor, const CursorFrame *frame)
+{
+    const CursorFrame *rest = frame->outer;
+    while (cursor->frame != rest) {
+        cursor_pop(cursor);
+    }
+}
+
+static void leave_frame(Cursor *cursor, CursorFrame *frame, unsigned branches)
+{
+    if (cursor->expansion == NULL) {
+        pop_from(cursor, frame);
+    } else if (frame->kind == FRAME_SWITCH) {
+        leave_switch(cursor->expansion, frame, branches);
+    } else {
+        expansion_drop_from(cursor->expansion, frame);
+    }
+}
+
+static void fault_break(Cursor *cursor, Span span, const char *text)
+{
+    if (cursor->expansion != NULL) {
+        grammar_feed_fault(&cursor->expansion->feed, DIAG_E0209, span, text);
+    } else {
+        eval_fault(cursor->ev, DIAG_E0209, span, "%s", text);
+    }
+}
+
+void control_break(Cursor *cursor, Span span, bool is_from_file)
+{
+    Eval *ev = cursor->ev;
+    Expansion *expansion = cursor->expansion;
+    unsigned branches = 0;
+    CursorFrame *frame = cursor->frame, *last = NULL;
+    const CursorFrame *end = expansion != NULL ? expansion->bottom->outer : NULL;
+    for (; frame != end; last = frame, frame = frame->outer) {
+        if (expansion != NULL && frame->text.place <= expansion->head_place) {
+            fault_break(cursor, span, "`#break` cannot leave the head of a directive");
+            return;
+        }
+        bool is_left = frame->kind == FRAME_WHILE || frame->kind == FRAME_FOR || frame->kind == FRAME_SWITCH;
+        if (is_left || (frame->kind == FRAME_MACRO && !is_from_file)) {
+            leave_frame(cursor, frame, branches);
+            return;
+        }
+        if (frame->kind == FRAME_MACRO) {
+            break; // as in POV-Ray
+        }
+        branches += frame->kind == FRAME_BRANCH;
+        is_from_file |= frame->kind == FRAME_INCLUDE;
+    }
+    bool is_of_file = cursor->top && ev->include_depth > 0 && (expansion == NULL || expansion->feed.live != NULL);
+    if (frame == NULL && last != NULL && cursor->is_call && !is_from_file) {
+        leave_frame(cursor, last, 0);
+    } else if (frame == NULL && is_of_file) {
+        ev->break_at = span; // what it leaves may stand around the #include
+        if (expansion != NULL) {
+            expansion_fail(expansion);
+        } else if (last != NULL) {
+            pop_from(cursor, last);
+        }
+    } else {
+        fault_break(cursor, span, "no loop, `#switch` or macro that `#break` could leave");
+    }
+}
