@@ -26,6 +26,8 @@ typedef struct LayerSum {
     ScatterRecord *scatter;
     RenderStatistics *statistics;
     Rgb light;
+    Rgb through;      // what the layers of the present texture of a map let through
+    ShadeMirror *own; // what these layers mirror, for each way on
 } LayerSum;
 
 // Of layers the top one's; a map of textures has none of its own, nor have those in it. Measured.
@@ -37,7 +39,8 @@ static double refraction_of(const Prepared *p, const Compound *compound)
 
 // A mirror is seen undimmed through the layers above, unless the ray would be worth too little; measured.
 RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const TextureLayer *layer,
-                                 const ShadeMaterial *material, Rgb reflectance, ScatterRecord *scatter)
+                                 const ShadeMaterial *material, Rgb reflectance, ScatterRecord *scatter,
+                                 ShadeMirror *own)
 {
     double weight = rgb_luminance(layer->above) * shade_mirror_weight(features, material->finish, reflectance);
     if (sum->weight * weight < sum->p->adc_bailout) {
@@ -46,6 +49,27 @@ RT_ALWAYS_INLINE void add_mirror(unsigned features, const LayerSum *sum, const T
     scatter->reflectance = rgb_add_scaled(scatter->reflectance, layer->part, reflectance);
     scatter->reflection_weight = greater_of(scatter->reflection_weight, weight);
     scatter->reflection_exponent = material->finish->reflection_exponent;
+    own->reflectance = rgb_add_scaled(own->reflectance, layer->part, reflectance);
+    own->weight = greater_of(own->weight, weight);
+}
+
+static bool lets_through(const LayerSum *sum)
+{
+    return !rgb_is_black(sum->through) && !(fabs(rgb_luminance(sum->through)) < sum->p->adc_bailout);
+}
+
+// The layers of a texture have been seen, on whose mirrors depends whether light is totally reflected instead.
+static void end_mirrors(const LayerSum *sum, ScatterRecord *ways, int count)
+{
+    bool is_opaque = !lets_through(sum);
+    for (int i = 0; i < count; i++) {
+        ShadeMirror *own = &sum->own[i], *all = &ways[i].opaque;
+        if (is_opaque && own->weight != 0.0) {
+            all->reflectance = rgb_add(all->reflectance, own->reflectance);
+            all->weight = greater_of(all->weight, own->weight);
+        }
+        *own = (ShadeMirror){.weight = 0.0};
+    }
 }
 
 RT_ALWAYS_INLINE void add_light(unsigned features, LayerSum *sum, const TextureLayer *layer, const ShadingPoint *at,
@@ -59,12 +83,16 @@ static Rgb add_layer(void *client, const TextureLayer *layer)
 {
     LayerSum *sum = client;
     ShadeMaterial material = shade_material(sum->p, FLAT_FEATURES, layer->pigment, layer->finish);
-    Rgb reflectance;
-    if (shade_mirror(FLAT_FEATURES, &material, sum->at, &reflectance)) {
-        add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->scatter);
+    Rgb reflectance, left = shade_left_below(FLAT_FEATURES, &material, sum->at);
+    if (layer->is_top) {
+        end_mirrors(sum, sum->scatter, 1);
     }
+    if (shade_mirror(FLAT_FEATURES, &material, sum->at, &reflectance)) {
+        add_mirror(FLAT_FEATURES, sum, layer, &material, reflectance, sum->scatter, sum->own);
+    }
+    sum->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
     add_light(FLAT_FEATURES, sum, layer, sum->at, &material);
-    return shade_left_below(FLAT_FEATURES, &material, sum->at);
+    return left;
 }
 
 Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, ScatterRecord *scatter,
@@ -73,9 +101,11 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
     ShadeArrived arrived;
     ShadingPoint shared = for_layers(at, &arrived);
-    LayerSum sum = {p, &shared, weight, scatter, statistics, rgb_grey(0.0)};
+    ShadeMirror own = {.weight = 0.0};
+    LayerSum sum = {p, &shared, weight, scatter, statistics, .own = &own};
     *scatter = (ScatterRecord){.reflection_exponent = 1.0, .refraction = refraction_of(p, compound)};
     TextureThrough through = texture_walk(&p->textures, compound->texture, at->point, p->adc_bailout, add_layer, &sum);
+    end_mirrors(&sum, scatter, 1);
     scatter->through = through.light;
     scatter->through_weight = through.weight;
     scatter->part = through.part;
@@ -88,7 +118,6 @@ Rgb shade_compound(const Prepared *p, const ShadingPoint *at, double weight, Sca
 typedef struct Stack {
     Vec3 normal; // of the top
     double part;
-    Rgb through; // what all of them let through
 } Stack;
 
 typedef struct BumpSum {
@@ -100,7 +129,7 @@ typedef struct BumpSum {
 } BumpSum;
 
 // The way on for a normal; there is room for as many as the evaluator lets a texture have.
-static ScatterRecord *way_for(BumpSum *bumps, Vec3 normal)
+static int way_for(BumpSum *bumps, Vec3 normal)
 {
     ShadeWays *ways = bumps->ways;
     int i = 0;
@@ -111,9 +140,10 @@ static ScatterRecord *way_for(BumpSum *bumps, Vec3 normal)
     if (i == ways->count && ways->count < SHADE_WAYS_MAX) {
         ways->normals[i] = normal;
         ways->scatter[i] = (ScatterRecord){.reflection_exponent = 1.0, .refraction = bumps->refraction};
+        bumps->sum.own[i] = (ShadeMirror){.weight = 0.0};
         ways->count++;
     }
-    return &ways->scatter[i < SHADE_WAYS_MAX ? i : SHADE_WAYS_MAX - 1];
+    return i < SHADE_WAYS_MAX ? i : SHADE_WAYS_MAX - 1;
 }
 
 // What a texture lets through is bent by the bumps of its top layer. Without bending all goes one way.
@@ -121,13 +151,14 @@ static void end_stack(BumpSum *bumps)
 {
     const Stack *stack = &bumps->stack;
     const LayerSum *sum = &bumps->sum;
-    Rgb through = stack->through;
-    if (!bumps->has_stack || rgb_is_black(through) || fabs(rgb_luminance(through)) < sum->p->adc_bailout) {
+    end_mirrors(sum, bumps->ways->scatter, bumps->ways->count);
+    if (!bumps->has_stack || !lets_through(sum)) {
         return;
     }
-    ScatterRecord *way = way_for(bumps, sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal);
-    way->through = rgb_add_scaled(way->through, stack->part, through);
-    way->through_weight = greater_of(way->through_weight, rgb_max_abs(through));
+    Vec3 normal = sum->at->ior_ratio != 1.0 ? stack->normal : sum->at->normal;
+    ScatterRecord *way = &bumps->ways->scatter[way_for(bumps, normal)];
+    way->through = rgb_add_scaled(way->through, stack->part, sum->through);
+    way->through_weight = greater_of(way->through_weight, rgb_max_abs(sum->through));
     way->part += stack->part;
 }
 
@@ -142,7 +173,6 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
 {
     BumpSum *bumps = client;
     LayerSum *sum = &bumps->sum;
-    Stack *stack = &bumps->stack;
     ShadingPoint at = *sum->at;
     if (layer->normal != RECORD_NONE) {
         at.normal = texture_normal(&sum->p->textures, layer, at.normal);
@@ -153,9 +183,10 @@ static Rgb add_bumpy_layer(void *client, const TextureLayer *layer)
     ShadeMaterial material = shade_material(sum->p, ALL_FEATURES, layer->pigment, layer->finish);
     Rgb reflectance, left = shade_left_below(ALL_FEATURES, &material, &at);
     if (shade_mirror(ALL_FEATURES, &material, &at, &reflectance)) {
-        add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, way_for(bumps, at.normal));
+        int way = way_for(bumps, at.normal);
+        add_mirror(ALL_FEATURES, sum, layer, &material, reflectance, &bumps->ways->scatter[way], &sum->own[way]);
     }
-    stack->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
+    sum->through = rgb_mul(rgb_mul(layer->above, left), texture_pigment_through(layer->pigment));
     add_light(ALL_FEATURES, sum, layer, &at, &material);
     return left;
 }
@@ -165,8 +196,9 @@ Rgb shade_bumpy(const Prepared *p, const ShadingPoint *at, double weight, ShadeW
     const Compound *compound = &p->compounds[at->material & ~MATERIAL_COMPOUND];
     ShadeArrived arrived;
     ShadingPoint shared = for_layers(at, &arrived);
+    ShadeMirror own[SHADE_WAYS_MAX]; // set with the ways
     BumpSum bumps = {
-        .sum = {p, &shared, weight, NULL, statistics, rgb_grey(0.0)},
+        .sum = {p, &shared, weight, NULL, statistics, .own = own},
         .ways = ways,
         .refraction = refraction_of(p, compound),
     };

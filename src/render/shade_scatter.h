@@ -64,10 +64,16 @@ RT_ALWAYS_INLINE void ray_stack_pop(unsigned features, RayStack *stack, StackedR
     }
 }
 
+typedef struct ShadeMirror {
+    Rgb reflectance; // what the mirrored ray is multiplied with
+    double weight;   // the greatest share that any angle may reflect; 0: no mirror
+} ShadeMirror;
+
 // What a surface sends on, all its layers together.
 typedef struct ScatterRecord {
     Rgb through;     // what a ray that goes through is multiplied with, beside `refraction`
     Rgb reflectance; // the same for the mirrored ray
+    ShadeMirror opaque; // of that, what textures of a map mirror that let nothing through
     double through_weight; // of layers: by how much the ray's weight falls, when it is not the greatest of `through`
     double reflection_weight; // the greatest share that any angle may reflect; 0: no mirror
     double reflection_exponent;
@@ -271,6 +277,14 @@ RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const Sc
         }
     }
     place = stack->count;
+    ScatterRecord opaque;
+    if ((features & RENDER_TEXTURES) && is_total) { // each texture of a map by itself. Measured.
+        opaque = *scatter;
+        opaque.reflectance = scatter->opaque.reflectance;
+        opaque.reflection_weight = scatter->opaque.weight;
+        scatter = &opaque;
+        is_total = false;
+    }
     if ((features & RENDER_REFLECTION) && scatter->reflection_weight != 0.0 && !is_total) {
         shade_reflect(p, features, scatter, at, from, stack);
         statistics->reflected_rays += stack->count > place;

@@ -18,6 +18,7 @@ typedef struct Crossing {
     uint8_t side;
     bool leaves;    // the solid's own inside, not minding PART_INVERSE
     bool is_film;   // changes nothing: of a flat leaf, or within one
+    bool has_surface; // one that can be seen: that of a shape that clips cannot
     bool is_hidden; // found before the crossings of its group
     bool has_error, has_bound; // worked out when they are asked for first: most crossings are never come to
 } Crossing;
@@ -30,8 +31,9 @@ typedef struct CsgTraversal {
     double start_error;    // how far along the ray its start may be off its surface
     double enter;          // where the ray comes to the CSG tree's box
     double origin_size, direction_size; // sums of the ray's coordinates' sizes
-    double nearest_share;  // no crossing that is left is nearer than this share of its t; 0: not known
-    double greatest_bound; // of the crossings that are left; less than 0: not known
+    double first_surface;  // the least t of crossings that have a surface
+    double nearest_share;  // none of these that is left is nearer than this share of its t; 0: not known
+    double greatest_bound; // of these; less than 0: not known
     uint32_t *inside;      // for each node
     bool *is_inside;       // for each solid, PART_INVERSE minded; while crossings are found: if the ray starts inside
     Ray *objects;          // the ray in each solid's space, but for planes
@@ -144,8 +146,16 @@ static bool crossing_is_apart(const CsgTraversal *p, Crossing *a, Crossing *b)
 static void traversal_add(CsgTraversal *p, uint32_t index, double t, double length, uint8_t side, bool leaves,
                           bool is_film)
 {
-    p->crossings[p->count++] =
-        (Crossing){.t = t, .error = length, .solid = index, .side = side, .leaves = leaves, .is_film = is_film};
+    const Solid *solid = traversal_solid(p, index);
+    bool has_surface = !(solid->flags & PART_UNSEEN) && !((solid->flags & PART_OPEN) && side != 0);
+    p->first_surface = has_surface && t < p->first_surface ? t : p->first_surface;
+    p->crossings[p->count++] = (Crossing){.t = t,
+                                          .error = length,
+                                          .solid = index,
+                                          .side = side,
+                                          .leaves = leaves,
+                                          .is_film = is_film,
+                                          .has_surface = has_surface};
 }
 
 static void traversal_flat(CsgTraversal *p, uint32_t index, RayStart start)
@@ -271,18 +281,12 @@ static bool crossing_shows(const CsgTraversal *p, const Crossing *c, bool is_aft
     return true;
 }
 
-static bool crossing_has_surface(const CsgTraversal *p, const Crossing *c)
-{
-    const Solid *solid = traversal_solid(p, c->solid);
-    return !(solid->flags & PART_UNSEEN) && !((solid->flags & PART_OPEN) && c->side != 0);
-}
-
 // Lets the crossings from `begin` to `end` happen, and offers the first of them that is seen. True when one was.
 static bool traversal_cross(CsgTraversal *p, uint32_t begin, uint32_t end, Foremost *first)
 {
     for (uint32_t i = begin; i < end; i++) {
         Crossing *c = &p->crossings[i];
-        c->is_hidden = !crossing_has_surface(p, c) || !crossing_shows(p, c, false);
+        c->is_hidden = !c->has_surface || !crossing_shows(p, c, false);
     }
     for (uint32_t i = begin; i < end; i++) {
         const Crossing *c = &p->crossings[i];
@@ -321,7 +325,7 @@ static void traversal_set_states(CsgTraversal *p)
     }
 }
 
-// Finds the crossings and puts them into order. Mostly it turns out on the way that nothing can be seen.
+// Finds the crossings. Mostly it turns out on the way that nothing can be seen.
 static void traversal_begin(CsgTraversal *p, RayStart start)
 {
     const CsgTree *csg = p->csg;
@@ -334,26 +338,20 @@ static void traversal_begin(CsgTraversal *p, RayStart start)
             traversal_solid_begin(p, i, start, is_own);
         }
     }
-    if (p->is_over || p->count == 0) {
-        return;
-    }
-    traversal_set_states(p);
-    for (uint32_t i = p->count / 2; i-- > 0;) {
-        heap_sift(p, i);
-    }
+    p->is_over = p->is_over || isinf(p->first_surface);
 }
 
-// Whether no crossing that is left may lie at the limit or before it. Those before it are asked about errors by nobody.
-static bool traversal_is_beyond(CsgTraversal *p, double limit)
+// Whether no crossing with a surface may lie at the limit or before it, as all that are left are at `t` or behind it.
+// Those before it are asked about errors by nobody.
+static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
 {
-    const double t = p->crossings[0].t;
     if (!(t > limit)) {
         return false;
     }
     if (p->greatest_bound < 0.0) {
         p->greatest_bound = 0.0;
         for (uint32_t i = 0; i < p->count; i++) {
-            double bound = crossing_bound(p, &p->crossings[i]);
+            double bound = p->crossings[i].has_surface ? crossing_bound(p, &p->crossings[i]) : 0.0;
             p->greatest_bound = bound <= p->greatest_bound ? p->greatest_bound : isnan(bound) ? (double)INFINITY : bound;
         }
     }
@@ -364,11 +362,19 @@ static bool traversal_is_beyond(CsgTraversal *p, double limit)
         p->nearest_share = 1.0;
         for (uint32_t i = 0; i < p->count; i++) {
             Crossing *c = &p->crossings[i];
-            double share = c->t / (c->t + crossing_error(p, c));
+            double share = c->has_surface ? c->t / (c->t + crossing_error(p, c)) : 1.0;
             p->nearest_share = share < p->nearest_share ? share : p->nearest_share;
         }
     }
     return t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
+}
+
+// Puts the crossings into order.
+static void traversal_order(CsgTraversal *p)
+{
+    for (uint32_t i = p->count / 2; i-- > 0;) {
+        heap_sift(p, i);
+    }
 }
 
 void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, RayStart start, double start_error,
@@ -388,6 +394,7 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .enter = enter,
                       .origin_size = vec3_sum_abs(ray->origin),
                       .direction_size = vec3_sum_abs(ray->direction),
+                      .first_surface = (double)INFINITY,
                       .greatest_bound = -1.0,
                       .inside = inside,
                       .is_inside = is_inside,
@@ -395,7 +402,12 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .crossings = crossings,
                       .decided_until = (double)INFINITY};
     traversal_begin(&p, start);
-    while (!p.is_over && p.count > 0 && !traversal_is_beyond(&p, first->limit)) {
+    if (p.is_over || traversal_is_beyond(&p, p.first_surface, first->limit)) {
+        return;
+    }
+    traversal_set_states(&p);
+    traversal_order(&p);
+    while (!p.is_over && p.count > 0 && !traversal_is_beyond(&p, crossings[0].t, first->limit)) {
         uint32_t end = p.count;
         uint32_t begin = heap_pop(&p);
         Crossing earliest = crossings[begin];

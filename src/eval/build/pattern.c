@@ -482,6 +482,7 @@ static void begin_pattern(Pattern *pattern, PatternType type)
     }
     if (type == PATTERN_QUILTED) {
         pattern->vector = vec3(1.0, 1.0, 0.0);
+        pattern->frequency = 0.0; // and with it `phase` does nothing, unless it is said again
     }
     if (type == PATTERN_CRACKLE) {
         pattern->form = vec3(-1.0, 1.0, 0.0);
