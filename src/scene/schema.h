@@ -148,6 +148,7 @@ enum { SCHEMA_GROUPS = 3 };
 
 typedef struct SchemaBlock {
     const char *word;
+    const char *what;     // messages call it, "a sphere"; NULL: it is never a value
     size_t size;          // of the description
     const void *defaults; // a description as it is before anything is said
     bool is_object;       // may stand in a union and as an object

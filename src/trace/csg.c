@@ -205,7 +205,7 @@ static bool traversal_interval(CsgTraversal *p, uint32_t index, const RayInterva
                                bool is_beside)
 {
     bool is_film = solid_is_film(traversal_solid(p, index), interval->leave_side);
-    bool is_inside = (is_start && traversal_solid(p, index)->is_convex) ||
+    bool is_inside = (is_start && solid_is_convex(traversal_solid(p, index))) ||
                      traversal_is_past(p, index, interval->enter, interval->enter_side, room, is_beside);
     if (!is_inside) {
         traversal_add(p, index, interval->enter, room, interval->enter_side, is_film, is_film);
@@ -230,14 +230,14 @@ static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart star
         p->objects[index] = solid_ray(solid, p->ray);
         object = &p->objects[index];
     }
-    if (!is_start || inward || !solid->is_convex) {
+    if (!is_start || inward || !solid_is_convex(solid)) {
         SideLeft left = {is_start ? part_side(start.shape) : SIDE_NONE, inward};
         count = solid_intervals(solid, object, left, intervals);
     }
     bool is_met = false, is_inside = false;
     for (unsigned i = 0; i < count; i++) {
         const RayInterval *interval = &intervals[i];
-        double room = solid->is_convex ? interval->leave - interval->enter : interval_room(intervals, count, i);
+        double room = solid_is_convex(solid) ? interval->leave - interval->enter : interval_room(intervals, count, i);
         if ((solid->decides && interval->leave < p->decided_from) || // whether it is past or not
             traversal_is_past(p, index, interval->leave, interval->leave_side, room, is_beside)) {
             continue;

@@ -26,9 +26,9 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
     Solid solid = {
         .kind = (uint8_t)part->kind,
         .family = (uint8_t)primitive->family,
-        .is_sized = primitive->is_sized,
-        .is_flat = primitive->interval_count == 0,
-        .is_convex = primitive->interval_count <= 1,
+        .traits = (uint8_t)((primitive->interval_count == 0 ? SOLID_FLAT : 0) |
+                            (primitive->interval_count <= 1 ? SOLID_CONVEX : 0) |
+                            (primitive->is_sized ? SOLID_SIZED : 0)),
         .flags = part->flags,
         .hidden = part->hidden,
         .flips = part->flags & PART_INVERSE,
@@ -40,6 +40,7 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
         .body = part->body,
         .data = {part->data[0], part->data[1], part->data[2]},
     };
+    solid.films = solid_class(&solid)->films;
     if (part->kind == PART_PLANE) {
         solid.data[1].x = ldexp(part->data[1].x, -exponent);
         return solid;
@@ -147,8 +148,8 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
         solid->composite = index;
-        csg->crossing_count += solid->is_convex ? 2 : 2 * INTERVALS_MOST;
-        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid->is_convex;
+        csg->crossing_count += solid_is_convex(solid) ? 2 : 2 * INTERVALS_MOST;
+        solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid_is_convex(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             solid->flips = solid->flips != node->is_inverse;

@@ -289,7 +289,7 @@ static void interval_closest(ShapeQuery *q, uint32_t index, const Ray *object, S
     }
     bool is_start = left.side != SIDE_NONE;
     double passed = is_start ? -1.0 : passed_error(q, solid);
-    if (RT_LIKELY(solid->is_convex)) {
+    if (RT_LIKELY(solid_is_convex(solid))) {
         interval_offer(q, index, object, &intervals[0], intervals[0].leave - intervals[0].enter, false, is_start,
                        passed, first);
         return;
@@ -310,7 +310,7 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     }
     bool is_start = q->left && solid_equal(q->left, solid);
     bool inward = q->start.inward != solid->flips;
-    if (is_start && ((!inward && solid->is_convex) || solid_is_flat(solid))) {
+    if (is_start && ((!inward && solid_is_convex(solid)) || solid_is_flat(solid))) {
         return;
     }
     if (solid->kind == PART_BALL) {

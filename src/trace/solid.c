@@ -293,7 +293,7 @@ double interval_room(const RayInterval *intervals, unsigned count, unsigned i)
 static double fixed_size(const Solid *solid, int axis)
 {
     const double *low = &solid->data[0].x, *high = &solid->data[1].x;
-    return solid->is_sized ? greater_of(fabs(low[axis]), fabs(high[axis])) : 1.0;
+    return (solid->traits & SOLID_SIZED) ? greater_of(fabs(low[axis]), fabs(high[axis])) : 1.0;
 }
 
 static double extent_of(const Solid *solid)

@@ -15,12 +15,18 @@
 #include "trace/ray_interval.h"
 #include "trace/sphere.h"
 
+typedef enum SolidTrait {
+    SOLID_FLAT = 1,   // it has no inside
+    SOLID_CONVEX = 2, // a ray that leaves it outward does not meet it again; nor does one that leaves a flat one
+    SOLID_SIZED = 4,  // as in PrimitiveClass
+} SolidTrait;
+
 // A part as the tracer wants it. The map is kept as a centre and two linear parts, so that no digits are lost far from
 // the origin.
 typedef struct Solid {
     uint8_t kind, family;  // PartKind, SurfaceFamily
-    bool is_sized;         // as in PrimitiveClass
-    bool is_flat, is_convex; // flat: it has no inside; convex: neither that nor meets a ray that leaves it outward again
+    uint8_t traits;        // SolidTrait bits
+    uint8_t films;         // a bit for each side that is seen and bounds nothing, within the shape
     uint8_t flags, hidden; // of the composite, if it is in one
     bool flips;            // the outside of what the part is in is this part's inside
     bool decides;          // outside of it nothing is seen of the composite; a line is inside of it once
@@ -39,7 +45,7 @@ typedef struct Solid {
 
 RT_ALWAYS_INLINE bool solid_is_flat(const Solid *solid)
 {
-    return solid->is_flat;
+    return solid->traits & SOLID_FLAT;
 }
 
 // How rays meet a kind of part; its numbers are those of the solid, its points in the solid's own space.
@@ -54,7 +60,7 @@ typedef struct SolidClass {
     Vec3 (*point)(const Solid *solid, Vec3 point, uint8_t side); // one near the side, put onto it
     // The axes of an ellipsoid around it, about *middle.
     void (*axes)(const Solid *solid, Vec3 axes[3], Vec3 *middle);
-    uint8_t films;            // a bit for each side that is seen and bounds nothing: within the shape
+    uint8_t films;             // as of a solid
     int8_t across[SIDES_MOST]; // of each side: 1 + the axis that it lies across, 0 if it is not flat or across none
 } SolidClass;
 
@@ -62,9 +68,14 @@ const SolidClass *solid_class(const Solid *solid);
 
 static inline bool solid_is_film(const Solid *solid, uint8_t side)
 {
-    return solid_class(solid)->films >> side & 1;
+    return solid->films >> side & 1;
 }
 
+
+static inline bool solid_is_convex(const Solid *solid)
+{
+    return solid->traits & SOLID_CONVEX;
+}
 
 // The ray in the solid's own space; for a plane as it is.
 RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)

@@ -54,9 +54,8 @@ static const BlockHook bodies[KIND_COUNT] = {
 
 // At the closing brace.
 static const BlockHook closings[KIND_COUNT] = {
-    [KIND_CAMERA] = camera_close, [KIND_PLANE] = plane_close,           [KIND_UNION] = union_close,
+    [KIND_CAMERA] = camera_close,       [KIND_UNION] = union_close,
     [KIND_MERGE] = union_close,   [KIND_INTERSECTION] = union_close,    [KIND_DIFFERENCE] = union_close,
-    [KIND_CYLINDER] = cylinder_close, [KIND_CONE] = cone_close, [KIND_DISC] = disc_close,
     [KIND_FINISH] = finish_close, [KIND_REFLECTION] = reflection_close, [KIND_TRANSFORM] = transform_close,
     [KIND_PATTERN] = pattern_close,
     [KIND_SKY_SPHERE] = sky_close, [KIND_FOG] = fog_close,
@@ -619,7 +618,8 @@ bool block_read_items(Block *block, SchemaKind *is)
     }
     read_properties(block);
     cursor_close(&block->cursor);
-    if (block->ev->stop || block->has_fault || (closings[kind] && !closings[kind](block))) {
+    BlockHook closing = shape_class(kind)->settle ? shape_close : closings[kind];
+    if (block->ev->stop || block->has_fault || (closing && !closing(block))) {
         return false;
     }
     *is = block->is;

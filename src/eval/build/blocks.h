@@ -254,6 +254,8 @@ bool builtin_extent(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 bool extent_object(Eval *ev, const AstNode *call, Value *object) RT_MUST_CHECK;
 // Whether the inside of an object that is no union is more than what is in its box, or not what its surface is around;
 // or whether that of a member is.
+// The turn that takes z to `axis` by the shortest way, half a turn about x where that is not unique; then to `origin`.
+Transform extent_frame(Vec3 axis, double across, double along, Vec3 origin);
 bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member);
 // An object with a box, and what is done to it from outside.
 typedef struct BoxOwner {
@@ -285,13 +287,35 @@ bool clip_body(Block *block) RT_MUST_CHECK; // of clipped_by and bounded_by
 // Moves what clips or bounds an object along with it.
 bool clips_transform(Block *block, const Transform *transform) RT_MUST_CHECK;
 
+// shape_class.c: what the language says of each kind of shape.
+
+// POV-Ray's box of a shape in a space of its own, which the frame leads out of.
+typedef struct OwnBox {
+    Vec3 low, high;
+    Transform frame;
+} OwnBox;
+
+typedef struct ShapeClass {
+    bool is_flat;     // has no inside: clips and cuts nothing
+    uint16_t corners_at; // three in the description, which bound it instead of `box`; 0: none
+    // Drops signs that do not count. False: there is no such shape, which `fault` says by `code`.
+    bool (*settle)(Desc *record);
+    DiagCode code;
+    const char *fault;
+    // Kind, numbers and map, before all transforms. Why there is nothing to draw, or NULL. Of a plane NULL.
+    const char *(*form)(const void *object, Part *part);
+    bool (*holds)(const void *object, Vec3 point, bool is_turned); // inside of it, or of it turned; NULL: not to be asked
+    bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself
+} ShapeClass;
+
+// Of a kind that is no shape a row of nothing.
+const ShapeClass *shape_class(SchemaKind kind);
+
 // shape.c
-bool plane_close(Block *block) RT_MUST_CHECK;
-bool cylinder_close(Block *block) RT_MUST_CHECK;
+// At the closing brace of any shape.
+bool shape_close(Block *block) RT_MUST_CHECK;
 // A pigment, normal or finish in the place of the texture's own.
 void texture_take_part(TextureDesc *texture, SchemaKind kind, const void *part);
-bool disc_close(Block *block) RT_MUST_CHECK;
-bool cone_close(Block *block) RT_MUST_CHECK;
 typedef enum ShapeResult { SHAPE_FAULT, SHAPE_NOTHING, SHAPE_MADE } ShapeResult;
 // A shape's kind, map and data after a transform; everything else in *part is as for an unclipped one. Nothing is
 // reported: SHAPE_NOTHING: *why_nothing says why it has no extent; SHAPE_FAULT: the transform leaves nothing of it.

@@ -40,8 +40,7 @@ bool clip_body(Block *block)
 static bool is_plain_solid(SchemaKind kind, const void *object)
 {
     const ObjectPart *part = object;
-    if (kind == KIND_LIGHT_SOURCE || kind == KIND_DISC || kind == KIND_TRIANGLE || kind == KIND_SMOOTH_TRIANGLE ||
-        part->texture) {
+    if (kind == KIND_LIGHT_SOURCE || shape_class(kind)->is_flat || part->texture) {
         return false;
     }
     const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;

@@ -24,9 +24,6 @@ static const double plane_axis_slack = 1e-10;
 // How near to z an axis counts as z, by its cosine; 6e-11 does and 2e-10 does not.
 static const double frame_axis_slack = 1e-10;
 
-// Half of what a disc is thick.
-static const double disc_thickness = 0.001;
-
 // How far the box of a triangle stands off it.
 static const double triangle_distance = 1e-10;
 
@@ -94,7 +91,7 @@ static Extent sphere_extent(const SphereDesc *sphere)
 // ---- shapes with a space of their own
 
 // The turn that takes z to `axis` by the shortest way, half a turn about x where that is not unique; then to `origin`.
-static Transform frame(Vec3 axis, double across, double along, Vec3 origin)
+Transform extent_frame(Vec3 axis, double across, double along, Vec3 origin)
 {
     Vec3 w = vec3_normalize(axis);
     Vec3 u = vec3(1.0, 0.0, 0.0), v = vec3(0.0, 1.0, 0.0);
@@ -118,46 +115,6 @@ static Extent turned_from(const Extent *own, Transform frame, const Transform *t
     return turned(own, &whole);
 }
 
-static Extent box_extent(const void *object, const Transform *transform)
-{
-    const BoxDesc *box = object;
-    Vec3 low = vec3_least(box->corner, box->other_corner), high = vec3_greatest(box->corner, box->other_corner);
-    Extent own = extent_of((double[]){low.x, low.y, low.z}, (double[]){high.x, high.y, high.z});
-    return turned(&own, transform);
-}
-
-// A cone's own space has its tip at 0 and its wide end at z = 1, a cylinder's its cap at 0 and its base at 1.
-static Extent cone_box(Vec3 base, double base_radius, Vec3 cap, double cap_radius, const Transform *transform)
-{
-    bool is_wide_at_cap = cap_radius > base_radius;
-    Vec3 wide = is_wide_at_cap ? cap : base, narrow = is_wide_at_cap ? base : cap;
-    double radius = fmax(base_radius, cap_radius);
-    double begin = base_radius == cap_radius ? 0.0 : fmin(base_radius, cap_radius) / radius;
-    Vec3 axis = vec3_scale(1.0 / (1.0 - begin), vec3_sub(wide, narrow));
-    Extent own = extent_of((double[]){-1.0, -1.0, begin}, (double[]){1.0, 1.0, 1.0});
-    return turned_from(&own, frame(axis, radius, vec3_length(axis), vec3_sub(wide, axis)), transform);
-}
-
-static Extent cylinder_extent(const void *object, const Transform *transform)
-{
-    const CylinderDesc *cylinder = object;
-    return cone_box(cylinder->base, cylinder->radius, cylinder->cap, cylinder->radius, transform);
-}
-
-static Extent cone_extent(const void *object, const Transform *transform)
-{
-    const ConeDesc *cone = object;
-    return cone_box(cone->base, cone->base_radius, cone->cap, cone->cap_radius, transform);
-}
-
-static Extent disc_extent(const void *object, const Transform *transform)
-{
-    const DiscDesc *disc = object;
-    Extent own = extent_of((double[]){-disc->radius, -disc->radius, -disc_thickness},
-                           (double[]){disc->radius, disc->radius, disc_thickness});
-    return turned_from(&own, frame(disc->normal, 1.0, 1.0, disc->centre), transform);
-}
-
 static Extent corners_extent(const Vec3 corners[3], const Transform *transform)
 {
     Vec3 low = transform_point(transform, corners[0]), high = low;
@@ -171,22 +128,24 @@ static Extent corners_extent(const Vec3 corners[3], const Transform *transform)
                      (double[]){high.x + off, high.y + off, high.z + off});
 }
 
-static Extent triangle_extent(const void *object, const Transform *transform)
-{
-    return corners_extent(((const TriangleDesc *)object)->corners, transform);
-}
-
-static Extent smooth_triangle_extent(const void *object, const Transform *transform)
-{
-    return corners_extent(((const SmoothTriangleDesc *)object)->corners, transform);
-}
-
 // By all transforms of the shape at once.
-static Extent (*const shape_extents[KIND_COUNT])(const void *object, const Transform *transform) = {
-    [KIND_BOX] = box_extent,           [KIND_CYLINDER] = cylinder_extent,
-    [KIND_CONE] = cone_extent,         [KIND_DISC] = disc_extent,
-    [KIND_TRIANGLE] = triangle_extent, [KIND_SMOOTH_TRIANGLE] = smooth_triangle_extent,
-};
+static Extent shape_extent(SchemaKind kind, const void *object, const Transform *transform)
+{
+    const ShapeClass *shape = shape_class(kind);
+    if (shape->corners_at) {
+        return corners_extent((const Vec3 *)(const void *)((const char *)object + shape->corners_at), transform);
+    }
+    OwnBox box;
+    bool has_frame = shape->box(object, &box);
+    Extent own = extent_of((double[]){box.low.x, box.low.y, box.low.z}, (double[]){box.high.x, box.high.y, box.high.z});
+    return has_frame ? turned_from(&own, box.frame, transform) : turned(&own, transform);
+}
+
+// Whether it has an extent by the table.
+static bool has_extent(SchemaKind kind)
+{
+    return shape_class(kind)->corners_at || shape_class(kind)->box;
+}
 
 // ---- groups
 
@@ -278,8 +237,8 @@ static Extent moved_extent(const Clip *clip)
     const ObjectPart *part = clip->object;
     Transform whole = transform_compose(part->transform, clip->transform);
     double factor;
-    if (shape_extents[clip->kind]) {
-        return shape_extents[clip->kind](clip->object, &whole);
+    if (has_extent(clip->kind)) {
+        return shape_extent(clip->kind, clip->object, &whole);
     }
     if (clip->kind == KIND_SPHERE) {
         SphereDesc sphere = *(const SphereDesc *)clip->object;
@@ -317,8 +276,8 @@ static Extent object_extent(SchemaKind kind, const void *object)
     const ObjectPart *part = object;
     Extent extent = kind == KIND_LIGHT_SOURCE || kind == KIND_PLANE ? extent_boundless()
                     : kind == KIND_SPHERE                           ? sphere_extent(object)
-                    : shape_extents[kind]                           ? shape_extents[kind](object, &part->transform)
-                                          : stepped(kind, object, ((const UnionDesc *)object)->steps);
+                    : has_extent(kind)                              ? shape_extent(kind, object, &part->transform)
+                                       : stepped(kind, object, ((const UnionDesc *)object)->steps);
     narrow(&extent, part->clips);
     narrow(&extent, part->bounds);
     return extent;

@@ -10,6 +10,7 @@
 
 #include "eval/build/blocks.h"
 #include "scene/part.h"
+#include "scene/primitive.h"
 #include "scene/room.h"
 
 // The clips of the unions around an object, the innermost first.
@@ -281,9 +282,9 @@ static bool grow_leaf(Eval *ev, SchemaKind kind, const void *object, const Branc
     // Flat ones may be clipped, which is their first node then.
     const Node *parent = &ev->scene->nodes.items[branch->parent];
     bool is_clipped_alone = parent->op == NODE_CLIP && parent->child_count == 0 && parent->parent == NODE_NONE;
-    if (part.kind >= PART_DISC && !is_clipped_alone) {
+    if (primitive_is_flat(part.kind) && !is_clipped_alone) {
         return eval_fault(ev, DIAG_E0362, common->span, "a %s has no inside, so nothing can be cut with it",
-                          kind == KIND_DISC ? "disc" : "triangle");
+                          primitive_class(primitive_class(part.kind)->surface)->word);
     }
     if (ev->scene->parts.count - composite->first_part >= COMPOSITE_PARTS_MOST) {
         return eval_fault(ev, DIAG_E0363, common->span, "more than %d shapes are cut with one another",

@@ -13,8 +13,6 @@
 
 // Surfaces nearer than this are not met, of whatever shape and size. Measured.
 static const double nearest_hit = 1e-4;
-// Sides of planes are told apart with this. Measured.
-static const double plane_tolerance = 1e-10;
 
 // An object on the way from the one that is traced to a shape.
 typedef struct ProbeNode ProbeNode;
@@ -38,59 +36,10 @@ struct Probe {
 
 // ---- points
 
-static bool is_between(double a, double value, double b)
-{
-    return (a <= value && value <= b) || (b <= value && value <= a);
-}
-
-static bool box_holds(const BoxDesc *box, Vec3 p)
-{
-    return is_between(box->corner.x, p.x, box->other_corner.x) && is_between(box->corner.y, p.y, box->other_corner.y) &&
-           is_between(box->corner.z, p.z, box->other_corner.z);
-}
-
-static bool cone_holds(Vec3 base, double base_radius, Vec3 cap, double cap_radius, Vec3 p)
-{
-    Vec3 axis = vec3_sub(cap, base), from = vec3_sub(p, base);
-    double height = vec3_dot(from, axis) / vec3_dot(axis, axis);
-    double radius = base_radius + height * (cap_radius - base_radius);
-    Vec3 across = vec3_sub(from, vec3_scale(height, axis));
-    return height > 0.0 && height < 1.0 && vec3_dot(across, across) < radius * radius;
-}
-
-// Of a sphere nothing is on either side of its surface.
-static bool sphere_holds(const SphereDesc *sphere, Vec3 p, bool is_turned)
-{
-    Vec3 from = vec3_sub(p, sphere->centre);
-    double distance2 = vec3_dot(from, from), radius2 = sphere->radius * sphere->radius;
-    return is_turned ? distance2 > radius2 : distance2 < radius2;
-}
-
-// Of a plane both sides have its surface.
-static bool plane_holds(const PlaneDesc *plane, Vec3 p, bool is_turned)
-{
-    double beyond = vec3_dot(vec3_normalize(plane->normal), p) - plane->distance;
-    return (is_turned ? -beyond : beyond) < plane_tolerance;
-}
-
 static bool shape_holds(SchemaKind kind, const void *object, Vec3 p, bool is_turned)
 {
-    const CylinderDesc *cylinder = object;
-    const ConeDesc *cone = object;
-    const DiscDesc *disc = object;
-    bool holds;
-    switch (kind) {
-    case KIND_SPHERE: return sphere_holds(object, p, is_turned);
-    case KIND_BOX: holds = box_holds(object, p); break;
-    case KIND_CYLINDER:
-        holds = cone_holds(cylinder->base, cylinder->radius, cylinder->cap, cylinder->radius, p);
-        break;
-    case KIND_CONE: holds = cone_holds(cone->base, cone->base_radius, cone->cap, cone->cap_radius, p); break;
-    case KIND_PLANE: return plane_holds(object, p, is_turned);
-    case KIND_DISC: holds = vec3_dot(disc->normal, vec3_sub(p, disc->centre)) < 0.0; break;
-    default: return false;
-    }
-    return holds != is_turned;
+    const ShapeClass *shape = shape_class(kind);
+    return shape->holds && shape->holds(object, p, is_turned);
 }
 
 static bool holds(SchemaKind kind, const void *object, Vec3 point, bool is_turned);
@@ -136,8 +85,8 @@ static bool holds(SchemaKind kind, const void *object, Vec3 point, bool is_turne
 
 static bool is_solid(SchemaKind kind, const void *object)
 {
-    bool is_none = kind == KIND_TRIANGLE || kind == KIND_SMOOTH_TRIANGLE || kind == KIND_LIGHT_SOURCE;
     const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
+    bool is_none = !object_is_group(kind) && !shape_class(kind)->holds;
     for (; member != NULL && !is_none; member = member->next) {
         is_none = !is_solid(member->kind, member->object);
     }

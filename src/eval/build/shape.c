@@ -12,41 +12,15 @@
 
 bool shape_settle(SchemaKind kind, Desc *record)
 {
-    switch (kind) {
-    case KIND_PLANE: return !vec3_equal(record->plane.normal, vec3(0.0, 0.0, 0.0));
-    case KIND_CYLINDER:
-        record->cylinder.radius = fabs(record->cylinder.radius);
-        return !vec3_equal(record->cylinder.base, record->cylinder.cap);
-    case KIND_CONE: return !vec3_equal(record->cone.base, record->cone.cap);
-    case KIND_DISC:
-        record->disc.radius = fabs(record->disc.radius);
-        record->disc.hole = fabs(record->disc.hole);
-        return true;
-    default: return true;
-    }
+    const ShapeClass *shape = shape_class(kind);
+    return !shape->settle || shape->settle(record);
 }
 
-bool plane_close(Block *block)
+bool shape_close(Block *block)
 {
-    return block->is != KIND_PLANE || shape_settle(KIND_PLANE, block->record) ||
-           block_fault(block, DIAG_E0342, block->node->span, "the normal of a plane cannot be <0, 0, 0>");
-}
-
-bool cylinder_close(Block *block)
-{
-    return block->is != KIND_CYLINDER || shape_settle(KIND_CYLINDER, block->record) ||
-           block_fault(block, DIAG_E0361, block->node->span, "the ends of a cylinder cannot be one point");
-}
-
-bool disc_close(Block *block)
-{
-    return block->is != KIND_DISC || shape_settle(KIND_DISC, block->record);
-}
-
-bool cone_close(Block *block)
-{
-    return block->is != KIND_CONE || shape_settle(KIND_CONE, block->record) ||
-           block_fault(block, DIAG_E0361, block->node->span, "the ends of a cone cannot be one point");
+    const ShapeClass *shape = shape_class(block->is);
+    return block->is != block->kind || shape_settle(block->is, block->record) ||
+           block_fault(block, shape->code, block->node->span, "%s", shape->fault);
 }
 
 bool sphere_image_radius(double radius, const Transform *transform, double *image)
@@ -59,59 +33,6 @@ bool sphere_image_radius(double radius, const Transform *transform, double *imag
     Transform whole = transform_compose(transform_scale(vec3(radius, radius, radius)), *transform);
     return transform_is_similarity(&whole, image);
 }
-
-// Each returns why the shape has no extent; NULL: it has one.
-static const char *sphere_form(const void *object, Part *part)
-{
-    const SphereDesc *sphere = object;
-    return part_make_ball(part, sphere->centre, fabs(sphere->radius));
-}
-
-static const char *box_form(const void *object, Part *part)
-{
-    const BoxDesc *box = object;
-    part_make_box(part, box->corner, box->other_corner);
-    return NULL;
-}
-
-static const char *cylinder_form(const void *object, Part *part)
-{
-    const CylinderDesc *c = object;
-    return part_make_cylinder(part, c->base, c->cap, c->radius, c->is_open);
-}
-
-static const char *cone_form(const void *object, Part *part)
-{
-    const ConeDesc *c = object;
-    return part_make_cone(part, c->base, c->base_radius, c->cap, c->cap_radius, c->is_open);
-}
-
-static const char *disc_form(const void *object, Part *part)
-{
-    const DiscDesc *disc = object;
-    return part_make_disc(part, disc->centre, disc->normal, disc->radius, disc->hole);
-}
-
-static const char *triangle_form(const void *object, Part *part)
-{
-    const TriangleDesc *triangle = object;
-    return part_make_triangle(part, triangle->corners);
-}
-
-static const char *smooth_triangle_form(const void *object, Part *part)
-{
-    const SmoothTriangleDesc *triangle = object;
-    return part_make_smooth_triangle(part, triangle->corners, triangle->normals);
-}
-
-typedef const char *(*ShapeForm)(const void *object, Part *part);
-
-static const ShapeForm forms[KIND_COUNT] = {
-    [KIND_SPHERE] = sphere_form,     [KIND_BOX] = box_form,
-    [KIND_CYLINDER] = cylinder_form, [KIND_CONE] = cone_form,
-    [KIND_DISC] = disc_form,         [KIND_TRIANGLE] = triangle_form,
-    [KIND_SMOOTH_TRIANGLE] = smooth_triangle_form,
-};
 
 // ---- with the transforms
 
@@ -160,7 +81,7 @@ ShapeResult shape_form(SchemaKind kind, const void *object, const Transform *tra
     if (kind == KIND_PLANE) {
         return plane_form(object, transform, part);
     }
-    *why_nothing = forms[kind](object, part);
+    *why_nothing = shape_class(kind)->form(object, part);
     if (*why_nothing) {
         return SHAPE_NOTHING;
     }

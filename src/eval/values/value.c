@@ -7,41 +7,7 @@
 #include <string.h>
 
 #include "eval/values/values.h"
-
-static const char *const block_descriptions[KIND_COUNT] = {
-    [KIND_NONE] = "nothing",
-    [KIND_CAMERA] = "a camera",
-    [KIND_LIGHT_SOURCE] = "a light source",
-    [KIND_SPHERE] = "a sphere",
-    [KIND_PLANE] = "a plane",
-    [KIND_BOX] = "a box",
-    [KIND_CYLINDER] = "a cylinder",
-    [KIND_CONE] = "a cone",
-    [KIND_DISC] = "a disc",
-    [KIND_TRIANGLE] = "a triangle",
-    [KIND_SMOOTH_TRIANGLE] = "a smooth triangle",
-    [KIND_UNION] = "a union",
-    [KIND_MERGE] = "a merge",
-    [KIND_INTERSECTION] = "an intersection",
-    [KIND_DIFFERENCE] = "a difference",
-    [KIND_OBJECT] = "an object",
-    [KIND_BACKGROUND] = "a background",
-    [KIND_GLOBAL_SETTINGS] = "global settings",
-    [KIND_TEXTURE] = "a texture",       [KIND_INTERIOR] = "an interior", [KIND_MATERIAL] = "a material",
-    [KIND_COLOUR_MAP] = "a map of colours", [KIND_PIGMENT_MAP] = "a map of pigments",
-    [KIND_TEXTURE_MAP] = "a map of textures", [KIND_NORMAL_MAP] = "a map of normals",
-    [KIND_SLOPE_MAP] = "a slope map",
-    [KIND_NORMAL] = "a normal",
-    [KIND_PIGMENT] = "a pigment",
-    [KIND_FINISH] = "a finish",
-    [KIND_CLIPPED_BY] = "a clipped_by",
-    [KIND_BOUNDED_BY] = "a bounded_by",
-    [KIND_LOOKS_LIKE] = "a looks_like",
-    [KIND_REFLECTION] = "a reflection",
-    [KIND_TRANSFORM] = "a transform",
-    [KIND_PATTERN] = "a pattern",
-    [KIND_UNSUPPORTED] = "something that is not supported",
-};
+#include "scene/schema.h"
 
 const char *value_describe(const Value *value)
 {
@@ -58,7 +24,7 @@ const char *value_describe(const Value *value)
     case VALUE_FUNCTION: return "a function";
     case VALUE_SPLINE: return "a spline";
     case VALUE_FILE: return "an open file";
-    case VALUE_BLOCK: return block_descriptions[value->block];
+    case VALUE_BLOCK: return schema_kind((SchemaKind)value->block)->what;
     }
     return "nothing";
 }

@@ -1,0 +1,226 @@
+// What the language says of each kind of shape, a row a kind: when it is one, how it becomes a fixed shape under a map
+// (scene.h, PartKind), which points are inside of it for `inside`, and POV-Ray's box for min_extent and max_extent.
+//
+// Knows nothing of composites, textures and rays.
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "eval/build/blocks.h"
+
+// Half of what a disc is thick.
+static const double disc_thickness = 0.001;
+// Sides of planes are told apart with this. Measured.
+static const double plane_tolerance = 1e-10;
+
+// ---- sphere and plane: their extents follow rules of their own
+
+static const char *sphere_form(const void *object, Part *part)
+{
+    const SphereDesc *sphere = object;
+    return part_make_ball(part, sphere->centre, fabs(sphere->radius));
+}
+
+// Nothing is on either side of its surface.
+static bool sphere_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const SphereDesc *sphere = object;
+    Vec3 from = vec3_sub(p, sphere->centre);
+    double distance2 = vec3_dot(from, from), radius2 = sphere->radius * sphere->radius;
+    return is_turned ? distance2 > radius2 : distance2 < radius2;
+}
+
+static bool plane_settle(Desc *record)
+{
+    return !vec3_equal(record->plane.normal, vec3(0.0, 0.0, 0.0));
+}
+
+// Both sides have its surface.
+static bool plane_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const PlaneDesc *plane = object;
+    double beyond = vec3_dot(vec3_normalize(plane->normal), p) - plane->distance;
+    return (is_turned ? -beyond : beyond) < plane_tolerance;
+}
+
+// ---- box
+
+static const char *box_form(const void *object, Part *part)
+{
+    const BoxDesc *box = object;
+    part_make_box(part, box->corner, box->other_corner);
+    return NULL;
+}
+
+static bool is_between(double a, double value, double b)
+{
+    return (a <= value && value <= b) || (b <= value && value <= a);
+}
+
+static bool box_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const BoxDesc *box = object;
+    bool holds = is_between(box->corner.x, p.x, box->other_corner.x) &&
+                 is_between(box->corner.y, p.y, box->other_corner.y) &&
+                 is_between(box->corner.z, p.z, box->other_corner.z);
+    return holds != is_turned;
+}
+
+static bool box_box(const void *object, OwnBox *own)
+{
+    const BoxDesc *box = object;
+    own->low = vec3_least(box->corner, box->other_corner);
+    own->high = vec3_greatest(box->corner, box->other_corner);
+    return false;
+}
+
+// ---- cylinder and cone
+
+static bool round_holds(Vec3 base, double base_radius, Vec3 cap, double cap_radius, Vec3 p)
+{
+    Vec3 axis = vec3_sub(cap, base), from = vec3_sub(p, base);
+    double height = vec3_dot(from, axis) / vec3_dot(axis, axis);
+    double radius = base_radius + height * (cap_radius - base_radius);
+    Vec3 across = vec3_sub(from, vec3_scale(height, axis));
+    return height > 0.0 && height < 1.0 && vec3_dot(across, across) < radius * radius;
+}
+
+// A cone's own space has its tip at 0 and its wide end at z = 1, a cylinder's its cap at 0 and its base at 1.
+static bool round_box(Vec3 base, double base_radius, Vec3 cap, double cap_radius, OwnBox *own)
+{
+    bool is_wide_at_cap = cap_radius > base_radius;
+    Vec3 wide = is_wide_at_cap ? cap : base, narrow = is_wide_at_cap ? base : cap;
+    double radius = fmax(base_radius, cap_radius);
+    double begin = base_radius == cap_radius ? 0.0 : fmin(base_radius, cap_radius) / radius;
+    Vec3 axis = vec3_scale(1.0 / (1.0 - begin), vec3_sub(wide, narrow));
+    own->low = vec3(-1.0, -1.0, begin);
+    own->high = vec3(1.0, 1.0, 1.0);
+    own->frame = extent_frame(axis, radius, vec3_length(axis), vec3_sub(wide, axis));
+    return true;
+}
+
+static bool cylinder_settle(Desc *record)
+{
+    record->cylinder.radius = fabs(record->cylinder.radius);
+    return !vec3_equal(record->cylinder.base, record->cylinder.cap);
+}
+
+static const char *cylinder_form(const void *object, Part *part)
+{
+    const CylinderDesc *c = object;
+    return part_make_cylinder(part, c->base, c->cap, c->radius, c->is_open);
+}
+
+static bool cylinder_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const CylinderDesc *c = object;
+    return round_holds(c->base, c->radius, c->cap, c->radius, p) != is_turned;
+}
+
+static bool cylinder_box(const void *object, OwnBox *own)
+{
+    const CylinderDesc *c = object;
+    return round_box(c->base, c->radius, c->cap, c->radius, own);
+}
+
+static bool cone_settle(Desc *record)
+{
+    return !vec3_equal(record->cone.base, record->cone.cap);
+}
+
+static const char *cone_form(const void *object, Part *part)
+{
+    const ConeDesc *c = object;
+    return part_make_cone(part, c->base, c->base_radius, c->cap, c->cap_radius, c->is_open);
+}
+
+static bool cone_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const ConeDesc *c = object;
+    return round_holds(c->base, c->base_radius, c->cap, c->cap_radius, p) != is_turned;
+}
+
+static bool cone_box(const void *object, OwnBox *own)
+{
+    const ConeDesc *c = object;
+    return round_box(c->base, c->base_radius, c->cap, c->cap_radius, own);
+}
+
+// ---- disc
+
+static bool disc_settle(Desc *record)
+{
+    record->disc.radius = fabs(record->disc.radius);
+    record->disc.hole = fabs(record->disc.hole);
+    return true;
+}
+
+static const char *disc_form(const void *object, Part *part)
+{
+    const DiscDesc *disc = object;
+    return part_make_disc(part, disc->centre, disc->normal, disc->radius, disc->hole);
+}
+
+static bool disc_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const DiscDesc *disc = object;
+    return (vec3_dot(disc->normal, vec3_sub(p, disc->centre)) < 0.0) != is_turned;
+}
+
+static bool disc_box(const void *object, OwnBox *own)
+{
+    const DiscDesc *disc = object;
+    own->low = vec3(-disc->radius, -disc->radius, -disc_thickness);
+    own->high = vec3(disc->radius, disc->radius, disc_thickness);
+    own->frame = extent_frame(disc->normal, 1.0, 1.0, disc->centre);
+    return true;
+}
+
+// ---- triangles: their boxes are those of their corners in the scene
+
+static const char *triangle_form(const void *object, Part *part)
+{
+    const TriangleDesc *triangle = object;
+    return part_make_triangle(part, triangle->corners);
+}
+
+static const char *smooth_triangle_form(const void *object, Part *part)
+{
+    const SmoothTriangleDesc *triangle = object;
+    return part_make_smooth_triangle(part, triangle->corners, triangle->normals);
+}
+
+// ---- the table
+
+static const ShapeClass classes[KIND_COUNT] = {
+    [KIND_SPHERE] = {.form = sphere_form, .holds = sphere_holds},
+    [KIND_PLANE] = {.settle = plane_settle,
+                    .code = DIAG_E0342,
+                    .fault = "the normal of a plane cannot be <0, 0, 0>",
+                    .holds = plane_holds},
+    [KIND_BOX] = {.form = box_form, .holds = box_holds, .box = box_box},
+    [KIND_CYLINDER] = {.settle = cylinder_settle,
+                       .code = DIAG_E0361,
+                       .fault = "the ends of a cylinder cannot be one point",
+                       .form = cylinder_form,
+                       .holds = cylinder_holds,
+                       .box = cylinder_box},
+    [KIND_CONE] = {.settle = cone_settle,
+                   .code = DIAG_E0361,
+                   .fault = "the ends of a cone cannot be one point",
+                   .form = cone_form,
+                   .holds = cone_holds,
+                   .box = cone_box},
+    [KIND_DISC] = {.is_flat = true, .settle = disc_settle, .form = disc_form, .holds = disc_holds, .box = disc_box},
+    [KIND_TRIANGLE] = {.is_flat = true,
+                       .form = triangle_form,
+                       .corners_at = offsetof(TriangleDesc, corners)},
+    [KIND_SMOOTH_TRIANGLE] = {.is_flat = true,
+                              .form = smooth_triangle_form,
+                              .corners_at = offsetof(SmoothTriangleDesc, corners)},
+};
+
+const ShapeClass *shape_class(SchemaKind kind)
+{
+    return &classes[kind];
+}
