@@ -14,12 +14,16 @@
 #include "render/camera.h"
 #include "render/linear.h"
 #include "render/sampling.h"
+#include "render/sampling_outline.h"
 #include "render/scratch.h"
 #include "scene/opaque.h"
 
 // A pick for so many samples, within limits, so that its rays are few beside those of the picture; no more than so many
 // of each pixel, and where pixels are few more, up to LOOK_LEAST: of one highlight 8 tell its light to a third only.
 enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 8, LOOK_EACH_OF_FEW = 32 };
+
+// Columns of a shape in a pixel that are drawn for a ray; more where a lens moves it, mostly beside the pixel.
+enum { AIM_COLUMNS = 4, AIM_COLUMNS_LENS = 8 };
 
 // What the squares of areas are known to.
 static const double AREA_ERROR = 0.0125;
@@ -115,36 +119,108 @@ static double next_number(uint32_t *seed)
     return sample_unit(*seed);
 }
 
-// A ray to a place of the shape, drawn evenly from the ellipse around it.
+// Where a ray to a shape goes: a point of the picture, and of the lens.
+typedef struct Aim {
+    double x, y, area; // the density of such points is one over it
+    SamplePoint lens;
+} Aim;
+
+// By how much the point of the lens moves a shape.
+static void lens_shift(const PreparedCamera *camera, const Footprint *at, SamplePoint lens, double shift[2])
+{
+    Vec3 aside = vec3_sub(camera_lens_point(camera, lens), camera->location);
+    shift[0] = shift[1] = 0.0;
+    for (int k = 0; k < 2; k++) {
+        Vec3 axis = k == 0 ? camera->lens_right : camera->lens_up;
+        double along = vec3_dot(aside, axis) / vec3_length_squared(axis);
+        shift[0] += along * at->lens[k][0];
+        shift[1] += along * at->lens[k][1];
+    }
+}
+
+// The ellipse as rows are drawn, or as columns are, which stand for rows then.
+static Outline footprint_outline(const Footprint *at, const double shift[2], bool is_turned)
+{
+    double x = at->x + shift[0], y = at->y + shift[1], slope = at->xy / (is_turned ? at->xx : at->yy);
+    return is_turned ? (Outline){y, x, slope, sqrt(fmax(at->yy - slope * at->xy, 0.0)), 1.0 / at->xx}
+                     : (Outline){x, y, slope, sqrt(fmax(at->xx - slope * at->xy, 0.0)), 1.0 / at->yy};
+}
+
+// A column of what the pixel's filter reaches of the ellipse, in one of `count` even parts of its width: its ends, and
+// the density by which it was drawn. False when there is none.
+static bool column_draw(const Footprint *at, const double shift[2], const double pixel[2], double reach, double part,
+                        double column[3], double *area)
+{
+    Outline rows = footprint_outline(at, shift, false), columns = footprint_outline(at, shift, true);
+    OutlineColumns all = outline_columns(&rows, pixel[1] - reach, pixel[1] + reach);
+    double left = fmax(all.left, pixel[0] - reach), right = fmin(all.right, pixel[0] + reach);
+    column[0] = left + part * (right - left);
+    if (!(right > left) || !outline_row(&columns, column[0], &column[1], &column[2])) {
+        return false;
+    }
+    column[1] = fmax(column[1], pixel[1] - reach);
+    column[2] = fmin(column[2], pixel[1] + reach);
+    *area = (right - left) * (column[2] - column[1]);
+    return *area > 0.0;
+}
+
+// A point of the part of a shape's ellipse that is in the pixel. Of a shape that is in several, points of the whole
+// would be in this one seldom, and both of a pair hardly ever. Some columns, as the lens moves the ellipse, are drawn,
+// of which one is taken by the areas that they stand for; the mean of these is that of the part. False when none meets
+// the pixel.
+static bool aim_draw(const LookBatch *batch, const Small *small, const Footprint *at, const double pixel[2],
+                     uint32_t *seed, Aim *aim)
+{
+    const PreparedCamera *camera = &small->prepared->camera;
+    int columns = batch->places.lens ? AIM_COLUMNS_LENS : AIM_COLUMNS;
+    double reach = filter_radius(small->filter), chosen[3] = {0.0}, sum = 0.0;
+    for (int i = 0; i < columns; i++) {
+        double shift[2] = {0.0, 0.0}, column[3], area;
+        SamplePoint lens = {0.0, 0.0};
+        if (batch->places.lens) {
+            lens.x = next_number(seed);
+            lens.y = next_number(seed);
+            lens_shift(camera, at, lens, shift);
+        }
+        double part = (i + next_number(seed)) / columns;
+        if (column_draw(at, shift, pixel, reach, part, column, &area)) {
+            sum += area;
+            if (next_number(seed) * sum < area) {
+                memcpy(chosen, column, sizeof chosen);
+                aim->lens = lens;
+            }
+        }
+    }
+    if (!(sum > 0.0)) {
+        return false;
+    }
+    aim->x = chosen[0];
+    aim->y = chosen[1] + next_number(seed) * (chosen[2] - chosen[1]);
+    aim->area = sum / columns;
+    return true;
+}
+
+// A ray to a place of what the pixel has of the shape.
 static void batch_aim(LookBatch *batch, const Small *small, const Footprint *at, size_t pixel, uint32_t seed)
 {
-    const double turn = 6.283185307179586;
     const Film *film = small->film;
     const PreparedCamera *camera = &small->prepared->camera;
     int i = batch->count;
-    SamplePoint lens = {next_number(&seed), next_number(&seed)};
-    double radius = sqrt(next_number(&seed)), angle = turn * next_number(&seed);
-    double a = radius * cos(angle), b = radius * sin(angle), slant = at->xy / sqrt(at->xx);
-    double x = at->x + sqrt(at->xx) * a, y = at->y + slant * a + sqrt(fmax(at->yy - slant * slant, 0.0)) * b;
+    double middle[2] = {(double)(pixel % (size_t)film->width), (double)(pixel / (size_t)film->width)};
+    Aim aim = {at->x, at->y, 0.0, {0.5, 0.5}};
+    bool is_in = aim_draw(batch, small, at, middle, &seed, &aim), is_crossed = false;
     if (batch->places.lens) {
-        batch->lens[i] = camera_lens_point(camera, lens);
-        Vec3 aside = vec3_sub(batch->lens[i], camera->location);
-        double along[2];
-        for (int k = 0; k < 2; k++) {
-            Vec3 axis = k == 0 ? camera->lens_right : camera->lens_up;
-            along[k] = vec3_dot(aside, axis) / vec3_length_squared(axis);
-        }
-        x += along[0] * at->lens[0][0] + along[1] * at->lens[1][0];
-        y += along[0] * at->lens[0][1] + along[1] * at->lens[1][1];
+        batch->lens[i] = camera_lens_point(camera, aim.lens);
     }
-    batch->places.u[i] = film_u(film, 0, x);
-    batch->places.v[i] = film_v(film, 0, y);
+    batch->places.u[i] = film_u(film, 0, aim.x);
+    batch->places.v[i] = film_v(film, 0, aim.y);
     Ray ray;
-    (void)camera_place_ray(camera, &batch->places, i, &ray);
-    bool is_crossed = small_is_crossed(small, at->extent.shape, ray);
-    int column = (int)(pixel % (size_t)film->width), row = (int)(pixel / (size_t)film->width);
+    if (is_in) {
+        (void)camera_place_ray(camera, &batch->places, i, &ray);
+        is_crossed = small_is_crossed(small, at->extent.shape, ray);
+    }
     // Where shapes that were not met lie behind each other, each counts for its part.
-    batch->weights[i] = is_crossed ? at->area * small->norm * small_weight(small, x - column, y - row) /
+    batch->weights[i] = is_crossed ? aim.area * small->norm * small_weight(small, aim.x - middle[0], aim.y - middle[1]) /
                                          small_count_open(small, pixel, ray)
                                    : 0.0;
     batch->streams[i] = (SampleStream){.kind = SAMPLER_RANDOM, .seed = seed, .count = 1, .pair = 2};

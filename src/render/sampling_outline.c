@@ -84,6 +84,37 @@ bool outline_of(const OutlineView *view, Vec3 centre, double radius_squared, Out
     return outline_of_form(form, outline);
 }
 
+OutlineColumns outline_columns(const Outline *outline, double top, double bottom)
+{
+    const double none = HUGE_VAL, ends[2] = {top, bottom};
+    double width = outline_half_width(outline), height = outline_half_height(outline);
+    double lean = width > 0.0 ? outline->slope / (outline->narrowing * width) : 0.0, left[2], right[2];
+    OutlineColumns columns = {none, -none, none, -none};
+    bool has[2];
+    for (int i = 0; i < 2; i++) {
+        has[i] = outline_row(outline, ends[i], &left[i], &right[i]);
+        if (has[i]) {
+            columns.left = fmin(columns.left, left[i]);
+            columns.right = fmax(columns.right, right[i]);
+        }
+        double tip = outline->y + (2 * i - 1) * height, at = outline->x + outline->slope * (2 * i - 1) * height;
+        double side = outline->y + (2 * i - 1) * lean, far = outline->x + (2 * i - 1) * width;
+        if (tip >= top && tip <= bottom) {
+            columns.left = fmin(columns.left, at);
+            columns.right = fmax(columns.right, at);
+        }
+        if (side >= top && side <= bottom) {
+            columns.left = fmin(columns.left, far);
+            columns.right = fmax(columns.right, far);
+        }
+    }
+    if (has[0] && has[1]) {
+        columns.inner_left = fmax(left[0], left[1]);
+        columns.inner_right = fmin(right[0], right[1]);
+    }
+    return columns;
+}
+
 // ---- areas
 
 // An end of what an outline has of a row of the pixel, and that summed over the rows of a piece of the pixel's height.

@@ -65,6 +65,14 @@ static inline double outline_half_width(const Outline *outline)
     return sqrt(outline->half_row * outline->half_row + outline->slope * outline->slope / outline->narrowing);
 }
 
+// Columns between two heights: those that an outline reaches, and those that it covers all the way; left is beyond
+// right where there are none.
+typedef struct OutlineColumns {
+    double left, right, inner_left, inner_right;
+} OutlineColumns;
+
+OutlineColumns outline_columns(const Outline *outline, double top, double bottom);
+
 enum { OUTLINES_MOST = 4, OUTLINES_ROUGH = 8 };
 
 // Shares of the square of one pixel around 0, 0: those of each outline that are in none before it, then that of the

@@ -60,42 +60,6 @@ static void candidate_add(Builder *builder, size_t pixel, Candidate candidate)
     list[i] = candidate;
 }
 
-// Columns of a row of pixels, as numbers of the film: those that an outline may cross, and those that it covers.
-typedef struct Columns {
-    double left, right, inner_left, inner_right;
-} Columns;
-
-static Columns columns_of(const Outline *outline, double y)
-{
-    const double none = HUGE_VAL;
-    double width = outline_half_width(outline), height = outline_half_height(outline);
-    double lean = outline->slope / (outline->narrowing * width), left[2], right[2];
-    Columns columns = {none, -none, none, -none};
-    bool has[2];
-    for (int i = 0; i < 2; i++) {
-        has[i] = outline_row(outline, y + i - 0.5, &left[i], &right[i]);
-        if (has[i]) {
-            columns.left = fmin(columns.left, left[i]);
-            columns.right = fmax(columns.right, right[i]);
-        }
-        double top = outline->y + (2 * i - 1) * height, at = outline->x + outline->slope * (2 * i - 1) * height;
-        double side = outline->y + (2 * i - 1) * lean, far = outline->x + (2 * i - 1) * width;
-        if (fabs(top - y) <= 0.5) {
-            columns.left = fmin(columns.left, at);
-            columns.right = fmax(columns.right, at);
-        }
-        if (fabs(side - y) <= 0.5) {
-            columns.left = fmin(columns.left, far);
-            columns.right = fmax(columns.right, far);
-        }
-    }
-    if (has[0] && has[1]) {
-        columns.inner_left = fmax(left[0], left[1]) + 0.5;
-        columns.inner_right = fmin(right[0], right[1]) - 0.5;
-    }
-    return columns;
-}
-
 static void outline_put(Builder *builder, const Outline *outline, Candidate candidate)
 {
     const Film *film = builder->film;
@@ -103,13 +67,14 @@ static void outline_put(Builder *builder, const Outline *outline, Candidate cand
     double top = fmax(ceil(outline->y - height - 0.5) - film->top, 0.0);
     double bottom = fmin(floor(outline->y + height + 0.5) - film->top, film->height - 1.0);
     for (double row = top; row <= bottom; row++) {
-        Columns columns = columns_of(outline, row + film->top);
+        double y = row + film->top;
+        OutlineColumns columns = outline_columns(outline, y - 0.5, y + 0.5);
         double left = fmax(ceil(columns.left - 0.5) - film->left, 0.0);
         double right = fmin(floor(columns.right + 0.5) - film->left, film->width - 1.0);
         for (double column = left; column <= right; column++) {
             size_t pixel = (size_t)row * (size_t)film->width + (size_t)column;
             double x = column + film->left;
-            if (x >= columns.inner_left && x <= columns.inner_right) {
+            if (x - 0.5 >= columns.inner_left && x + 0.5 <= columns.inner_right) {
                 builder->cover[pixel] = fminf(builder->cover[pixel], candidate.distance);
             } else {
                 candidate_add(builder, pixel, candidate);

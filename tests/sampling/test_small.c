@@ -69,19 +69,21 @@ static bool spark_is_met(const Spark *spark, double x, double y)
     return cx * cx + cy * cy + cz * cz <= spark->radius * spark->radius * (x * x + y * y + 1.0);
 }
 
-// The share of a pixel that the ball is, by points of a fine grid around it.
-static double spark_share(const Spark *spark, int column, int row)
+// The shares of pixels that the ball is, by points of a fine grid around it.
+static void spark_shares(const Spark *spark, double *shares)
 {
     enum { FINE = 500 };
-    int count = 0;
     double reach = 1.3 * spark->radius / spark->z, middle_x = spark->x / spark->z, middle_y = spark->y / spark->z;
+    double area = 4.0 * reach * reach / (FINE * FINE) * (3.0 / 4.0 * SPARK_WIDTH) * SPARK_HEIGHT;
+    memset(shares, 0, SPARK_WIDTH * SPARK_HEIGHT * sizeof *shares);
     for (int i = 0; i < FINE * FINE; i++) {
         double x = middle_x + reach * (2.0 * (i % FINE + 0.5) / FINE - 1.0);
         double y = middle_y + reach * (2.0 * (i / FINE + 0.5) / FINE - 1.0);
-        double at_x = (x * 3.0 / 4.0 + 0.5) * SPARK_WIDTH - column, at_y = (0.5 - y) * SPARK_HEIGHT - row;
-        count += at_x >= 0.0 && at_x < 1.0 && at_y >= 0.0 && at_y < 1.0 && spark_is_met(spark, x, y);
+        int column = (int)floor((x * 3.0 / 4.0 + 0.5) * SPARK_WIDTH), row = (int)floor((0.5 - y) * SPARK_HEIGHT);
+        if (column >= 0 && column < SPARK_WIDTH && row >= 0 && row < SPARK_HEIGHT && spark_is_met(spark, x, y)) {
+            shares[row * SPARK_WIDTH + column] += area;
+        }
     }
-    return 4.0 * reach * reach / (FINE * FINE) * count * (3.0 / 4.0 * SPARK_WIDTH) * SPARK_HEIGHT;
 }
 
 static const char spark_scene[] =
@@ -89,10 +91,10 @@ static const char spark_scene[] =
                "light_source { <0,0,-9> rgb 0.001 } sphere { <%.17g,%.17g,%.17g>, %.17g pigment { rgb 1 }\n"
                "finish { ambient %g diffuse 0 } }\n%s";
 
-// A ball of 0.003 to 0.1 pixels, somewhere.
-static Spark spark_draw(void)
+// A ball of so many pixels, somewhere.
+static Spark spark_draw(double least, double most)
 {
-    double area = 0.003 * pow(30.0, unit()), z = 3.0 + 5.0 * unit();
+    double area = least * pow(most / least, unit()), z = 3.0 + 5.0 * unit();
     return (Spark){.x = z * (unit() - 0.5),
                    .y = 0.8 * z * (unit() - 0.5),
                    .z = z,
@@ -101,6 +103,7 @@ static Spark spark_draw(void)
 
 typedef struct SparkCount {
     int runs, held, told, known; // of those: it is said whether the ball was met; as it was, with its area
+    double width;                // the sum of the logarithms of the intervals' upper ends over their lower ones
 } SparkCount;
 
 static void spark_run(const Spark *spark, double samples, bool is_adaptive, SparkCount *count)
@@ -113,11 +116,10 @@ static void spark_run(const Spark *spark, double samples, bool is_adaptive, Spar
     Picture *picture = picture_make(&scene, SPARK_WIDTH, SPARK_HEIGHT, &sampling, 1);
     Picture reference = {.width = SPARK_WIDTH, .height = SPARK_HEIGHT, .rgb = malloc(SPARK_WIDTH * SPARK_HEIGHT * 12)};
     bool is_met = false;
-    int column = (int)floor((spark->x / spark->z * 3.0 / 4.0 + 0.5) * SPARK_WIDTH);
-    int row = (int)floor((0.5 - spark->y / spark->z) * SPARK_HEIGHT);
+    static double shares[SPARK_WIDTH * SPARK_HEIGHT];
+    spark_shares(spark, shares);
     for (int i = 0; i < SPARK_WIDTH * SPARK_HEIGHT; i++) {
-        int x = i % SPARK_WIDTH, y = i / SPARK_WIDTH;
-        double share = abs(x - column) <= 1 && abs(y - row) <= 1 ? spark_share(spark, x, y) : 0.0;
+        double share = shares[i];
         area += share;
         for (int c = 0; c < 3; c++) {
             reference.rgb[3 * i + c] = (float)(0.1 + share * (bright - 0.1));
@@ -126,6 +128,7 @@ static void spark_run(const Spark *spark, double samples, bool is_adaptive, Spar
     }
     count->runs++;
     count->held += holds(picture, &reference);
+    count->width += log(picture->error.high / picture->error.low);
     count->told += picture->error.unmet_shapes == (is_met ? 0.0 : 1.0);
     count->known += is_met || fabs(picture->error.unmet_shape_area - area) < 0.02 * area;
     free(reference.rgb);
@@ -137,9 +140,9 @@ static void test_spark(void)
     int seeds = is_long ? 200 : 60;
     for (int is_adaptive = 0; is_adaptive < 2; is_adaptive++) {
         for (double samples = 4.0; samples <= 16.0; samples *= 4.0) {
-            SparkCount count = {0, 0, 0, 0};
+            SparkCount count = {0};
             for (int i = 0; i < seeds; i++) {
-                Spark spark = spark_draw();
+                Spark spark = spark_draw(0.003, 0.09);
                 spark_run(&spark, samples, is_adaptive, &count);
             }
             tap_ok(count.held >= (is_long ? 180 : least_held(seeds)),
@@ -165,6 +168,21 @@ static void test_spark(void)
                picture->error.unmet_shapes);
         picture_free(picture);
     }
+}
+
+// A ball of some pixels is in the corners of some, which no sample may have met beside others that have.
+static void test_corners(void)
+{
+    int seeds = is_long ? 400 : 80;
+    SparkCount count = {0};
+    for (int i = 0; i < seeds; i++) {
+        Spark spark = spark_draw(2.0, 6.0);
+        spark_run(&spark, 4.0, false, &count);
+    }
+    double width = exp(count.width / seeds);
+    tap_ok(count.held >= least_held(seeds) && width < 2.3,
+           "a bright ball of some pixels: the interval holds the error in %d of %d runs, its ends are %.2f times apart "
+           "in the mean", count.held, seeds, width);
 }
 
 // ---- other shapes, and highlights
@@ -275,6 +293,7 @@ int main(int argc, char **argv)
     is_long = argc > 1 && strcmp(argv[1], "long") == 0;
     test_same();
     test_spark();
+    test_corners();
     test_dust();
     test_others();
     test_highlight_areas();
