@@ -348,6 +348,22 @@ RT_API rt_status rt_set_antialias(rt_session *session, const rt_antialias *antia
  * REFERENCE and with the forward methods. Call it before rt_load_*, else a scene without lights is warned of. */
 RT_API rt_status rt_set_sky_light(rt_session *session, const double color[3]);
 
+/* Lines of a color (linear light) around shapes, `width` pixels wide, 0 to 16; 0, the default: none. They go where a shape
+ * ends before another one or before nothing, and where two objects meet at an angle: neighbours of one mesh and the
+ * halves of a rod have none between them. They are drawn over the light, where the middle of a lens sees shapes, and stand
+ * before the background of pictures with alpha. RT_FAULT_USAGE for other numbers. */
+RT_API rt_status rt_set_outline(rt_session *session, double width, const double color[3]);
+/* Far things turn to one color (depth cue): from nothing of it at `near` to `strength` of it at `far` and beyond, along
+ * the camera's direction. What meets nothing stays as it is. */
+typedef struct rt_depth_cue {
+    double strength; /* 0 to 1; 0: none */
+    int has_color;   /* 0: the color of the scene's background */
+    double color[3]; /* linear light */
+    double near, far; /* 0 or more, far above near; both 0: as far as the shapes of the scene but planes reach */
+} rt_depth_cue;
+/* RT_FAULT_USAGE for other numbers. */
+RT_API rt_status rt_set_depth_cue(rt_session *session, const rt_depth_cue *cue);
+
 /* Whether pictures tell, beside their light, how much each pixel shows of what is behind the scene: of the clear part of
  * its background, or of all of it in scenes of before version 3.7. 0, the default: the background is light like all
  * else. RT_FAULT_USAGE from rt_render with another precision than double or a forward method. */

@@ -65,6 +65,10 @@ class Light(Structure):
                 ("shadowless", c_int), ("radius", c_double), ("size", c_int)]
 
 
+class DepthCue(Structure):
+    _fields_ = [("strength", c_double), ("has_color", c_int), ("color", Vector), ("near", c_double), ("far", c_double)]
+
+
 class Sampling(Structure):
     _fields_ = [("sampler", c_char_p), ("filter", c_char_p), ("samples", c_double), ("seed", c_uint64),
                 ("adaptive", c_int), ("target_error", c_double), ("time_limit", c_double), ("no_estimate", c_int),
@@ -117,6 +121,8 @@ _FUNCTIONS = {  # name: (result, arguments after the session)
     "rt_add_light": (c_int, [POINTER(Light)]),
     "rt_clear_lights": (c_int, []),
     "rt_set_sky_light": (c_int, [Vector]),
+    "rt_set_outline": (c_int, [c_double, Vector]),
+    "rt_set_depth_cue": (c_int, [POINTER(DepthCue)]),
     "rt_set_background": (c_int, [c_double * 4]),
     "rt_get_box": (c_int, [Vector, Vector]),
     "rt_render": (c_int, [c_int]),

@@ -29,6 +29,14 @@ def _vector(name: str, value) -> c.Vector:
     return c.Vector(*array.astype(np.float64))
 
 
+def _light(name: str, value) -> np.ndarray:
+    """A color of light as three numbers; one is grey."""
+    light = np.broadcast_to(numbers(name, value, (3,)), 3).astype(np.float64)
+    if not np.all(np.isfinite(light)) or np.any(light < 0):
+        raise SceneError(f"{name} must be 0 or more, and finite, not {value!r}", "E0460", name)
+    return light
+
+
 def _text(name: str, value: Optional[str]) -> Optional[bytes]:
     if value is not None and not isinstance(value, str):
         raise UsageError(f"{name} must be a str, not {type(value).__name__}")
@@ -235,12 +243,31 @@ class Scene:
         strength  of the light that a surface gets which nothing covers, 0 or more; color multiplies it. It has no
                   highlights, and the background stays what it is. Render with samples: with one ray a pixel it is noisy
         """
-        light = numbers("strength", strength, (3,)) * numbers("color", color, (3,)).astype(np.float64)
-        light = np.broadcast_to(light, 3)
-        if not np.all(np.isfinite(light)) or np.any(light < 0):
-            raise SceneError(f"strength and color of the sky must be 0 or more, and finite, not {strength!r} and {color!r}",
-                             "E0460", "sky")
+        light = _light("strength", strength) * _light("color", color)
         self._session.call("rt_set_sky_light", c.Vector(*light))
+
+    def outline(self, width: float = 1.5, color: Union[float, Vector] = 0.0) -> None:
+        """Lines around shapes, 0 to 16 pixels wide, 0 for none: where one ends before something else, and where two meet
+        at an angle. They stand before the background of images with alpha."""
+        if not 0 <= width <= 16:
+            raise SceneError(f"the width of outlines must be 0 to 16 pixels, not {width!r}", "E0460", "outline")
+        self._session.call("rt_set_outline", width, c.Vector(*_light("color", color)))
+
+    def depth_cue(self, strength: float = 0.6, color: Union[float, Vector, None] = None, near: float = 0.0,
+                  far: float = 0.0) -> None:
+        """Far shapes turn to one color: from nothing of it at `near` to `strength`, 0 to 1, of it at `far` and beyond.
+
+        color      None: that of the background
+        near, far  along the camera's direction; both 0: as far as the shapes but planes reach
+        """
+        if not 0 <= strength <= 1:
+            raise SceneError(f"the strength of a depth cue must be 0 to 1, not {strength!r}", "E0460", "depth_cue")
+        if not (near == far == 0 or 0 <= near < far < float("inf")):
+            raise SceneError(f"near and far must be 0 or more, and near less than far, not {near!r} and {far!r}", "E0460",
+                             "depth_cue")
+        light = _light("color", 0.0 if color is None else color)
+        cue = c.DepthCue(strength, int(color is not None), c.Vector(*light), near, far)
+        self._session.call("rt_set_depth_cue", ctypes.byref(cue))
 
     def clear_lights(self) -> None:
         """Takes all lights of `light` and of texts away; the sky stays."""

@@ -416,6 +416,22 @@ static RenderResult trace_film(rt_session *session, const Prepared *prepared, co
     return render_film(prepared, options, &session->film, &session->statistics, &session->error);
 }
 
+// Lines and depth cue, over a film of linear light. False when out of memory.
+static bool draw_over(rt_session *session, const Prepared *prepared, int threads, OverlayOptions options)
+{
+    const Settings *settings = &session->scene.settings;
+    if (!overlay_is_wanted(&options)) {
+        return true;
+    }
+    if (!session->has_cue_color) {
+        Rgb own = rgbft_rgb(session->scene.background);
+        options.cue_color = linear_is_needed(settings) ? rgb(linear_value(settings, own.red), linear_value(settings, own.green),
+                                                             linear_value(settings, own.blue))
+                                                       : own;
+    }
+    return render_overlay(prepared, threads, &options, &session->film) == RENDER_OK;
+}
+
 static rt_status render_scene(rt_session *session, void *argument)
 {
     double start = clock_seconds();
@@ -426,6 +442,8 @@ static rt_status render_scene(rt_session *session, void *argument)
                     session->precision == RT_PRECISION_DOUBLE;
     GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL,
                                 .kept = is_spent ? NULL : &session->kept};
+    OverlayOptions overlay = session->overlay;
+    overlay_find_reach(&overlay, &session->scene);
     Prepared *prepared = prepared_new(&session->scene, &geometry);
     Film *film = &session->film;
     if (!prepared || !film_init(film, session_film_width(session), session_film_height(session),
@@ -460,11 +478,14 @@ static rt_status render_scene(rt_session *session, void *argument)
         .antialias = session->antialias.method != 0 ? &session->antialias : NULL,
     };
     RenderResult result = trace_film(session, prepared, &options);
-    prepared_free(prepared);
     bool has_picture = result == RENDER_OK || (result == RENDER_CANCELLED && session->error.samples > 0.0);
     if (has_picture) {
         session_film_to_linear(&session->scene.settings, &session->film);
-    } else {
+        result = draw_over(session, prepared, threads, overlay) ? result : RENDER_NO_MEMORY;
+        has_picture = result != RENDER_NO_MEMORY;
+    }
+    prepared_free(prepared);
+    if (!has_picture) {
         film_fini(&session->film);
     }
     session->trace_seconds = clock_seconds() - start;

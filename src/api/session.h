@@ -17,6 +17,7 @@
 #include "eval/eval.h"
 #include "forward/forward.h"
 #include "image/image.h"
+#include "render/overlay.h"
 #include "render/render.h"
 #include "rtlang/rtlang.h"
 #include "scene/scene.h"
@@ -96,6 +97,8 @@ struct rt_session {
     AntialiasOptions antialias; // method 0: none
     bool has_alpha;             // pictures have that channel
     unsigned planes;            // bits of rt_plane
+    OverlayOptions overlay;
+    bool has_cue_color; // else that of the scene's background
     SamplingError error;
     double seconds_left; // while rendering
     RenderStatistics statistics;

@@ -260,12 +260,45 @@ rt_status rt_set_antialias(rt_session *session, const rt_antialias *antialias)
     return RT_OK;
 }
 
+static bool is_light(const double color[3])
+{
+    bool is_fine = true;
+    for (int i = 0; i < 3; i++) {
+        is_fine = is_fine && color[i] >= 0.0 && isfinite(color[i]);
+    }
+    return is_fine;
+}
+
+rt_status rt_set_outline(rt_session *session, double width, const double color[3])
+{
+    if (!(width >= 0.0 && width <= OUTLINE_WIDEST) || !is_light(color)) {
+        return RT_FAULT_USAGE;
+    }
+    session->overlay.outline_width = width;
+    session->overlay.outline_color = rgb(color[0], color[1], color[2]);
+    return RT_OK;
+}
+
+rt_status rt_set_depth_cue(rt_session *session, const rt_depth_cue *cue)
+{
+    bool is_whole = cue->near == 0.0 && cue->far == 0.0;
+    if (!(cue->strength >= 0.0 && cue->strength <= 1.0) || (cue->has_color && !is_light(cue->color)) ||
+        !(is_whole || (cue->near >= 0.0 && cue->far > cue->near && isfinite(cue->far)))) {
+        return RT_FAULT_USAGE;
+    }
+    OverlayOptions *overlay = &session->overlay;
+    overlay->cue_strength = cue->strength;
+    overlay->cue_color = rgb(cue->color[0], cue->color[1], cue->color[2]);
+    overlay->cue_near = cue->near;
+    overlay->cue_far = cue->far;
+    session->has_cue_color = cue->has_color != 0;
+    return RT_OK;
+}
+
 rt_status rt_set_sky_light(rt_session *session, const double color[3])
 {
-    for (int i = 0; i < 3; i++) {
-        if (!(color[i] >= 0.0) || !isfinite(color[i])) {
-            return RT_FAULT_USAGE;
-        }
+    if (!is_light(color)) {
+        return RT_FAULT_USAGE;
     }
     session->scene.settings.sky_light = rgb(color[0], color[1], color[2]);
     session->is_viewed = false;

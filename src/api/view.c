@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "api/arrays.h"
-#include "scene/part.h"
+#include "scene/scene_extent.h"
 
 rt_status session_misuse(rt_session *session, const char *message, const char *suggestion)
 {
@@ -271,37 +271,12 @@ rt_status rt_set_background(rt_session *session, const double color[4])
 
 // ---- the box
 
-static void box_add(double low[3], double high[3], Vec3 least, Vec3 most)
-{
-    const double a[] = {least.x, least.y, least.z}, b[] = {most.x, most.y, most.z};
-    for (int k = 0; k < 3; k++) {
-        low[k] = fmin(low[k], a[k]);
-        high[k] = fmax(high[k], b[k]);
-    }
-}
-
 rt_status rt_get_box(const rt_session *session, double low[3], double high[3])
 {
     static const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    const Scene *scene = &session->scene;
+    bool has_shapes = session->loaded;
     for (int k = 0; k < 3; k++) {
-        low[k] = (double)INFINITY;
-        high[k] = -(double)INFINITY;
+        has_shapes = scene_span(&session->scene, axes[k], &low[k], &high[k]) && has_shapes;
     }
-    for (size_t i = 0; i < scene->spheres.count; i++) {
-        const Sphere *sphere = &scene->spheres.items[i];
-        Vec3 half = vec3(sphere->radius, sphere->radius, sphere->radius);
-        box_add(low, high, vec3_sub(sphere->centre, half), vec3_add(sphere->centre, half));
-    }
-    for (size_t i = 0; i < scene->parts.count; i++) {
-        const Part *part = &scene->parts.items[i];
-        double least[3], most[3];
-        for (int k = 0; part->kind != PART_PLANE && k < 3; k++) {
-            part_span(part, axes[k], &least[k], &most[k]);
-        }
-        if (part->kind != PART_PLANE) {
-            box_add(low, high, vec3(least[0], least[1], least[2]), vec3(most[0], most[1], most[2]));
-        }
-    }
-    return session->loaded && low[0] <= high[0] ? RT_OK : RT_FAULT_USAGE;
+    return has_shapes ? RT_OK : RT_FAULT_USAGE;
 }

@@ -427,6 +427,18 @@ static bool apply_sky_light(Options *options, const char *argument, OptionReadin
            options->sky_light <= 1e6;
 }
 
+static bool apply_outline(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a number from 0 to 16";
+    return option_parse_number(argument, &options->outline) && options->outline >= 0.0 && options->outline <= 16.0;
+}
+
+static bool apply_depth_cue(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a number from 0 to 1";
+    return option_parse_number(argument, &options->depth_cue) && options->depth_cue >= 0.0 && options->depth_cue <= 1.0;
+}
+
 static bool apply_quiet(Options *options, const char *argument, OptionReading *reading)
 {
     (void)argument, (void)reading;
@@ -617,6 +629,9 @@ static const OptionRow rows[] = {
      "no background, or its transmit and filter; the picture must be PNG or EXR"},
     {0, "sky-light", "STRENGTH", apply_sky_light,
      "light from all sides beside the scene's own: what a surface gets of it that nothing covers (default 0)"},
+    {0, "outline", "WIDTH", apply_outline, "black lines around shapes, so many pixels wide (default 0)"},
+    {0, "depth-cue", "STRENGTH", apply_depth_cue,
+     "let far shapes turn to the colour of the background: so much of it at the farthest (default 0)"},
     {0, "error-map", "FILE", apply_error_map, "write the error of each pixel, too, as a grey picture in linear light"},
     {0, "planes", "LIST", apply_planes,
      "channels beside the light, in EXR: error and samples of sampled pictures; depth, normal,\n"

@@ -60,7 +60,7 @@ struct Options {
     uint64_t photons;
     rt_antialias antialias;
     bool has_alpha;
-    double sky_light; // 0: none
+    double sky_light, outline, depth_cue; // 0: none
     const char *error_map; // where the error of each pixel is written; NULL: nowhere
     const char **include_paths; // owned list
     int include_path_count;

@@ -67,6 +67,8 @@ static rt_status configure(rt_session *session, const Options *options)
     }
     status = status ? status : rt_set_sky_light(session, (const double[]){options->sky_light, options->sky_light,
                                                                           options->sky_light});
+    status = status ? status : rt_set_outline(session, options->outline, (const double[]){0.0, 0.0, 0.0});
+    status = status ? status : rt_set_depth_cue(session, &(rt_depth_cue){.strength = options->depth_cue});
     rt_set_literals(session, !options->no_literals);
     rt_set_lenient(session, options->is_lenient);
     status = status ? status : rt_set_load_threads(session, options->threads);

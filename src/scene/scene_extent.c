@@ -54,6 +54,29 @@ void scene_extent(const Scene *scene, SceneExtent *reach)
     }
 }
 
+bool scene_span(const Scene *scene, Vec3 direction, double *low, double *high)
+{
+    double length = length_of(direction);
+    *low = (double)INFINITY;
+    *high = -(double)INFINITY;
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        const Sphere *sphere = &scene->spheres.items[i];
+        double middle = vec3_dot(sphere->centre, direction), aside = sphere->radius * length;
+        *low = fmin(*low, middle - aside);
+        *high = fmax(*high, middle + aside);
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        const Part *part = &scene->parts.items[i];
+        if (part->kind != PART_PLANE) {
+            double least, most;
+            part_span(part, direction, &least, &most);
+            *low = fmin(*low, least);
+            *high = fmax(*high, most);
+        }
+    }
+    return *low <= *high;
+}
+
 static void mean_add(Vec3 *sum, size_t *count, Vec3 place)
 {
     *sum = vec3_add(*sum, place);

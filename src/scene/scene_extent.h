@@ -24,4 +24,7 @@ void scene_move_camera(Scene *scene, double factor);
 
 void scene_extent(const Scene *scene, SceneExtent *reach);
 
+// Between what p·direction lies for the points of all shapes but planes. False when there are none.
+bool scene_span(const Scene *scene, Vec3 direction, double *low, double *high);
+
 #endif

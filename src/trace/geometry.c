@@ -169,3 +169,13 @@ bool geometry_is_flat(const Geometry *geometry, ShapeId shape)
 {
     return shape_kind(shape) == SHAPE_PART && solid_is_flat(&geometry->shapes.solids[part_index(shape)]);
 }
+
+bool geometry_flat_normal(const Geometry *geometry, ShapeId shape, Vec3 *normal)
+{
+    bool is_flat = geometry_is_flat(geometry, shape);
+    if (is_flat) {
+        const Solid *solid = &geometry->shapes.solids[part_index(shape)];
+        *normal = vec3_normalize(linear_normal(&solid->to_object, vec3(0.0, 0.0, 1.0)));
+    }
+    return is_flat;
+}

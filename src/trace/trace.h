@@ -141,6 +141,9 @@ bool geometry_sees_ball(const Geometry *geometry, const SurfaceSpot *from, Vec3 
 // True for a disc or triangle, which nothing is inside of.
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape);
 
+// The unit normal that a disc or triangle has as it lies, on either side; false for other shapes.
+bool geometry_flat_normal(const Geometry *geometry, ShapeId shape, Vec3 *normal);
+
 // Bytes held.
 size_t geometry_bytes(const Geometry *geometry);
 
