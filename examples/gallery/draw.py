@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the gallery: docs/gallery/*.png and, in docs/gallery.md, the table of what each picture took.
 
-    draw.py [--only=NAME] [--look]
+    draw.py [--only=NAME…] [--look]
 
 Each picture is sampled until its error is below GOAL, at 640x480. What both programs take for one ray a pixel at 320x240 is
 measured beside it (processor seconds of one thread each, the whole process), by turns, the least of three. With --look pictures of
@@ -11,7 +11,6 @@ SPDX-License-Identifier: MIT
 import os
 import re
 import resource
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -55,17 +54,24 @@ def half(size):
     return str(int(size) // 2)
 
 
+def povray(scene, picture, more):
+    """Seconds, or None where POV-Ray is not there or does not draw it."""
+    try:
+        return seconds(["povray", f"+I{scene}", f"+O{picture}", "+FN", "-D", "+WT1", "-GA", *more])[0]
+    except (FileNotFoundError, subprocess.CalledProcessError):
+        return None
+
+
 def one_ray(scene, more, folder):
-    """Seconds of rtlang and of POV-Ray (None without it) for one ray a pixel: the least of three runs by turns, of one where
+    """Seconds of rtlang and of POV-Ray (None if it fails) for one ray a pixel: the least of three runs by turns, of one where
     POV-Ray takes long."""
     ours, theirs = [], []
     size = dict(zip(more[::2], more[1::2]))
     while len(ours) < 3 and sum(theirs) < 20.0:
         ours.append(seconds([RTLANG, "-W", "320", "-H", half(size.get("-H", 480)), "--samples=1", "--threads=1",
                              "-o", os.path.join(folder, "one.png"), scene])[0])
-        if shutil.which("povray"):
-            theirs.append(seconds(["povray", f"+I{scene}", f"+O{folder}/other.png", "+FN", "-D", "-A", "+WT1", "-GA",
-                                   "+W320", "+H" + half(size.get("-H", 480))])[0])
+        other = povray(scene, f"{folder}/other.png", ["-A", "+W320", "+H" + half(size.get("-H", 480))])
+        theirs += [other] if other is not None else []
     return min(ours), min(theirs, default=None)
 
 
@@ -86,9 +92,7 @@ def extras():
     """What stands beside a picture: where its error lies, POV-Ray's speckles, five frames of the film."""
     seconds(draw("cup.scn", [], os.path.join(PICTURES, "cup_9.png"),
                  ["--samples=9", "--error-map=" + os.path.join(PICTURES, "cup_error.png")]))
-    if shutil.which("povray"):
-        seconds(["povray", "+Ishells.scn", "+O" + os.path.join(PICTURES, "shells_povray.png"), "+FN", "-D", "+A0.1", "-J",
-                 "+W640", "+H480"])
+    povray("shells.scn", os.path.join(PICTURES, "shells_povray.png"), ["+A0.1", "-J", "+W640", "+H480"])
     for frame in ("0", "0.02", "0.06", "0.25"):
         seconds([RTLANG, "-K", frame, "-W", "320", "-H", "240", f"--target-error={GOAL}", "-o",
                  os.path.join(PICTURES, f"film_{frame.replace('.', '_')}.png"), "film.scn"])
@@ -97,7 +101,9 @@ def extras():
 def write_table(rows):
     with open(PAGE, encoding="utf-8") as file:
         before, rest = file.read().split("<!-- table:begin -->\n")
-    after = rest.split("<!-- table:end -->")[1]
+    table, after = rest.split("<!-- table:end -->")
+    kept = [line for line in table.splitlines()[2:] if line.split("]")[0] not in [row.split("]")[0] for row in rows]]
+    rows = sorted(kept + rows, key=lambda row: [name for name, _, _ in SCENES].index(row[3:].split("]")[0]))
     head = ["| picture | objects | one ray, s | POV-Ray, s | samples | rays, 10⁶ | seconds | error |", "|---" * 8 + "|"]
     with open(PAGE, "w", encoding="utf-8") as file:
         file.write(before + "<!-- table:begin -->\n" + "\n".join(head + rows) + "\n<!-- table:end -->" + after)
@@ -111,10 +117,10 @@ def main():
             seconds(draw(scene, more, os.path.abspath(name + ".png"), ["--samples=16"]))
         return
     os.makedirs(PICTURES, exist_ok=True)
-    rows = [row(*entry) for entry in scenes]
+    for entry in scenes:
+        write_table([row(*entry)])
     if not only:
         extras()
-        write_table(rows)
 
 
 if __name__ == "__main__":
