@@ -311,38 +311,41 @@ static bool for_continues(Eval *ev, const ForLoop *loop, bool *holds)
 RT_SELDOM bool read_condition(Expansion *expansion, CursorFrame *frame, bool *holds)
 {
     Token opener = frame->text.opened_by;
-    frame->text.at = 0;
     return read_head(expansion, &opener, NULL, holds);
 }
 
-// Whether a loop begins its next turn, which is counted; false after a fault.
-RT_ALWAYS_INLINE bool begin_turn(Cursor *cursor, CursorFrame *frame, bool *holds)
+static __attribute__((noinline)) bool while_continues(Cursor *cursor, CursorFrame *frame, bool *holds)
 {
     Eval *ev = cursor->ev;
     double number;
-    bool fine = true;
     *holds = false;
-    if (frame->kind == FRAME_FOR) {
-        frame->text.at = 0;
-        fine = for_continues(ev, &frame->loop, holds);
-    } else if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
+    if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
         return true; // what would have ended the loop may be what is not understood
-    } else if (frame->is_text) {
-        fine = read_condition(cursor->expansion, frame, holds);
-    } else if (quick_number(ev, frame->node->a, &number)) {
-        *holds = number_is_true(number);
-    } else {
-        ArenaMark mark = scratch_mark(ev);
-        fine = eval_condition(ev, frame->node->a, holds);
-        scratch_rewind(ev, mark);
     }
-    return fine && (!*holds || eval_step(ev, frame->is_text ? frame->text.opened_by.span : frame->node->span));
+    if (frame->is_text) {
+        return read_condition(cursor->expansion, frame, holds);
+    }
+    if (quick_number(ev, frame->node->a, &number)) {
+        *holds = number_is_true(number);
+        return true;
+    }
+    ArenaMark mark = scratch_mark(ev);
+    bool fine = eval_condition(ev, frame->node->a, holds);
+    scratch_rewind(ev, mark);
+    return fine;
+}
+
+// Whether a loop has another turn; false after a fault.
+RT_ALWAYS_INLINE bool has_turn(Cursor *cursor, CursorFrame *frame, bool *holds)
+{
+    return frame->kind == FRAME_FOR ? for_continues(cursor->ev, &frame->loop, holds)
+                                    : while_continues(cursor, frame, holds);
 }
 
 bool loop_continues(Cursor *cursor, CursorFrame *frame)
 {
     bool holds;
-    return begin_turn(cursor, frame, &holds) && holds;
+    return has_turn(cursor, frame, &holds) && holds && eval_step(cursor->ev, frame->node->span);
 }
 
 void control_while(Cursor *cursor, const AstNode *node)
@@ -371,7 +374,10 @@ void control_for(Cursor *cursor, const AstNode *node)
 static void next_turn(Expansion *expansion, CursorFrame *frame)
 {
     Eval *ev = expansion_eval(expansion);
-    bool holds, fine = begin_turn(expansion->cursor, frame, &holds) && !ev->stop;
+    bool holds;
+    frame->text.at = 0;
+    bool fine = has_turn(expansion->cursor, frame, &holds) &&
+                (!holds || eval_step(ev, frame->text.opened_by.span)) && !ev->stop;
     if (!fine) {
         ev->faulty = true;
         expansion_fail(expansion);
