@@ -7,9 +7,41 @@
 // SPDX-License-Identifier: MIT
 #include <stdlib.h>
 
+#include "eval/run/scope.h"
 #include "eval/run/expansion.h"
 
 enum { FAULTY_STEPS = 100000 }; // that say nothing new, before loops of a faulty scene end
+
+// ---- what directives decide
+
+static bool case_holds(Eval *ev, const AstNode *node, double value, bool *holds)
+{
+    double low, high;
+    *holds = node->kind == AST_ELSE;
+    if (node->kind == AST_CASE && node->a != NULL) { // else its head was not readable
+        bool fine = eval_number(ev, node->a, &low);
+        *holds = fine && number_is_case(value, low);
+        return fine;
+    }
+    if (node->kind == AST_RANGE) {
+        bool fine = eval_number(ev, node->a, &low) && eval_number(ev, node->b, &high);
+        *holds = fine && low <= value && value <= high;
+        return fine;
+    }
+    return true;
+}
+
+static bool head_decide(Eval *ev, const AstNode *node, double *subject, bool *holds)
+{
+    switch ((AstKind)node->kind) {
+    case AST_IFDEF: *holds = name_is_declared(ev, node->a) == (node->op == AST_OP_IFDEF); return true;
+    case AST_SWITCH: return eval_number(ev, node->a, subject);
+    case AST_CASE:
+    case AST_RANGE:
+    case AST_ELSE: return case_holds(ev, node, *subject, holds);
+    default: return eval_condition(ev, node->a, holds);
+    }
+}
 
 // ---- heads of directives in a text
 
@@ -26,7 +58,7 @@ static bool decide(Expansion *expansion, AstKind kind, const Token *directive, A
     AstNode node = {.kind = (uint8_t)kind, .span = span_join(directive->span, expansion->feed.end), .a = a, .b = b};
     node.op = word == W_ifndef ? AST_OP_IFNDEF : word == W_ifdef ? AST_OP_IFDEF : AST_OP_NONE;
     ArenaMark mark = arena_mark(&ev->scratch);
-    bool fine = directive_decide(ev, &node, subject, holds);
+    bool fine = head_decide(ev, &node, subject, holds);
     arena_rewind(&ev->scratch, mark);
     ev->faulty = ev->faulty || !fine;
     if (!fine || ev->stop) {
@@ -67,55 +99,55 @@ typedef struct Choice {
     double subject;      // of a #switch
     const AstNode *part; // of nodes: an #if, or a case; NULL: what an #if has else, or no further case
     bool is_switch, has_cases;
-    Token opener, at;    // of a text: the directive, and the head of the part
+    const Token *opener; // of a text: the directive
+    Token *at;           // and the head of the part
 } Choice;
 
 // A part of a text that belongs to another directive.
 static bool is_stray(const Choice *choice)
 {
-    Symbol word = grammar_directive_word(choice->at.kind);
+    Symbol word = grammar_directive_word(choice->at->kind);
     if (choice->is_switch) {
         return word == W_elseif || (word == W_else && !choice->has_cases);
     }
-    return grammar_role(choice->at.kind) == ROLE_MIDDLE && word != W_elseif;
+    return grammar_role(choice->at->kind) == ROLE_MIDDLE && word != W_elseif;
 }
 
-static bool part_holds(Choice *choice, bool *holds)
+// `expansion`: that of the cursor; NULL, which callers of nodes know: it walks nodes.
+RT_ALWAYS_INLINE bool part_holds(Choice *choice, Expansion *expansion, bool *holds)
 {
-    Expansion *expansion = choice->cursor->expansion;
     if (expansion == NULL) {
         *holds = choice->part == NULL;
-        return choice->part == NULL || directive_decide(choice->cursor->ev, choice->part, &choice->subject, holds);
+        return choice->part == NULL || head_decide(choice->cursor->ev, choice->part, &choice->subject, holds);
     }
     if (is_stray(choice)) {
-        expansion_fault_stray(expansion, &choice->at);
+        expansion_fault_stray(expansion, choice->at);
         return false;
     }
     choice->has_cases = true;
-    *holds = grammar_role(choice->at.kind) == ROLE_ELSE;
-    return *holds || read_head(expansion, &choice->at, &choice->subject, holds);
+    *holds = grammar_role(choice->at->kind) == ROLE_ELSE;
+    return *holds || read_head(expansion, choice->at, &choice->subject, holds);
 }
 
 // False: there is none, or after a fault.
-static bool next_part(Choice *choice)
+RT_ALWAYS_INLINE bool next_part(Choice *choice, Expansion *expansion)
 {
-    Expansion *expansion = choice->cursor->expansion;
     if (expansion == NULL) {
         choice->part = choice->is_switch ? choice->part->next : NULL;
         return choice->part != NULL || !choice->is_switch;
     }
-    return expansion_skip(expansion, &choice->opener, 1, true, NULL, &choice->at) &&
-           grammar_role(choice->at.kind) != ROLE_END;
+    return expansion_skip(expansion, choice->opener, 1, true, NULL, choice->at) &&
+           grammar_role(choice->at->kind) != ROLE_END;
 }
 
 // The first part that holds, from the present one on. False after a fault.
-static bool find_part(Choice *choice, bool *is_found)
+RT_ALWAYS_INLINE bool find_part(Choice *choice, Expansion *expansion, bool *is_found)
 {
     *is_found = false;
     bool fine = true, has_more = true;
     while (fine && has_more && !*is_found) {
-        fine = part_holds(choice, is_found);
-        has_more = fine && !*is_found && next_part(choice);
+        fine = part_holds(choice, expansion, is_found);
+        has_more = fine && !*is_found && next_part(choice, expansion);
     }
     return fine;
 }
@@ -127,11 +159,25 @@ static void push_branch(Cursor *cursor, const AstNode *items)
     }
 }
 
+const AstNode *case_items(const AstNode *node)
+{
+    return node->kind == AST_CASE ? node->b : node->kind == AST_RANGE ? node->c : node->a;
+}
+
+bool case_continues(Eval *ev, CursorFrame *frame)
+{
+    frame->node = frame->node->next;
+    // The head of a case that is run into is worked out, too, as in POV-Ray.
+    bool is_next = frame->node != NULL && head_decide(ev, frame->node, &(double){0}, &(bool){false});
+    frame->next = is_next ? case_items(frame->node) : NULL;
+    return is_next;
+}
+
 void control_if(Cursor *cursor, const AstNode *node)
 {
     Choice choice = {.cursor = cursor, .part = node};
     bool is_found;
-    if (node->a != NULL && find_part(&choice, &is_found)) { // else its condition was not readable
+    if (node->a != NULL && find_part(&choice, NULL, &is_found)) { // else its condition was not readable
         push_branch(cursor, choice.part != NULL ? node->b : node->c);
     }
 }
@@ -140,8 +186,8 @@ void control_switch(Cursor *cursor, const AstNode *node)
 {
     Choice choice = {.cursor = cursor, .part = node->b, .is_switch = true};
     bool is_found = false;
-    if (!directive_decide(cursor->ev, node, &choice.subject, &is_found) ||
-        (choice.part != NULL && !find_part(&choice, &is_found))) {
+    if (!head_decide(cursor->ev, node, &choice.subject, &is_found) ||
+        (choice.part != NULL && !find_part(&choice, NULL, &is_found))) {
         return;
     }
     if (is_found && cursor_push(cursor, FRAME_SWITCH, case_items(choice.part), choice.part) == NULL) {
@@ -153,12 +199,13 @@ void control_switch(Cursor *cursor, const AstNode *node)
 // The first branch that holds, of an #if in a text.
 void control_begin_if(Expansion *expansion, const Token *directive)
 {
-    Choice choice = {.cursor = expansion->cursor, .opener = *directive, .at = *directive};
+    Token at = *directive;
+    Choice choice = {.cursor = expansion->cursor, .opener = directive, .at = &at};
     bool is_found;
-    bool fine = find_part(&choice, &is_found);
+    bool fine = find_part(&choice, expansion, &is_found);
     CursorFrame *frame = fine && is_found ? expansion_push(expansion, FRAME_BRANCH, directive) : NULL;
     if (frame != NULL) {
-        frame->text.is_last = grammar_role(choice.at.kind) == ROLE_ELSE;
+        frame->text.is_last = grammar_role(at.kind) == ROLE_ELSE;
     }
 }
 
@@ -175,13 +222,14 @@ void control_begin_switch(Expansion *expansion, const Token *directive)
 }
 
 // A case, or the #else, of a #switch in a text. The head of one that is run into is worked out.
-static void next_case(Expansion *expansion, CursorFrame *frame, const Token *at)
+static void next_case(Expansion *expansion, CursorFrame *frame, const Token *directive)
 {
     FrameText *text = &frame->text;
+    Token at = *directive;
     Choice choice = {.cursor = expansion->cursor, .subject = text->subject, .is_switch = true,
-                     .has_cases = text->has_cases, .opener = text->opened_by, .at = *at};
+                     .has_cases = text->has_cases, .opener = &text->opened_by, .at = &at};
     bool is_found = text->is_found;
-    bool fine = is_found ? part_holds(&choice, &(bool){false}) : find_part(&choice, &is_found);
+    bool fine = is_found ? part_holds(&choice, expansion, &(bool){false}) : find_part(&choice, expansion, &is_found);
     text->has_cases = true;
     text->is_found = is_found;
     if (fine && !is_found && !expansion->feed.failed) {
@@ -210,37 +258,94 @@ void control_between(Expansion *expansion, const Token *directive)
 
 // ---- loops
 
-// Whether a loop begins its next turn, which is counted; false after a fault.
-static bool begin_turn(Cursor *cursor, CursorFrame *frame, bool *holds)
+// As measured, with the language's tolerance at the end.
+static bool for_holds(double number, double end, double step)
+{
+    return step > 0.0 ? number < end + 1e-10 : number > end - 1e-10;
+}
+
+static bool for_begins(Eval *ev, const AstNode *node, ForLoop *loop, bool *holds)
+{
+    double from = 0, end = 0, step = 1;
+    const AstNode *third = node->b->next->next;
+    ev->inner++;
+    bool fine = eval_number(ev, node->b, &from);
+    fine = eval_number(ev, node->b->next, &end) && fine;
+    fine = (third == NULL || eval_number(ev, third, &step)) && fine;
+    ev->inner--;
+    if (!fine) {
+        return false;
+    }
+    if (step == 0.0) {
+        return eval_fault(ev, DIAG_E0305, third->span, "the step of a loop must not be zero");
+    }
+    if (third != NULL && third->next != NULL) {
+        return eval_fault(ev, DIAG_E0203, third->next->span, "`#for` takes a name and at most three numbers");
+    }
+    Symbol name = node->a->symbol;
+    Value value = value_of_number(from);
+    if (scope_is_reference(ev, name)) {
+        return eval_fault(ev, DIAG_E0220, node->a->span,
+                          "`%s` stands for the caller's variable and cannot count a loop", eval_text(ev, name));
+    }
+    *loop = (ForLoop){.counter = name, .span = node->a->span, .end = end, .step = step};
+    *holds = for_holds(from, end, step);
+    return scope_declare(ev, name, true, &value, node->a->span);
+}
+
+static bool for_continues(Eval *ev, const ForLoop *loop, bool *holds)
+{
+    Value *counter = scope_find(ev, loop->counter);
+    *holds = false;
+    if (counter == NULL || counter->kind != VALUE_NUMBER) {
+        return (counter == NULL || counter->kind != VALUE_NONE) &&
+               eval_fault(ev, DIAG_E0220, loop->span, "the loop has lost its counter: `%s` is %s now",
+                          eval_text(ev, loop->counter), counter != NULL ? value_describe(counter) : "not declared");
+    }
+    counter->number += loop->step;
+    *holds = for_holds(counter->number, loop->end, loop->step);
+    return true;
+}
+
+// The condition of a loop stands at the beginning of its text.
+RT_SELDOM bool read_condition(Expansion *expansion, CursorFrame *frame, bool *holds)
+{
+    Token opener = frame->text.opened_by;
+    return read_head(expansion, &opener, NULL, holds);
+}
+
+static __attribute__((noinline)) bool while_continues(Cursor *cursor, CursorFrame *frame, bool *holds)
 {
     Eval *ev = cursor->ev;
     double number;
-    bool fine = true;
     *holds = false;
-    if (frame->is_text) {
-        frame->text.at = 0;
-    }
-    if (frame->kind == FRAME_FOR) {
-        fine = directive_next_for(ev, &frame->loop, holds);
-    } else if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
+    if (ev->options.diags->error_count > 0 && ev->steps - ev->steps_reported > FAULTY_STEPS) {
         return true; // what would have ended the loop may be what is not understood
-    } else if (frame->is_text) {
-        Token opener = frame->text.opened_by;
-        fine = read_head(cursor->expansion, &opener, NULL, holds);
-    } else if (quick_number(ev, frame->node->a, &number)) {
-        *holds = number_is_true(number);
-    } else {
-        ArenaMark mark = scratch_mark(ev);
-        fine = eval_condition(ev, frame->node->a, holds);
-        scratch_rewind(ev, mark);
     }
-    return fine && (!*holds || eval_step(ev, frame->is_text ? frame->text.opened_by.span : frame->node->span));
+    if (frame->is_text) {
+        return read_condition(cursor->expansion, frame, holds);
+    }
+    if (quick_number(ev, frame->node->a, &number)) {
+        *holds = number_is_true(number);
+        return true;
+    }
+    ArenaMark mark = scratch_mark(ev);
+    bool fine = eval_condition(ev, frame->node->a, holds);
+    scratch_rewind(ev, mark);
+    return fine;
+}
+
+// Whether a loop has another turn; false after a fault.
+RT_ALWAYS_INLINE bool has_turn(Cursor *cursor, CursorFrame *frame, bool *holds)
+{
+    return frame->kind == FRAME_FOR ? for_continues(cursor->ev, &frame->loop, holds)
+                                    : while_continues(cursor, frame, holds);
 }
 
 bool loop_continues(Cursor *cursor, CursorFrame *frame)
 {
     bool holds;
-    return begin_turn(cursor, frame, &holds) && holds;
+    return has_turn(cursor, frame, &holds) && holds && eval_step(cursor->ev, frame->node->span);
 }
 
 void control_while(Cursor *cursor, const AstNode *node)
@@ -255,7 +360,7 @@ void control_for(Cursor *cursor, const AstNode *node)
 {
     ForLoop loop;
     bool holds = false;
-    if (node->a == NULL || !directive_begin_for(cursor->ev, node, &loop, &holds) || !holds ||
+    if (node->a == NULL || !for_begins(cursor->ev, node, &loop, &holds) || !holds ||
         !eval_step(cursor->ev, node->span)) {
         return; // at the first, its head was not readable
     }
@@ -269,7 +374,10 @@ void control_for(Cursor *cursor, const AstNode *node)
 static void next_turn(Expansion *expansion, CursorFrame *frame)
 {
     Eval *ev = expansion_eval(expansion);
-    bool holds, fine = begin_turn(expansion->cursor, frame, &holds) && !ev->stop;
+    bool holds;
+    frame->text.at = 0;
+    bool fine = has_turn(expansion->cursor, frame, &holds) &&
+                (!holds || eval_step(ev, frame->text.opened_by.span)) && !ev->stop;
     if (!fine) {
         ev->faulty = true;
         expansion_fail(expansion);
@@ -312,7 +420,7 @@ void control_begin_for(Expansion *expansion, const Token *directive)
     AstNode *head = expansion_parse(expansion, FRAGMENT_FOR, GRAMMAR_NO_BASE, false);
     ForLoop loop = {0};
     bool holds = false;
-    bool fine = head != NULL && directive_begin_for(ev, head, &loop, &holds);
+    bool fine = head != NULL && for_begins(ev, head, &loop, &holds);
     ev->faulty = ev->faulty || (head != NULL && !fine);
     if (!fine || ev->stop) {
         expansion_fail(expansion);

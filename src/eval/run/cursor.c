@@ -95,11 +95,6 @@ void cursor_close(Cursor *cursor)
     cursor->item = NULL;
 }
 
-const AstNode *case_items(const AstNode *node)
-{
-    return node->kind == AST_CASE ? node->b : node->kind == AST_RANGE ? node->c : node->a;
-}
-
 // The end of what a frame walks: another turn, the next case, or back to the frame around it.
 static void end_of_frame(Cursor *cursor)
 {
@@ -118,10 +113,7 @@ static void end_of_frame(Cursor *cursor)
         }
         break;
     case FRAME_SWITCH:
-        frame->node = frame->node->next;
-        // The head of a case that is run into is worked out, too, as in POV-Ray.
-        if (frame->node != NULL && directive_decide(cursor->ev, frame->node, &(double){0}, &(bool){false})) {
-            frame->next = case_items(frame->node);
+        if (case_continues(cursor->ev, frame)) {
             return;
         }
         break;

@@ -271,17 +271,14 @@ bool directive_run(Cursor *cursor, const AstNode *node); // false when the node 
 void include_run(Cursor *cursor, const AstNode *node);
 // Opens the file of an #include and enters it; the frame becomes a FRAME_INCLUDE. NULL after a fault.
 Source *include_enter(Eval *ev, CursorFrame *frame, const AstNode *node) RT_MUST_CHECK;
-// What a directive asks, and the turns of a #for.
-bool directive_decide(Eval *ev, const AstNode *node, double *subject, bool *holds) RT_MUST_CHECK;
-bool directive_begin_for(Eval *ev, const AstNode *node, ForLoop *loop, bool *holds) RT_MUST_CHECK;
-bool directive_next_for(Eval *ev, const ForLoop *loop, bool *holds) RT_MUST_CHECK;
-
 // control.c
 void control_if(Cursor *cursor, const AstNode *node); // an #ifdef, too
 void control_switch(Cursor *cursor, const AstNode *node);
 void control_while(Cursor *cursor, const AstNode *node);
 void control_for(Cursor *cursor, const AstNode *node);
 bool loop_continues(Cursor *cursor, CursorFrame *frame); // at the end of a loop's body: one more turn
+// At the end of a case: the next one, which is run into; false: there is none, or its head is at fault.
+bool case_continues(Eval *ev, CursorFrame *frame);
 // #break; is_from_file: in a file that was included here. It leaves no macro that is called around the #include.
 void control_break(Cursor *cursor, Span span, bool is_from_file);
 
