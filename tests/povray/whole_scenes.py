@@ -484,6 +484,8 @@ class Writer:
             early = [self.clip()]
         flags = [word for word in ("no_shadow", "no_reflection", "hollow", "bounded_by { sphere { 0, 9 } }", "no_image",
                                    "inverse", "no_radiosity") if self.chance(0.05) and not (word == "inverse" and is_flat)]
+        if "inverse" in flags or head.startswith("intersection"):  # which may have no end
+            flags = [word for word in flags if not word.startswith("bounded_by")]
         if head.startswith("Object_"):
             head, first = "object {", [head]
         items = first + early + self.shuffled_in([f"translate <{place[0]}, {place[1]}, {place[2]}>"] + flags, items)

@@ -138,7 +138,8 @@ static bool read_normal(Eval *ev, const AstNode *item, Arena *arena, TextureDesc
     if (!settle(ev, arena, texture, item->span)) {
         return false;
     }
-    record.normal = texture->normal;
+    // A texture without bumps, of before the #default, begins with those that are the default now. Measured.
+    record.normal = has_normal(texture) ? texture->normal : ev->objects->defaults->normal;
     if (!block_read(ev, item, KIND_NORMAL, arena, &record, &is)) {
         return false;
     }
