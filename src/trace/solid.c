@@ -12,6 +12,7 @@
 #include "trace/flat.h"
 #include "trace/plane.h"
 #include "trace/sphere.h"
+#include "trace/torus.h"
 
 static void unit_axes(Vec3 axes[3], double z)
 {
@@ -217,6 +218,38 @@ static void triangle_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
     axes[2] = vec3(0.0, 0.0, 0.0);
 }
 
+// ---- torus
+
+static unsigned torus_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return torus_intervals(solid->data[0].x, solid->data[0].y, object, left, intervals);
+}
+
+static Vec3 torus_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return torus_normal(solid->data[0].x, point, side);
+}
+
+static Vec3 torus_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return torus_gradient(solid->data[0].x, point, side);
+}
+
+static Vec3 torus_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return torus_point(solid->data[0].x, solid->data[0].y, point, side);
+}
+
+// Through the corners of the rectangle that turns to the cylinder around it.
+static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    (void)middle;
+    double width = ROOT2 * (solid->data[0].x + solid->data[0].y);
+    axes[0] = vec3(width, 0.0, 0.0);
+    axes[1] = vec3(0.0, ROOT2 * solid->data[0].y, 0.0);
+    axes[2] = vec3(0.0, 0.0, width);
+}
+
 // ---- the table
 
 static const SolidClass classes[PART_KINDS] = {
@@ -259,6 +292,12 @@ static const SolidClass classes[PART_KINDS] = {
                               .point = flat_point,
                               .axes = triangle_axes,
                               .across = {3}},
+    [PART_TORUS] = {.intervals = torus_side_intervals,
+                    .normal = torus_side_normal,
+                    .gradient = torus_side_gradient,
+                    .point = torus_side_point,
+                    .axes = torus_axes,
+                    .films = 1 << TORUS_INNER},
 };
 
 const SolidClass *solid_class(const Solid *solid)
