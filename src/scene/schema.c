@@ -258,7 +258,7 @@ static const DiscDesc disc_defaults = {.part = OBJECT_PART};
 static const SchemaProperty torus_arguments[] = {
     {"major radius", TYPE_NUMBER, AT(TorusDesc, major), .range = POSITIVE, .doc = "of the ring, in y = 0"},
     {"minor radius", TYPE_NUMBER, AT(TorusDesc, minor), .range = RADIUS,
-     .doc = "of the tube around it; 0: not drawn; it may be the greater one"},
+     .doc = "of the tube; 0: not drawn; it may be the greater one"},
 };
 
 static const SchemaProperty torus_properties[] = {

@@ -169,3 +169,9 @@ bool geometry_is_flat(const Geometry *geometry, ShapeId shape)
 {
     return shape_kind(shape) == SHAPE_PART && solid_is_flat(&geometry->shapes.solids[part_index(shape)]);
 }
+
+bool geometry_is_convex(const Geometry *geometry, ShapeId shape)
+{
+    return shape == SHAPE_NONE || shape_kind(shape) != SHAPE_PART ||
+           solid_is_convex(&geometry->shapes.solids[part_index(shape)]);
+}

@@ -252,7 +252,7 @@ static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
 
 // ---- the table
 
-static const SolidClass classes[PART_KINDS] = {
+const SolidClass solid_classes[PART_KINDS] = {
     [PART_BALL] = {.intervals = ball_intervals,
                    .normal = ball_normal,
                    .gradient = ball_normal,
@@ -299,21 +299,6 @@ static const SolidClass classes[PART_KINDS] = {
                     .axes = torus_axes,
                     .films = 1 << TORUS_INNER},
 };
-
-const SolidClass *solid_class(const Solid *solid)
-{
-    return &classes[solid->kind];
-}
-
-unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
-{
-    return classes[solid->kind].intervals(solid, object, left, intervals);
-}
-
-bool solid_flat_root(const Solid *solid, const Ray *object, double *t)
-{
-    return classes[solid->kind].root(solid, object, t);
-}
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)
 {
@@ -404,7 +389,7 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
         PlaneShape plane = {solid->data[0], solid->data[1].x};
         return plane_crossing_error(&plane, *ray, t);
     }
-    Vec3 n = classes[solid->kind].gradient(solid, ray_at(*object, t), side);
+    Vec3 n = solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side);
     double reach = normal_reach(solid, n, ray, t);
     return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }
@@ -418,12 +403,12 @@ double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *objec
         return rounding * (span + fabs(solid->data[1].x)) / fabs(vec3_dot(solid->data[0], ray->direction));
     }
     const double *columns = &solid->columns.x, *d = &object->direction.x, reach = span + solid->spread;
-    int across = classes[solid->kind].across[side];
+    int across = solid_classes[solid->kind].across[side];
     if (across > 0) {
         int axis = across - 1;
         return rounding * (fixed_size(solid, axis) + columns[axis] * reach) / fabs(d[axis]);
     }
-    Vec3 n = classes[solid->kind].gradient(solid, ray_at(*object, t), side);
+    Vec3 n = solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side);
     double sum = vec3_sum_abs(n) + (fabs(n.x) * columns[0] + fabs(n.y) * columns[1] + fabs(n.z) * columns[2]) * reach;
     return rounding * sum / fabs(vec3_dot(n, object->direction));
 }
@@ -452,9 +437,9 @@ void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, V
         return;
     }
     Ray object = solid_ray(solid, ray);
-    Vec3 own = classes[solid->kind].point(solid, ray_at(object, t), side);
+    Vec3 own = solid_classes[solid->kind].point(solid, ray_at(object, t), side);
     *point = vec3_add(solid->centre, linear_direction(&solid->to_world, own));
-    *normal = vec3_normalize(linear_normal(&solid->to_object, classes[solid->kind].normal(solid, own, side)));
+    *normal = vec3_normalize(linear_normal(&solid->to_object, solid_classes[solid->kind].normal(solid, own, side)));
 }
 
 bool solid_equal(const Solid *a, const Solid *b)

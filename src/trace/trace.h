@@ -141,6 +141,9 @@ bool geometry_sees_ball(const Geometry *geometry, const SurfaceSpot *from, Vec3 
 // True for a disc or triangle, which nothing is inside of.
 bool geometry_is_flat(const Geometry *geometry, ShapeId shape);
 
+// Whether a ray that leaves it outward never meets it again.
+bool geometry_is_convex(const Geometry *geometry, ShapeId shape);
+
 // Bytes held.
 size_t geometry_bytes(const Geometry *geometry);
 
