@@ -39,7 +39,8 @@ static Rgb crossings_share(const Prepared *p, const ShadingPoint *at, const FarC
     return share;
 }
 
-// A shape is convex, or flat: the point itself is where the ray meets its shape from the side that the light is on.
+// Of a shape that is convex, or flat, the point itself is where the ray meets it from the side that the light is on. Of
+// another, which may be met so at several places, light is looked for from the point, whose rays know where they start.
 Rgb shade_far_light(const Prepared *p, const ShadingPoint *at, Vec3 end, Vec3 towards, double distance)
 {
     FarCrossing crossings[CROSSINGS_KEPT];
@@ -49,6 +50,10 @@ Rgb shade_far_light(const Prepared *p, const ShadingPoint *at, Vec3 end, Vec3 to
     Ray ray = {end, vec3_neg(towards)};
     RayStart start = {SHAPE_NONE, false, HIDDEN_SHADOW};
     Hit hit;
+    if (!geometry_is_convex(p->geometry, at->shape)) {
+        return shade_light_through(p, FEATURES, at, (Ray){at->point, towards},
+                                   (RayStart){at->shape, inward, HIDDEN_SHADOW}, distance);
+    }
     while (way < distance && geometry_closest(p->geometry, FEATURES, ray, start, distance - way, &hit)) {
         if (hit.inside == inward && geometry_is_same(p->geometry, hit.shape, at->shape)) {
             break;

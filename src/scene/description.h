@@ -179,6 +179,11 @@ typedef struct DiscDesc {
     double radius, hole;
 } DiscDesc;
 
+typedef struct TorusDesc {
+    ObjectPart part;
+    double major, minor;
+} TorusDesc;
+
 typedef struct TriangleDesc {
     ObjectPart part;
     Vec3 corners[3];
@@ -285,6 +290,7 @@ typedef union Desc {
     CylinderDesc cylinder;
     ConeDesc cone;
     DiscDesc disc;
+    TorusDesc torus;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     UnionDesc group;

@@ -234,6 +234,34 @@ static void smooth_triangle_dump(const Part *part, TextBuffer *out)
     dump_vector(out, ", y, ", part->data[2]);
 }
 
+// ---- torus
+
+static double torus_support(const Part *part, Vec3 n)
+{
+    double round = hypot(n.x, n.z);
+    return part->data[0].x * round + part->data[0].y * hypot(round, n.y);
+}
+
+// With its surface, as in POV-Ray; and what the tube goes through itself in, where it does.
+static bool torus_holds(const Part *part, Vec3 p)
+{
+    double from = hypot(p.x, p.z) - part->data[0].x, minor = part->data[0].y;
+    return from * from + p.y * p.y <= minor * minor;
+}
+
+static void torus_dump(const Part *part, TextBuffer *out)
+{
+    dump_number(out, "", part->data[0].x);
+    dump_number(out, ", ", part->data[0].y);
+}
+
+// The tube, somewhere on the ring.
+static void torus_measure(const Part *part, Vec3 *half, Vec3 *middle)
+{
+    *half = vec3(part->data[0].y, part->data[0].y, part->data[0].y);
+    *middle = vec3(part->data[0].x, 0.0, 0.0);
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -314,6 +342,16 @@ static const PrimitiveClass classes[] = {
                               .corner_count = three_corners,
                               .corner = triangle_corner,
                               .face_normal = flat_normal},
+    [PART_TORUS] = {.word = "torus",
+                    .head = "torus { ",
+                    .family = FAMILY_TUBE,
+                    .surface = PART_TORUS,
+                    .key_count = 1,
+                    .interval_count = 2,
+                    .support = torus_support,
+                    .holds = torus_holds,
+                    .dump = torus_dump,
+                    .measure = torus_measure},
 };
 
 const PrimitiveClass *primitive_class(PartKind kind)

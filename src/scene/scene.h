@@ -236,6 +236,8 @@ typedef struct Plane {
 //   disc            z = 0, from radius data[0].x to 1
 //   triangle        <0,0,0>, <1,0,0>, <0,1,0>
 //   smooth triangle the same, with normals data[0..2] at the corners that are of length 1 in the scene itself
+//   torus           all points at distance data[0].y from the circle of radius data[0].x in y = 0; both are > 0, and their
+//                   sum is at least 1/2 and at most 1
 typedef enum PartKind {
     PART_BALL,
     PART_PLANE,
@@ -244,6 +246,7 @@ typedef enum PartKind {
     PART_DISC,
     PART_TRIANGLE,
     PART_SMOOTH_TRIANGLE,
+    PART_TORUS,
     PART_KINDS
 } PartKind;
 

@@ -253,6 +253,20 @@ static const SchemaProperty disc_arguments[] = {
 
 static const DiscDesc disc_defaults = {.part = OBJECT_PART};
 
+// POV-Ray draws a torus of a negative radius in a box that is too small for it, and one with a ring of radius 0, each
+// of whose points is a double root, with holes. Measured.
+static const SchemaProperty torus_arguments[] = {
+    {"major radius", TYPE_NUMBER, AT(TorusDesc, major), .range = POSITIVE, .doc = "of the ring, in y = 0"},
+    {"minor radius", TYPE_NUMBER, AT(TorusDesc, minor), .range = RADIUS,
+     .doc = "of the tube; 0: not drawn; it may be the greater one"},
+};
+
+static const SchemaProperty torus_properties[] = {
+    {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
+};
+
+static const TorusDesc torus_defaults = {.part = OBJECT_PART};
+
 static const SchemaProperty triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(TriangleDesc, corners[0]), .doc = "in any order"},
     {"second corner", TYPE_VECTOR, AT(TriangleDesc, corners[1]), .doc = "likewise"},
@@ -583,6 +597,15 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .groups = {OBJECT_GROUPS},
                    .doc =
                        "Round and flat, without an inside: not for merge, intersection, difference and `clipped_by`."},
+    [KIND_TORUS] = {.word = "torus",
+                    .what = "a torus",
+                    .size = sizeof(TorusDesc),
+                    .defaults = &torus_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .arguments = LIST(torus_arguments),
+                    .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                    .doc = "A ring with a round tube, about y."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .what = "a triangle",
                        .size = sizeof(TriangleDesc),
@@ -821,7 +844,6 @@ static const SchemaUnsupported unsupported[] = {
     {"sphere_sweep", true, "use a `union` of spheres", NULL},
     {"superellipsoid", true, "use a sphere with `scale`", NULL},
     {"text", true, NULL, NULL},
-    {"torus", true, "use a `union` of spheres", NULL},
     {"cylinder", false, "a `panoramic` camera is near", NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},

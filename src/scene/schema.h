@@ -24,6 +24,7 @@ typedef enum SchemaKind {
     KIND_CYLINDER,
     KIND_CONE,
     KIND_DISC,
+    KIND_TORUS,
     KIND_TRIANGLE,
     KIND_SMOOTH_TRIANGLE,
     KIND_UNION,

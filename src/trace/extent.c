@@ -21,7 +21,7 @@ static bool solid_extent_of(const Solid *solid, Extent *extent)
         (solid->hidden & HIDDEN_CAMERA)) {
         return false;
     }
-    solid_class(solid)->axes(solid, axes, &middle);
+    solid_classes[solid->kind].axes(solid, axes, &middle);
     extent->centre = vec3_add(solid->centre, linear_direction(&solid->to_world, middle));
     for (int i = 0; i < 3; i++) {
         extent->axes[i] = linear_direction(&solid->to_world, axes[i]);

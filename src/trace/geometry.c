@@ -179,3 +179,9 @@ bool geometry_flat_normal(const Geometry *geometry, ShapeId shape, Vec3 *normal)
     }
     return is_flat;
 }
+
+bool geometry_is_convex(const Geometry *geometry, ShapeId shape)
+{
+    return shape == SHAPE_NONE || shape_kind(shape) != SHAPE_PART ||
+           solid_is_convex(&geometry->shapes.solids[part_index(shape)]);
+}

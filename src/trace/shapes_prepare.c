@@ -40,7 +40,7 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
         .body = part->body,
         .data = {part->data[0], part->data[1], part->data[2]},
     };
-    solid.films = solid_class(&solid)->films;
+    solid.films = solid_classes[solid.kind].films;
     if (part->kind == PART_PLANE) {
         solid.data[1].x = ldexp(part->data[1].x, -exponent);
         return solid;

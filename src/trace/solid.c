@@ -12,6 +12,7 @@
 #include "trace/flat.h"
 #include "trace/plane.h"
 #include "trace/sphere.h"
+#include "trace/torus.h"
 
 static void unit_axes(Vec3 axes[3], double z)
 {
@@ -217,9 +218,41 @@ static void triangle_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
     axes[2] = vec3(0.0, 0.0, 0.0);
 }
 
+// ---- torus
+
+static unsigned torus_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return torus_intervals(solid->data[0].x, solid->data[0].y, object, left, intervals);
+}
+
+static Vec3 torus_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return torus_normal(solid->data[0].x, point, side);
+}
+
+static Vec3 torus_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return torus_gradient(solid->data[0].x, point, side);
+}
+
+static Vec3 torus_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return torus_point(solid->data[0].x, solid->data[0].y, point, side);
+}
+
+// Through the corners of the rectangle that turns to the cylinder around it.
+static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
+{
+    (void)middle;
+    double width = ROOT2 * (solid->data[0].x + solid->data[0].y);
+    axes[0] = vec3(width, 0.0, 0.0);
+    axes[1] = vec3(0.0, ROOT2 * solid->data[0].y, 0.0);
+    axes[2] = vec3(0.0, 0.0, width);
+}
+
 // ---- the table
 
-static const SolidClass classes[PART_KINDS] = {
+const SolidClass solid_classes[PART_KINDS] = {
     [PART_BALL] = {.intervals = ball_intervals,
                    .normal = ball_normal,
                    .gradient = ball_normal,
@@ -259,22 +292,13 @@ static const SolidClass classes[PART_KINDS] = {
                               .point = flat_point,
                               .axes = triangle_axes,
                               .across = {3}},
+    [PART_TORUS] = {.intervals = torus_side_intervals,
+                    .normal = torus_side_normal,
+                    .gradient = torus_side_gradient,
+                    .point = torus_side_point,
+                    .axes = torus_axes,
+                    .films = 1 << TORUS_INNER},
 };
-
-const SolidClass *solid_class(const Solid *solid)
-{
-    return &classes[solid->kind];
-}
-
-unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
-{
-    return classes[solid->kind].intervals(solid, object, left, intervals);
-}
-
-bool solid_flat_root(const Solid *solid, const Ray *object, double *t)
-{
-    return classes[solid->kind].root(solid, object, t);
-}
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)
 {
@@ -365,7 +389,7 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
         PlaneShape plane = {solid->data[0], solid->data[1].x};
         return plane_crossing_error(&plane, *ray, t);
     }
-    Vec3 n = classes[solid->kind].gradient(solid, ray_at(*object, t), side);
+    Vec3 n = solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side);
     double reach = normal_reach(solid, n, ray, t);
     return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }
@@ -379,12 +403,12 @@ double solid_crossing_bound(const Solid *solid, const Ray *ray, const Ray *objec
         return rounding * (span + fabs(solid->data[1].x)) / fabs(vec3_dot(solid->data[0], ray->direction));
     }
     const double *columns = &solid->columns.x, *d = &object->direction.x, reach = span + solid->spread;
-    int across = classes[solid->kind].across[side];
+    int across = solid_classes[solid->kind].across[side];
     if (across > 0) {
         int axis = across - 1;
         return rounding * (fixed_size(solid, axis) + columns[axis] * reach) / fabs(d[axis]);
     }
-    Vec3 n = classes[solid->kind].gradient(solid, ray_at(*object, t), side);
+    Vec3 n = solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side);
     double sum = vec3_sum_abs(n) + (fabs(n.x) * columns[0] + fabs(n.y) * columns[1] + fabs(n.z) * columns[2]) * reach;
     return rounding * sum / fabs(vec3_dot(n, object->direction));
 }
@@ -413,9 +437,9 @@ void solid_surface(const Solid *solid, const Ray *ray, double t, uint8_t side, V
         return;
     }
     Ray object = solid_ray(solid, ray);
-    Vec3 own = classes[solid->kind].point(solid, ray_at(object, t), side);
+    Vec3 own = solid_classes[solid->kind].point(solid, ray_at(object, t), side);
     *point = vec3_add(solid->centre, linear_direction(&solid->to_world, own));
-    *normal = vec3_normalize(linear_normal(&solid->to_object, classes[solid->kind].normal(solid, own, side)));
+    *normal = vec3_normalize(linear_normal(&solid->to_object, solid_classes[solid->kind].normal(solid, own, side)));
 }
 
 bool solid_equal(const Solid *a, const Solid *b)

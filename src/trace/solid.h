@@ -64,7 +64,7 @@ typedef struct SolidClass {
     int8_t across[SIDES_MOST]; // of each side: 1 + the axis that it lies across, 0 if it is not flat or across none
 } SolidClass;
 
-const SolidClass *solid_class(const Solid *solid);
+extern const SolidClass solid_classes[PART_KINDS];
 
 static inline bool solid_is_film(const Solid *solid, uint8_t side)
 {
@@ -89,13 +89,19 @@ RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)
 
 // What of the line is inside of a solid that is not flat, or within its films; `object` is the ray in its space. How many
 // intervals, INTERVALS_MOST at most.
-unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals) RT_MUST_CHECK;
+static inline unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return solid_classes[solid->kind].intervals(solid, object, left, intervals);
+}
 
 // How much the ends of an interval may be off at most: it is no longer, and its neighbours are no nearer.
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i);
 
 // Where the line meets a flat solid.
-bool solid_flat_root(const Solid *solid, const Ray *object, double *t) RT_MUST_CHECK;
+static inline bool solid_flat_root(const Solid *solid, const Ray *object, double *t)
+{
+    return solid_classes[solid->kind].root(solid, object, t);
+}
 
 // What the bounds of rounding want of the map: its columns, and as `extent` the sum of the lengths that it gives to the
 // fixed shape, more where it makes angles narrow: what its own rounding, and its inverse's, are beside. `spread` is that

@@ -127,10 +127,10 @@ static double extremum(const TorusLine *line, double low, double high, bool rise
         }
         *((slope < 0.0) == rises ? &low : &high) = s;
         bool is_done = fabs(next - s) <= 0x1p-53 * fabs(s);
-        s = next > low && next < high ? next : 0.5 * (low + high);
         if (is_done) {
             return s;
         }
+        s = next > low && next < high ? next : 0.5 * (low + high);
     }
     return s;
 }
@@ -146,10 +146,10 @@ static double root_between(const TorusLine *line, double low, double high, bool 
         }
         *((height > 0.0) == falls ? &low : &high) = s;
         bool is_done = fabs(next - s) <= 0x1p-51 * (fabs(s) + 0x1p-30);
-        s = next > low && next < high ? next : 0.5 * (low + high);
         if (is_done) {
             return s;
         }
+        s = next > low && next < high ? next : 0.5 * (low + high);
     }
     return s;
 }

@@ -144,6 +144,9 @@ bool geometry_is_flat(const Geometry *geometry, ShapeId shape);
 // The unit normal that a disc or triangle has as it lies, on either side; false for other shapes.
 bool geometry_flat_normal(const Geometry *geometry, ShapeId shape, Vec3 *normal);
 
+// Whether a ray that leaves it outward never meets it again.
+bool geometry_is_convex(const Geometry *geometry, ShapeId shape);
+
 // Bytes held.
 size_t geometry_bytes(const Geometry *geometry);
 

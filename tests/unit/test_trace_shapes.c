@@ -10,8 +10,8 @@
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
 
-static const PartKind solid_kinds[] = {PART_BALL, PART_BOX, PART_CONE};
-static const PartKind alone_kinds[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE};
+static const PartKind solid_kinds[] = {PART_BALL, PART_BOX, PART_CONE, PART_TORUS};
+static const PartKind alone_kinds[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_TORUS};
 
 // How far inside of its fixed shape a point of the scene is, in units of that shape; negative outside.
 static double depth(const Part *part, Vec3 point)
@@ -25,6 +25,7 @@ static double depth(const Part *part, Vec3 point)
         return fmin(fmin(fmin(low.x, low.y), low.z), fmin(fmin(high.x, high.y), high.z));
     }
     case PART_CONE: return fmin(1.0 + (part->data[0].x - 1.0) * p.z - round, fmin(p.z, 1.0 - p.z));
+    case PART_TORUS: return part->data[0].y - hypot(hypot(p.x, p.z) - part->data[0].x, p.y);
     case PART_DISC: return fmin(-fabs(p.z), fmin(1.0 - round, round - part->data[0].x));
     default: return fmin(-fabs(p.z), fmin(fmin(p.x, p.y), 1.0 - p.x - p.y));
     }
@@ -46,7 +47,7 @@ static void test_on_surface(void)
     int hits = 0, wrong_sides = 0;
     for (int i = 0; i < 4000; i++) {
         Scene scene;
-        Part part = random_part(&random, alone_kinds[i % 4], 1.0);
+        Part part = random_part(&random, alone_kinds[i % 5], 1.0);
         scene_init(&scene);
         add_part(&scene, &part);
         Geometry *geometry = prepare(&scene, 0);
@@ -79,7 +80,7 @@ static void test_tree(void)
     Geometry *single[COUNT];
     scene_init(&scene);
     for (int i = 0; i < COUNT; i++) {
-        Part part = random_part(&random, alone_kinds[i % 4], 0.05);
+        Part part = random_part(&random, alone_kinds[i % 5], 0.05);
         Scene one;
         scene_init(&one);
         part.to_world = transform_compose(part.to_world, transform_translate(random_point(&random, 4.0)));
@@ -169,7 +170,7 @@ static void grow(Scene *scene, Random *random, uint32_t parent, int level)
             }
             grow(scene, random, node, level + 1);
         } else {
-            Part part = random_part(random, solid_kinds[random_bits(random) % 3], 1.0);
+            Part part = random_part(random, solid_kinds[random_bits(random) % 4], 1.0);
             part.node = parent;
             part.flags = random_bits(random) % 4 == 0 ? PART_INVERSE : 0;
             if (!scene_add_leaf(scene, &part)) {
@@ -327,7 +328,7 @@ static void test_scale(void)
     int differ = 0, hits = 0;
     for (int i = 0; i < 200; i++) {
         Scene scenes[2];
-        Part part = random_part(&random, alone_kinds[i % 4], 1.0);
+        Part part = random_part(&random, alone_kinds[i % 5], 1.0);
         int k = (int)random_between(&random, -400, 400);
         Geometry *geometries[2];
         for (int which = 0; which < 2; which++) {
@@ -361,13 +362,13 @@ static void test_scale(void)
 // What stands for the error of a crossing where either gives the same answer is never less.
 static void test_bounds(void)
 {
-    static const PartKind kinds[] = {PART_BALL, PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE};
+    static const PartKind kinds[] = {PART_BALL, PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_TORUS};
     Random random = {9};
     int asked = 0, less = 0, loose = 0;
     for (int i = 0; i < 3000; i++) {
         Scene scene;
         double size = ldexp(1.0, (int)(random_bits(&random) % 60) - 30);
-        Part part = random_part(&random, kinds[i % 5], size);
+        Part part = random_part(&random, kinds[i % 6], size);
         scene_init(&scene);
         add_part(&scene, &part);
         Geometry *geometry = prepare(&scene, 0);

@@ -86,6 +86,8 @@ __attribute__((unused)) static Part random_part(Random *random, PartKind kind, d
         part.data[0] = vec3(-1.0, -1.0, -1.0);
         part.data[1] = vec3(random_between(random, 0, 1), 1.0, 0.0);
         part.data[1].z = random_between(random, -0.5, 1);
+    } else if (kind == PART_TORUS) {
+        part.data[0] = vec3(0.6, random_between(random, 0.01, 0.4), 0.0);
     } else if (kind == PART_CONE || kind == PART_DISC) {
         part.data[0].x = random_bits(random) % 3 == 0 ? 1.0 : random_between(random, 0, 0.9);
         part.data[0].x = kind == PART_DISC ? 0.5 * part.data[0].x : part.data[0].x;

@@ -176,6 +176,40 @@ static bool disc_box(const void *object, OwnBox *own)
     return true;
 }
 
+// ---- torus
+
+// The fixed one is as large as a power of two leaves it, so that it is the same when a dump is read.
+static const char *torus_form(const void *object, Part *part)
+{
+    const TorusDesc *torus = object;
+    int exponent;
+    if (torus->minor == 0.0) {
+        return "a torus with a minor radius of 0 is not drawn";
+    }
+    frexp(torus->major + torus->minor, &exponent);
+    double size = ldexp(1.0, exponent);
+    part->kind = PART_TORUS;
+    part->data[0] = vec3(ldexp(torus->major, -exponent), ldexp(torus->minor, -exponent), 0.0);
+    part->to_world = transform_scale(vec3(size, size, size));
+    return NULL;
+}
+
+// With its surface. Measured.
+static bool torus_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const TorusDesc *torus = object;
+    double from = hypot(p.x, p.z) - torus->major;
+    return (from * from + p.y * p.y <= torus->minor * torus->minor) != is_turned;
+}
+
+static bool torus_box(const void *object, OwnBox *own)
+{
+    const TorusDesc *torus = object;
+    own->high = vec3(torus->major + torus->minor, torus->minor, torus->major + torus->minor);
+    own->low = vec3_neg(own->high);
+    return false;
+}
+
 // ---- triangles: their boxes are those of their corners in the scene
 
 static const char *triangle_form(const void *object, Part *part)
@@ -212,6 +246,7 @@ static const ShapeClass classes[KIND_COUNT] = {
                    .holds = cone_holds,
                    .box = cone_box},
     [KIND_DISC] = {.is_flat = true, .settle = disc_settle, .form = disc_form, .holds = disc_holds, .box = disc_box},
+    [KIND_TORUS] = {.form = torus_form, .holds = torus_holds, .box = torus_box},
     [KIND_TRIANGLE] = {.is_flat = true,
                        .form = triangle_form,
                        .corners_at = offsetof(TriangleDesc, corners)},
