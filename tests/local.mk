@@ -254,6 +254,7 @@ test_scripts = \
   %D%/system/check_hostile.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
+  %D%/system/check_frames.py \
   %D%/system/check_lenient.py \
   %D%/system/check_rerun.py \
   %D%/system/check_install.py \

@@ -119,6 +119,13 @@ RT_API const char *rt_nearest(const char *mistyped, const char *const *names);
  * terminal, which what the scene itself says does not get. */
 typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON, RT_FORMAT_COLOR } rt_format;
 RT_API void rt_set_format(rt_session *session, rt_format format);
+/* An animation: a scene that is loaded once and rendered at several clocks. Before rt_load_*: */
+RT_API rt_status rt_expect_frames(rt_session *session);
+/* After it, and after rt_render: the clock is another one, and so are numbers that were declared with rt_declare, as NAME=VALUE,
+ * always the same names. Where camera, lights and settings alone depend on these, they are read again without the rest of the
+ * scene, which stays as it is with its tree, and *is_set turns 1: rt_render draws the frame. Else it turns 0, and the scene is to
+ * be loaded in a new session. The picture is the same, byte for byte; messages that do not depend on the frame come once. */
+RT_API rt_status rt_set_frame(rt_session *session, double clock, const char *const *declarations, size_t count, int *is_set);
 /* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the
  * lengths of fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */
 RT_API rt_status rt_set_world(rt_session *session, double scale, const double shift[3]);
@@ -480,6 +487,7 @@ typedef struct rt_summary {
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds; /* wall time */
     uint64_t errors, warnings;
     const char *kernel; /* name of the kernel that traced the picture, "" before rt_render */
+    uint64_t trees; /* that were built of the scene's shapes, in all calls of rt_render */
     uint64_t out_of_range; /* of the warnings, those of shapes, lights and cameras beyond the range of numbers */
 } rt_summary;
 RT_API void rt_get_summary(const rt_session *session, rt_summary *summary);

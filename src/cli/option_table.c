@@ -147,6 +147,12 @@ static bool apply_frames(Options *options, const char *argument, OptionReading *
     return fine;
 }
 
+static bool apply_continue(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    return options->continues = true, true;
+}
+
 static bool apply_clock_from(Options *options, const char *argument, OptionReading *reading)
 {
     reading->expected = "a number";
@@ -567,6 +573,7 @@ static const OptionRow rows[] = {
      "draw an animation: frames A to B, whose numbers stand in their pictures' names"},
     {0, "clock-from", "NUMBER", apply_clock_from, "the clock of frame A (default 0)"},
     {0, "clock-to", "NUMBER", apply_clock_to, "the clock of frame B (default 1)"},
+    {0, "continue", NULL, apply_continue, "do not draw the frames whose pictures are there"},
     {0, "povray", NULL, apply_povray,
      "all other words are POV-Ray's, as they are when one of them begins with + or ends with .ini, or is KEY=VALUE"},
     {0, "allow-read", "FOLDER", apply_allow_read,

@@ -88,9 +88,19 @@ void eval_item(Eval *ev, const AstNode *item)
     cursor_close(&cursor);
 }
 
+void eval_tell_statement(Eval *ev, Span span)
+{
+    if (ev->options.statement && ev->include_depth == 0) {
+        ev->options.statement(ev->options.client, span);
+        ev->tells_plan = false;
+    }
+}
+
 static bool take_item(void *client, const AstNode *item)
 {
     Eval *ev = client;
+    eval_tell_statement(ev, item->span);
+    ev->tells_plan = true;
     lint_items(ev, item);
     eval_item(ev, item);
     return !eval_cancelled(ev);

@@ -201,6 +201,7 @@ typedef struct Eval {
     bool has_stray;      // at the top level, reported: the values after it are not reported as well
     bool lacks_brace;    // so is what follows a block's word without its brace, up to an object
     bool explains_steps; // too many steps were reported, and not yet which loop does not end
+    bool tells_plan;     // the next statement that is read by a plan is to be told: those after it are not
     bool faulty;         // something was reported, if only before
     size_t errors_before; // that were reported when the evaluation began
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
@@ -211,6 +212,8 @@ typedef struct Eval {
 
 // Reports a fault at a span; the return value is false, so that `return eval_fault(…)` reads well. What was reported at
 // the same place before is not reported again.
+// Tells the client where a statement of the scene's own text begins.
+void eval_tell_statement(Eval *ev, Span span);
 // What was not read has no fault: it was left out, as a lenient evaluation does with what rtlang has not.
 bool eval_leaves_out(const Eval *ev);
 // A syntax fault was reported inside of a span: what is missing there may have been in what was not understood.
