@@ -239,6 +239,7 @@ test_scripts = \
   %D%/check-draws.py \
   %D%/check-diagnostics.py \
   %D%/check-docs.py \
+  %D%/check-editors.py \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
   %D%/system/check_growth.py \
@@ -362,6 +363,7 @@ update-golden: rtlang$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_GOLDEN=1 $(PYTHON3) $(top_srcdir)/tests/golden/check_golden.py
 update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_diagnostics$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py
+	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-editors.py
 # What docs/language.md tells of differences from POV-Ray, which must be there.
 update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_apart.py --update
