@@ -257,6 +257,7 @@ test_scripts = \
   %D%/system/check_image_files.py \
   %D%/system/check_frames.py \
   %D%/system/check_lenient.py \
+  %D%/system/check_lsp.py \
   %D%/system/check_rerun.py \
   %D%/system/check_install.py \
   %D%/system/check_python.py \

@@ -275,6 +275,15 @@ RT_API rt_status rt_report_in(rt_session *session, const char *code, const char 
  * whole scene: any text whose tokens can be read has a layout. *text is "" when there were faults, else valid until the
  * next call on the session. */
 RT_API rt_status rt_format_file(rt_session *session, const char *path, const char **text);
+/* The same of a text. */
+RT_API rt_status rt_format_text(rt_session *session, const char *name, const char *text, size_t length, const char **laid_out);
+/* A word of the language, for editors: number `i` from 0; 0 past the end. A word may come more than once. */
+typedef struct rt_word {
+    const char *word;
+    const char *place; /* the block that it is a property of; "" for what stands alone */
+    const char *doc;   /* what it is, a line */
+} rt_word;
+RT_API int rt_get_word(size_t i, rt_word *word);
 /* Whether the file is in the canonical layout: RT_FAULT_SCENE, and a diagnostic at the first place where it is not. */
 RT_API rt_status rt_check_format(rt_session *session, const char *path);
 /* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard

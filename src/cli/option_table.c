@@ -93,6 +93,13 @@ static bool apply_rerun(Options *options, const char *argument, OptionReading *r
     return argument[0] != '\0';
 }
 
+static bool apply_lsp(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    options->action = ACTION_SERVE;
+    return true;
+}
+
 static bool apply_include_path(Options *options, const char *argument, OptionReading *reading)
 {
     reading->expected = "a folder";
@@ -639,6 +646,9 @@ static const OptionRow rows[] = {
     {0, "format", NULL, apply_format,
      "print the scene's text in the canonical layout, or write it to -o FILE;\n"
      "with --check tell whether it is in that layout"},
+    {0, "lsp", NULL, apply_lsp,
+     "serve an editor: messages, values, definitions, words and layout by the Language Server Protocol\n"
+     "on standard input and output"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
     {0, "precision", "WHAT", apply_precision,
      "float, quad (float128) or reference (double): trace with the reference path, for study;\n"

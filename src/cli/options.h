@@ -24,6 +24,7 @@ typedef enum Action {
     ACTION_TRACE_PIXEL,
     ACTION_BUDGET,
     ACTION_EXPLAIN_SCENE,
+    ACTION_SERVE,
 } Action;
 
 typedef struct WarningOption {

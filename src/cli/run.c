@@ -12,6 +12,7 @@
 
 #include "cli/confine.h"
 #include "cli/frames.h"
+#include "cli/lsp.h"
 #include "cli/provenance.h"
 #include "cli/summary.h"
 
@@ -43,7 +44,7 @@ static rt_status fail_argument(rt_session *session, const char *expected, const 
     return fail_usage(session, message);
 }
 
-static rt_status configure(rt_session *session, const Options *options)
+rt_status run_configure(rt_session *session, const Options *options)
 {
     const int *crop = options->crop;
     if (options->is_untrusted) {
@@ -431,12 +432,16 @@ rt_status run(rt_session *session, Options *options, Voice *voice)
         [ACTION_TRACE_PIXEL] = trace_pixel,
         [ACTION_BUDGET] = budget,
     };
-    rt_status status = configure(session, options);
-    if (!status && !options->is_unconfined && options->action != ACTION_EXPLAIN) {
+    rt_status status = run_configure(session, options);
+    if (!status && !options->is_unconfined && options->action != ACTION_EXPLAIN &&
+        options->action != ACTION_SERVE) {
         status = confine_runs(session, options);
     }
     if (status) {
         return status;
+    }
+    if (options->action == ACTION_SERVE) {
+        return lsp_run(options) ? RT_FAULT_USAGE : RT_OK;
     }
     return options->action == ACTION_RENDER ? render(session, options, voice)
                                             : actions[options->action](session, options);

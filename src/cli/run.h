@@ -10,6 +10,9 @@
 
 rt_status run(rt_session *session, Options *options, Voice *voice);
 
+// What options say of how scenes are read.
+rt_status run_configure(rt_session *session, const Options *options);
+
 // Prints to standard output, with what stands in its buffer; returns `status`, or what went wrong.
 rt_status run_print(rt_session *session, const char *text, rt_status status);
 
