@@ -280,6 +280,7 @@ test_scripts = \
   %D%/povray/check_alpha.py \
   %D%/povray/check_alpha_samples.py \
   %D%/povray/check_antialias.py \
+  %D%/povray/check_ase.py \
   %D%/povray/check_callers.py \
   %D%/povray/check_cameras.py \
   %D%/povray/check_jitter.py \
