@@ -250,6 +250,7 @@ test_scripts = \
   %D%/check-diagnostics.py \
   %D%/check-docs.py \
   %D%/check-tour.py \
+  %D%/check-editors.py \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \
   %D%/golden/check_gallery.py \
@@ -266,7 +267,9 @@ test_scripts = \
   %D%/system/check_hostile.py \
   %D%/system/run_system.py \
   %D%/system/check_image_files.py \
+  %D%/system/check_frames.py \
   %D%/system/check_lenient.py \
+  %D%/system/check_lsp.py \
   %D%/system/check_rerun.py \
   %D%/system/check_install.py \
   %D%/system/check_python.py \
@@ -289,6 +292,7 @@ test_scripts = \
   %D%/povray/check_alpha.py \
   %D%/povray/check_alpha_samples.py \
   %D%/povray/check_antialias.py \
+  %D%/povray/check_ase.py \
   %D%/povray/check_callers.py \
   %D%/povray/check_cameras.py \
   %D%/povray/check_jitter.py \
@@ -375,6 +379,7 @@ update-golden: rtlang$(EXEEXT)
 update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_diagnostics$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-docs.py
 	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-tour.py
+	$(AM_TESTS_ENVIRONMENT) UPDATE_DOCS=1 $(PYTHON3) $(top_srcdir)/tests/check-editors.py
 # What docs/language.md tells of differences from POV-Ray, which must be there.
 update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_apart.py --update

@@ -119,6 +119,13 @@ RT_API const char *rt_nearest(const char *mistyped, const char *const *names);
  * terminal, which what the scene itself says does not get. */
 typedef enum rt_format { RT_FORMAT_TEXT, RT_FORMAT_JSON, RT_FORMAT_COLOR } rt_format;
 RT_API void rt_set_format(rt_session *session, rt_format format);
+/* An animation: a scene that is loaded once and rendered at several clocks. Before rt_load_*: */
+RT_API rt_status rt_expect_frames(rt_session *session);
+/* After it, and after rt_render: the clock is another one, and so are numbers that were declared with rt_declare, as NAME=VALUE,
+ * always the same names. Where camera, lights and settings alone depend on these, they are read again without the rest of the
+ * scene, which stays as it is with its tree, and *is_set turns 1: rt_render draws the frame. Else it turns 0, and the scene is to
+ * be loaded in a new session. The picture is the same, byte for byte; messages that do not depend on the frame come once. */
+RT_API rt_status rt_set_frame(rt_session *session, double clock, const char *const *declarations, size_t count, int *is_set);
 /* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the
  * lengths of fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */
 RT_API rt_status rt_set_world(rt_session *session, double scale, const double shift[3]);
@@ -268,6 +275,15 @@ RT_API rt_status rt_report_in(rt_session *session, const char *code, const char 
  * whole scene: any text whose tokens can be read has a layout. *text is "" when there were faults, else valid until the
  * next call on the session. */
 RT_API rt_status rt_format_file(rt_session *session, const char *path, const char **text);
+/* The same of a text. */
+RT_API rt_status rt_format_text(rt_session *session, const char *name, const char *text, size_t length, const char **laid_out);
+/* A word of the language, for editors: number `i` from 0; 0 past the end. A word may come more than once. */
+typedef struct rt_word {
+    const char *word;
+    const char *place; /* the block that it is a property of; "" for what stands alone */
+    const char *doc;   /* what it is, a line */
+} rt_word;
+RT_API int rt_get_word(size_t i, rt_word *word);
 /* Whether the file is in the canonical layout: RT_FAULT_SCENE, and a diagnostic at the first place where it is not. */
 RT_API rt_status rt_check_format(rt_session *session, const char *path);
 /* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard
@@ -503,6 +519,7 @@ typedef struct rt_summary {
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds; /* wall time */
     uint64_t errors, warnings;
     const char *kernel; /* name of the kernel that traced the picture, "" before rt_render */
+    uint64_t trees; /* that were built of the scene's shapes, in all calls of rt_render */
     uint64_t out_of_range; /* of the warnings, those of shapes, lights and cameras beyond the range of numbers */
 } rt_summary;
 RT_API void rt_get_summary(const rt_session *session, rt_summary *summary);

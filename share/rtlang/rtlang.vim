@@ -15,21 +15,36 @@ syn region rtlangString start=+"+ skip=+\\.+ end=+"+ contains=rtlangEscape
 syn keyword rtlangTodo contained TODO FIXME
 syn match rtlangComment "//.*" contains=rtlangTodo
 syn region rtlangComment start="/\*" end="\*/" contains=rtlangComment,rtlangTodo
-syn keyword rtlangFunction abs acos acosh asc asin asinh atan atan2 atanh
-syn keyword rtlangFunction ceil chr concat cos cosh defined degrees dimension_size dimensions div exp
-syn keyword rtlangFunction file_exists floor int ln log max min mod pow
-syn keyword rtlangFunction radians rand seed select sin sinh sqrt str strcmp strlen strlwr strupr substr
-syn keyword rtlangFunction tan tanh val vaxis_rotate vcross vdot vlength vnormalize vrotate vstr
-syn keyword rtlangConstant clock clock_on false no now off on pi t true u v version x y yes z array
+syn keyword rtlangFunction abs acos acosh asc asin asinh atan atan2 atanh bitwise_and bitwise_or bitwise_xor
+syn keyword rtlangFunction ceil chr concat cos cosh datetime defined degrees dimension_size dimensions div exp
+syn keyword rtlangFunction file_exists floor inside int internal ln log max max_extent min min_extent mod pow
+syn keyword rtlangFunction prod radians rand seed select sin sinh sqrt str strcmp strlen strlwr strupr substr
+syn keyword rtlangFunction sum tan tanh trace val vaxis_rotate vcross vdot vlength vnormalize vrotate vstr
+syn keyword rtlangFunction vturbulence
+syn keyword rtlangConstant array clock clock_on false function no now off on pi t true u v version x y yes z
 syn keyword rtlangColour alpha blue color colour filter gray green red rgb rgbf rgbft rgbt srgb srgbf srgbft
 syn keyword rtlangColour srgbt transmit
-syn keyword rtlangWord adc_bailout albedo ambient ambient_light angle assumed_gamma background brilliance camera
-syn keyword rtlangWord conserve_energy diffuse direction emission exponent falloff finish
-syn keyword rtlangWord global_settings hollow inverse light_source location look_at matrix max_intersections
-syn keyword rtlangWord max_trace_level metallic mm_per_unit noise_generator number_of_waves object
-syn keyword rtlangWord orthographic parallel perspective phong phong_size pigment plane point_at quick_color
-syn keyword rtlangWord quick_colour reflection reflection_exponent right rotate roughness scale
-syn keyword rtlangWord shadowless sky specular sphere split_union transform translate union up texture
+syn keyword rtlangWord accuracy adaptive adc_bailout agate agate_turb albedo ambient ambient_light angle
+syn keyword rtlangWord aperture area_light assumed_gamma average background blur_samples bounded_by box boxed
+syn keyword rtlangWord bozo brick brick_size brilliance bump_size bumps camera caustics cells charset checker
+syn keyword rtlangWord circular clipped_by color_map colour_map cone confidence conserve_energy control0
+syn keyword rtlangWord control1 crackle cubic_wave cylinder cylindrical dents difference diffuse direction
+syn keyword rtlangWord disc distance emission exponent exr fade_color fade_colour fade_distance fade_power
+syn keyword rtlangWord falloff finish fisheye focal_point fog fog_alt fog_offset fog_type form frequency
+syn keyword rtlangWord fresnel gamma global_settings gradient granite hdr hexagon hollow image_map interior
+syn keyword rtlangWord interpolate intersection inverse ior jitter jpeg julia lambda leopard light_source
+syn keyword rtlangWord location look_at looks_like mandel map_type marble material matrix max_intersections
+syn keyword rtlangWord max_trace_level media_attenuation media_interaction merge metallic metric mm_per_unit
+syn keyword rtlangWord mortar no_bump_scale no_image no_radiosity no_reflection no_shadow noise_generator
+syn keyword rtlangWord normal normal_map number_of_waves object octaves offset omega once onion open orient
+syn keyword rtlangWord orthographic panoramic parallel pattern perspective pgm phase phong phong_size pigment
+syn keyword rtlangWord pigment_map planar plane png point_at poly_wave ppm premultiplied quick_color
+syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
+syn keyword rtlangWord right ripples rotate roughness scale scallop_wave shadowless sine_wave sky sky_sphere
+syn keyword rtlangWord slope_map smooth_triangle solid specular sphere spherical spiral1 split_union spotlight
+syn keyword rtlangWord spotted texture texture_map tga tiff tightness transform translate triangle
+syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
+syn keyword rtlangWord variance waves wood wrinkles
 
 hi def link rtlangDirective PreProc
 hi def link rtlangNumber Number

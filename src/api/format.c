@@ -99,6 +99,23 @@ rt_status rt_format_file(rt_session *session, const char *path, const char **tex
     return session_status(session, fine);
 }
 
+rt_status rt_format_text(rt_session *session, const char *name, const char *text, size_t length, const char **laid_out)
+{
+    TextBuffer copy;
+    Source *source = source_open_text(session->sources, name, text, length);
+    text_init(&copy);
+    text_append_n(&copy, text, length);
+    text_clear(&session->dump);
+    bool fine = source && !copy.failed;
+    if (!fine) {
+        diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory reading `%s`", name);
+    }
+    fine = fine && session_run_deep(session, run_lay_out, &(LayOut){source, &copy}) == RT_OK;
+    text_fini(&copy);
+    *laid_out = text_get(&session->dump);
+    return session_status(session, fine);
+}
+
 rt_status rt_check_format(rt_session *session, const char *path)
 {
     size_t at = SIZE_MAX;

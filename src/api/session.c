@@ -106,6 +106,7 @@ void rt_session_free(rt_session *session)
     text_fini(&session->said);
     text_fini(&session->left_out);
     text_fini(&session->note);
+    session_frames_fini(session);
     free(session->provenance);
     intern_free(session->names);
     source_map_free(session->sources);
@@ -236,6 +237,7 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .tracer = &probe_tracer,
         .painter = &painter,
         .load_pictures = load_pictures,
+        .statement = session->frames.is_expected && !session->loaded ? session_note_statement : NULL,
         .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,
@@ -257,14 +259,24 @@ static bool check_whole(rt_session *session, bool has_new_shapes)
     return fine && session->diags.error_count == 0;
 }
 
+bool session_check_view(rt_session *session)
+{
+    bool fine = check_whole(session, false);
+    diag_finish(&session->diags);
+    session_deliver(session);
+    return fine;
+}
+
 static rt_status load(rt_session *session, void *argument)
 {
     Source *source = argument;
     Scene *scene = &session->scene;
+    session->frames.source = source_map_count(session->sources) - 1; // opened last
     scene->whole = SPAN_WHOLE(source_base(source));
     bool fine = session_evaluate(session, source, scene, session->is_built ? scene->settings.version : 0.0) &&
                 (session->is_built || check_whole(session, true)) && session_load_pictures(session, scene);
     diag_finish(&session->diags);
+    session->frames.source_count = source_map_count(session->sources);
     session->loaded = fine;
     session->is_broken = session->is_built && !fine;
     return session_status(session, fine);
@@ -613,6 +625,7 @@ void rt_get_summary(const rt_session *session, rt_summary *summary)
         .errors = session->past_errors + session->diags.error_count,
         .warnings = session->past_warnings + session->diags.warning_count,
         .kernel = session->kernel,
+        .trees = session->kept.builds + session->is_spent,
         .out_of_range = out_of_range(&session->diags),
     };
 }

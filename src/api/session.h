@@ -31,6 +31,22 @@ typedef struct SessionGroup {
     MaterialIndex own; // the first of as many materials, RECORD_NONE: they share
 } SessionGroup;
 
+// A statement of the text: where it begins, and how many sources there were then.
+typedef struct FrameStatement {
+    uint64_t begin;
+    size_t sources;
+} FrameStatement;
+
+enum { FRAME_NAMES_MOST = 16 };
+
+// Of an animation: what its camera and lights are read from again, see frames.c.
+typedef struct SessionFrames {
+    bool is_expected, is_tried, is_lost; // lost: there was no memory for the statements
+    size_t source, source_count;         // the scene's text, and all that there were in the end
+    ARRAY(FrameStatement) statements;
+    char *slice; // owned; NULL: the whole text is read again
+} SessionFrames;
+
 struct rt_session {
     rt_callbacks callbacks;
     Limits limits;
@@ -53,6 +69,7 @@ struct rt_session {
     EvalWorld world;
     bool no_literals;
     bool is_lenient;
+    SessionFrames frames;
     char *provenance;                          // the options, in the program's words; NULL: files do not say; owned
     unsigned char scene_digest[DIGEST_BYTES];  // of the scene's text, where it has one
     bool has_digest;
@@ -208,6 +225,11 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
 bool session_begin(rt_session *session) RT_MUST_CHECK;
 // Its shapes change: what was built for them is given back.
 void session_shapes_change(rt_session *session);
+// frames.c
+void session_note_statement(void *client, Span span);
+void session_frames_fini(rt_session *session);
+// Whether a loaded scene may be traced with the camera and lights that it has now.
+bool session_check_view(rt_session *session) RT_MUST_CHECK;
 // Whether a scene that is built by calls is one that may be traced; looks through it when it has changed.
 bool session_is_whole(rt_session *session) RT_MUST_CHECK;
 

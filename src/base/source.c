@@ -486,6 +486,22 @@ void source_close(Source *source)
     file_close(&source->file);
 }
 
+size_t source_map_count(const SourceMap *map)
+{
+    return map->sources.count;
+}
+
+const char *source_map_name(const SourceMap *map, size_t i)
+{
+    return map->sources.items[i]->name;
+}
+
+Span source_map_extent(const SourceMap *map, size_t i)
+{
+    const Source *source = map->sources.items[i];
+    return source->is_list ? SPAN_NONE : source_extent(source);
+}
+
 uint64_t source_base(const Source *source)
 {
     return source->base;

@@ -100,6 +100,12 @@ SourceResult source_open_stream(SourceMap *map, const char *name, int file, uint
 // Makes a source of a text in memory, which is copied. NULL when out of memory.
 Source *source_open_text(SourceMap *map, const char *name, const char *text, size_t length) RT_MUST_CHECK;
 
+// How many sources there are; those that were dropped have gone. Of one of them its name and its extent, SPAN_NONE for a
+// list.
+size_t source_map_count(const SourceMap *map);
+const char *source_map_name(const SourceMap *map, size_t i);
+Span source_map_extent(const SourceMap *map, size_t i);
+
 // Makes a source of things that have numbers and no text: byte i stands for the i-th, from 0, of `count`, and messages
 // name it "name[i]". NULL when out of memory.
 Source *source_open_list(SourceMap *map, const char *name, uint64_t count) RT_MUST_CHECK;

@@ -63,3 +63,15 @@ rt_status frames_declare(const Frames *frames, int frame, rt_session *session)
     }
     return status;
 }
+
+rt_status frames_set(const Frames *frames, int frame, rt_session *session, int *is_set)
+{
+    char declarations[FRAMES_DECLARATIONS][FRAMES_DECLARATION_SIZE];
+    const char *list[FRAMES_DECLARATIONS];
+    frames_declarations(frames, frame, declarations);
+    for (size_t i = 0; i < FRAMES_DECLARATIONS; i++) {
+        list[i] = declarations[i];
+    }
+    // Only the last one differs from frame to frame.
+    return rt_set_frame(session, frames_clock(frames, frame), list + FRAMES_DECLARATIONS - 1, 1, is_set);
+}

@@ -31,4 +31,7 @@ void frames_declarations(const Frames *frames, int frame, char declarations[][FR
 // What a scene may ask about its animation: the clock, and POV-Ray's names for the rest.
 rt_status frames_declare(const Frames *frames, int frame, rt_session *session);
 
+// The scene of the session shows another frame and is to show this one, as rt_set_frame does it.
+rt_status frames_set(const Frames *frames, int frame, rt_session *session, int *is_set);
+
 #endif

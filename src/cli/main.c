@@ -96,24 +96,68 @@ static rt_session *open_session(const Options *options, Voice *voice)
     return session;
 }
 
+// NULL: there is none.
 static void close_session(rt_session *session)
 {
     interrupted_session = NULL;
     rt_session_free(session);
 }
 
-// One scene or frame, in a session of its own. *wrote: a picture was written, of a run that was interrupted, too.
-static rt_status run_one(Options *options, Voice *voice, bool *wrote)
+// Whether a picture was written of a run that did not end well: of one that was interrupted, but not by its time.
+static bool is_picture_left(rt_session *session, rt_status status)
 {
     int width, height;
+    bool is_late = status == RT_CANCELLED && interrupted_by == SIGALRM;
+    return session && !is_late && rt_pixels(session, &width, &height) != NULL;
+}
+
+// One scene, in a session of its own. *wrote: a picture was written, of a run that was interrupted, too.
+static rt_status run_one(Options *options, Voice *voice, bool *wrote)
+{
     rt_session *session = open_session(options, voice);
     if (!session) {
         return RT_FAULT_LIMIT;
     }
     rt_status status = interrupted_by ? RT_CANCELLED : run(session, options, voice);
-    bool is_late = status == RT_CANCELLED && interrupted_by == SIGALRM; // then nothing is written
-    *wrote = (!is_late && rt_pixels(session, &width, &height) != NULL) || *wrote;
+    *wrote = is_picture_left(session, status) || *wrote;
     close_session(session);
+    return status;
+}
+
+// The frames of a scene. While one differs from the one before it by camera and lights alone, the session stays. A scene
+// that is wrong in one frame is not tried in the next.
+static rt_status run_frames(Options *options, Voice *voice, bool *wrote)
+{
+    const Frames *frames = &options->frames;
+    FrameCounts counts = {0};
+    rt_session *session = NULL;
+    rt_status status = RT_OK;
+    options->keeps_scene = frames->last - frames->first >= frames->step;
+    for (options->frame = frames->first; !status && options->frame <= frames->last; options->frame += frames->step) {
+        bool is_drawn = false;
+        if (options->continues && run_has_frame(options)) {
+            counts.there++;
+            continue;
+        }
+        if (session && options->keeps_scene && !interrupted_by) {
+            status = run_frame(session, options, voice, &is_drawn);
+            options->keeps_scene = is_drawn;
+        }
+        if (!is_drawn && !status) {
+            counts.trees += session ? summary_trees(session) : 0;
+            close_session(session);
+            session = open_session(options, voice);
+            status = !session ? RT_FAULT_LIMIT : interrupted_by ? RT_CANCELLED : run(session, options, voice);
+            counts.reads++;
+        }
+        counts.drawn += !status;
+        *wrote = *wrote || !status || is_picture_left(session, status);
+    }
+    counts.trees += session ? summary_trees(session) : 0;
+    close_session(session);
+    if (!status && !options->quiet && options->format == RT_FORMAT_TEXT) {
+        summary_print_frames(voice, &counts);
+    }
     return status;
 }
 
@@ -134,20 +178,14 @@ static rt_status fail_time(const Options *options, Voice *voice, bool wrote)
 // the end of the time for all of them.
 static rt_status run_all(Options *options, Voice *voice, bool *wrote)
 {
-    const Frames *frames = &options->frames;
     rt_status worst = RT_OK;
     if (options->max_time > 0.0) {
         begin_timer(options->max_time);
     }
     for (int i = 0; i < options->scene_count && worst != RT_CANCELLED; i++) {
         options->scene = options->scenes[i];
-        bool is_animated = frames->step > 0 && options->action == ACTION_RENDER;
-        int last = is_animated ? frames->last : 0, step = is_animated ? frames->step : 1;
-        rt_status status = RT_OK; // a scene that is wrong in one frame is not tried in the next
-        for (options->frame = is_animated ? frames->first : 0; !status && options->frame <= last;
-             options->frame += step) {
-            status = run_one(options, voice, wrote);
-        }
+        bool is_animated = options->frames.step > 0 && options->action == ACTION_RENDER;
+        rt_status status = is_animated ? run_frames(options, voice, wrote) : run_one(options, voice, wrote);
         worst = status > worst ? status : worst;
     }
     return worst == RT_CANCELLED && interrupted_by == SIGALRM ? fail_time(options, voice, *wrote) : worst;

@@ -93,6 +93,13 @@ static bool apply_rerun(Options *options, const char *argument, OptionReading *r
     return argument[0] != '\0';
 }
 
+static bool apply_lsp(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    options->action = ACTION_SERVE;
+    return true;
+}
+
 static bool apply_include_path(Options *options, const char *argument, OptionReading *reading)
 {
     reading->expected = "a folder";
@@ -145,6 +152,12 @@ static bool apply_frames(Options *options, const char *argument, OptionReading *
                 option_parse_integer(dots + 2, frames->initial, 999999999, &frames->final);
     frames->first = frames->initial, frames->last = frames->final, frames->step = 1;
     return fine;
+}
+
+static bool apply_continue(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    return options->continues = true, true;
 }
 
 static bool apply_clock_from(Options *options, const char *argument, OptionReading *reading)
@@ -586,6 +599,7 @@ static const OptionRow rows[] = {
      "draw an animation: frames A to B, whose numbers stand in their pictures' names"},
     {0, "clock-from", "NUMBER", apply_clock_from, "the clock of frame A (default 0)"},
     {0, "clock-to", "NUMBER", apply_clock_to, "the clock of frame B (default 1)"},
+    {0, "continue", NULL, apply_continue, "do not draw the frames whose pictures are there"},
     {0, "povray", NULL, apply_povray,
      "all other words are POV-Ray's, as they are when one of them begins with + or ends with .ini, or is KEY=VALUE"},
     {0, "allow-read", "FOLDER", apply_allow_read,
@@ -656,6 +670,9 @@ static const OptionRow rows[] = {
     {0, "format", NULL, apply_format,
      "print the scene's text in the canonical layout, or write it to -o FILE;\n"
      "with --check tell whether it is in that layout"},
+    {0, "lsp", NULL, apply_lsp,
+     "serve an editor: messages, values, definitions, words and layout by the Language Server Protocol\n"
+     "on standard input and output"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
     {0, "precision", "WHAT", apply_precision,
      "float, quad (float128) or reference (double): trace with the reference path, for study;\n"

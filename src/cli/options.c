@@ -122,7 +122,13 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     if (options->action == ACTION_EXPLAIN && (result = settle_explain(argc, argv, options)) != OPTIONS_GO) {
         return result;
     }
-    if (options->action == ACTION_EXPLAIN || options->action == ACTION_EXPLAIN_SCENE) {
+    if (options->action == ACTION_SERVE && optind < argc) {
+        return option_complain(&options->reading, "`--lsp` wants no scene: its client names them");
+    }
+    if (options->action == ACTION_SERVE) {
+        options->scene = "";
+    }
+    if (options->action == ACTION_EXPLAIN || options->action == ACTION_EXPLAIN_SCENE || options->action == ACTION_SERVE) {
         options->scenes[options->scene_count++] = options->scene;
         return OPTIONS_GO;
     }

@@ -24,6 +24,7 @@ typedef enum Action {
     ACTION_TRACE_PIXEL,
     ACTION_BUDGET,
     ACTION_EXPLAIN_SCENE,
+    ACTION_SERVE,
 } Action;
 
 typedef struct WarningOption {
@@ -44,6 +45,8 @@ struct Options {
     const char *rerun;  // the picture that is to be drawn again; NULL: none
     char *rerun_text, **rerun_words, *rerun_output; // its options and what is drawn to compare, owned
     const char *header; // included before the scene; NULL: none
+    bool continues;     // frames whose pictures are there are not drawn
+    bool keeps_scene;   // for the next frame
     bool is_povray;     // the options were POV-Ray's
     bool has_no_progress, has_no_output;
     const char *code; // ACTION_EXPLAIN

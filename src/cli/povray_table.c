@@ -28,7 +28,7 @@
 
 static const char shown[] = "there is no preview";
 static const char bounded[] = "shapes are always bounded, which changes no picture";
-static const char radiosity[] = "a scene with radiosity is refused anyway";
+static const char radiosity[] = "radiosity is refused, or left out by --lenient";
 static const char timed[] = "for the order of work only";
 static const char quality[] = "rtlang always draws shadows, textures, reflection and refraction";
 static const char returned[] = "no program is run";

@@ -8,11 +8,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/confine.h"
 #include "cli/frames.h"
+#include "cli/lsp.h"
 #include "cli/provenance.h"
 #include "cli/summary.h"
+
+enum { OUTPUT_NAME = PATH_MAX + 16 };
 
 static rt_status fail_usage(rt_session *session, const char *message)
 {
@@ -40,7 +44,7 @@ static rt_status fail_argument(rt_session *session, const char *expected, const 
     return fail_usage(session, message);
 }
 
-static rt_status configure(rt_session *session, const Options *options)
+rt_status run_configure(rt_session *session, const Options *options)
 {
     const int *crop = options->crop;
     if (options->is_untrusted) {
@@ -280,34 +284,35 @@ static rt_status compare_again(rt_session *session, const Options *options, Voic
     return status;
 }
 
-static rt_status render(rt_session *session, const Options *options, Voice *voice)
+// Where the picture goes; `name` has room for it.
+static const char *output_name(const Options *options, char name[OUTPUT_NAME])
 {
-    char default_name[PATH_MAX], frame_name[PATH_MAX + 16];
+    char default_name[PATH_MAX];
     const char *output = options->output;
     if (!output) {
         default_output(options->scene, default_name, sizeof default_name);
         output = default_name;
     }
     if (options->frames.step) {
-        frames_name(&options->frames, options->frame, output, frame_name, sizeof frame_name);
-        output = frame_name;
+        frames_name(&options->frames, options->frame, output, name, OUTPUT_NAME);
+    } else {
+        snprintf(name, OUTPUT_NAME, "%s", output);
     }
-    rt_status status = set_sampling(session, options);
-    status = status || options->has_no_output ? status : check_output(session, options, output);
-    status = status ? status : set_provenance(session, options);
-    status = status ? status : rt_load_file(session, options->scene);
-    if (status) {
-        return status;
-    }
+    return name;
+}
+
+bool run_has_frame(const Options *options)
+{
+    char name[OUTPUT_NAME];
+    struct stat status;
+    return stat(output_name(options, name), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
+}
+
+// Of a scene that is loaded.
+static rt_status draw(rt_session *session, const Options *options, const char *output, Voice *voice)
+{
     progress_begin(&voice->progress, !options->quiet && !options->has_no_progress && options->format == RT_FORMAT_TEXT);
-    status = rt_set_method(session, options->method, options->photons);
-    status = status ? status : rt_set_precision(session, options->precision);
-    if (status) {
-        return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
-    }
-    status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
-    rt_discard_scene(session);
-    status = status ? status : rt_render(session, options->threads);
+    rt_status status = rt_render(session, options->threads);
     progress_end(&voice->progress);
     int width, height;
     bool is_late = *voice->interrupted_by == SIGALRM; // then nothing is written
@@ -317,6 +322,46 @@ static rt_status render(rt_session *session, const Options *options, Voice *voic
     }
     status = status ? status : finish(session, options, output, voice);
     return !status && options->rerun ? compare_again(session, options, voice) : status;
+}
+
+static rt_status render(rt_session *session, const Options *options, Voice *voice)
+{
+    char name[OUTPUT_NAME];
+    const char *output = output_name(options, name);
+    rt_status status = set_sampling(session, options);
+    status = status || options->has_no_output ? status : check_output(session, options, output);
+    status = status ? status : set_provenance(session, options);
+    if (!status && options->keeps_scene) {
+        status = rt_expect_frames(session);
+    }
+    status = status ? status : rt_load_file(session, options->scene);
+    status = status ? status : rt_set_method(session, options->method, options->photons);
+    if (status) {
+        return status;
+    }
+    if (rt_set_precision(session, options->precision)) {
+        return fail_usage(session, "`--precision`: this rtlang was built with --disable-study");
+    }
+    status = options->isa ? rt_set_isa(session, options->isa) : RT_OK;
+    if (!options->keeps_scene) {
+        rt_discard_scene(session);
+    }
+    return status ? status : draw(session, options, output, voice);
+}
+
+rt_status run_frame(rt_session *session, const Options *options, Voice *voice, bool *is_drawn)
+{
+    char name[OUTPUT_NAME];
+    int is_set;
+    *is_drawn = false;
+    rt_status status = frames_set(&options->frames, options->frame, session, &is_set);
+    if (status || !is_set) {
+        return status;
+    }
+    *is_drawn = true;
+    const char *output = output_name(options, name);
+    status = options->has_no_output ? RT_OK : check_output(session, options, output);
+    return status ? status : draw(session, options, output, voice);
 }
 
 static rt_status check(rt_session *session, const Options *options)
@@ -391,12 +436,16 @@ rt_status run(rt_session *session, Options *options, Voice *voice)
         [ACTION_TRACE_PIXEL] = trace_pixel,
         [ACTION_BUDGET] = budget,
     };
-    rt_status status = configure(session, options);
-    if (!status && !options->is_unconfined && options->action != ACTION_EXPLAIN) {
+    rt_status status = run_configure(session, options);
+    if (!status && !options->is_unconfined && options->action != ACTION_EXPLAIN &&
+        options->action != ACTION_SERVE) {
         status = confine_runs(session, options);
     }
     if (status) {
         return status;
+    }
+    if (options->action == ACTION_SERVE) {
+        return lsp_run(options) ? RT_FAULT_USAGE : RT_OK;
     }
     return options->action == ACTION_RENDER ? render(session, options, voice)
                                             : actions[options->action](session, options);

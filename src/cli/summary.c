@@ -93,3 +93,22 @@ void summary_print_error(FILE *out, const rt_session *session, const Options *op
                 error.bias, error.bias > error.high ? "; more samples will not help" : "");
     }
 }
+
+unsigned long long summary_trees(const rt_session *session)
+{
+    rt_summary summary;
+    rt_get_summary(session, &summary);
+    return summary.trees;
+}
+
+void summary_print_frames(Voice *voice, const FrameCounts *counts)
+{
+    char text[160], there[48] = "";
+    if (counts->there > 0) {
+        snprintf(there, sizeof there, ", %llu there already", counts->there);
+    }
+    int length = snprintf(text, sizeof text, "animation: %llu frame%s drawn%s; the scene read %llu time%s, its tree built %llu time%s\n",
+                          counts->drawn, counts->drawn == 1 ? "" : "s", there, counts->reads,
+                          counts->reads == 1 ? "" : "s", counts->trees, counts->trees == 1 ? "" : "s");
+    voice_say(voice, VOICE_STATISTICS, text, (size_t)length);
+}

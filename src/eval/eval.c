@@ -23,6 +23,8 @@ static const char *const zeros[] = {
 static bool take_item(void *client, const AstNode *item)
 {
     Eval *ev = client;
+    eval_tell_statement(ev, item->span);
+    ev->tells_plan = true;
     lint_items(ev, item);
     eval_item(ev, item);
     return !eval_cancelled(ev);

@@ -260,7 +260,7 @@ static Geometry *take_geometry(const Scene *scene, int exponent, const GeometryO
         kept->geometry = NULL;
     }
     if (!kept->geometry) {
-        *kept = (GeometryKept){geometry_new_with(scene, exponent, options), exponent, options->isa};
+        *kept = (GeometryKept){geometry_new_with(scene, exponent, options), exponent, options->isa, kept->builds + 1};
     }
     return kept->geometry;
 }

@@ -98,6 +98,7 @@ typedef struct GeometryKept {
     Geometry *geometry; // NULL: none yet
     int exponent;
     const char *isa;
+    unsigned builds; // how often one was built
 } GeometryKept;
 
 typedef struct GeometryOptions {

@@ -20,7 +20,7 @@ import zlib
 
 sys.dont_write_bytecode = True  # the folders are distributed as they are
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pictures import png_chunks  # noqa: E402
+from pictures import png_chunks, png_without_texts  # noqa: E402
 from tap import Tap  # noqa: E402
 
 try:
@@ -87,8 +87,8 @@ def check_pictures(folder):
         subprocess.run([os.environ.get("RTLANG", "./rtlang"), "-q", "-W64", "-H48", "-o", path + ".png", path],
                        check=True)
         with open(path + ".png", "rb") as file:
-            same += file.read() == image.png()
-    tap.equal(same, 8, "from arrays, and from the dump by the program: the same files, byte for byte")
+            same += png_without_texts(file.read()) == png_without_texts(image.png())
+    tap.equal(same, 8, "from arrays, and from the dump by the program: the same files but for what they say of their origin")
     centers, radii, colors = cloud(50)
     image = lit().spheres(centers, radii, colors)._scene.render(48, 36)
     image.save(os.path.join(folder, "saved.png"))

@@ -15,6 +15,16 @@ def png_chunks(data):
         at += 12 + length
 
 
+def png_without_texts(data):
+    """A PNG's bytes without what it says of its scene and options."""
+    at, kept = 8, data[:8]
+    while at < len(data):
+        end = at + 12 + int.from_bytes(data[at:at + 4], "big")
+        kept += data[at:end] if data[at + 4:at + 8] != b"tEXt" else b""
+        at = end
+    return kept
+
+
 def png_header(data):
     """Width, height, bits of a value."""
     return struct.unpack(">IIB", dict(png_chunks(data))[b"IHDR"][:9])

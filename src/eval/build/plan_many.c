@@ -100,5 +100,8 @@ bool plan_keep(void *client, const void *list, size_t count, size_t more)
     }
     scene_repeat_material(scene, repeated);
     scene_commit_spheres(scene, count, records[0].source);
+    if (ev->tells_plan) {
+        eval_tell_statement(ev, (Span){records[0].source, records[0].source + 1});
+    }
     return true;
 }

@@ -301,6 +301,9 @@ static GrammarTaken run(void *client, const GrammarStatement *statement)
     GrammarPlan *plan = (GrammarPlan *)statement->plan;
     PlanNumbers numbers;
     PlanMade made = {.is_sphere = true};
+    if (ev->tells_plan || plan->call) {
+        eval_tell_statement(ev, statement->span);
+    }
     if (plan->call) {
         return run_call(ev, plan->call, statement);
     }

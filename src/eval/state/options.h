@@ -97,6 +97,7 @@ typedef struct EvalOptions {
     const EvalTracer *tracer;  // for `trace`; NULL: there is none
     const EvalPainter *painter; // for functions of patterns and pigments; NULL: there is none
     bool (*load_pictures)(void *client, Scene *scene); // of these; false after a fault; NULL: none are read
+    void (*statement)(void *client, Span span); // each of the text itself, before it is evaluated; NULL: nobody asks
     EvalNames *declared;       // set in the end; may be NULL
     const atomic_bool *cancel; // when it turns true, evaluation stops soon; may be NULL
     // What the scene says with #debug, #render and #statistics: whole lines, broken at 80 columns as POV-Ray's console

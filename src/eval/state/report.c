@@ -113,6 +113,14 @@ bool eval_report(Eval *ev, DiagCode code, Span span, const char *format, ...)
     return kept;
 }
 
+void eval_tell_statement(Eval *ev, Span span)
+{
+    if (ev->options.statement && ev->include_depth == 0) {
+        ev->options.statement(ev->options.client, span);
+        ev->tells_plan = false;
+    }
+}
+
 bool eval_leaves_out(const Eval *ev)
 {
     return ev->options.is_lenient && !ev->stop && ev->options.diags->error_count == ev->errors_before;

@@ -150,6 +150,7 @@ struct Eval {
     bool lacks_brace;    // so is what follows a block's word without its brace, up to an object
     bool explains_steps; // too many steps were reported, and not yet which loop does not end
     bool faulty;         // something was reported, if only before
+    bool tells_plan;     // the next statement that is read by a plan is to be told: those after it are not
     size_t errors_before; // that were reported when the evaluation began
     unsigned inner;      // parentheses of any kind around the expression that is being worked out
     unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are worked out; 0: none
@@ -159,6 +160,8 @@ struct Eval {
 
 // A syntax fault was reported inside of a span: what is missing there may have been in what was not understood.
 bool eval_follows_syntax(const Eval *ev, Span whole);
+// Tells the client where a statement of the scene's own text begins.
+void eval_tell_statement(Eval *ev, Span span);
 // What was not read has no fault: it was left out, as a lenient evaluation does with what rtlang has not.
 bool eval_leaves_out(const Eval *ev);
 // Reports a fault at a span; the return value is false, so that `return eval_fault(…)` reads well. What was reported at

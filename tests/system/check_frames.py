@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""Animations: each frame has the pixels of a single run, and the scene is read once where only camera and lights move.
+
+The expected pictures are those of single runs with the same clock and names. Prints TAP. SPDX-License-Identifier: MIT
+"""
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import tap  # noqa: E402
+
+PROGRAM = os.path.abspath(os.environ["RTLANG"])
+FRAMES = 4
+HEAD = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n"
+CAMERA = "camera { location <3 * sin(clock * 3), 2, -6> look_at 0 }\n"
+STILL = "camera { location <0, 2, -6> look_at 0 }\n"
+LIGHT = "light_source { <5, 5, -5> rgb 1 }\n"
+BALLS = "".join(f"sphere {{ <{i % 5 - 2}, {i // 5 - 2}, 0>, 0.4 pigment {{ rgb <{i / 25}, 0.5, 0.2> }} }}\n" for i in range(25))
+FILES = {
+    "balls.inc": BALLS, "names.inc": "#declare Far = 6;\n#declare Unused = sphere { 0, 1 }\n",
+    "moving.inc": "sphere { <clock, 0, 0>, 1 pigment { rgb 1 } }\n", "numbers.txt": "1, 2, 3\n",
+    "view.inc": CAMERA + LIGHT, "where.inc": "#declare Where = clock;\n",
+}
+# name -> (text, how often the scene is read, how often its tree is built)
+ONCE, EACH = (1, 1), (FRAMES, FRAMES)
+CASES = {
+    "the camera moves": (HEAD + CAMERA + LIGHT + BALLS, ONCE),
+    "the camera stands at the end": (HEAD + LIGHT + BALLS + CAMERA, ONCE),
+    "a light moves": (HEAD + STILL + LIGHT + BALLS + "light_source { <5 * clock, 5, -5> rgb <1, 0, 0> }\n" + BALLS, ONCE),
+    "the background changes": (HEAD + STILL + LIGHT + "background { rgb clock }\n" + BALLS, ONCE),
+    "nothing moves": (HEAD + STILL + LIGHT + BALLS, ONCE),
+    "shapes from a file": (HEAD + CAMERA + '#include "balls.inc"\n' + LIGHT, ONCE),
+    "a number from a file": (HEAD + '#include "names.inc"\ncamera { location <clock, 2, -Far> look_at 0 }\n' + LIGHT + BALLS, ONCE),
+    "by names of names": (HEAD + "#declare A = clock;\n#declare B = A * 2;\n" + BALLS +
+                          "camera { location <B, 2, -6> look_at 0 }\n" + LIGHT, ONCE),
+    "a name is written again later": (HEAD + "#declare B = clock;\ncamera { location <B, 2, -6> look_at 0 }\n#declare B = 0.5;\n" +
+                                      LIGHT + "sphere { 0, B pigment { rgb 1 } }\n", EACH),
+    "a loop of shapes": (HEAD + CAMERA + LIGHT + "#declare I = 0;\n#while (I < 20)\nsphere { <I / 5 - 2, 0, 0>, 0.3 pigment { rgb I / 20 } }\n"
+                         "#declare I = I + 1;\n#end\n", ONCE),
+    "the camera uses the loop's number": (HEAD + "#declare I = 0;\n#while (I < 5)\nsphere { I, 0.5 }\n#declare I = I + 1;\n#end\n"
+                                          "camera { location <clock, 2, -I> look_at 0 }\n" + LIGHT, EACH),
+    "a macro of shapes": (HEAD + CAMERA + LIGHT + "#macro Ball(P)\n#local R = 0.4;\nsphere { P, R pigment { rgb 1 } }\n#end\n" +
+                          "".join(f"Ball(<{i - 2}, 0, 0>)\n" for i in range(5)), ONCE),
+    "a macro that writes a name": (HEAD + "#declare N = 0;\n#macro Ball()\nsphere { N, 0.3 pigment { rgb 1 } }\n#declare N = N + 0.5;\n#end\n"
+                                   "Ball()\nBall()\ncamera { location <clock, N, -6> look_at 0 }\n" + LIGHT, EACH),
+    "macros that call one another": (HEAD + "#declare N = 0;\n#macro Set(V)\n#declare N = V;\n#end\n#macro Do(V)\n#if (V > 5)\nDo(V - 5)\n#else\n"
+                                     "Set(V)\n#end\n#end\nDo(clock)\nsphere { N, 1 pigment { rgb 1 } }\n" + STILL + LIGHT, EACH),
+    "a macro changes what it is given": (HEAD + "#macro Set(A)\n#declare A = clock;\n#end\n#declare Q = 1;\nSet(Q)\nsphere { Q, 1 pigment { rgb 1 } }\n" +
+                                         STILL + LIGHT, EACH),
+    "a shape moves": (HEAD + STILL + LIGHT + BALLS + "sphere { <clock, 0, -2>, 0.5 pigment { rgb 1 } }\n", EACH),
+    "a shape moves in a file": (HEAD + STILL + LIGHT + BALLS + '#include "moving.inc"\n', EACH),
+    "a name from a file moves a shape": (HEAD + '#include "where.inc"\n' + STILL + LIGHT + "sphere { Where, 1 pigment { rgb 1 } }\n", EACH),
+    "a shape comes": (HEAD + CAMERA + LIGHT + BALLS + "#if (clock > 0.5) sphere { <0, 0, -2>, 0.5 pigment { rgb 1 } } #end\n", (3, 3)),
+    "a shape knows the frame": (HEAD + STILL + LIGHT + "sphere { frame_number / 4, 1 pigment { rgb 1 } }\n", EACH),
+    "the default changes": (HEAD + "#default { finish { ambient clock } }\n" + STILL + LIGHT + BALLS, EACH),
+    "settings change": ("#version 3.7;\nglobal_settings { assumed_gamma 1 + clock }\n" + STILL + LIGHT +
+                        "sphere { 0, 1 pigment { srgb 0.5 } }\n", EACH),
+    "fog moves": (HEAD + CAMERA + LIGHT + BALLS + "fog { distance 5 + clock rgb 0.5 }\n", EACH),
+    "chance in both": (HEAD + "#declare S = seed(1);\n#for (I, 1, 5)\nsphere { rand(S) * 2, 0.4 pigment { rgb 1 } }\n#end\n"
+                       "camera { location <rand(S) + clock, 2, -6> look_at 0 }\n" + LIGHT, EACH),
+    "chance in shapes": (HEAD + CAMERA + LIGHT + "#declare S = seed(1);\n#for (I, 1, 5)\nsphere { rand(S) * 2, 0.4 pigment { rgb 1 } }\n#end\n", ONCE),
+    "numbers from a file": (HEAD + CAMERA + LIGHT + '#fopen F "numbers.txt" read\n#read (F, A)\nsphere { A, 1 pigment { rgb 1 } }\n#fclose F\n', EACH),
+    "camera and lights in a file": (HEAD + '#include "view.inc"\n' + BALLS, ONCE),
+    "a light in a union": (HEAD + CAMERA + "union { light_source { <5, 5, -5> rgb 1 } sphere { 0, 1 pigment { rgb 1 } } }\n", EACH),
+    "comments and strings": (HEAD + CAMERA + LIGHT + '// sphere { clock\n/* clock */\n#declare T = "clock";\n' + BALLS, ONCE),
+}
+
+
+def pixels(data):
+    at, kept = 8, b""
+    while at < len(data):
+        end = at + 12 + struct.unpack(">I", data[at:at + 4])[0]
+        kept += data[at:end] if data[at + 4:at + 8] != b"tEXt" else b""
+        at = end
+    return kept
+
+
+def content(folder, name):
+    with open(os.path.join(folder, name), "rb") as file:
+        return file.read()
+
+
+def run(folder, *words):
+    done = subprocess.run([PROGRAM, "-W", "40", "-H", "30", *words], cwd=folder, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120, check=False)
+    return done.returncode, done.stdout, done.stderr.decode()
+
+
+def single(folder, frame, *options):
+    clock = (frame - 1) / (FRAMES - 1)
+    names = {"clock_delta": 1 / (FRAMES - 1), "initial_clock": 0, "final_clock": 1, "initial_frame": 1, "final_frame": FRAMES,
+             "frame_number": frame}
+    words = [f"-D{name}={value!r}" for name, value in names.items()]
+    run(folder, "-q", f"--clock={clock!r}", *words, *options, "-o", "single.png", "s.scn")
+    return pixels(content(folder, "single.png"))
+
+
+def put(folder, name, text):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def check_case(report, folder, name, text, times, *options):
+    put(folder, "s.scn", text)
+    status, _, told = run(folder, f"--frames=1..{FRAMES}", *options, "-o", "f.png", "s.scn")
+    differ = [i for i in range(1, FRAMES + 1)
+              if status or pixels(content(folder, f"f{i}.png")) != single(folder, i, *options)]
+    report.ok(status == 0 and not differ, f"{name}: the frames have the pixels of single runs", f"{status} {differ}\n{told}")
+    found = re.search(r"^animation: (\d+) frames drawn; the scene read (\d+) times?, its tree built (\d+) times?$", told, re.M)
+    report.equal(found and tuple(map(int, found.groups())), (FRAMES, *times), f"{name}: read and built so often")
+
+
+def check_continue(report, folder):
+    put(folder, "s.scn", HEAD + CAMERA + LIGHT + BALLS)
+    run(folder, "-q", "--frames=1..4", "-o", "g.png", "s.scn")
+    whole = [content(folder, f"g{i}.png") for i in range(1, 5)]
+    os.remove(os.path.join(folder, "g2.png"))
+    os.remove(os.path.join(folder, "g3.png"))
+    status, _, told = run(folder, "--frames=1..4", "--continue", "-o", "g.png", "s.scn")
+    report.ok(status == 0 and "animation: 2 frames drawn, 2 there already; the scene read 1 time, its tree built 1 time\n" in told,
+              "--continue draws what is missing", told)
+    report.equal([content(folder, f"g{i}.png") for i in range(1, 5)], whole, "which are the same files")
+
+
+def check_stream(report, folder):
+    status, out, _ = run(folder, "-q", "--frames=1..3", "-o", "-.ppm", "s.scn")
+    size = len(b"P6\n40 30\n255\n") + 40 * 30 * 3
+    report.ok(status == 0 and len(out) == 3 * size and all(out[i * size:].startswith(b"P6\n40 30\n255\n") for i in range(3)),
+              "standard output is PPM after PPM", len(out))
+
+
+def main():
+    report = tap.Tap()
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in FILES.items():
+            put(folder, name, text)
+        for name, (text, times) in CASES.items():
+            check_case(report, folder, name, text, times)
+        moving = HEAD + CAMERA + LIGHT + BALLS
+        for options in (["--samples=4"], ["--antialias=1"], ["--threads=3"], ["--samples=8", "--adaptive"], ["--no-literals"]):
+            check_case(report, folder, " ".join(options), moving, ONCE, *options)
+        check_continue(report, folder)
+        check_stream(report, folder)
+    report.done()
+
+
+main()
