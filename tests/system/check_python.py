@@ -179,6 +179,63 @@ def check_samples():
     tap.ok(not edge.any(), "and cuts nothing off")
 
 
+# ---- light and lines that make shape seen
+
+def check_looks(folder):
+    centers, radii, colors = cloud(60)
+    scene = lit()
+    scene.spheres(centers, radii, colors)
+    plain = scene.render(64, 48)
+    scene.sky(0.4)
+    scene.outline(2.5)
+    scene.depth_cue(0.6)
+    image, path = scene.render(64, 48, samples=3), os.path.join(folder, "looks.scn")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(scene.dump())
+    subprocess.run([os.environ.get("RTLANG", "./rtlang"), "-q", "-W64", "-H48", "--sky-light=0.4", "--outline=2.5",
+                    "--depth-cue=0.6", "--samples=3", "-o", path + ".png", path], check=True)
+    with open(path + ".png", "rb") as file:
+        with open(os.path.join(folder, "looks.png"), "wb") as own:
+            own.write(image.png())
+        tap.ok(np.array_equal(pixels_of(path + ".png"), pixels_of(own.name)), "sky, outline and depth cue as the program's")
+    scene.sky(0)
+    scene.outline(0)
+    scene.depth_cue(0)
+    tap.ok(equal(scene.render(64, 48), plain), "and without them again")
+    for look, is_clear in (("publication", True), ("soft", False), ("deep", False)):
+        scene = rtlang.Scene(look=look)
+        scene.spheres(centers, radii, colors)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            image = scene.render(64, 48)
+        again = scene.render(64, 48, samples=8)
+        same = scene.render(64, 48)
+        tap.ok(image.samples == 64 and again.samples == 8 and equal(image, same) and (image.alpha is not None) == is_clear
+               and image.pixels.any(), f"look {look}: {image}")
+    scene = rtlang.Scene(look="publication")
+    scene.spheres(centers, radii, colors)
+    image = scene.render(64, 48, target_error=0.02)
+    tap.ok(image.alpha is None and (image.pixels[0, 0] == 1).all() and image.end == "target", "a look with a goal")
+    scene.background((0.2, 0.3, 0.4))
+    image = scene.render(64, 48)
+    tap.ok(image.alpha is None and np.allclose(image.pixels[0, 0], (0.2, 0.3, 0.4)), "a look on another background")
+    usage, wrong = rtlang.UsageError, rtlang.SceneError
+    for name, call, kind, text in (
+            ("a mistyped look", lambda: rtlang.Scene(look="publicaton"), usage,
+             "error[E0709]: there is no look 'publicaton' (one of publication, soft, deep, or a rtlang.Look)"),
+            ("a sky below 0", lambda: scene.sky(-1), wrong,
+             "strength: error[E0460]: strength must be 0 or more, and finite, not -1"),
+            ("a sky that is none", lambda: scene.sky(1, (1, np.nan, 0)), wrong,
+             "color: error[E0460]: color must be 0 or more, and finite, not (1, nan, 0)"),
+            ("lines too wide", lambda: scene.outline(17), wrong,
+             "outline: error[E0460]: the width of outlines must be 0 to 16 pixels, not 17"),
+            ("a cue of more than all", lambda: scene.depth_cue(1.5), wrong,
+             "depth_cue: error[E0460]: the strength of a depth cue must be 0 to 1, not 1.5"),
+            ("a cue that ends before it begins", lambda: scene.depth_cue(0.5, near=3, far=2), wrong,
+             "depth_cue: error[E0460]: near and far must be 0 or more, and near less than far, not 3 and 2")):
+        refused(name, call, kind, text)
+
+
 # ---- what is refused
 
 def refused(name, call, kind, text, index=None):
@@ -407,6 +464,7 @@ def main():
         check_strides()
         check_again()
         check_samples()
+        check_looks(folder)
         check_refused()
         check_warned()
         check_interrupts()
