@@ -20,6 +20,7 @@ import zlib
 
 sys.dont_write_bytecode = True  # the folders are distributed as they are
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from exr import read_exr  # noqa: E402
 from pictures import png_chunks  # noqa: E402
 from tap import Tap  # noqa: E402
 
@@ -408,7 +409,8 @@ def check_wheel(folder):
     with zipfile.ZipFile(os.path.join(folder, wheels[0])) as archive:
         archive.extractall(place)
     code = ("import rtlang; s = rtlang.Scene(); s.text('#include \"colors.inc\" sphere { 0, 1 pigment { SkyBlue } }');"
-            "s.light((3, 4, 5)); s.camera(fit=True); s.render(16, 12).save('wheel.png'); print(rtlang.__file__)")
+            "s.light((3, 4, 5)); s.camera(fit=True); i = s.render(16, 12); i.save('wheel.png'); i.save('wheel.exr');"
+            "i.pixels.tofile('wheel.floats'); print(rtlang.__file__)")
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("RTLANG", "PYTHON", "LD_"))}
     done = subprocess.run([sys.executable, "-B", "-W", "error", "-c", code], cwd=folder, stdout=subprocess.PIPE,
@@ -417,6 +419,11 @@ def check_wheel(folder):
     tap.ok(done.returncode == 0 and done.stdout.startswith(os.path.realpath(place)) and
            os.path.exists(os.path.join(folder, "wheel.png")), "unpacked elsewhere it draws, with its include files",
            done.stdout)
+    if done.returncode == 0:
+        channels, pixels = read_exr(os.path.join(folder, "wheel.exr"))[1], np.fromfile(os.path.join(folder, "wheel.floats"),
+                                                                                        np.float32)
+        tap.ok(all(np.array_equal(np.float32(channels[name]), pixels[i::3]) for i, name in enumerate("RGB")),
+               "and saves EXR, in linear light")
 
 
 def check_document(folder, document):
