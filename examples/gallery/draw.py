@@ -85,7 +85,7 @@ def row(name, scene, more):
     print(name, said.splitlines()[-1] if "rmse" not in said else error.group(0), flush=True)
     return (f"| [{name}](#{name.replace('_', '-')}) | {int(objects):,} | {once:.2f} | " +
             ("-" if other is None else f"{other:.2f}") +
-            f" | {error.group(2)} | {rays / 1e6:.1f} | {took:.1f} | {error.group(1)} |").replace(",", " ")
+            f" | {float(error.group(2)):.1f} | {rays / 1e6:.1f} | {took:.1f} | {error.group(1)} |").replace(",", " ")
 
 
 def extras():

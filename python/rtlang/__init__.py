@@ -15,8 +15,9 @@ from . import _library
 from ._colors import colormap, srgb
 from ._errors import Error, FileError, LimitError, SceneError, SceneWarning, UsageError
 from .image import Image
+from .looks import Look
 from .scene import Scene
 
 __version__ = _library.LIBRARY.rt_version().decode("ascii")
-__all__ = ["Error", "FileError", "Image", "LimitError", "Scene", "SceneError", "SceneWarning", "UsageError",
+__all__ = ["Error", "FileError", "Image", "LimitError", "Look", "Scene", "SceneError", "SceneWarning", "UsageError",
            "colormap", "srgb"]

@@ -86,7 +86,8 @@ class Image:
             return ctypes.string_at(data, size.value)
 
     def save(self, path: Union[str, "os.PathLike[str]"], depth: Optional[int] = None) -> None:
-        """Writes a file whole or not at all; the format by the ending of its name (PNG; others need OpenImageIO).
+        """Writes a file whole or not at all; the format by the ending of its name (PNG, EXR, PPM, Targa;
+        others need OpenImageIO, which a wheel does not have).
 
         depth  8, 16, or 32 for float; None: what suits the format
         """

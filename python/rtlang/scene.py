@@ -16,6 +16,7 @@ from ._arrays import colors_of, count_of, numbers, pass_on, rows
 from ._errors import SceneError, UsageError
 from ._session import Session
 from .image import Image
+from .looks import Look, key_light, look_of
 
 Vector = Sequence[float]
 FIT_ANGLE = 40.0
@@ -86,15 +87,30 @@ class Scene:
     exhausted. After one of these the scene is as it was, except after one of `text` and `file`, which lose it.
     """
 
-    def __init__(self, memory: Optional[int] = None, objects: Optional[int] = None):
-        """memory: bytes that it may take in all; objects: shapes that it may have."""
+    def __init__(self, memory: Optional[int] = None, objects: Optional[int] = None,
+                 look: Union[str, Look, None] = None):
+        """memory: bytes that it may take in all; objects: shapes that it may have.
+
+        look  "publication" (soft light, light from all sides, matte, outlines, a clear background), "soft" (without
+              lines, on white), "deep" (far shapes fade into the dark), or a rtlang.Look: what shapes get that have no
+              finish of their own, and pictures without lights, samples, alpha and background of their own
+        """
+        self._look = look_of(look)
         self._session = Session()
         self._session.call("rt_begin_scene")
         for name, value in (("memory", memory), ("objects", objects)):
             if value is not None:
                 self._session.call("rt_set_limit", c.LIMITS[name], value)
-        self._camera, self._set_camera, self._has_text = None, None, False
+        self._camera, self._set_camera, self._view, self._has_text = None, None, None, False
         self._shapes = 0  # counts what was added, for fit
+        self._has_lights, self._has_background, self._has_outline = False, False, False
+        if self._look is not None:
+            self.sky(self._look.sky)
+            if self._look.background is not None:
+                self.background(self._look.background)
+            if self._look.depth_cue:
+                self.depth_cue(self._look.depth_cue)
+            self._has_background = self._look.background is not None
 
     def __enter__(self) -> "Scene":
         return self
@@ -108,6 +124,9 @@ class Scene:
 
     # ---- shapes
 
+    def _finish(self, finish: Optional[str]) -> Optional[bytes]:
+        return _text("finish", self._look.finish if finish is None and self._look is not None else finish)
+
     def spheres(self, centers, radii, colors=None, finish: Optional[str] = None, name: str = "spheres") -> SphereGroup:
         """Adds n spheres: centers (n, 3); radii (n,) or a number, at least 0 (0 is not drawn, with a SceneWarning).
 
@@ -117,7 +136,7 @@ class Scene:
         colors, color_numbers = colors_of("colors", colors)
         count = count_of([("centers", centers, 1), ("radii", radii, 0), ("colors", colors, 1)])
         spheres = c.Spheres(_text("name", name), count, pass_on(centers, 1), pass_on(radii, 0),
-                            c.Look(pass_on(colors, 1), color_numbers, _text("finish", finish)))
+                            c.Look(pass_on(colors, 1), color_numbers, self._finish(finish)))
         group = ctypes.c_size_t()
         self._session.call("rt_add_spheres", ctypes.byref(spheres), ctypes.byref(group))
         self._shapes += 1
@@ -135,7 +154,7 @@ class Scene:
                           ("colors", colors, 1)])
         rods = c.Rods(_text("name", name), count, pass_on(bases, 1), pass_on(caps, 1), pass_on(radii, 0),
                       pass_on(cap_radii, 0), int(open),
-                      c.Look(pass_on(colors, 1), color_numbers, _text("finish", finish)))
+                      c.Look(pass_on(colors, 1), color_numbers, self._finish(finish)))
         self._session.call("rt_add_rods", ctypes.byref(rods))
         self._shapes += 1
 
@@ -173,7 +192,7 @@ class Scene:
         colors, color_numbers = colors_of("colors", colors)
         count = count_of([("corners", corners, 1), ("normals", normals, 1), ("colors", colors, 1)])
         triangles = c.Triangles(_text("name", name), count, pass_on(corners, 1), pass_on(normals, 1),
-                                c.Look(pass_on(colors, 1), color_numbers, _text("finish", finish)))
+                                c.Look(pass_on(colors, 1), color_numbers, self._finish(finish)))
         self._session.call("rt_add_triangles", ctypes.byref(triangles))
         self._shapes += 1
 
@@ -236,6 +255,7 @@ class Scene:
                         _vector("parallel_to", (0, 0, 0) if parallel_to is None else parallel_to),
                         int(parallel_to is not None), int(shadowless), radius, size)
         self._session.call("rt_add_light", ctypes.byref(light))
+        self._has_lights = True
 
     def sky(self, strength: float = 1.0, color: Union[float, Vector] = (1.0, 1.0, 1.0)) -> None:
         """Light from all sides, as of an even sky: ambient occlusion. Instead of the one before; 0 for none.
@@ -247,11 +267,12 @@ class Scene:
         self._session.call("rt_set_sky_light", c.Vector(*light))
 
     def outline(self, width: float = 1.5, color: Union[float, Vector] = 0.0) -> None:
-        """Lines around shapes, 0 to 16 pixels wide, 0 for none: where one ends before something else, and where two meet
-        at an angle. They stand before the background of images with alpha."""
+        """Lines around shapes, 0 to 16 pixels wide, 0 for none: where one ends before something else, and where two
+        meet at an angle. They stand before the background of images with alpha."""
         if not 0 <= width <= 16:
             raise SceneError(f"the width of outlines must be 0 to 16 pixels, not {width!r}", "E0460", "outline")
         self._session.call("rt_set_outline", width, c.Vector(*_light("color", color)))
+        self._has_outline = True
 
     def depth_cue(self, strength: float = 0.6, color: Union[float, Vector, None] = None, near: float = 0.0,
                   far: float = 0.0) -> None:
@@ -263,8 +284,8 @@ class Scene:
         if not 0 <= strength <= 1:
             raise SceneError(f"the strength of a depth cue must be 0 to 1, not {strength!r}", "E0460", "depth_cue")
         if not (near == far == 0 or 0 <= near < far < float("inf")):
-            raise SceneError(f"near and far must be 0 or more, and near less than far, not {near!r} and {far!r}", "E0460",
-                             "depth_cue")
+            raise SceneError(f"near and far must be 0 or more, and near less than far, not {near!r} and {far!r}",
+                             "E0460", "depth_cue")
         light = _light("color", 0.0 if color is None else color)
         cue = c.DepthCue(strength, int(color is not None), c.Vector(*light), near, far)
         self._session.call("rt_set_depth_cue", ctypes.byref(cue))
@@ -281,6 +302,7 @@ class Scene:
         light = list(np.broadcast_to(color, 3) if color.size == 1 else color[:3])
         transmit = 1 - float(color[3]) if color.size == 4 else 0.0
         self._session.call("rt_set_background", (ctypes.c_double * 4)(*map(float, light), transmit))
+        self._has_background = True
 
     def box(self) -> Tuple[np.ndarray, np.ndarray]:
         """The least and the greatest corner of the box around all shapes but planes."""
@@ -332,25 +354,43 @@ class Scene:
             camera = c.Camera(view["location"], view["look_at"], view["up"], view["angle"] or 0.0,
                               view["width"] or 0.0, aspect, view["right_handed"], view["aperture"])
         self._session.call("rt_set_camera", ctypes.byref(camera), level=5)
-        self._set_camera = key
+        self._set_camera, self._view = key, camera
+
+    def _apply_look(self, height: int, alpha: bool) -> None:
+        """What a look says of light and lines where nobody else did, for the camera and size of now."""
+        if self._look is None:
+            return
+        if not self._has_outline:
+            self.outline(min(self._look.outline * height / 1000, 16.0))
+            self._has_outline = False
+        if not self._has_background:
+            self.background((1.0, 1.0, 1.0, 0.0) if alpha else 1.0)
+            self._has_background = False
+        if self._look.key and not self._has_lights and not self._has_text and self._view is not None and self._shapes:
+            place, radius = key_light(self._view, *self.box())
+            self.clear_lights()
+            self.light(place, self._look.key, radius=radius, size=32)
+            self._has_lights = False
 
     # ---- the picture
 
     def render(self, width: int = 640, height: int = 480, *, samples: Optional[float] = None,
                target_error: Optional[float] = None, time_limit: Optional[float] = None, adaptive: bool = False,
-               sampler: Optional[str] = None, filter: Optional[str] = None, seed: int = 0, alpha: bool = False,
+               sampler: Optional[str] = None, filter: Optional[str] = None, seed: int = 0, alpha: Optional[bool] = None,
                planes: Sequence[str] = (), crop: Optional[Tuple[int, int, int, int]] = None, threads: int = 0,
                max_trace_level: int = 0,
                progress: Union[bool, Callable[[float], None], None] = None) -> Image:
         """Traces the scene. May be repeated; what did not change is not built again.
 
         width, height  pixels, 1 to 65535
-        samples        rays a pixel; without it and the goals below, one through each pixel's middle
+        samples        rays a pixel; without it and the goals below, one through each pixel's middle, or as many as the
+                       scene's look wants
         target_error   until the estimated root mean square error is no more than this, in linear light
         time_limit     seconds of tracing; whichever goal is met first ends the run
         adaptive       more samples where the error is
         sampler, filter, seed, max_trace_level  as the program's options of these names (docs/sampling.md)
-        alpha          the image says how much each pixel shows of the background
+        alpha          the image says how much each pixel shows of the background; None: no, but with a look of a clear
+                       one, unless a goal is given, which leaves the background white
         planes         names of what else it tells of each pixel: "error" and "samples" of a sampled picture; "depth"
                        (distance from the eye, inf where nothing is seen), "normal" (unit, without bumps, of the side that
                        is seen), "object" (place among all shapes in the order in which they were added, from 1; 0 for
@@ -369,6 +409,11 @@ class Scene:
         session.call("rt_set_size", int(width), int(height))
         if crop is not None:
             session.call("rt_set_crop", *crop)
+        has_goal = bool(target_error or time_limit or adaptive)
+        if self._look is not None and samples is None and not (target_error or time_limit):
+            samples = self._look.samples
+        if alpha is None:
+            alpha = self._look is not None and not self._has_background and not has_goal
         session.ask("rt_set_alpha", int(alpha))
         unknown = [name for name in planes if name not in c.PLANES]
         if isinstance(planes, str) or unknown:
@@ -378,6 +423,7 @@ class Scene:
                               target_error or 0.0, time_limit or 0.0, 0, 0, max_trace_level)
         session.call("rt_set_sampling", ctypes.byref(sampling))
         self._apply_camera(width / height)
+        self._apply_look(height, bool(alpha))
         bar = _Bar() if progress is True else None
         session.render(threads, bar or progress or None)
         if bar:

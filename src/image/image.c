@@ -12,6 +12,7 @@
 #include "base/array.h"
 #include "image/atomic_file.h"
 #include "image/encode.h"
+#include "image/exr_write.h"
 #include "image/image_error.h"
 #include "image/module.h"
 #include "image/picture_file.h"
@@ -70,6 +71,11 @@ static const char *file_path(const char *path)
     return image_path_is_stdout(path) ? "-" : path;
 }
 
+static bool is_open_exr(const char *ending)
+{
+    return strcmp(ending, "exr") == 0 || strcmp(ending, "sxr") == 0 || strcmp(ending, "mxr") == 0;
+}
+
 // Finds the format. *module is NULL for what needs none.
 static ImageStatus format_find(const char *path, ImageDepth depth, char ending[static ENDING_MAX + 1],
                                const OiioModule **module, ImageError *error)
@@ -83,6 +89,9 @@ static ImageStatus format_find(const char *path, ImageDepth depth, char ending[s
     }
     if (strcmp(ending, "png") == 0) {
         return depth == IMAGE_DEPTH_FLOAT ? IMAGE_BAD_DEPTH : IMAGE_OK;
+    }
+    if (is_open_exr(ending)) {
+        return depth == IMAGE_DEPTH_FLOAT ? IMAGE_OK : IMAGE_BAD_DEPTH;
     }
     if (plain_has_format(ending)) {
         return plain_has_depth(ending, depth) ? IMAGE_OK : IMAGE_BAD_DEPTH;
@@ -115,9 +124,9 @@ ImageDepth image_path_depth(const char *path)
 
 bool image_path_names_channels(const char *path)
 {
-    static const char *const open_exr[] = {"exr", "sxr", "mxr"};
+    char ending[ENDING_MAX + 1];
 
-    return path_ends_with(path, open_exr, RT_COUNT_OF(open_exr));
+    return path_ending(path, ending) && is_open_exr(ending);
 }
 
 bool image_path_has_alpha(const char *path)
@@ -232,6 +241,7 @@ bool image_samples(const Image *image, const ImageEncoding *encoding, void *samp
     return encoder != NULL;
 }
 
+// NULL for OpenEXR, which needs no module.
 static ImageStatus write_by_module(const OiioModule *module, const char *ending, const RowSource *source,
                                    const AtomicFile *file, ImageError *error)
 {
@@ -251,7 +261,7 @@ static ImageStatus write_by_module(const OiioModule *module, const char *ending,
 
     OiioSink sink = {.client = file, .put = bytes_put};
 
-    return module->write(&picture, &sink, error);
+    return module ? module->write(&picture, &sink, error) : exr_write(&picture, &sink, error);
 }
 
 ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const char *path, ImageError *error)
@@ -274,7 +284,7 @@ ImageStatus image_write(const Image *image, const ImageEncoding *encoding, const
     if (!atomic_file_open(&file, file_path(path), error)) {
         status = IMAGE_IO;
     } else {
-        status = module               ? write_by_module(module, ending, source, &file, error)
+        status = module || is_open_exr(ending) ? write_by_module(module, ending, source, &file, error)
                  : strcmp(ending, "png") == 0 ? png_write(image, &source->encoder, (PngSink){&file, file_put}, error)
                                               : plain_write(ending, image, &source->encoder, &file, error);
         if (status != IMAGE_OK) {

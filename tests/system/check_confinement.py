@@ -152,7 +152,7 @@ def test_runs():
         "standard output": ["-q", "-o", "-", "good.scn"],
         "a device": ["-q", "-o", "/dev/null", "good.scn"],
         "samples and an error map": ["-q", "--samples=4", "--error-map=out/map.png", "-o", "out/p.png", "good.scn"],
-        "a module for EXR": ["-q", "-o", "out/p.exr", "good.scn"],
+        "a module for TIFF": ["-q", "-o", "out/p.tif", "good.scn"],
         "a standard include": ["--check", "standard.scn"],
         "--format into a file": ["--format", "-o", "out/formatted.scn", "good.scn"],
     }

@@ -95,7 +95,7 @@ def install(folder):
 def check_drawn(name, folder, moved, *command):
     """Runs what draws the scene into the file that is named last, and looks where it took its files from."""
     module = find(moved, "rtlang_oiio.so")
-    picture, begins = (name + ".exr", b"\x76\x2f\x31\x01") if module else (name + ".png", b"\x89PNG")
+    picture, begins = (name + ".tif", b"II*\0") if module else (name + ".png", b"\x89PNG")
     done = run(*command, picture, folder=folder, LD_DEBUG="files")
     loaded = re.findall(r"calling init: (.*/rtlang_oiio\.so)", done.stdout.decode("utf-8", "replace"))
     tap.ok(done.returncode == 0 and loaded == [module] * bool(module),
@@ -149,7 +149,7 @@ def check_missing(folder, moved):
     program = find(moved, "rtlang")
     if module:
         os.rename(module, module + ".away")
-    done = run(program, "-q", "-o", "missing.exr", "scene.scn", folder=folder)
+    done = run(program, "-q", "-o", "missing.tif", "scene.scn", folder=folder)
     words = f"no rtlang_oiio.so in {os.path.dirname(module)}" if module else "this rtlang was built without it"
     tap.ok(done.returncode == 3 and words in done.stdout.decode(), "where the module is looked for", said(done))
     os.rename(data, data + ".away")

@@ -20,6 +20,7 @@ import zlib
 
 sys.dont_write_bytecode = True  # the folders are distributed as they are
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from exr import read_exr  # noqa: E402
 from pictures import png_chunks, png_without_texts  # noqa: E402
 from tap import Tap  # noqa: E402
 
@@ -177,6 +178,63 @@ def check_samples():
     tap.ok(filled.any(axis=0).sum() > 30 or filled.any(axis=1).sum() > 30, "fit fills the picture")
     edge = np.concatenate((filled[0], filled[-1], filled[:, 0], filled[:, -1]))
     tap.ok(not edge.any(), "and cuts nothing off")
+
+
+# ---- light and lines that make shape seen
+
+def check_looks(folder):
+    centers, radii, colors = cloud(60)
+    scene = lit()
+    scene.spheres(centers, radii, colors)
+    plain = scene.render(64, 48)
+    scene.sky(0.4)
+    scene.outline(2.5)
+    scene.depth_cue(0.6)
+    image, path = scene.render(64, 48, samples=3), os.path.join(folder, "looks.scn")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(scene.dump())
+    subprocess.run([os.environ.get("RTLANG", "./rtlang"), "-q", "-W64", "-H48", "--sky-light=0.4", "--outline=2.5",
+                    "--depth-cue=0.6", "--samples=3", "-o", path + ".png", path], check=True)
+    with open(path + ".png", "rb") as file:
+        with open(os.path.join(folder, "looks.png"), "wb") as own:
+            own.write(image.png())
+        tap.ok(np.array_equal(pixels_of(path + ".png"), pixels_of(own.name)), "sky, outline and depth cue as the program's")
+    scene.sky(0)
+    scene.outline(0)
+    scene.depth_cue(0)
+    tap.ok(equal(scene.render(64, 48), plain), "and without them again")
+    for look, is_clear in (("publication", True), ("soft", False), ("deep", False)):
+        scene = rtlang.Scene(look=look)
+        scene.spheres(centers, radii, colors)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            image = scene.render(64, 48)
+        again = scene.render(64, 48, samples=8)
+        same = scene.render(64, 48)
+        tap.ok(image.samples == 64 and again.samples == 8 and equal(image, same) and (image.alpha is not None) == is_clear
+               and image.pixels.any(), f"look {look}: {image}")
+    scene = rtlang.Scene(look="publication")
+    scene.spheres(centers, radii, colors)
+    image = scene.render(64, 48, target_error=0.02)
+    tap.ok(image.alpha is None and (image.pixels[0, 0] == 1).all() and image.end == "target", "a look with a goal")
+    scene.background((0.2, 0.3, 0.4))
+    image = scene.render(64, 48)
+    tap.ok(image.alpha is None and np.allclose(image.pixels[0, 0], (0.2, 0.3, 0.4)), "a look on another background")
+    usage, wrong = rtlang.UsageError, rtlang.SceneError
+    for name, call, kind, text in (
+            ("a mistyped look", lambda: rtlang.Scene(look="publicaton"), usage,
+             "error[E0709]: there is no look 'publicaton' (one of publication, soft, deep, or a rtlang.Look)"),
+            ("a sky below 0", lambda: scene.sky(-1), wrong,
+             "strength: error[E0460]: strength must be 0 or more, and finite, not -1"),
+            ("a sky that is none", lambda: scene.sky(1, (1, np.nan, 0)), wrong,
+             "color: error[E0460]: color must be 0 or more, and finite, not (1, nan, 0)"),
+            ("lines too wide", lambda: scene.outline(17), wrong,
+             "outline: error[E0460]: the width of outlines must be 0 to 16 pixels, not 17"),
+            ("a cue of more than all", lambda: scene.depth_cue(1.5), wrong,
+             "depth_cue: error[E0460]: the strength of a depth cue must be 0 to 1, not 1.5"),
+            ("a cue that ends before it begins", lambda: scene.depth_cue(0.5, near=3, far=2), wrong,
+             "depth_cue: error[E0460]: near and far must be 0 or more, and near less than far, not 3 and 2")):
+        refused(name, call, kind, text)
 
 
 # ---- what is refused
@@ -351,7 +409,8 @@ def check_wheel(folder):
     with zipfile.ZipFile(os.path.join(folder, wheels[0])) as archive:
         archive.extractall(place)
     code = ("import rtlang; s = rtlang.Scene(); s.text('#include \"colors.inc\" sphere { 0, 1 pigment { SkyBlue } }');"
-            "s.light((3, 4, 5)); s.camera(fit=True); s.render(16, 12).save('wheel.png'); print(rtlang.__file__)")
+            "s.light((3, 4, 5)); s.camera(fit=True); i = s.render(16, 12); i.save('wheel.png'); i.save('wheel.exr');"
+            "i.pixels.tofile('wheel.floats'); print(rtlang.__file__)")
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("RTLANG", "PYTHON", "LD_"))}
     done = subprocess.run([sys.executable, "-B", "-W", "error", "-c", code], cwd=folder, stdout=subprocess.PIPE,
@@ -360,6 +419,11 @@ def check_wheel(folder):
     tap.ok(done.returncode == 0 and done.stdout.startswith(os.path.realpath(place)) and
            os.path.exists(os.path.join(folder, "wheel.png")), "unpacked elsewhere it draws, with its include files",
            done.stdout)
+    if done.returncode == 0:
+        channels, pixels = read_exr(os.path.join(folder, "wheel.exr"))[1], np.fromfile(os.path.join(folder, "wheel.floats"),
+                                                                                        np.float32)
+        tap.ok(all(np.array_equal(np.float32(channels[name]), pixels[i::3]) for i, name in enumerate("RGB")),
+               "and saves EXR, in linear light")
 
 
 def check_document(folder, document):
@@ -407,6 +471,7 @@ def main():
         check_strides()
         check_again()
         check_samples()
+        check_looks(folder)
         check_refused()
         check_warned()
         check_interrupts()

@@ -193,7 +193,7 @@ def tests(tap, program):
         if limited(resource.RLIMIT_AS, 400 << 20, "--version").returncode != 0:
             tap.skip("ulimit -v", "a sanitizer wants more")
             return
-        done = limited(resource.RLIMIT_AS, 400 << 20, "-W8", "-H8", "-o", "limited.exr", "limited.scn")
+        done = limited(resource.RLIMIT_AS, 400 << 20, "-W8", "-H8", "-o", "limited.tif", "limited.scn")
         said = done.stderr.decode()
         if "E0507" in said:
             tap.skip("ulimit -v and a format of OpenImageIO's", "built without OpenImageIO")

@@ -310,6 +310,31 @@ static void check_pixels(void)
 
 // ---- any order of calls
 
+// What changes how the same scene looks; the numbers may be wrong.
+static void call_look(rt_session *session, Random *random)
+{
+    static const double numbers[] = {0, 0.5, 1, 4, -1, 17, (double)NAN, (double)INFINITY};
+    double own[6], color[3];
+    for (int i = 0; i < 6; i++) {
+        own[i] = numbers[random_below(random, random_below(random, 4) ? 4 : 8)];
+    }
+    memcpy(color, own, sizeof color);
+    const char *text;
+    static float plane[16 * 12];
+    rt_depth_cue cue = {.strength = own[3], .has_color = (int)random_below(random, 2), .color = {own[0], own[1], own[2]},
+                        .near = own[4], .far = own[5]};
+    int left = (int)random_below(random, 16), top = (int)random_below(random, 12);
+    switch (random_below(random, 7)) {
+    case 0: (void)rt_set_sky_light(session, color); break;
+    case 1: (void)rt_set_outline(session, own[3], color); break;
+    case 2: (void)rt_set_depth_cue(session, &cue); break;
+    case 3: (void)rt_set_planes(session, random_below(random, 2) ? RT_PLANE_DEPTH | RT_PLANE_OBJECT : 0); break;
+    case 4: (void)rt_get_plane(session, RT_PLANE_DEPTH, plane, sizeof plane); break;
+    case 5: (void)rt_set_crop(session, left, top, 1 + (int)random_below(random, 8), 1 + (int)random_below(random, 8)); break;
+    default: (void)rt_trace_pixel(session, left, top, &text); break;
+    }
+}
+
 static void call_one(rt_session *session, Random *random, Numbers *n)
 {
     static const char *const texts[] = {"sphere { 0, 1 }", "#declare A = 1;", "light_source { 9, 1 }", "sphere {",
@@ -330,7 +355,7 @@ static void call_one(rt_session *session, Random *random, Numbers *n)
     b = random_below(random, 3);
     rt_sampling sampling = {.samples = random_below(random, 3)};
     double box[3];
-    switch (random_below(random, 18)) {
+    switch (random_below(random, 22)) {
     case 0: (void)rt_begin_scene(session); break;
     case 1: (void)rt_load_text(session, "part", text, strlen(text)); break;
     case 2: (void)add_view(session, n); break;
@@ -348,6 +373,10 @@ static void call_one(rt_session *session, Random *random, Numbers *n)
     case 14: rt_set_alpha(session, (int)random_below(random, 2)); break;
     case 15: (void)rt_set_sampling(session, &sampling); break;
     case 16: (void)rt_set_limit(session, RT_LIMIT_OBJECTS, 1 + random_below(random, 200)); break;
+    case 17:
+    case 18:
+    case 19:
+    case 20: call_look(session, random); break;
     default:
         random_below(random, 20) ? rt_resume(session) : rt_discard_scene(session);
         break;
