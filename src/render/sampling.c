@@ -13,7 +13,6 @@
 enum {
     ALIKE_SAMPLES = 4,  // of every pixel, before some get more than others, where corners say little
     FIRST_MOST = 16,    // in the first round: soon there is a picture, and a first word on its error
-    SLIVER_SAMPLES = 64, // of every pixel, from which slivers of outlines may be most of the error: measured
     PIXELS_MANY = 16384, // of a picture, from which some tell of its error as well as all
 };
 
@@ -224,7 +223,7 @@ static bool run_audit(Sampling *s)
     if (!run_looks(s)) {
         return false;
     }
-    if (s->round.share && (s->wanted->is_adaptive || s->wanted->samples >= SLIVER_SAMPLES)) {
+    if (s->round.share) {
         share_set_contrasts(&s->round);
     }
     if (has_audit(s->wanted) && audit_draw(&s->audit, &s->estimate, &s->round) > 0) {

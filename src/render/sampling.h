@@ -203,6 +203,7 @@ typedef struct AuditPick {
     uint32_t replica; // from 1, of several of one pixel
     double weight;    // the inverse of the pixel's share of the draw
     double square;    // what the replica says that the pixel is off by, squared; may be below 0 by chance
+    bool is_certain;  // the pixel is drawn for sure, several times
     bool is_pair;     // it is the product of how far two replicas are from the pixel:
     Rgb apart[2];     // these
 } AuditPick;
@@ -211,6 +212,7 @@ typedef struct Audit {
     AuditPick picks[AUDIT_MOST];
     int count;
     double size;         // the sum of all pixels' shares
+    double step;         // of that, what a pick stands for
     double own_variance; // of the picture's mean square error about its expectation, relative
 } Audit;
 

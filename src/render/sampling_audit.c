@@ -12,6 +12,7 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <string.h>
 
 #include "render/sampling.h"
 
@@ -31,7 +32,13 @@ enum { AUDIT_GLINT = 8, AUDIT_GLINTS = 256 };
 // shadow is soft, all of 4 samples agree in some pixels. So there is a part of the mean of the pixels around, too. With
 // 0.7 of the mean of all alone, intervals of a soft shadow held in 68 % of runs of 4 samples.
 static const double MEAN_PART = 0.7, NEAR_PART = 0.7;
-enum { AUDIT_CELL = 4 }; // pixels around: a square of so many by so many
+
+// A pixel that is drawn so often is drawn for sure: all of its replicas together say what it is off by itself, and not
+// what another set of samples would be.
+static const double CERTAIN = 4.0;
+
+// Pixels around: a square of two quarters by two, of so many pixels by so many each.
+enum { AUDIT_QUARTER = 2, QUARTERS = JUDGED_BLOCK / AUDIT_QUARTER };
 
 // Where pixels end when they seem to have enough, those that seemed so by chance are most of the error, and nothing has
 // shown it: then most of the draw is blind, and wants more replicas. Measured.
@@ -40,7 +47,9 @@ static const double MEAN_PART_STOP = 8.0;
 typedef struct Draw {
     Audit *audit;
     const Round *round;
-    double gain[LEVELS];         // what goes from `outer` to what a pixel is taken to be off by, squared
+    double of_outer[LEVELS];     // what goes from a pixel's `outer` and `inner` to what it is taken to be off by,
+    double of_inner[LEVELS];     // squared
+    double gain[LEVELS];         // the same from `outer` alone
     double floor;                // added to each share
     double near_part;            // of the mean of a pixel's cell, the same
     double step, reached, next;  // between picks, of the cumulated shares; these; where the next pick is
@@ -54,11 +63,20 @@ typedef struct Draw {
 static inline double pixel_square(const Draw *draw, const Small *small, size_t pixel)
 {
     const PixelRecord *record = &draw->round->film->records[pixel];
-    double by_halves = (double)record->outer * draw->gain[estimate_level(record->count)];
+    int level = estimate_level(record->count);
+    double by_halves = draw->of_outer[level] * (double)record->outer + draw->of_inner[level] * (double)record->inner;
     if (share_has(draw->round->share, pixel) && record->count > 1) {
         by_halves = fmax(by_halves, share_variance(draw->round->share, pixel, record->count));
     }
     return small_has(small, pixel) ? fmax(by_halves, small_variance(small, pixel, record->count)) : by_halves;
+}
+
+// What own_squares has of a pixel.
+static double own_square(const Draw *draw, const Small *small, size_t pixel)
+{
+    const PixelRecord *record = &draw->round->film->records[pixel];
+    bool is_by_pixel = small || draw->round->share;
+    return is_by_pixel ? pixel_square(draw, small, pixel) : draw->gain[estimate_level(record->count)] * record->outer;
 }
 
 static void total_block(Draw *draw, Tile block)
@@ -74,68 +92,147 @@ static void total_block(Draw *draw, Tile block)
     }
 }
 
-// What the pixels of a cell are taken to be off by, together.
-RT_ALWAYS_INLINE double cell_sum(const Draw *draw, Tile cell, const Small *small)
+// What the pixels of a block are taken to be off by, together and by quarters of cells. Each quarter is in a cell of
+// each of two grids, the second of which is half a cell aside, so that most neighbours have one in common.
+typedef struct BlockSquares {
+    double own[JUDGED_BLOCK * JUDGED_BLOCK], sum;
+    double quarters[QUARTERS][QUARTERS], counts[QUARTERS][QUARTERS];
+} BlockSquares;
+
+// So many of a quarter's two rows or columns are within so many of the block.
+static inline double within_quarter(int quarter, int size)
 {
-    const Film *film = draw->round->film;
-    double sum = 0.0;
-    for (int y = cell.top; y < cell.bottom; y++) {
-        for (int x = cell.left; x < cell.right; x++) {
-            sum += pixel_square(draw, small, (size_t)y * (size_t)film->width + (size_t)x);
-        }
-    }
-    return sum;
+    int rest = size - AUDIT_QUARTER * quarter;
+    return rest < 0 ? 0.0 : rest < AUDIT_QUARTER ? rest : AUDIT_QUARTER;
 }
 
-// Picks of the pixels of a cell, of which each has a part `even` of the draw beside its own.
-RT_ALWAYS_INLINE void cell_pick(Draw *draw, Tile cell, const Small *small, double even)
+RT_ALWAYS_INLINE void block_squares(const Draw *draw, Tile block, const Small *small, bool is_plain,
+                                    BlockSquares *squares)
 {
     const Film *film = draw->round->film;
+    const PixelRecord *first = &film->records[(size_t)block.top * (size_t)film->width + (size_t)block.left];
+    double of_outer = draw->of_outer[estimate_level(first->count)];
+    double of_inner = draw->of_inner[estimate_level(first->count)];
+    int width = block.right - block.left, height = block.bottom - block.top;
+    if (width < JUDGED_BLOCK || height < JUDGED_BLOCK) {
+        memset(squares->own, 0, sizeof squares->own);
+    }
+    for (int y = 0; y < height; y++) {
+        size_t begin = (size_t)(block.top + y) * (size_t)film->width + (size_t)block.left;
+        for (int x = 0; x < width; x++) {
+            const PixelRecord *record = &film->records[begin + (size_t)x];
+            squares->own[y * JUDGED_BLOCK + x] =
+                is_plain ? of_outer * (double)record->outer + of_inner * (double)record->inner
+                         : pixel_square(draw, small, begin + (size_t)x);
+        }
+    }
+    squares->sum = 0.0;
+    for (int row = 0; row < QUARTERS; row++) {
+        double rows = within_quarter(row, height);
+        for (int column = 0; column < QUARTERS; column++) {
+            const double *own = &squares->own[AUDIT_QUARTER * (row * JUDGED_BLOCK + column)];
+            double sum = own[0] + own[1] + (own[JUDGED_BLOCK] + own[JUDGED_BLOCK + 1]);
+            squares->quarters[row][column] = sum;
+            squares->counts[row][column] = rows * within_quarter(column, width);
+            squares->sum += sum;
+        }
+    }
+}
+
+// The sums over the cells of both grids, and how many pixels they have.
+typedef struct CellSums {
+    double sums[2][QUARTERS / 2 + 1][QUARTERS / 2 + 1], counts[2][QUARTERS / 2 + 1][QUARTERS / 2 + 1];
+} CellSums;
+
+static void cells_add(const BlockSquares *squares, CellSums *cells)
+{
+    memset(cells, 0, sizeof *cells);
+    for (int row = 0; row < QUARTERS; row++) {
+        for (int column = 0; column < QUARTERS; column++) {
+            double sum = squares->quarters[row][column], count = squares->counts[row][column];
+            cells->sums[0][row / 2][column / 2] += sum;
+            cells->counts[0][row / 2][column / 2] += count;
+            cells->sums[1][(row + 1) / 2][(column + 1) / 2] += sum;
+            cells->counts[1][(row + 1) / 2][(column + 1) / 2] += count;
+        }
+    }
+}
+
+// Of the pixels around a quarter, the mean over both cells.
+static inline double near_mean(const CellSums *cells, int column, int row)
+{
+    int right = (column + 1) / 2, down = (row + 1) / 2;
+    return 0.5 * (cells->sums[0][row / 2][column / 2] / cells->counts[0][row / 2][column / 2] +
+                  cells->sums[1][down][right] / cells->counts[1][down][right]);
+}
+
+// Picks of a pixel, which has so much of the draw.
+RT_ALWAYS_INLINE void pixel_pick(Draw *draw, size_t pixel, const Small *small, double share)
+{
     Audit *audit = draw->audit;
-    double reached = draw->reached;
-    for (int y = cell.top; y < cell.bottom; y++) {
-        for (int x = cell.left; x < cell.right; x++) {
-            size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            double share = pixel_square(draw, small, pixel) + even;
-            reached += share;
-            for (uint32_t replica = 1; draw->next < reached && audit->count < draw->most; replica++) {
-                audit->picks[audit->count++] =
-                    (AuditPick){.pixel = pixel, .replica = replica, .weight = 1.0 / share};
-                draw->next += draw->step;
-            }
-        }
+    bool is_certain = share >= CERTAIN * draw->step;
+    for (uint32_t replica = 1; draw->next < draw->reached && audit->count < draw->most; replica++) {
+        audit->picks[audit->count++] =
+            (AuditPick){.pixel = pixel, .replica = replica, .weight = 1.0 / share, .is_certain = is_certain};
+        draw->next += draw->step;
+    }
+    if (is_certain && round_is_like_replica(draw->round, pixel)) {
+        double own = own_square(draw, small, pixel);
+        draw->own_squares -= own * own;
     }
 }
 
-RT_ALWAYS_INLINE void draw_block_by(Draw *draw, Tile block, const Small *small)
+// Picks of the pixels of a quarter, each of which has `even` of the draw beside its own.
+RT_ALWAYS_INLINE void quarter_pick(Draw *draw, Tile block, const Small *small, const BlockSquares *squares, int column,
+                                   int row, double even)
 {
-    double block_sum = 0.0;
-    for (int top = block.top; top < block.bottom; top += AUDIT_CELL) {
-        for (int left = block.left; left < block.right; left += AUDIT_CELL) {
-            int right = left + AUDIT_CELL < block.right ? left + AUDIT_CELL : block.right;
-            int bottom = top + AUDIT_CELL < block.bottom ? top + AUDIT_CELL : block.bottom;
-            Tile cell = {left, top, right, bottom};
-            double sum = cell_sum(draw, cell, small), count = (right - left) * (bottom - top);
-            double all = (1.0 + draw->near_part) * sum + count * draw->floor;
-            if (draw->next < draw->reached + all) {
-                cell_pick(draw, cell, small, draw->near_part * sum / count + draw->floor);
-            }
-            draw->reached += all;
-            block_sum += sum;
+    double begin = draw->reached, all = squares->quarters[row][column] + squares->counts[row][column] * even;
+    int left = AUDIT_QUARTER * column, top = AUDIT_QUARTER * row;
+    for (int i = 0; draw->next < begin + all && i < AUDIT_QUARTER * AUDIT_QUARTER; i++) {
+        int x = left + i % AUDIT_QUARTER, y = top + i / AUDIT_QUARTER;
+        if (block.left + x < block.right && block.top + y < block.bottom) {
+            double share = squares->own[y * JUDGED_BLOCK + x] + even;
+            draw->reached += share;
+            pixel_pick(draw, (size_t)(block.top + y) * (size_t)draw->round->film->width + (size_t)(block.left + x),
+                       small, share);
         }
     }
-    draw->blocks++;
-    draw->sum += block_sum;
-    draw->squares += block_sum * block_sum;
+    draw->reached = begin + all;
 }
 
-// Most pictures have no small shapes: a copy of its own for those.
+RT_ALWAYS_INLINE void draw_block_by(Draw *draw, Tile block, const Small *small, bool is_plain)
+{
+    BlockSquares squares;
+    block_squares(draw, block, small, is_plain, &squares);
+    double count = (double)(block.right - block.left) * (block.bottom - block.top), begin = draw->reached;
+    double all = (1.0 + draw->near_part) * squares.sum + count * draw->floor;
+    bool is_picked = draw->next < begin + all;
+    CellSums cells;
+    if (is_picked) {
+        cells_add(&squares, &cells);
+    }
+    for (int i = 0; is_picked && i < QUARTERS * QUARTERS; i++) {
+        int column = i % QUARTERS, row = i / QUARTERS;
+        if (squares.counts[row][column] > 0.0) {
+            double even = draw->near_part * near_mean(&cells, column, row) + draw->floor;
+            quarter_pick(draw, block, small, &squares, column, row, even);
+        }
+    }
+    draw->reached = begin + all;
+    draw->blocks++;
+    draw->sum += squares.sum;
+    draw->squares += squares.sum * squares.sum;
+}
+
+// Most pictures have no small shapes: a copy of its own for those, and for those of which only halves tell, alike.
 static void draw_block(Draw *draw, Tile block)
 {
     if (draw->round->small) {
-        draw_block_by(draw, block, draw->round->small);
+        draw_block_by(draw, block, draw->round->small, false);
+    } else if (draw->round->share || draw->round->buckets) {
+        draw_block_by(draw, block, NULL, false);
     } else {
-        draw_block_by(draw, block, NULL);
+        draw_block_by(draw, block, NULL, true);
     }
 }
 
@@ -164,6 +261,15 @@ static double blocks_variance(const Draw *draw)
     return (1.0 - 1.0 / JUDGED_SHARE) * fmax(spread, 0.0) / (mean * mean);
 }
 
+// Halves may agree by chance in a pixel whose halves' halves do not: both count alike, where there are both.
+static void set_gains(Draw *draw, int level, const LevelSums *sums, double ratio)
+{
+    bool has_both = level >= 2 && sums->inner_now > 0.0;
+    double gain = draw->gain[level] = 1.0 / (ratio - 1.0);
+    draw->of_outer[level] = has_both ? 0.5 * gain : gain;
+    draw->of_inner[level] = has_both ? 0.5 * gain / ratio : 0.0;
+}
+
 int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
 {
     bool stops = stop_has_choice(round->sampling);
@@ -172,15 +278,15 @@ int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
     double picks = stops ? AUDIT_MOST : fmax(estimate->judged / AUDIT_PIXELS, AUDIT_LEAST);
     for (int level = 0; level < LEVELS; level++) {
         const LevelSums *sums = &estimate->levels[level];
-        double gain = draw.gain[level] = 1.0 / (estimate->ratio[level] - 1.0);
-        draw.sum += gain * sums->outer_now;
-        draw.own_squares += round->buckets ? 0.0 : gain * gain * sums->outer_squares;
+        set_gains(&draw, level, sums, estimate->ratio[level]);
+        draw.sum += draw.of_outer[level] * sums->outer_now + draw.of_inner[level] * sums->inner_now;
+        draw.own_squares += round->buckets ? 0.0 : draw.gain[level] * draw.gain[level] * sums->outer_squares;
     }
     if (round->small || round->share) {
         draw.sum = draw.own_squares = 0.0;
         each_block(&draw, total_block);
     }
-    double sum = draw.sum, squares = draw.own_squares;
+    double sum = draw.sum;
     audit->count = 0;
     if (!(sum > 0.0)) {
         return 0;
@@ -191,15 +297,15 @@ int audit_draw(Audit *audit, const Estimate *estimate, const Round *round)
     draw.floor = mean_part * sum / estimate->judged;
     audit->size = (1.0 + draw.near_part + mean_part) * sum;
     draw.sum = 0.0;
-    draw.step = audit->size / draw.most;
+    draw.step = audit->step = audit->size / draw.most;
     draw.next = draw.step * sample_unit(sampler_pixel_seed(~round->sampling->seed, AUDIT_MOST, (uint32_t)draw.most));
     each_block(&draw, draw_block);
     // Squares of normal errors have a variance of two thirds of their own mean square.
-    audit->own_variance = 2.0 / 3.0 * squares / (sum * sum) + blocks_variance(&draw);
+    audit->own_variance = 2.0 / 3.0 * fmax(draw.own_squares, 0.0) / (sum * sum) + blocks_variance(&draw);
     return audit->count;
 }
 
-// Of pairs that the same pixel has got, from picks[begin] on, all products of two replicas: many more than their own.
+// Of the replicas that a pixel has got, from picks[begin] on, all products of two: of pairs many more than their own.
 // The mean of these, and its variance; sets *end to the first pick of another pixel.
 static double pooled_square(const Audit *audit, int begin, int *end, double *variance)
 {
@@ -208,7 +314,7 @@ static double pooled_square(const Audit *audit, int begin, int *end, double *var
     double count = 0.0;
     int i = begin;
     for (; i < audit->count && audit->picks[i].pixel == first->pixel; i++) {
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < (first->is_pair ? 2 : 1); k++) {
             Rgb apart = audit->picks[i].apart[k];
             sum = rgb_add(sum, apart);
             squares = rgb_add(squares, rgb_mul(apart, apart));
@@ -220,6 +326,8 @@ static double pooled_square(const Audit *audit, int begin, int *end, double *var
     double square = (products.red + products.green + products.blue) / (3.0 * count * (count - 1.0));
     // That of the mean of the replicas, whose square is the pooled one and this.
     double own = fmax((squares.red + squares.green + squares.blue) / (3.0 * count) - square, 0.0) / count;
+    // Where all replicas agree and the pixel does not, what is seldom met was met by one set in all of these.
+    own = fmax(own, square / ((count + 1.0) * (count + 1.0)));
     *variance = 4.0 * fmax(square, 0.0) * own + 2.0 * own * own;
     return square;
 }
@@ -242,26 +350,34 @@ double error_relative(const SamplingError *error)
 
 void audit_judge(const Audit *audit, const Estimate *estimate, SamplingError *error)
 {
-    double sum = 0.0, squares = 0.0, within = 0.0, count = audit->count;
+    // Of pixels that are drawn for sure, their squares; of the others, those of picks, of which each stands for a step.
+    double certain = 0.0, certain_variance = 0.0, sum = 0.0, squares = 0.0, within = 0.0, count = 0.0;
     for (int i = 0, end; i < audit->count; i = end) {
         const AuditPick *first = &audit->picks[i];
         double variance = 0.0, term = first->square;
         end = i + 1;
-        if (first->is_pair) {
+        if (first->is_pair || first->is_certain) {
             term = pooled_square(audit, i, &end, &variance);
+        }
+        if (first->is_certain) {
+            certain += term;
+            certain_variance += variance;
+            continue;
         }
         double times = end - i;
         term *= first->weight;
         sum += times * term;
         squares += times * term * term;
         within += times * (times - 1.0) * first->weight * first->weight * variance; // beyond what scatters by picks
+        count += times;
     }
-    double mean = sum / count;
-    if (!(mean > 0.0)) {
+    double all = certain + audit->step * sum;
+    if (!(all > 0.0)) {
         return;
     }
-    double spread = ((squares / count - mean * mean) / (count - 1.0) + within / (count * count)) / (mean * mean);
-    double rmse = sqrt(mean * audit->size / estimate->judged);
+    double scatter = count > 1.0 ? (squares - sum * sum / count) * count / (count - 1.0) : squares;
+    double spread = (certain_variance + audit->step * audit->step * (scatter + within)) / (all * all);
+    double rmse = sqrt(all / estimate->judged);
     error->pixel_scale = error->rmse > 0.0 ? rmse / error->rmse : 1.0;
     error->rmse = rmse;
     // The error of this picture varies about its expectation, and judged blocks about all, too.

@@ -20,7 +20,7 @@
 
 // A pick for so many samples, within limits, so that its rays are few beside those of the picture; no more than so many
 // of each pixel, and where pixels are few more, up to LOOK_LEAST: of one highlight 8 tell its light to a third only.
-enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 8, LOOK_EACH_OF_FEW = 32 };
+enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 6, LOOK_EACH_OF_FEW = 32 };
 
 // Columns of a shape in a pixel that are drawn for a ray; more where a lens moves it, mostly beside the pixel.
 enum { AIM_COLUMNS = 4, AIM_COLUMNS_LENS = 8 };
@@ -220,9 +220,8 @@ static void batch_aim(LookBatch *batch, const Small *small, const Footprint *at,
         is_crossed = small_is_crossed(small, at->extent.shape, ray);
     }
     // Where shapes that were not met lie behind each other, each counts for its part.
-    batch->weights[i] = is_crossed ? aim.area * small->norm * small_weight(small, aim.x - middle[0], aim.y - middle[1]) /
-                                         small_count_open(small, pixel, ray)
-                                   : 0.0;
+    double weight = small_weight(small, aim.x - middle[0], aim.y - middle[1]);
+    batch->weights[i] = is_crossed ? aim.area * small->norm * weight / small_count_open(small, pixel, ray) : 0.0;
     batch->streams[i] = (SampleStream){.kind = SAMPLER_RANDOM, .seed = seed, .count = 1, .pair = 2};
     batch->count++;
 }

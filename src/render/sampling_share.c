@@ -260,23 +260,24 @@ void share_add(ShareSums *sums, uint32_t part, const double *x, const double *y,
     }
 }
 
-// Some samples of a pixel in one stratum, or in several that are taken as one.
+enum { PART_FIRST, PART_SECOND, PART_BEFORE, PARTS };
+
+// Strata of a pixel, some of which are taken as one.
 typedef struct Group {
-    double area, taken;
-    Rgb sum;
+    double area;
+    uint32_t strata; // a bit for each
 } Group;
 
 static void group_add(Group *group, const Group *more)
 {
     group->area += more->area;
-    group->taken += more->taken;
-    group->sum = rgb_add(group->sum, more->sum);
+    group->strata |= more->strata;
 }
 
 // Puts strata in which too few samples are expected into one, and that with the least of the others, if it must be.
 static int groups_join(Group *groups, int count, double samples)
 {
-    Group rest = {0.0, 0.0, rgb_grey(0.0)};
+    Group rest = {0.0, 0};
     for (int i = 0; i < count;) {
         if (groups[i].area * samples < EXPECTED_LEAST) {
             group_add(&rest, &groups[i]);
@@ -299,72 +300,111 @@ static int groups_join(Group *groups, int count, double samples)
     return count;
 }
 
-enum { PART_FIRST = 1, PART_SECOND = 2, PART_BEFORE = 4 };
+// The samples of a pixel by group, of each part of them.
+typedef struct GroupSums {
+    int count;
+    Group groups[STRATA_MOST];
+    double taken[PARTS][STRATA_MOST];
+    Rgb sums[PARTS][STRATA_MOST];
+} GroupSums;
 
-// The mean of some parts of a pixel's samples, of which there is one at least. Strata are joined as for all `samples`
-// of the pixel, so that halves differ as those of the picture's value do. Where one has none all strata are one.
-static Rgb mean_of(const ShareSums *sums, int parts, double samples, Rgb *between)
+static void stratum_add(const ShareSums *sums, int stratum, int group, bool has_before, GroupSums *by_group)
 {
-    Group groups[STRATA_MOST], all = {0.0, 0.0, rgb_grey(0.0)};
+    for (int half = 0; half < 2; half++) {
+        by_group->taken[half][group] += sums->taken[half][stratum];
+        by_group->sums[half][group] = rgb_add(by_group->sums[half][group], sums->sum[half][stratum]);
+    }
+    if (has_before) {
+        const ShareStratum *own = &sums->strata[stratum];
+        Rgb mean = rgb(own->mean[0], own->mean[1], own->mean[2]);
+        by_group->taken[PART_BEFORE][group] += own->taken;
+        by_group->sums[PART_BEFORE][group] = rgb_add_scaled(by_group->sums[PART_BEFORE][group], own->taken, mean);
+    }
+}
+
+// Strata are joined as for all samples of the pixel, so that halves differ as those of the picture's value do.
+static void group_sums(const ShareSums *sums, bool has_before, GroupSums *by_group)
+{
+    double samples = 0.0;
     for (int i = 0; i < sums->count; i++) {
-        const ShareStratum *stratum = &sums->strata[i];
-        Group *group = &groups[i];
-        *group = (Group){stratum->area, 0.0, rgb_grey(0.0)};
-        if (parts & PART_BEFORE) {
-            group->taken = stratum->taken;
-            group->sum = rgb_scale(stratum->taken, rgb(stratum->mean[0], stratum->mean[1], stratum->mean[2]));
-        }
-        for (int half = 0; half < 2; half++) {
-            if (parts & (half == 0 ? PART_FIRST : PART_SECOND)) {
-                group->taken += sums->taken[half][i];
-                group->sum = rgb_add(group->sum, sums->sum[half][i]);
-            }
-        }
-        group_add(&all, group);
+        samples += (has_before ? sums->strata[i].taken : 0) + sums->taken[0][i] + sums->taken[1][i];
+        by_group->groups[i] = (Group){sums->strata[i].area, 1u << i};
     }
-    int count = groups_join(groups, sums->count, samples);
-    for (int i = 0; i < count; i++) {
-        if (groups[i].taken == 0.0) {
-            all.area = 1.0;
-            groups[0] = all;
-            count = 1;
+    by_group->count = groups_join(by_group->groups, sums->count, samples);
+    for (int group = 0; group < by_group->count; group++) {
+        for (int part = 0; part < PARTS; part++) {
+            by_group->taken[part][group] = 0.0;
+            by_group->sums[part][group] = rgb_grey(0.0);
+        }
+        for (uint32_t left = by_group->groups[group].strata; left; left &= left - 1) {
+            stratum_add(sums, __builtin_ctz(left), group, has_before, by_group);
         }
     }
-    Rgb mean = *between = rgb_grey(0.0);
-    for (int i = 0; i < count; i++) {
-        Rgb own = rgb_scale(1.0 / groups[i].taken, groups[i].sum);
-        mean = rgb_add_scaled(mean, groups[i].area, own);
-        *between = rgb_add_scaled(*between, groups[i].taken / all.taken, rgb_mul(own, own));
+}
+
+// The mean of some parts of a pixel's samples, of which there is one at least, from `first` to `last`. Where a group
+// has none all are one. `between`: NULL, or where the mean square of the groups' means goes.
+static Rgb mean_of(const GroupSums *by_group, int first, int last, Rgb *between)
+{
+    double all = 0.0, taken[STRATA_MOST];
+    Rgb sums[STRATA_MOST], mean = rgb_grey(0.0);
+    bool has_all = true;
+    for (int i = 0; i < by_group->count; i++) {
+        taken[i] = 0.0;
+        sums[i] = rgb_grey(0.0);
+        for (int part = first; part <= last; part++) {
+            taken[i] += by_group->taken[part][i];
+            sums[i] = rgb_add(sums[i], by_group->sums[part][i]);
+        }
+        all += taken[i];
+        has_all = has_all && taken[i] > 0.0;
+    }
+    for (int i = 0; !has_all && i < by_group->count; i++) {
+        mean = rgb_add(mean, sums[i]);
+    }
+    if (!has_all) {
+        mean = rgb_scale(1.0 / all, mean);
+        if (between) {
+            *between = rgb_mul(mean, mean);
+        }
+        return mean;
+    }
+    Rgb squares = rgb_grey(0.0);
+    for (int i = 0; i < by_group->count; i++) {
+        Rgb own = rgb_scale(1.0 / taken[i], sums[i]);
+        mean = rgb_add_scaled(mean, by_group->groups[i].area, own);
+        if (between) {
+            squares = rgb_add_scaled(squares, taken[i] / all, rgb_mul(own, own));
+        }
+    }
+    if (between) {
+        *between = squares;
     }
     return mean;
 }
 
 Rgb share_mean(const ShareSums *sums)
 {
-    Rgb between;
-    double samples = 0.0;
-    for (int i = 0; i < sums->count; i++) {
-        samples += sums->taken[0][i] + sums->taken[1][i];
-    }
-    return mean_of(sums, PART_FIRST | PART_SECOND, samples, &between);
+    GroupSums by_group;
+    group_sums(sums, false, &by_group);
+    return mean_of(&by_group, PART_FIRST, PART_SECOND, NULL);
 }
 
 void share_close(ShareSums *sums, bool has_before, bool is_judged, ShareMeans *means)
 {
+    GroupSums by_group;
     uint32_t second = 0;
-    double samples = 0.0;
-    Rgb none;
     for (int i = 0; i < sums->count; i++) {
         second += sums->taken[1][i];
-        samples += (has_before ? sums->strata[i].taken : 0) + sums->taken[0][i] + sums->taken[1][i];
     }
+    group_sums(sums, has_before, &by_group);
     *means = (ShareMeans){.before = rgb_grey(0.0)};
-    means->all = mean_of(sums, PART_FIRST | PART_SECOND | (has_before ? PART_BEFORE : 0), samples, &means->between);
+    means->all = mean_of(&by_group, PART_FIRST, has_before ? PART_BEFORE : PART_SECOND, &means->between);
     if (is_judged) {
-        means->before = has_before ? mean_of(sums, PART_BEFORE, samples, &none) : means->before;
-        means->fresh = has_before ? mean_of(sums, PART_FIRST | PART_SECOND, samples, &means->between) : means->all;
-        means->halves[0] = mean_of(sums, PART_FIRST, samples, &none);
-        means->halves[1] = second > 0 ? mean_of(sums, PART_SECOND, samples, &none) : rgb_grey(0.0);
+        means->before = has_before ? mean_of(&by_group, PART_BEFORE, PART_BEFORE, NULL) : means->before;
+        means->fresh = has_before ? mean_of(&by_group, PART_FIRST, PART_SECOND, &means->between) : means->all;
+        means->halves[0] = mean_of(&by_group, PART_FIRST, PART_FIRST, NULL);
+        means->halves[1] = second > 0 ? mean_of(&by_group, PART_SECOND, PART_SECOND, NULL) : rgb_grey(0.0);
     }
     for (int i = 0; i < sums->count; i++) {
         ShareStratum *stratum = &sums->strata[i];
@@ -382,14 +422,21 @@ void share_close(ShareSums *sums, bool has_before, bool is_judged, ShareMeans *m
 
 // ---- what is known of errors
 
-double share_variance(const Share *share, size_t pixel, double count)
+// What slivers have of a pixel: strata that are too small for so many samples.
+static double sliver_area(const Share *share, size_t pixel, double count)
 {
     double sum = 0.0;
     for (uint32_t i = share->first[pixel]; i < share->first[pixel + 1]; i++) {
         double area = share->strata[i].area;
         sum += area * count < EXPECTED_LEAST ? area : 0.0;
     }
-    return (double)share->contrasts[pixel].around * sum / count;
+    return sum;
+}
+
+double share_variance(const Share *share, size_t pixel, double count)
+{
+    double around = (double)share->contrasts[pixel].around;
+    return around > 0.0 ? around * sliver_area(share, pixel, count) / count : 0.0;
 }
 
 // Of the strata that have samples: the mean square of how far they are from their common mean, in linear light, and
@@ -433,25 +480,58 @@ static double contrast_around(const Round *round, int x, int y, double of_all)
     return weight > 0.0 ? square / weight : of_all;
 }
 
-void share_set_contrasts(const Round *round)
+typedef struct ContrastSums {
+    double square, weight;
+} ContrastSums;
+
+static void contrasts_add(const Round *round, Tile block, ContrastSums *sums)
+{
+    for (int y = block.top; y < block.bottom; y++) {
+        for (int x = block.left; x < block.right; x++) {
+            size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
+            if (share_has(round->share, pixel)) {
+                double weight, square = pixel_contrast(round, pixel, &weight);
+                round->share->contrasts[pixel] = (ShareContrast){.square = (float)square, .weight = (float)weight};
+                sums->square += square;
+                sums->weight += weight;
+            }
+        }
+    }
+}
+
+static void contrasts_spread(const Round *round, Tile block, ContrastSums *sums)
+{
+    double of_all = sums->weight > 0.0 ? sums->square / sums->weight : 0.0;
+    for (int y = block.top; y < block.bottom; y++) {
+        for (int x = block.left; x < block.right; x++) {
+            size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
+            if (share_has(round->share, pixel) &&
+                sliver_area(round->share, pixel, round->film->records[pixel].count) > 0.0) {
+                round->share->contrasts[pixel].around = (float)contrast_around(round, x, y, of_all);
+            }
+        }
+    }
+}
+
+// Of the pixels that tell of the error.
+static void contrasts_each(const Round *round, ContrastSums *sums,
+                           void (*block)(const Round *round, Tile block, ContrastSums *sums))
 {
     const Film *film = round->film;
-    ShareContrast *contrasts = round->share->contrasts;
-    size_t pixels = (size_t)film->width * (size_t)film->height;
-    double sum = 0.0, weights = 0.0, weight;
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
-        if (share_has(round->share, pixel)) {
-            double square = pixel_contrast(round, pixel, &weight);
-            contrasts[pixel] = (ShareContrast){.square = (float)square, .weight = (float)weight};
-            sum += square;
-            weights += weight;
+    for (int top = 0, bottom; top < film->height; top = bottom) {
+        bottom = round_block_end(top, film->top, film->height);
+        for (int left = 0, right; left < film->width; left = right) {
+            right = round_block_end(left, film->left, film->width);
+            if (round_judges(round, left, top)) {
+                block(round, (Tile){left, top, right, bottom}, sums);
+            }
         }
     }
-    double of_all = weights > 0.0 ? sum / weights : 0.0;
-    for (size_t pixel = 0; pixel < pixels; pixel++) {
-        if (share_has(round->share, pixel)) {
-            int x = (int)(pixel % (size_t)film->width), y = (int)(pixel / (size_t)film->width);
-            contrasts[pixel].around = (float)contrast_around(round, x, y, of_all);
-        }
-    }
+}
+
+void share_set_contrasts(const Round *round)
+{
+    ContrastSums sums = {0.0, 0.0};
+    contrasts_each(round, &sums, contrasts_add);
+    contrasts_each(round, &sums, contrasts_spread);
 }

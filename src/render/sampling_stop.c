@@ -184,6 +184,8 @@ void stop_trace_replicas(const Round *round, Audit *audit, int begin, int end, R
         const float *value = &film->rgb[3 * pixels[i].index];
         Rgb mean = rgb_scale(0.5, rgb_add(set_mean(&pixels[i], sums[i], 0), set_mean(&pixels[i], sums[i], 1))), place;
         Rgb apart = rgb_add_scaled(mean, -1.0, rgb(value[0], value[1], value[2]));
-        audit->picks[begin + i].square = square_apart(apart, slope_at(round, value, &place), 0.5 / 3.0);
+        const Rgb *slope = slope_at(round, value, &place);
+        audit->picks[begin + i].square = square_apart(apart, slope, 0.5 / 3.0);
+        audit->picks[begin + i].apart[0] = slope ? rgb_mul(apart, *slope) : apart;
     }
 }
