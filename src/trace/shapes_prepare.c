@@ -122,12 +122,16 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
 
 static void csg_init(ShapeTable *table, const Composite *composite, uint32_t index)
 {
-    table->csg_trees[index] = (CsgTree){composite->first_node, composite->node_count, composite->first_part,
-                                        composite->part_count, composite->hidden,     composite->order, 0};
+    CsgTree *csg = &table->csg_trees[index];
+    *csg = (CsgTree){.first_node = composite->first_node,
+                     .node_count = composite->node_count,
+                     .first_solid = composite->first_part,
+                     .solid_count = composite->part_count,
+                     .hidden = composite->hidden,
+                     .order = composite->order};
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
-        bool is_seen = !(solid->flags & PART_UNSEEN);
-        table->csg_trees[index].seen_count = is_seen ? i + 1 - composite->first_part : table->csg_trees[index].seen_count;
+        csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
         solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
