@@ -325,22 +325,6 @@ static void traversal_set_states(CsgTraversal *p)
     }
 }
 
-// Finds the crossings. Mostly it turns out on the way that nothing can be seen.
-static void traversal_begin(CsgTraversal *p, RayStart start)
-{
-    const CsgTree *csg = p->csg;
-    bool is_own = starts_on_part(start) && part_index(start.shape) - csg->first_solid < csg->solid_count;
-    for (uint32_t i = 0; i < csg->solid_count && !p->is_over; i++) {
-        p->is_inside[i] = false;
-        if (solid_is_flat(traversal_solid(p, i))) {
-            traversal_flat(p, i, start);
-        } else {
-            traversal_solid_begin(p, i, start, is_own);
-        }
-    }
-    p->is_over = p->is_over || isinf(p->first_surface);
-}
-
 // Whether no crossing with a surface may lie at the limit or before it, as all that are left are at `t` or behind it.
 // Those before it are asked about errors by nobody.
 static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
@@ -367,6 +351,24 @@ static bool traversal_is_beyond(CsgTraversal *p, double t, double limit)
         }
     }
     return t * p->nearest_share * (1.0 - 8.0 * 0x1p-53) > limit; // rounding makes it greater by 3 u
+}
+
+// Finds the crossings. Mostly it turns out on the way that nothing can be seen before the limit, whatever clips it.
+static void traversal_begin(CsgTraversal *p, RayStart start, double limit)
+{
+    const CsgTree *csg = p->csg;
+    bool is_own = starts_on_part(start) && part_index(start.shape) - csg->first_solid < csg->solid_count;
+    for (uint32_t i = 0; i < csg->solid_count && !p->is_over; i++) {
+        p->is_inside[i] = false;
+        if (solid_is_flat(traversal_solid(p, i))) {
+            traversal_flat(p, i, start);
+        } else {
+            traversal_solid_begin(p, i, start, is_own);
+        }
+        if (i + 1 == csg->seen_count) {
+            p->is_over = p->is_over || isinf(p->first_surface) || traversal_is_beyond(p, p->first_surface, limit);
+        }
+    }
 }
 
 // Puts the crossings into order.
@@ -401,8 +403,8 @@ void csg_closest(const ShapeTable *table, const CsgTree *csg, const Ray *ray, Ra
                       .objects = objects,
                       .crossings = crossings,
                       .decided_until = (double)INFINITY};
-    traversal_begin(&p, start);
-    if (p.is_over || traversal_is_beyond(&p, p.first_surface, first->limit)) {
+    traversal_begin(&p, start, first->limit);
+    if (p.is_over) {
         return;
     }
     traversal_set_states(&p);

@@ -49,6 +49,7 @@ typedef struct CsgTree {
     uint32_t crossing_count; // of one ray, at most
     uint8_t hidden;
     uint32_t order;
+    uint32_t seen_count; // its solids from there on only clip others
 } CsgTree;
 
 // What stands for itself: a solid, or a CSG tree when the number is not below solid_count; of a ball with a bit that

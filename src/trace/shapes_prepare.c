@@ -147,6 +147,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .order = composite->order};
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
+        csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
         csg->crossing_count += solid_is_convex(solid) ? 2 : 2 * INTERVALS_MOST;
         solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid_is_convex(solid);
