@@ -201,6 +201,7 @@ static const Family families[] = {
     {"grazing a thread", 1e-9, 3.0, 1e-6, 1.0}, {"grazing what goes through itself", 1.5, 3.0, 1e-12, 1.0},
     {"from far", 0.4, 1e6, 0.0, 1.0},           {"grazing from far", 0.4, 1e6, 1e-9, 1.0},
     {"a long direction", 0.4, 3.0, 0.0, 1e12},  {"a short direction", 0.4, 3.0, 0.0, 1e-12},
+    {"from close by", 0.4, 1e-9, 0.0, 1.0},
 };
 
 static Case random_case(Random *random, const Family *family)
