@@ -5,10 +5,12 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/array.h"
 #include "math/extreme.h"
 #include "render/camera.h"
+#include "render/scratch.h"
 #include "render/tiles.h"
 #include "scene/scene_extent.h"
 #include "trace/query.h"
@@ -43,22 +45,43 @@ typedef struct Area {
 
 // ---- what is seen
 
-static Seen look(const Overlay *overlay, double u, double v)
+static Seen seen_of(const Prepared *p, Ray ray, Hit hit)
 {
-    const Prepared *p = overlay->prepared;
-    Seen seen = {.object = 0};
-    Ray ray;
-    Hit hit;
-    if (camera_ray(&p->camera, u, v, &ray) &&
-        geometry_closest(p->geometry, TRACE_ALL_FEATURES, ray, RAY_START_CAMERA, (double)INFINITY, &hit)) {
-        Surface surface = geometry_surface(p->geometry, TRACE_ALL_FEATURES, ray, hit);
-        Vec3 ahead = vec3_normalize(p->camera.direction), normal = surface.normal;
-        (void)geometry_flat_normal(p->geometry, hit.shape, &normal); // that of smooth triangles is not their own
-        normal = vec3_dot(normal, ray.direction) > 0.0 ? vec3_neg(normal) : normal;
-        seen = (Seen){surface.order + 1, ray.direction, surface.point, normal,
-                      vec3_dot(vec3_sub(surface.point, p->camera.location), ahead) * p->textures.scale};
+    Surface surface = geometry_surface(p->geometry, TRACE_ALL_FEATURES, ray, hit);
+    Vec3 ahead = vec3_normalize(p->camera.direction), normal = surface.normal;
+    (void)geometry_flat_normal(p->geometry, hit.shape, &normal); // that of smooth triangles is not their own
+    normal = vec3_dot(normal, ray.direction) > 0.0 ? vec3_neg(normal) : normal;
+    return (Seen){surface.order + 1, ray.direction, surface.point, normal,
+                  vec3_dot(vec3_sub(surface.point, p->camera.location), ahead) * p->textures.scale};
+}
+
+// What is seen at those of some places that are wanted, a bit each; the others are places, too.
+static void look(const Prepared *p, const KernelPlaces *places, uint64_t wanted, Seen *seen, RenderScratch *scratch)
+{
+    const PreparedCamera *camera = &p->camera;
+    TileView view = {camera->location, camera->direction, camera->right, camera->up};
+    SphereTile *tile = &scratch->tile.rays;
+    bool is_view = camera->type == CAMERA_PERSPECTIVE;
+    TileHits found;
+    if (is_view) {
+        geometry_closest_view(p->geometry, TRACE_ALL_FEATURES, &view, places->u, places->v, tile, &found);
     }
-    return seen;
+    for (; wanted; wanted &= wanted - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(wanted);
+        Ray ray;
+        Hit hit = {.shape = SHAPE_NONE};
+        bool is_met;
+        if (is_view) {
+            SphereRay own = sphere_tile_ray(tile, i);
+            ray = (Ray){own.origin, own.direction};
+            hit = (Hit){found.t[i], found.shape[i], found.inside >> i & 1};
+            is_met = found.met >> i & 1;
+        } else {
+            is_met = camera_ray(camera, places->u[i], places->v[i], &ray) &&
+                     geometry_closest(p->geometry, TRACE_ALL_FEATURES, ray, RAY_START_CAMERA, (double)INFINITY, &hit);
+        }
+        seen[i] = is_met ? seen_of(p, ray, hit) : (Seen){.object = 0};
+    }
 }
 
 static size_t at(const Area *area, int x, int y)
@@ -66,11 +89,20 @@ static size_t at(const Area *area, int x, int y)
     return (size_t)(y - area->top) * (size_t)area->width + (size_t)(x - area->left);
 }
 
-static void look_at_middles(const Overlay *overlay, Area *area)
+static void look_at_middles(const Overlay *overlay, Area *area, RenderScratch *scratch)
 {
-    for (int y = area->top; y < area->top + area->height; y++) {
-        for (int x = area->left; x < area->left + area->width; x++) {
-            area->middles[at(area, x, y)] = look(overlay, film_u(overlay->film, x, 0.0), film_v(overlay->film, y, 0.0));
+    Tile whole = {area->left, area->top, area->left + area->width, area->top + area->height};
+    Seen seen[KERNEL_RAYS];
+    KernelPlaces places = {.lens = NULL};
+    for (int top = whole.top; top < whole.bottom; top += KERNEL_ROW) {
+        for (int left = whole.left; left < whole.right; left += KERNEL_ROW) {
+            Tile block = tile_block(whole, left, top);
+            uint64_t wanted = block_places(overlay->film, block, 0.0, &places);
+            look(overlay->prepared, &places, wanted, seen, scratch);
+            for (int y = top; y < block.bottom; y++) {
+                memcpy(&area->middles[at(area, left, y)], &seen[(y - top) * KERNEL_ROW],
+                       (size_t)(block.right - left) * sizeof *seen);
+            }
         }
     }
 }
@@ -125,15 +157,34 @@ static void find_finer(const Overlay *overlay, Area *area)
     }
 }
 
-static void look_finer(const Overlay *overlay, Area *area)
+// The parts of a pixel, as the places of a call from its number on.
+static void put_parts(const Film *film, int x, int y, int first, KernelPlaces *places)
 {
+    for (int k = 0; k < PARTS_ALL; k++) {
+        places->u[first + k] = film_u(film, x, (k % PARTS + 0.5) / PARTS - 0.5);
+        places->v[first + k] = film_v(film, y, (k / PARTS + 0.5) / PARTS - 0.5);
+    }
+}
+
+// Numbers are in the order in which pixels are gone through, so those of one call follow each other.
+static void look_finer(const Overlay *overlay, Area *area, RenderScratch *scratch)
+{
+    KernelPlaces places = {.lens = NULL};
+    uint32_t looked = 0;
     for (int y = area->top; y < area->top + area->height; y++) {
         for (int x = area->left; x < area->left + area->width; x++) {
             uint32_t number = area->finer[at(area, x, y)];
-            for (int k = 0; number > 0 && k < PARTS_ALL; k++) {
-                double aside = (k % PARTS + 0.5) / PARTS - 0.5, down = (k / PARTS + 0.5) / PARTS - 0.5;
-                area->parts[(size_t)(number - 1) * PARTS_ALL + (size_t)k] =
-                    look(overlay, film_u(overlay->film, x, aside), film_v(overlay->film, y, down));
+            if (number == 0) {
+                continue;
+            }
+            int first = (int)(number - 1 - looked) * PARTS_ALL;
+            for (int i = first; i < KERNEL_RAYS; i += PARTS_ALL) { // what follows may overwrite it
+                put_parts(overlay->film, x, y, i, &places);
+            }
+            if (first + PARTS_ALL == KERNEL_RAYS || number == area->count) {
+                uint64_t wanted = UINT64_MAX >> (KERNEL_RAYS - first - PARTS_ALL);
+                look(overlay->prepared, &places, wanted, &area->parts[(size_t)looked * PARTS_ALL], scratch);
+                looked = number;
             }
         }
     }
@@ -263,15 +314,15 @@ static void draw_pixels(const Overlay *overlay, const Area *area)
     }
 }
 
-static bool draw_area(const Overlay *overlay, Area *area)
+static bool draw_area(const Overlay *overlay, Area *area, RenderScratch *scratch)
 {
-    look_at_middles(overlay, area);
+    look_at_middles(overlay, area, scratch);
     find_finer(overlay, area);
     area->parts = malloc(((size_t)area->count * PARTS_ALL + 1) * sizeof *area->parts);
     if (!area->parts) {
         return false;
     }
-    look_finer(overlay, area);
+    look_finer(overlay, area, scratch);
     if (overlay->options->outline_width > 0.0) {
         draw_lines(overlay, area);
     }
@@ -281,7 +332,7 @@ static bool draw_area(const Overlay *overlay, Area *area)
 
 static void overlay_tile(void *client, Tile tile, RenderScratch *scratch, RenderStatistics *counted)
 {
-    (void)scratch, (void)counted;
+    (void)counted;
     Overlay *overlay = client;
     const Film *film = overlay->film;
     int left = tile.left - overlay->margin, top = tile.top - overlay->margin;
@@ -295,7 +346,7 @@ static void overlay_tile(void *client, Tile tile, RenderScratch *scratch, Render
     area.middles = malloc(pixels * sizeof *area.middles);
     area.finer = malloc(pixels * sizeof *area.finer);
     area.lines = calloc(ROWS, sizeof *area.lines);
-    if (!area.middles || !area.finer || !area.lines || !draw_area(overlay, &area)) {
+    if (!area.middles || !area.finer || !area.lines || !draw_area(overlay, &area, scratch)) {
         atomic_store(&overlay->has_no_memory, true);
     }
     free(area.middles);

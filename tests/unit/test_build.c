@@ -316,21 +316,25 @@ static void call_look(rt_session *session, Random *random)
     static const double numbers[] = {0, 0.5, 1, 4, -1, 17, (double)NAN, (double)INFINITY};
     double own[6], color[3];
     for (int i = 0; i < 6; i++) {
-        own[i] = numbers[random_below(random, random_below(random, 4) ? 4 : 8)];
+        unsigned choice = random_below(random, 32);
+        own[i] = numbers[choice < 24 ? choice % 4 : choice % 8];
     }
     memcpy(color, own, sizeof color);
     const char *text;
     static float plane[16 * 12];
     rt_depth_cue cue = {.strength = own[3], .has_color = (int)random_below(random, 2), .color = {own[0], own[1], own[2]},
                         .near = own[4], .far = own[5]};
-    int left = (int)random_below(random, 16), top = (int)random_below(random, 12);
+    int left = (int)random_below(random, 16), top = 0, width = 0, height = 0;
+    top = (int)random_below(random, 12);
+    width = 1 + (int)random_below(random, 8);
+    height = 1 + (int)random_below(random, 8);
     switch (random_below(random, 7)) {
     case 0: (void)rt_set_sky_light(session, color); break;
     case 1: (void)rt_set_outline(session, own[3], color); break;
     case 2: (void)rt_set_depth_cue(session, &cue); break;
     case 3: (void)rt_set_planes(session, random_below(random, 2) ? RT_PLANE_DEPTH | RT_PLANE_OBJECT : 0); break;
     case 4: (void)rt_get_plane(session, RT_PLANE_DEPTH, plane, sizeof plane); break;
-    case 5: (void)rt_set_crop(session, left, top, 1 + (int)random_below(random, 8), 1 + (int)random_below(random, 8)); break;
+    case 5: (void)rt_set_crop(session, left, top, width, height); break;
     default: (void)rt_trace_pixel(session, left, top, &text); break;
     }
 }
