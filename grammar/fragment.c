@@ -137,7 +137,7 @@ static bool is_as_it_stands(const GrammarState *state, const Token *token)
     case TOKEN_HASH_VERSION:
     case TOKEN_ARRAY: return true;
     case '.':
-        return (state->base_depth != NO_BASE && state->openers.count <= (size_t)state->base_depth) ||
+        return (state->base_depth != GRAMMAR_NO_BASE && state->openers.count <= (size_t)state->base_depth) ||
                (state->array_begins && open != NULL && open->kind == '[');
     case TOKEN_NAME: return state->is_declared;
     case '(':

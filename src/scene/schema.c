@@ -265,7 +265,7 @@ static const SchemaProperty torus_properties[] = {
     {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
 };
 
-static const TorusDesc torus_defaults = {.part = OBJECT_PART};
+static const TorusDesc torus_defaults = {.part = OBJECT_PART, .major = 1.0};
 
 static const SchemaProperty triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(TriangleDesc, corners[0]), .doc = "in any order"},
