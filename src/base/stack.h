@@ -15,7 +15,7 @@
 #include "base/attributes.h"
 
 enum {
-    STACK_BYTES = 16 << 20,      // of a thread that is started; touched only as far as it is used
+    STACK_BYTES = 32 << 20,      // of a thread that is started: the largest composite; touched only as it is used
     STACK_BYTES_LEAST = 4 << 20, // what the work of a session needs of the thread that asks for it
 };
 

@@ -422,12 +422,15 @@ bool scene_add_leaf(Scene *scene, const Part *part)
     return true;
 }
 
+// More that a ray keeps of a part which it may cross more than twice, as it may any that is not convex.
+enum { SEVERAL_CROSSINGS_STACK = 120 };
+
 size_t scene_composite_stack(const Scene *scene)
 {
     size_t most = 0;
     for (size_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
-        size_t bytes = (size_t)composite->part_count * COMPOSITE_PART_STACK +
+        size_t bytes = (size_t)composite->part_count * (COMPOSITE_PART_STACK + SEVERAL_CROSSINGS_STACK) +
                        (size_t)composite->node_count * COMPOSITE_NODE_STACK;
         most = bytes > most ? bytes : most;
     }
