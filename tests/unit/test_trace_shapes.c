@@ -383,7 +383,7 @@ static void test_bounds(void)
             }
             interval = intervals[0];
             for (int end = 0; end < 2; end++) {
-                uint8_t side = end ? interval.leave_side : interval.enter_side;
+                uint8_t side = solid_is_flat(solid) ? 0 : end ? interval.leave_side : interval.enter_side;
                 t = solid_is_flat(solid) ? t : end ? interval.leave : interval.enter;
                 double span = vec3_sum_abs(ray.origin) + fabs(t) * vec3_sum_abs(ray.direction);
                 double error = solid_crossing_error(solid, &ray, &object, t, side);
