@@ -164,6 +164,21 @@ static bool column_draw(const Footprint *at, const double shift[2], const double
     return *area > 0.0;
 }
 
+// A point of an ellipse that is in the pixel as a whole, drawn evenly: nothing is left to chance but the light.
+static bool aim_draw_whole(const Footprint *at, const double pixel[2], double reach, uint32_t *seed, Aim *aim)
+{
+    const double turn = 6.283185307179586;
+    if (fabs(at->x - pixel[0]) + sqrt(at->xx) > reach || fabs(at->y - pixel[1]) + sqrt(at->yy) > reach) {
+        return false;
+    }
+    double radius = sqrt(next_number(seed)), angle = turn * next_number(seed);
+    double a = radius * cos(angle), b = radius * sin(angle), slant = at->xy / sqrt(at->xx);
+    aim->x = at->x + sqrt(at->xx) * a;
+    aim->y = at->y + slant * a + sqrt(fmax(at->yy - slant * slant, 0.0)) * b;
+    aim->area = at->area;
+    return true;
+}
+
 // A point of the part of a shape's ellipse that is in the pixel. Of a shape that is in several, points of the whole
 // would be in this one seldom, and both of a pair hardly ever. Some columns, as the lens moves the ellipse, are drawn,
 // of which one is taken by the areas that they stand for; the mean of these is that of the part. False when none meets
@@ -174,6 +189,9 @@ static bool aim_draw(const LookBatch *batch, const Small *small, const Footprint
     const PreparedCamera *camera = &small->prepared->camera;
     int columns = batch->places.lens ? AIM_COLUMNS_LENS : AIM_COLUMNS;
     double reach = filter_radius(small->filter), chosen[3] = {0.0}, sum = 0.0;
+    if (!batch->places.lens && aim_draw_whole(at, pixel, reach, seed, aim)) {
+        return true;
+    }
     for (int i = 0; i < columns; i++) {
         double shift[2] = {0.0, 0.0}, column[3], area;
         SamplePoint lens = {0.0, 0.0};
