@@ -83,7 +83,7 @@ def row(name, scene, more):
     rays = sum(int(number) for number in re.findall(r"(\d+) (?:camera|shadow|reflected|transmitted)", said))
     error = re.search(r"rmse (\S+), .*? at (\S+) samples", said)
     print(name, said.splitlines()[-1] if "rmse" not in said else error.group(0), flush=True)
-    return (f"| [{name}](#{name.replace('_', '-')}) | {int(objects):,} | {once:.2f} | " +
+    return (f"| [{name}](#{name}) | {int(objects):,} | {once:.2f} | " +
             ("-" if other is None else f"{other:.2f}") +
             f" | {float(error.group(2)):.1f} | {rays / 1e6:.1f} | {took:.1f} | {error.group(1)} |").replace(",", " ")
 

@@ -42,7 +42,7 @@ syn keyword rtlangWord pigment_map planar plane png point_at poly_wave ppm premu
 syn keyword rtlangWord quick_colour quilted radial radius ramp_wave reflection reflection_exponent refraction
 syn keyword rtlangWord right ripples rotate roughness scale scallop_wave shadowless sine_wave sky sky_sphere
 syn keyword rtlangWord slope_map smooth_triangle solid specular sphere spherical spiral1 split_union spotlight
-syn keyword rtlangWord spotted texture texture_map tga tiff tightness transform translate triangle
+syn keyword rtlangWord spotted sturm texture texture_map tga tiff tightness torus transform translate triangle
 syn keyword rtlangWord triangle_wave turb_depth turbulence ultra_wide_angle union up use_color use_colour
 syn keyword rtlangWord variance waves wood wrinkles
 
