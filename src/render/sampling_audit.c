@@ -14,6 +14,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "math/extreme.h"
 #include "render/sampling.h"
 
 // How many replicas are drawn: one for so many pixels, within these.
@@ -66,9 +67,9 @@ static inline double pixel_square(const Draw *draw, const Small *small, size_t p
     int level = estimate_level(record->count);
     double by_halves = draw->of_outer[level] * (double)record->outer + draw->of_inner[level] * (double)record->inner;
     if (share_has(draw->round->share, pixel) && record->count > 1) {
-        by_halves = fmax(by_halves, share_variance(draw->round->share, pixel, record->count));
+        by_halves = greater_of(by_halves, share_variance(draw->round->share, pixel, record->count));
     }
-    return small_has(small, pixel) ? fmax(by_halves, small_variance(small, pixel, record->count)) : by_halves;
+    return small_has(small, pixel) ? greater_of(by_halves, small_variance(small, pixel, record->count)) : by_halves;
 }
 
 // What own_squares has of a pixel.
@@ -79,13 +80,40 @@ static double own_square(const Draw *draw, const Small *small, size_t pixel)
     return is_by_pixel ? pixel_square(draw, small, pixel) : draw->gain[estimate_level(record->count)] * record->outer;
 }
 
+// Whether only halves tell of all pixels of a block, alike: most blocks have no strata and no small shapes.
+static bool block_is_plain(const Draw *draw, Tile block)
+{
+    const Share *share = draw->round->share;
+    const Small *small = draw->round->small;
+    for (int y = block.top; y < block.bottom && (share || small); y++) {
+        size_t row = (size_t)y * (size_t)draw->round->film->width;
+        size_t left = row + (size_t)block.left, right = row + (size_t)block.right;
+        if ((share && share->first[right] != share->first[left]) ||
+            (small && small->first[right] != small->first[left])) {
+            return false;
+        }
+    }
+    return !draw->round->buckets;
+}
+
+// What its halves say of a pixel of a plain block.
+static inline double plain_square(const PixelRecord *record, double of_outer, double of_inner)
+{
+    return of_outer * (double)record->outer + of_inner * (double)record->inner;
+}
+
 static void total_block(Draw *draw, Tile block)
 {
     const Film *film = draw->round->film;
+    const PixelRecord *records = film->records;
+    int level = estimate_level(records[(size_t)block.top * (size_t)film->width + (size_t)block.left].count);
+    double of_outer = draw->of_outer[level], of_inner = draw->of_inner[level];
+    bool is_plain = block_is_plain(draw, block);
     for (int y = block.top; y < block.bottom; y++) {
         for (int x = block.left; x < block.right; x++) {
             size_t pixel = (size_t)y * (size_t)film->width + (size_t)x;
-            double square = pixel_square(draw, draw->round->small, pixel);
+            double square = is_plain ? plain_square(&records[pixel], of_outer, of_inner)
+                                     : pixel_square(draw, draw->round->small, pixel);
             draw->sum += square;
             draw->own_squares += round_is_like_replica(draw->round, pixel) ? square * square : 0.0;
         }
@@ -122,7 +150,7 @@ RT_ALWAYS_INLINE void block_squares(const Draw *draw, Tile block, const Small *s
         for (int x = 0; x < width; x++) {
             const PixelRecord *record = &film->records[begin + (size_t)x];
             squares->own[y * JUDGED_BLOCK + x] =
-                is_plain ? of_outer * (double)record->outer + of_inner * (double)record->inner
+                is_plain ? plain_square(record, of_outer, of_inner)
                          : pixel_square(draw, small, begin + (size_t)x);
         }
     }
@@ -224,15 +252,13 @@ RT_ALWAYS_INLINE void draw_block_by(Draw *draw, Tile block, const Small *small, 
     draw->squares += squares.sum * squares.sum;
 }
 
-// Most pictures have no small shapes: a copy of its own for those, and for those of which only halves tell, alike.
+// A copy of its own for plain blocks.
 static void draw_block(Draw *draw, Tile block)
 {
-    if (draw->round->small) {
-        draw_block_by(draw, block, draw->round->small, false);
-    } else if (draw->round->share || draw->round->buckets) {
-        draw_block_by(draw, block, NULL, false);
+    if (block_is_plain(draw, block)) {
+        draw_block_by(draw, block, draw->round->small, true);
     } else {
-        draw_block_by(draw, block, NULL, true);
+        draw_block_by(draw, block, draw->round->small, false);
     }
 }
 

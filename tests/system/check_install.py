@@ -73,8 +73,9 @@ def said(done):
 
 
 def find(top, name):
-    """The file of an installation, wherever its folders are called."""
-    found = [path for path in glob.glob(f"{glob.escape(top)}/**/{name}", recursive=True) if os.path.isfile(path)]
+    """The file of an installation, wherever its folders are called; completions of shells have a program's name, too."""
+    found = [path for path in glob.glob(f"{glob.escape(top)}/**/{name}", recursive=True)
+             if os.path.isfile(path) and "completion" not in path]
     return found[0] if found else ""
 
 
