@@ -420,3 +420,6 @@ check-sampling: tests/sampling/test_sampling$(EXEEXT) tests/sampling/test_interv
 	tests/sampling/test_small$(EXEEXT) long
 	tests/sampling/test_share$(EXEEXT) long
 	tests/sampling/test_forward$(EXEEXT) long
+
+# Both install from the same folder, where libtool links anew: one after the other.
+%D%/system/check_strip.log: %D%/system/check_install.log
