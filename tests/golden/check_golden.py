@@ -14,9 +14,11 @@ import tempfile
 
 TOP = os.environ.get("top_srcdir", ".")
 HERE = os.path.join(TOP, "tests/golden")
+sys.path.insert(0, os.path.join(TOP, "tests/system"))
 sys.path.insert(0, os.path.join(TOP, "tests/povray"))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
 import pictures  # noqa: E402
+from picture_bytes import png_without_texts  # noqa: E402
 
 WIDTH, HEIGHT = 80, 60
 UPDATE = os.environ.get("UPDATE_GOLDEN", "") not in ("", "0")
@@ -90,16 +92,6 @@ def apart(data, golden, folder, bar=CODE_BAR):
     return f"max {greatest}/65535" if greatest > bar else ""
 
 
-def without_texts(png):
-    """A PNG's bytes without what it says of its scene."""
-    at, kept = 8, png[:8]
-    while at < len(png):
-        end = at + 12 + int.from_bytes(png[at:at + 4], "big")
-        kept += png[at:end] if png[at + 4:at + 8] != b"tEXt" else b""
-        at = end
-    return kept
-
-
 def check_picture(scene, golden, folder, folders):
     single = render(scene, folder, folders, 1)
     if UPDATE:
@@ -108,8 +100,8 @@ def check_picture(scene, golden, folder, folders):
     yield "three threads make the same bytes", "" if render(scene, folder, folders, 3) == single else "they differ"
     # check_scene has left the dump here.
     dumped = os.path.join(folder, "again.scn")
-    again = without_texts(render(dumped, folder, folders, 1))
-    yield "the scene's dump makes the same bytes", "" if again == without_texts(single) else "they differ"
+    again = png_without_texts(render(dumped, folder, folders, 1))
+    yield "the scene's dump makes the same bytes", "" if again == png_without_texts(single) else "they differ"
 
 
 def check_example(scene, folder):

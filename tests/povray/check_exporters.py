@@ -17,9 +17,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "system"))
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
 import pictures  # noqa: E402
+from picture_bytes import png_without_texts  # noqa: E402
 import survey  # noqa: E402
 
 PHENOL, ETHANE = "c1ccccc1O", "CC"
@@ -228,13 +230,7 @@ def counts(scene, folders):
 def pixels(path):
     """A PNG's bytes without what it says of its scene and the files that it includes."""
     with open(path, "rb") as file:
-        png = file.read()
-    at, kept = 8, png[:8]
-    while at < len(png):
-        end = at + 12 + int.from_bytes(png[at:at + 4], "big")
-        kept += png[at:end] if png[at + 4:at + 8] != b"tEXt" else b""
-        at = end
-    return kept
+        return png_without_texts(file.read())
 
 
 def is_same_without_povray(scene, picture):

@@ -17,6 +17,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 sys.path.insert(0, os.path.join(HERE, "..", "povray"))
 import pictures  # noqa: E402
+from picture_bytes import png_without_texts  # noqa: E402
 from tap import Tap  # noqa: E402
 
 
@@ -57,13 +58,7 @@ def data(path):
 
 def pixels(path):
     """A PNG's bytes without what it says of its scene and options."""
-    png = data(path)
-    at, kept = 8, png[:8]
-    while at < len(png):
-        end = at + 12 + int.from_bytes(png[at:at + 4], "big")
-        kept += png[at:end] if png[at + 4:at + 8] != b"tEXt" else b""
-        at = end
-    return kept
+    return png_without_texts(data(path))
 
 
 def check_means(folder, scene):

@@ -5,7 +5,6 @@ The expected pictures are those of single runs with the same clock and names. Pr
 """
 import os
 import re
-import struct
 import subprocess
 import sys
 import tempfile
@@ -13,6 +12,7 @@ import tempfile
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import tap  # noqa: E402
+from picture_bytes import png_without_texts  # noqa: E402
 
 PROGRAM = os.path.abspath(os.environ["RTLANG"])
 FRAMES = 4
@@ -71,15 +71,6 @@ CASES = {
 }
 
 
-def pixels(data):
-    at, kept = 8, b""
-    while at < len(data):
-        end = at + 12 + struct.unpack(">I", data[at:at + 4])[0]
-        kept += data[at:end] if data[at + 4:at + 8] != b"tEXt" else b""
-        at = end
-    return kept
-
-
 def content(folder, name):
     with open(os.path.join(folder, name), "rb") as file:
         return file.read()
@@ -97,7 +88,7 @@ def single(folder, frame, *options):
              "frame_number": frame}
     words = [f"-D{name}={value!r}" for name, value in names.items()]
     run(folder, "-q", f"--clock={clock!r}", *words, *options, "-o", "single.png", "s.scn")
-    return pixels(content(folder, "single.png"))
+    return png_without_texts(content(folder, "single.png"))
 
 
 def put(folder, name, text):
@@ -109,7 +100,7 @@ def check_case(report, folder, name, text, times, *options):
     put(folder, "s.scn", text)
     status, _, told = run(folder, f"--frames=1..{FRAMES}", *options, "-o", "f.png", "s.scn")
     differ = [i for i in range(1, FRAMES + 1)
-              if status or pixels(content(folder, f"f{i}.png")) != single(folder, i, *options)]
+              if status or png_without_texts(content(folder, f"f{i}.png")) != single(folder, i, *options)]
     report.ok(status == 0 and not differ, f"{name}: the frames have the pixels of single runs", f"{status} {differ}\n{told}")
     found = re.search(r"^animation: (\d+) frames drawn; the scene read (\d+) times?, its tree built (\d+) times?$", told, re.M)
     report.equal(found and tuple(map(int, found.groups())), (FRAMES, *times), f"{name}: read and built so often")

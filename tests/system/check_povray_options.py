@@ -15,7 +15,7 @@ import time
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from pictures import png_without_texts  # noqa: E402
+from picture_bytes import png_without_texts  # noqa: E402
 from tap import Tap  # noqa: E402
 
 PROGRAM = os.path.abspath(os.environ["RTLANG"])

@@ -21,7 +21,7 @@ import zlib
 sys.dont_write_bytecode = True  # the folders are distributed as they are
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from exr import read_exr  # noqa: E402
-from pictures import png_chunks, png_without_texts  # noqa: E402
+from picture_bytes import png_chunks, png_without_texts  # noqa: E402
 from tap import Tap  # noqa: E402
 
 try:

@@ -16,7 +16,7 @@ import tempfile
 sys.dont_write_bytecode = True
 import faults
 import processes
-from pictures import png_header, png_first_pixel, png_without_texts, exr_channel_types
+from picture_bytes import png_header, png_first_pixel, png_without_texts, exr_channel_types
 from tap import Tap
 
 RTLANG = os.path.abspath(os.environ["RTLANG"])
