@@ -128,7 +128,7 @@ static void tell_sphere(const Printer *p, const LoggedSphere *s)
         tell(p, "\n    t = ", s->t);
         tell(p, ", off by less than ", s->bound);
     }
-    if (s->is_doubtful) {
+    if (s->is_uncertain) {
         put(p, "\n    near enough to a tangent, or to the surface, that rounding could decide: worked out in double "
                "words");
     }
@@ -331,7 +331,7 @@ static void json_spheres(const Printer *p, const LoggedRay *ray)
             put_member(p, "t", s->t);
             put_member(p, "t_error", s->bound);
         }
-        json_truth(p, "doubtful", s->is_doubtful);
+        json_truth(p, "doubtful", s->is_uncertain);
         json_truth(p, "plain_formulas_differ", s->is_misjudged);
         put(p, "}");
     }

@@ -68,8 +68,8 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
 
 // What a kernel may contain. Measured by instructions, only opaque against clear matters among the kernels of tiles (times
 // 1.5); all other features that a scene lacks cost it less than a twentieth together.
-#define GEOMETRY_FEW (TRACE_SPHERES | TRACE_PLANES)
-#define GEOMETRY_MANY (TRACE_SPHERE_BVH | TRACE_PLANES)
+#define GEOMETRY_SMALL   (TRACE_SPHERES | TRACE_PLANES)
+#define GEOMETRY_BVH     (TRACE_SPHERE_BVH | TRACE_PLANES)
 #define GEOMETRY_SPHERES (TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES)
 #define SHADING_OPAQUE                                                                                                 \
     (RENDER_SHADOWS | RENDER_HIGHLIGHTS | RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_PIGMENTS | RENDER_LIGHTS)

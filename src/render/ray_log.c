@@ -46,7 +46,7 @@ static uint64_t sphere_source(const Scene *scene, uint32_t order)
 
 // The quadratic and its roots as a textbook has them. `unit`: what a distance in the ball's space is in the scene's
 // lengths.
-static void textbook(LoggedSphere *out, Ray ray, const Ball *ball, double scale, double unit)
+static void textbook(LoggedSphere *out, Ray ray, const SphereData *ball, double scale, double unit)
 {
     Vec3 f = vec3_sub(ray.origin, ball->centre);
     double a = vec3_dot(ray.direction, ray.direction);
@@ -73,12 +73,12 @@ static LoggedRoot textbook_choice(const LoggedSphere *sphere)
 }
 
 // By the rules of query_spheres_closest.
-static void certify(LoggedSphere *out, Ray ray, const Ball *ball, const StartSphere *on, double scale)
+static void certify(LoggedSphere *out, Ray ray, const SphereData *ball, const StartSphere *on, double scale)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
-    double rough;
+    double approximate;
     bool inside = false;
-    if (ball_equal(ball, &on->ball)) {
+    if (sphere_data_equal(ball, &on->ball)) {
         out->choice = on->inward ? LOGGED_GOES_THROUGH : LOGGED_LEFT;
         double t = on->inward ? sphere_root_inward(&sphere_ray, ball) : 0.0;
         Vec3 f = vec3_sub(ray.origin, ball->centre);
@@ -87,7 +87,7 @@ static void certify(LoggedSphere *out, Ray ray, const Ball *ball, const StartSph
         out->bound = (3.0 / cosine + 3.0) * U * fabs(t) * scale;
         return;
     }
-    out->is_doubtful = sphere_test(&sphere_ray, ball, &rough, &inside) == SPHERE_DOUBTFUL;
+    out->is_uncertain = sphere_test(&sphere_ray, ball, &approximate, &inside) == SPHERE_UNCERTAIN;
     double t = sphere_hit(&sphere_ray, ball, &inside);
     bool is_behind = !(t > 0.0) && out->h >= 0.0 && out->t2 <= 0.0;
     out->choice = t > 0.0 ? (inside ? LOGGED_FAR : LOGGED_NEAR) : is_behind ? LOGGED_BEHIND : LOGGED_MISSES;
@@ -116,7 +116,7 @@ static LoggedSphere stretched(const Follower *follower, Ray object, const StartS
                            .own_origin = object.origin,
                            .own_direction = vec3_scale(1.0 / follower->scale, object.direction),
                            .radius = 1.0};
-    Ball ball = UNIT_BALL;
+    SphereData ball = UNIT_SPHERE;
     textbook(&sphere, object, &ball, follower->scale, 1.0);
     certify(&sphere, object, &ball, on, follower->scale);
     return sphere;
@@ -130,8 +130,9 @@ static void follow_part(Follower *follower, LoggedRay *ray, const StackedRay *no
     bool is_cut = solid->node != NODE_NONE, is_round = part_map_is_round(solid->to_world.m);
     bool is_start = !is_cut && starts_on_part(now->start) && part_index(now->start.shape) == index;
     double radius = fabs(solid->to_world.m[0][0]);
-    Ball ball = is_round ? (Ball){solid->centre, radius * radius} : UNIT_BALL;
-    StartSphere on = {0, now->start.inward != solid->flips, is_start ? ball : (Ball){{0.0, 0.0, 0.0}, (double)NAN}};
+    SphereData ball = is_round ? (SphereData){solid->centre, radius * radius} : UNIT_SPHERE;
+    StartSphere on = {0, now->start.inward != solid->flips,
+                      is_start ? ball : (SphereData){{0.0, 0.0, 0.0}, (double)NAN}};
     Ray object = solid_ray(solid, &now->ray);
     LoggedSphere sphere;
     if (is_round) {
@@ -161,7 +162,7 @@ static void follow_spheres(Follower *follower, LoggedRay *ray, const StackedRay 
     bool is_of_few = table->count + g->shapes.solid_count <= SPHERES_FEW;
     ray->first_sphere = follower->ray_log->spheres.count;
     for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
-        Ball ball = sphere_table_ball(table, slot);
+        SphereData ball = sphere_table_ball(table, slot);
         if (isnan(ball.radius_squared)) {
             continue;
         }
@@ -175,7 +176,7 @@ static void follow_spheres(Follower *follower, LoggedRay *ray, const StackedRay 
         keep_sphere(follower, ray, &sphere, is_of_few);
     }
     for (uint32_t i = 0; i < g->shapes.solid_count; i++) {
-        if (g->shapes.solids[i].kind == PART_BALL && !(g->shapes.solids[i].hidden & now->start.use)) {
+        if (g->shapes.solids[i].kind == PART_SPHERE && !(g->shapes.solids[i].hidden & now->start.use)) {
             follow_part(follower, ray, now, i, is_of_few);
         }
     }
@@ -222,8 +223,8 @@ static void name_shape(const Follower *follower, const ShadingPoint *at, const R
         const Part *part = &scene->parts.items[part_index(at->shape)];
         out->shape = part_name(part);
         out->source = part->source;
-        error = solid->kind == PART_BALL ? solid_ball_error(solid, ray, &object, t)
-                                         : solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
+        error = solid->kind == PART_SPHERE ? solid_ball_error(solid, ray, &object, t)
+                                           : solid_crossing_error(solid, ray, &object, t, part_side(at->shape));
         break;
     }
     }

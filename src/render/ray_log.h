@@ -44,7 +44,7 @@ typedef struct LoggedSphere {
     double a, b, c, h;
     double t1, t2;     // roots as the textbook gives them; h >= 0
     LoggedRoot choice; // by the certified test
-    bool is_doubtful;  // rounding could have decided, so double words did
+    bool is_uncertain; // rounding could have decided, so double words did
     bool is_misjudged; // the textbook would choose otherwise
     double t;          // the root that is used, refined; 0: none
     double bound;      // |error of t| is below

@@ -17,10 +17,11 @@ enum {
 };
 
 // What is known of the time that rounds take, for what is shown. Rays of one pixel go together, those of others less:
-// the rays through corners go together as those of one pixel do, those of the pilot's pixels are the least together.
+// the rays through corners go together as those of one pixel do, those of the corner pass's pixels are the least
+// together.
 typedef struct Cost {
-    double sample, pixel;     // seconds of the pilot for each sample, and for each pixel that takes part
-    double seconds, by_pilot; // of the rounds since, and as the pilot lets expect; the last counts most
+    double sample, pixel;           // seconds of the corner pass for each sample, and for each pixel that takes part
+    double seconds, by_corner_pass; // of the rounds since, and as the corner pass lets expect; the last counts most
 } Cost;
 
 static const double AUDIT_FACTOR = 1.25; // the width of an audit's interval, as a factor, before one was made
@@ -41,7 +42,7 @@ typedef struct Sampling {
     SamplingError *error;
     Round round;
     Estimate estimate;
-    Choice choice;
+    Allocation allocation;
     Audit audit;
     Looks looks;
     Traces traces;
@@ -72,13 +73,13 @@ static double cost_by_pilot(const Cost *cost, double samples, double pixels)
 static double cost_of(const Cost *cost, double samples, double pixels)
 {
     double seconds = cost_by_pilot(cost, samples, pixels);
-    return cost->by_pilot > 0.0 ? seconds * cost->seconds / cost->by_pilot : seconds;
+    return cost->by_corner_pass > 0.0 ? seconds * cost->seconds / cost->by_corner_pass : seconds;
 }
 
 static void cost_add(Cost *cost, double samples, double pixels, double seconds)
 {
     cost->seconds = COST_FADE * cost->seconds + seconds;
-    cost->by_pilot = COST_FADE * cost->by_pilot + cost_by_pilot(cost, samples, pixels);
+    cost->by_corner_pass = COST_FADE * cost->by_corner_pass + cost_by_pilot(cost, samples, pixels);
 }
 
 static double pixel_count(const Sampling *s)
@@ -250,8 +251,8 @@ static void predict(Sampling *s)
     }
     s->round_seconds = fmin(round, fmax(all - had, 0.0)) * s->sample_seconds;
     s->later_seconds = fmax(all - had - round, 0.0) * s->sample_seconds;
-    if (s->predictor && s->choice.power > 0.0) {
-        Forecast to_goal = predictor_run(s->predictor, &s->choice, &s->estimate, &s->round,
+    if (s->predictor && s->allocation.power > 0.0) {
+        Forecast to_goal = predictor_run(s->predictor, &s->allocation, &s->estimate, &s->round,
                                          wanted->target_error / (AUDIT_CHANCE * s->audit_scale));
         double between = clock_seconds() - s->round_end;
         s->round_pixels = to_goal.round_pixels;
@@ -271,7 +272,8 @@ static void predict(Sampling *s)
 static bool is_on_target(Sampling *s)
 {
     double by_rounds = s->error->rmse, target = s->wanted->target_error, samples = (double)s->estimate.samples;
-    if (!(target > 0.0) || s->choice.power <= 0.0 || by_rounds * s->audit_least > target || samples < s->audit_next) {
+    if (!(target > 0.0) || s->allocation.power <= 0.0 || by_rounds * s->audit_least > target ||
+        samples < s->audit_next) {
         return false;
     }
     uint64_t before = s->audited.camera_rays;
@@ -353,7 +355,7 @@ typedef enum Last {
 static Last run_slices(Sampling *s, double samples, double until)
 {
     const double part = 0.5, least = 0.004; // of the time that is left, to a slice; of the limit, not worth another
-    uint32_t end = CHOICE_END, least_key = (uint32_t)s->choice.least_bucket << CUT_BITS;
+    uint32_t end = CHOICE_END, least_key = (uint32_t)s->allocation.least_bucket << CUT_BITS;
     double limit = s->wanted->time_limit, had = 0.0, seconds = 0.0;
     bool is_whole = true;
     s->round.is_cut = true;
@@ -366,7 +368,7 @@ static Last run_slices(Sampling *s, double samples, double until)
             break;
         }
         s->round.end_key = end;
-        s->round.least_key = end = choice_cut(&s->choice, &s->round, end, want, &spent);
+        s->round.least_key = end = allocation_cut(&s->allocation, &s->round, end, want, &spent);
         s->sliced_samples = had;
         s->round_samples = spent;
         is_whole = spent == 0.0 || trace_round(s);
@@ -458,10 +460,10 @@ static bool run_pilot(Sampling *s)
         return false;
     }
     s->cost.sample = s->sample_seconds;
-    uint32_t probes = pilot_sort(round, s->choice.of_pixel, s->choice.memory);
+    uint32_t probes = pilot_sort(round, s->allocation.of_pixel, s->allocation.memory);
     round->is_corners = false;
     round->count = 0;
-    round->buckets = s->choice.of_pixel;
+    round->buckets = s->allocation.of_pixel;
     round->least_bucket = PILOT_PROBE;
     s->round_samples = START_SAMPLES * (double)probes;
     if (!trace_round(s)) {
@@ -469,9 +471,9 @@ static bool run_pilot(Sampling *s)
     }
     round->is_pilot = false;
     s->cost.pixel = START_SAMPLES * fmax(s->sample_seconds - s->cost.sample, 0.0);
-    pilot_judge(&s->estimate, s->film, s->choice.of_pixel);
+    pilot_judge(&s->estimate, s->film, s->allocation.of_pixel);
     if (s->predictor) {
-        predictor_keep_sorts(s->predictor, s->choice.of_pixel, (size_t)pixel_count(s));
+        predictor_keep_sorts(s->predictor, s->allocation.of_pixel, (size_t)pixel_count(s));
     }
     estimate_now(&s->estimate, s->film, round, s->error);
     find_bias(s);
@@ -481,16 +483,16 @@ static bool run_pilot(Sampling *s)
 
 static void run_adaptive(Sampling *s)
 {
-    s->round.buckets = s->choice.of_pixel;
+    s->round.buckets = s->allocation.of_pixel;
     s->round.count = 0;
     s->cost.sample = s->corners ? s->cost.sample : s->sample_seconds;
     for (bool is_first = true;; is_first = false) {
-        choice_make(&s->choice, &s->estimate, &s->round);
+        allocation_make(&s->allocation, &s->estimate, &s->round);
         if (is_first && s->predictor && s->corners) {
-            predictor_see_starts(s->predictor, &s->choice, &s->round);
+            predictor_see_starts(s->predictor, &s->allocation, &s->round);
         }
-        s->round.least_bucket = s->choice.least_bucket;
-        s->round_samples = s->choice.spent;
+        s->round.least_bucket = s->allocation.least_bucket;
+        s->round_samples = s->allocation.spent;
         predict(s);
         if (is_enough(s)) {
             return;
@@ -526,8 +528,8 @@ static bool draws_more(const Prepared *prepared)
 static void sampling_free(Sampling *s)
 {
     if (s) {
-        free(s->choice.of_pixel);
-        free(s->choice.memory);
+        free(s->allocation.of_pixel);
+        free(s->allocation.memory);
         free(s->corners);
         predictor_free(s->predictor);
         share_free(s->round.share);
@@ -545,8 +547,8 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     Sampling *s = calloc(1, sizeof *s);
     film->records = calloc(width * height, sizeof *film->records);
     if (s && wanted->is_adaptive) {
-        s->choice.of_pixel = calloc(width * height, sizeof *s->choice.of_pixel);
-        s->choice.memory = calloc(width, NEAR_ROWS * sizeof *s->choice.memory);
+        s->allocation.of_pixel = calloc(width * height, sizeof *s->allocation.of_pixel);
+        s->allocation.memory = calloc(width, NEAR_ROWS * sizeof *s->allocation.memory);
     }
     if (s && has_pilot) {
         s->corners = calloc((width + 1) * (height + 1), 3 * sizeof *s->corners);
@@ -554,8 +556,8 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     if (s && predicts) {
         s->predictor = predictor_new(width * height);
     }
-    bool is_whole = s && film->records && (!has_pilot || s->corners) &&
-                    (!predicts || s->predictor) && (!wanted->is_adaptive || (s->choice.of_pixel && s->choice.memory));
+    bool is_whole = s && film->records && (!has_pilot || s->corners) && (!predicts || s->predictor) &&
+                    (!wanted->is_adaptive || (s->allocation.of_pixel && s->allocation.memory));
     if (!is_whole) {
         sampling_free(s);
         return NULL;

@@ -290,7 +290,7 @@ void near_give(Near *near, int y);
 // Puts the means of row y into near->values.
 void near_take(Near *near, int y);
 
-// ---- sampling_pilot.c: what one ray a pixel is worth
+// ---- sampling_corners.c: what one ray a pixel is worth
 
 // Makes pixels from their corners, and sorts them by how much these differ from what those around let expect.
 // Of each square of pixels one is chosen by chance: those have buckets from PILOT_PROBE on, the others below. So have
@@ -303,7 +303,7 @@ uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory);
 // off by.
 void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets);
 
-// ---- sampling_choice.c: where the next samples go
+// ---- sampling_allocation.c: where the next samples go
 
 // Pixels in classes of like priority, four for a factor of two: exponent and two bits of a float.
 enum { BUCKETS = 1020, BUCKET_FINE = 4 };
@@ -311,7 +311,7 @@ enum { BUCKETS = 1020, BUCKET_FINE = 4 };
 // A round takes about this share of all samples taken before it: what a run may spend too much.
 static const double ROUND_SHARE = 0.25;
 
-typedef struct Choice {
+typedef struct Allocation {
     uint16_t *of_pixel;                         // width * height; owned by the caller
     double *memory;                             // NEAR_ROWS * width; owned by the caller
     double cost[BUCKETS], corner_cost[BUCKETS]; // samples that pixels get next; those that have their corners only
@@ -319,22 +319,22 @@ typedef struct Choice {
     double spent;                               // samples of the next round
     double power;                               // p: variances fall as n^-p
     uint16_t least_bucket;                      // of the next round
-} Choice;
+} Allocation;
 
 // Samples that the pixels of a bucket get next.
-static inline double choice_cost(const Choice *choice, int bucket)
+static inline double allocation_cost(const Allocation *allocation, int bucket)
 {
-    return choice->cost[bucket] + choice->corner_cost[bucket];
+    return allocation->cost[bucket] + allocation->corner_cost[bucket];
 }
 
 enum { CHOICE_END = BUCKETS << CUT_BITS }; // above all keys
 
 // Of the pixels of the chosen round with keys below `end`, which has those above behind it: takes keys from the greatest
 // down until they get `most` samples or just more. Returns the least one taken and puts their samples into *spent.
-uint32_t choice_cut(const Choice *choice, const Round *round, uint32_t end, double most, double *spent);
+uint32_t allocation_cut(const Allocation *allocation, const Round *round, uint32_t end, double most, double *spent);
 
 // Sorts all pixels and chooses the next round's.
-void choice_make(Choice *choice, const Estimate *estimate, const Round *round);
+void allocation_make(Allocation *allocation, const Estimate *estimate, const Round *round);
 
 // ---- sampling_predict.c: how many samples it will take
 
@@ -348,7 +348,7 @@ void predictor_free(Predictor *predictor);
 void predictor_keep_sorts(Predictor *predictor, const uint16_t *buckets, size_t pixels);
 
 // When the first round after that is chosen: what pixels become that start.
-void predictor_see_starts(Predictor *predictor, const Choice *choice, const Round *round);
+void predictor_see_starts(Predictor *predictor, const Allocation *allocation, const Round *round);
 
 typedef struct Forecast {
     double samples;      // of the whole run; 0: it cannot be told
@@ -358,7 +358,7 @@ typedef struct Forecast {
 } Forecast;
 
 // What it takes to bring the error to the target, before a round that is chosen.
-Forecast predictor_run(Predictor *predictor, const Choice *choice, const Estimate *estimate, const Round *round,
+Forecast predictor_run(Predictor *predictor, const Allocation *allocation, const Estimate *estimate, const Round *round,
                        double target);
 
 #endif

@@ -2,9 +2,9 @@
 //
 // Pixels go into classes by the number of their samples and by priority, and the coming rounds are played on these, in
 // the order in which pixels would be chosen. Pixels that start become what those became that were chosen by chance for
-// the pilot; errors of others fall as has been seen, or is expected, at such numbers of samples, and pixels of a class
-// become unlike each other. What is predicted is what will be told, not what will be true. docs/sampling.md, "What is
-// left".
+// the corner pass; errors of others fall as has been seen, or is expected, at such numbers of samples, and pixels of a
+// class become unlike each other. What is predicted is what will be told, not what will be true. docs/sampling.md,
+// "What is left".
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -63,7 +63,7 @@ typedef struct SortMean {
     double count, bucket, off; // sums
 } SortMean;
 
-void predictor_see_starts(Predictor *predictor, const Choice *choice, const Round *round)
+void predictor_see_starts(Predictor *predictor, const Allocation *allocation, const Round *round)
 {
     const Film *film = round->film;
     SortMean sorts[PILOT_SORTS] = {{0.0, 0.0, 0.0}};
@@ -76,7 +76,7 @@ void predictor_see_starts(Predictor *predictor, const Choice *choice, const Roun
         if (record->count == 1) {
             SortMean *sort = &sorts[predictor->sorts[i]];
             sort->count++;
-            sort->bucket += choice->of_pixel[i];
+            sort->bucket += allocation->of_pixel[i];
             sort->off += (double)record->outer;
         }
     }
@@ -84,7 +84,7 @@ void predictor_see_starts(Predictor *predictor, const Choice *choice, const Roun
         const PixelRecord *record = &film->records[i];
         const SortMean *sort = &sorts[predictor->sorts[i]];
         if (record->count > 1 && sort->count > 0.0 && !small_has(round->small, i)) { // one that was chosen by chance
-            int shift = choice->of_pixel[i] - (int)lround(sort->bucket / sort->count) + SHIFT_MOST;
+            int shift = allocation->of_pixel[i] - (int)lround(sort->bucket / sort->count) + SHIFT_MOST;
             shift = shift < 0 ? 0 : shift > 2 * SHIFT_MOST ? 2 * SHIFT_MOST : shift;
             predictor->start_count[shift] += sort->off / sort->count;
             predictor->start_outer[shift] += (double)record->outer;
@@ -172,7 +172,7 @@ static void play_put(Play *play, int bucket, int level, double count, double out
 }
 
 // Fills the classes, which are empty.
-static void play_begin(Play *play, const Choice *choice, const Estimate *estimate, const Round *round)
+static void play_begin(Play *play, const Allocation *allocation, const Estimate *estimate, const Round *round)
 {
     const Film *film = round->film;
     size_t pixels = (size_t)film->width * (size_t)film->height;
@@ -183,16 +183,16 @@ static void play_begin(Play *play, const Choice *choice, const Estimate *estimat
     uint32_t counts = 1;
     for (size_t i = 0; i < pixels; i++) {
         const PixelRecord *record = &film->records[i];
-        Class *class = &play->predictor->classes[choice->of_pixel[i]][estimate_level(record->count)];
+        Class *class = &play->predictor->classes[allocation->of_pixel[i]][estimate_level(record->count)];
         class->count++;
         class->outer += (double)record->outer;
         counts |= record->count;
     }
     play->top = estimate_level(counts);
-    while (play->highest > 0 && choice_cost(choice, play->highest) == 0.0) {
+    while (play->highest > 0 && allocation_cost(allocation, play->highest) == 0.0) {
         play->highest--;
     }
-    while (play->lowest < play->highest && choice_cost(choice, play->lowest) == 0.0) {
+    while (play->lowest < play->highest && allocation_cost(allocation, play->lowest) == 0.0) {
         play->lowest++;
     }
     for (int bucket = play->lowest; bucket <= play->highest; bucket++) {
@@ -288,13 +288,13 @@ static bool play_run(Play *play, const Estimate *estimate, bool has_corners, dou
     return true;
 }
 
-Forecast predictor_run(Predictor *predictor, const Choice *choice, const Estimate *estimate, const Round *round,
+Forecast predictor_run(Predictor *predictor, const Allocation *allocation, const Estimate *estimate, const Round *round,
                        double target)
 {
     Play play = {.predictor = predictor};
-    play_begin(&play, choice, estimate, round);
-    double begin = play.samples, next = begin + choice->spent;
-    Forecast forecast = {.round_pixels = play_pixels(&play, choice->least_bucket, play.highest)};
+    play_begin(&play, allocation, estimate, round);
+    double begin = play.samples, next = begin + allocation->spent;
+    Forecast forecast = {.round_pixels = play_pixels(&play, allocation->least_bucket, play.highest)};
     if (play_run(&play, estimate, round->has_corners, target)) {
         // Rounds are done as wholes: the last goes beyond by half of it in the mean.
         double beyond = play.samples * (1.0 + 0.5 * ROUND_SHARE);

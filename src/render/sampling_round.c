@@ -53,7 +53,7 @@ static Rgb sums_weight(const ChosenPixel *chosen, bool has_before, SampleSums *p
 }
 
 // A pixel that had its corners only, which are left out of its mean. How far the two are apart is kept for
-// sampling_pilot.c.
+// sampling_corners.c.
 static void pixel_start(const Round *round, const ChosenPixel *chosen, SampleSums *parts)
 {
     size_t pixel = chosen->index;

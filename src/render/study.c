@@ -81,7 +81,7 @@ bool study_covers(const Prepared *p, DiagSink *diags)
     bool covers = lights_are_covered(scene, p, diags);
     for (size_t i = 0; i < scene->parts.count; i++) {
         const Part *part = &scene->parts.items[i];
-        if (part->kind != PART_BALL || part->node != NODE_NONE || part->hidden || part->flags) {
+        if (part->kind != PART_SPHERE || part->node != NODE_NONE || part->hidden || part->flags) {
             covers = refuse(diags, scene_source_span(part->source), "a shape other than spheres and planes");
             break;
         }

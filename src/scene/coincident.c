@@ -82,7 +82,7 @@ static void key_ball(Key *key, const Transform *m)
     if (part_map_is_round(m->m)) {
         key_sphere(key, vec3(m->m[3][0], m->m[3][1], m->m[3][2]), fabs(m->m[0][0]));
     } else {
-        key->kind = PART_BALL;
+        key->kind = PART_SPHERE;
         key_transform(key, m);
     }
 }
@@ -93,7 +93,7 @@ static void key_part(Key *key, const Part *part)
     case PART_PLANE:
         key_plane(key, part->data[0], part->data[1].x);
         break;
-    case PART_BALL:
+    case PART_SPHERE:
         key_ball(key, &part->to_world);
         break;
     default:
@@ -197,7 +197,7 @@ static void tell(const Key *one, const Key *other, DiagSink *diags)
 {
     const Key *first = one->order < other->order ? one : other, *second = first == one ? other : one;
     const char *word = one->kind == KIND_SPHERE_KEY ? "sphere"
-                       : one->kind == PART_BALL     ? "stretched sphere"
+                       : one->kind == PART_SPHERE   ? "stretched sphere"
                                                     : primitive_class((PartKind)one->kind)->word;
     if (diag_report(diags, DIAG_W0444, scene_source_span(second->source),
                     "this %s coincides with one that was declared before it", word) &&

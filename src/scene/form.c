@@ -53,7 +53,7 @@ const char *part_make_ball(Part *part, Vec3 centre, double radius)
     if (radius == 0.0) {
         return "a sphere of radius 0 is not drawn";
     }
-    part->kind = PART_BALL;
+    part->kind = PART_SPHERE;
     part->to_world = transform_compose(transform_scale(vec3(radius, radius, radius)), transform_translate(centre));
     return NULL;
 }

@@ -20,7 +20,7 @@ bool part_map_is_round(const double (*r)[3])
 
 const char *part_name(const Part *part)
 {
-    bool is_stretched = part->kind == PART_BALL && !part_map_is_round(part->to_world.m);
+    bool is_stretched = part->kind == PART_SPHERE && !part_map_is_round(part->to_world.m);
     return is_stretched ? "stretched sphere" : primitive_class(part->kind)->word;
 }
 
@@ -52,7 +52,7 @@ double part_support(const Part *part, Vec3 direction)
 
 void part_span(const Part *part, Vec3 direction, double *low, double *high)
 {
-    if (part->kind != PART_BALL) {
+    if (part->kind != PART_SPHERE) {
         *low = -part_support(part, vec3_neg(direction));
         *high = part_support(part, direction);
         return;

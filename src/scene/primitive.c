@@ -265,13 +265,13 @@ static void torus_measure(const Part *part, Vec3 *half, Vec3 *middle)
 // ---- the table
 
 static const PrimitiveClass classes[] = {
-    [PART_BALL] = {.word = "sphere",
-                   .head = "sphere { 0, 1",
-                   .family = FAMILY_ROUND,
-                   .surface = PART_BALL,
-                   .interval_count = 1,
-                   .support = ball_support,
-                   .holds = ball_holds},
+    [PART_SPHERE] = {.word = "sphere",
+                     .head = "sphere { 0, 1",
+                     .family = FAMILY_ROUND,
+                     .surface = PART_SPHERE,
+                     .interval_count = 1,
+                     .support = ball_support,
+                     .holds = ball_holds},
     [PART_PLANE] = {.word = "plane",
                     .head = "plane { ",
                     .family = FAMILY_STRAIGHT,

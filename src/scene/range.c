@@ -446,7 +446,7 @@ static void check_spheres(const Scene *scene, const SphereSurvey *survey, const 
     }
     for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
-        // ball_make (trace/sphere.h) leaves out spheres whose squares are beyond.
+        // sphere_data_make (trace/sphere.h) leaves out spheres whose squares are beyond.
         Extent extent = {sphere->radius, sphere->centre, scene_sphere_source(scene, i), "sphere", NULL};
         check_extent(watch, &extent, "it is not drawn");
     }

@@ -239,7 +239,7 @@ typedef struct Plane {
 //   torus           all points at distance data[0].y from the circle of radius data[0].x in y = 0; both are > 0, and their
 //                   sum is at least 1/2 and at most 1
 typedef enum PartKind {
-    PART_BALL,
+    PART_SPHERE,
     PART_PLANE,
     PART_BOX,
     PART_CONE,

@@ -49,7 +49,7 @@ static double textbook_root(Ray ray, Vec3 centre, double radius, double t_min, S
 static double our_root(Ray ray, Vec3 centre, double radius, SphereClass *class)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
-    Ball ball = ball_make(centre, radius);
+    SphereData ball = sphere_data_make(centre, radius);
     bool inside = false;
     double t = sphere_hit(&sphere_ray, &ball, &inside);
     *class = !(t > 0.0) ? CLASS_MISS : inside ? CLASS_FAR : CLASS_NEAR;
@@ -72,11 +72,11 @@ size_t study_family_count(void)
 static void count_case(const SphereCase *input, Oracle *oracle, SphereRow *row)
 {
     bool excusable, inside;
-    double rough;
+    double approximate;
     SphereClass right = oracle_solve(oracle, input, &excusable);
     SphereRay ray = sphere_ray_make(input->ray.origin, input->ray.direction);
-    Ball ball = ball_make(input->centre, input->radius);
-    row->doubtful += sphere_test(&ray, &ball, &rough, &inside) == SPHERE_DOUBTFUL;
+    SphereData ball = sphere_data_make(input->centre, input->radius);
+    row->doubtful += sphere_test(&ray, &ball, &approximate, &inside) == SPHERE_UNCERTAIN;
     for (int formula = 0; formula < FORMULAS; formula++) {
         SphereClass class;
         double t = formula_root((StudyFormula)formula, input->ray, input->centre, input->radius, &class);
@@ -148,13 +148,13 @@ void study_malformed(uint64_t *cases, uint64_t not_finite[FORMULAS])
 // ---- secondary rays
 
 // A point of a sphere as a tracer has it: a hit's point, rounded, put back onto the surface.
-static Vec3 surface_point(const Ball *ball, Vec3 normal)
+static Vec3 surface_point(const SphereData *ball, Vec3 normal)
 {
     return vec3_add_scaled(ball->centre, sqrt(ball->radius_squared), normal);
 }
 
 // Whether a ray that leaves outward meets its own sphere.
-static bool shades_itself(SecondaryRule rule, Ray ray, const Ball *ball)
+static bool shades_itself(SecondaryRule rule, Ray ray, const SphereData *ball)
 {
     SphereClass class;
     if (rule == RULE_IDENTITY) {
@@ -165,7 +165,7 @@ static bool shades_itself(SecondaryRule rule, Ray ray, const Ball *ball)
 }
 
 // Where a ray that goes in comes out; 0: nowhere.
-static double exit_of(SecondaryRule rule, Ray ray, const Ball *ball)
+static double exit_of(SecondaryRule rule, Ray ray, const SphereData *ball)
 {
     SphereClass class;
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
@@ -174,7 +174,7 @@ static double exit_of(SecondaryRule rule, Ray ray, const Ball *ball)
                : textbook_root(ray, ball->centre, sqrt(ball->radius_squared), rule == RULE_FIXED ? 1e-3 : 0.0, &class);
 }
 
-static bool meets(SecondaryRule rule, Ray ray, const Ball *other)
+static bool meets(SecondaryRule rule, Ray ray, const SphereData *other)
 {
     SphereClass class;
     if (rule == RULE_IDENTITY) {
@@ -188,7 +188,7 @@ static void count_secondary(double scale, Random *random, SecondaryRow *row)
 {
     double away = scale * random_between(random, 0.0, 10.0);
     Vec3 centre = vec3_scale(away, random_direction(random));
-    Ball ball = ball_make(centre, scale * random_between(random, 0.1, 2.0));
+    SphereData ball = sphere_data_make(centre, scale * random_between(random, 0.1, 2.0));
     Vec3 normal = random_direction(random), aside = random_perpendicular(random, normal);
     Vec3 point = surface_point(&ball, normal);
     double grazing = pow(10.0, random_between(random, -12.0, -1.0)), cosine = random_between(random, 0.05, 1.0);
@@ -197,7 +197,7 @@ static void count_secondary(double scale, Random *random, SecondaryRow *row)
     double radius = sqrt(ball.radius_squared), way = 2.0 * radius * cosine;
     // A neighbour of the same size that nearly touches, met head-on across the gap.
     double gap = radius * pow(10.0, random_between(random, -10.0, -4.0));
-    Ball other = ball_make(vec3_add_scaled(centre, 2.0 * radius + gap, normal), radius);
+    SphereData other = sphere_data_make(vec3_add_scaled(centre, 2.0 * radius + gap, normal), radius);
     Ray across = {point, normal};
     for (int rule = 0; rule < RULES; rule++) {
         double exit = exit_of((SecondaryRule)rule, inward, &ball);

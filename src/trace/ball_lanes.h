@@ -96,7 +96,7 @@ typedef struct BallLanes {
     unsigned possible; // not missed
     unsigned certain;  // not doubtful; the others' roots mean nothing
     unsigned inside;
-    Doubles root;  // rough
+    Doubles root;  // approximate
     Doubles bound; // of how far that and its error reach
 } BallLanes;
 
@@ -110,14 +110,14 @@ RT_ALWAYS_INLINE bool ball_lanes_test(const Doubles f[3], const Doubles d[3], co
     const Doubles l[3] = {f[0] + t_middle * d[0], f[1] + t_middle * d[1], f[2] + t_middle * d[2]};
     Doubles discriminant = 1.0 - lanes_dot(l, l);
     Doubles f_squared = lanes_dot(f, f);
-    Doubles sum = f_squared + 1.0, c = f_squared - 1.0, doubt = SPHERE_DOUBT * sum;
-    unsigned outer = doubles_ge(c, doubt);
+    Doubles sum = f_squared + 1.0, c = f_squared - 1.0, uncertainty = SPHERE_UNCERTAINTY * sum;
+    unsigned outer = doubles_ge(c, uncertainty);
     lanes->possible = asked & doubles_ge(discriminant, -SPHERE_ROUNDING * sum) &
                       (doubles_ge(t_middle, doubles_splat(0.0)) | ~outer);
     if (!lanes->possible) {
         return false;
     }
-    lanes->certain = doubles_ge(discriminant, doubt) & doubles_ge(doubles_abs(c), doubt);
+    lanes->certain = doubles_ge(discriminant, uncertainty) & doubles_ge(doubles_abs(c), uncertainty);
     lanes->inside = ~doubles_ge(c, doubles_splat(0.0));
     Doubles half = doubles_sqrt(discriminant * inverse_square), far_side = doubles_abs(t_middle) + half;
     Doubles near_side = doubles_abs(c) * inverse_square / far_side;

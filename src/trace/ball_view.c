@@ -61,13 +61,13 @@ static bool plane_is_aside(const Geometry *g, const PlaneShape *plane, const Bal
     return fabs(begin) > slack && fabs(end) > cone->radius + slack && (begin > 0.0) == (end > 0.0);
 }
 
-static bool sphere_is_aside(const Geometry *g, const Ball *ball, const BallCone *cone)
+static bool sphere_is_aside(const Geometry *g, const SphereData *ball, const BallCone *cone)
 {
     ShapeId start = cone->from->shape;
     Vec3 offset = vec3_sub(ball->centre, cone->apex);
     if (shape_kind(start) == SHAPE_SPHERE) {
-        Ball own = sphere_table_ball(&g->spheres, shape_index(start));
-        if (ball_equal(ball, &own)) {
+        SphereData own = sphere_table_ball(&g->spheres, shape_index(start));
+        if (sphere_data_equal(ball, &own)) {
             return cone->length * vec3_dot(cone->from->outward, cone->direction) > cone->radius + cone->slack;
         }
     }
@@ -78,7 +78,7 @@ static bool sphere_is_aside(const Geometry *g, const Ball *ball, const BallCone 
 static bool spheres_are_aside(const Geometry *g, uint32_t first, uint32_t count, const BallCone *cone)
 {
     for (uint32_t slot = first; slot < first + count; slot++) {
-        Ball ball = sphere_table_ball(&g->spheres, slot);
+        SphereData ball = sphere_table_ball(&g->spheres, slot);
         if (!isnan(ball.radius_squared) && !sphere_is_aside(g, &ball, cone)) {
             return false;
         }

@@ -38,7 +38,7 @@ bool extent_get(const Geometry *g, uint32_t i, Extent *extent)
         extent->material = g->shapes.solids[i - slots].material;
         return solid_extent_of(&g->shapes.solids[i - slots], extent);
     }
-    Ball ball = sphere_table_ball(&g->spheres, i);
+    SphereData ball = sphere_table_ball(&g->spheres, i);
     double radius = sqrt(ball.radius_squared);
     *extent = (Extent){.shape = shape_id(SHAPE_SPHERE, i),
                        .is_ball = true,
@@ -62,7 +62,7 @@ void extent_of(const Geometry *g, ShapeId shape, Extent *extent)
 bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
 {
     if (shape_kind(shape) == SHAPE_SPHERE) {
-        Ball ball = sphere_table_ball(&g->spheres, shape_index(shape));
+        SphereData ball = sphere_table_ball(&g->spheres, shape_index(shape));
         Vec3 offset = vec3_sub(ball.centre, ray.origin);
         return vec3_length_squared(vec3_cross(offset, ray.direction)) <= ball.radius_squared &&
                vec3_dot(offset, ray.direction) > 0.0;

@@ -35,9 +35,9 @@ static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
 
 // ---- balls that equal spheres
 
-static Ball solid_ball(const Solid *solid)
+static SphereData solid_ball(const Solid *solid)
 {
-    return ball_make(solid->centre, fabs(solid->to_world.m[0][0]));
+    return sphere_data_make(solid->centre, fabs(solid->to_world.m[0][0]));
 }
 
 static int place_compare(Vec3 a, Vec3 b)
@@ -73,7 +73,7 @@ static bool coincident_init(Geometry *geometry)
     size_t count = 0;
     for (uint32_t i = 0; balls && i < shapes->solid_count; i++) {
         Solid *solid = &shapes->solids[i];
-        if (solid->kind == PART_BALL && part_map_is_round(solid->to_world.m)) {
+        if (solid->kind == PART_SPHERE && part_map_is_round(solid->to_world.m)) {
             balls[count++] = solid;
         }
     }
@@ -81,15 +81,15 @@ static bool coincident_init(Geometry *geometry)
         qsort(balls, count, sizeof(Solid *), solid_compare);
     }
     for (uint32_t slot = 0; count > 0 && slot < spheres->block_count * SPHERE_BLOCK; slot++) {
-        Ball sphere = sphere_table_ball(spheres, slot);
+        SphereData sphere = sphere_table_ball(spheres, slot);
         for (size_t i = first_from(balls, count, sphere.centre); i < count; i++) {
-            Ball ball = solid_ball(balls[i]);
+            SphereData ball = solid_ball(balls[i]);
             if (!vec3_equal(ball.centre, sphere.centre)) {
                 break;
             }
             bool is_first = balls[i]->twin == SLOT_NONE ||
                             spheres->info[slot].order < spheres->info[balls[i]->twin].order;
-            balls[i]->twin = ball_equal(&ball, &sphere) && is_first ? slot : balls[i]->twin;
+            balls[i]->twin = sphere_data_equal(&ball, &sphere) && is_first ? slot : balls[i]->twin;
         }
     }
     free(balls);

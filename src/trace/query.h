@@ -16,7 +16,7 @@ enum { TRACE_ANY_SPHERES = TRACE_SPHERES | TRACE_SPHERE_BVH };
 typedef struct StartSphere {
     uint32_t slot; // SLOT_NONE: none
     bool inward;
-    Ball ball; // equals none when there is none
+    SphereData ball; // equals none when there is none
 } StartSphere;
 
 // Equal spheres, declared twice, are one surface, also where one of them is clipped or in a composite.
@@ -505,8 +505,8 @@ RT_ALWAYS_INLINE bool geometry_is_same(const Geometry *g, ShapeId a, ShapeId b)
     uint32_t i = shape_index(a), j = shape_index(b);
     switch (shape_kind(a)) {
     case SHAPE_SPHERE: {
-        Ball ball = sphere_table_ball(&g->spheres, i), other = sphere_table_ball(&g->spheres, j);
-        return ball_equal(&ball, &other);
+        SphereData ball = sphere_table_ball(&g->spheres, i), other = sphere_table_ball(&g->spheres, j);
+        return sphere_data_equal(&ball, &other);
     }
     case SHAPE_PLANE: return plane_equal(&g->planes[i].shape, &g->planes[j].shape);
     default: return solid_equal(&g->shapes.solids[part_index(a)], &g->shapes.solids[part_index(b)]);
@@ -533,7 +533,7 @@ RT_ALWAYS_INLINE Surface geometry_surface(const Geometry *g, unsigned features, 
     if ((features & TRACE_PARTS) && kind == SHAPE_PART) {
         return shapes_surface(&g->shapes, &ray, &hit);
     }
-    Ball ball = sphere_table_ball(&g->spheres, index);
+    SphereData ball = sphere_table_ball(&g->spheres, index);
     Vec3 normal = sphere_normal(ray, &ball, hit.t);
     Vec3 point = sphere_point(ray, &ball, hit.t, normal);
     return (Surface){point, normal, g->spheres.info[index].material, g->spheres.info[index].order, 0};

@@ -55,11 +55,11 @@ typedef struct CsgTree {
 // What stands for itself: a solid, or a CSG tree when the number is not below solid_count; of a ball with a bit that
 // tells it, so that nobody need look at it.
 typedef uint32_t ShapeItem;
-#define ITEM_BALL 0x80000000u
+#define ITEM_SPHERE 0x80000000u
 
 static inline uint32_t item_index(ShapeItem item)
 {
-    return item & ~ITEM_BALL;
+    return item & ~ITEM_SPHERE;
 }
 
 // The box of an item as its leaf has it: in the tree's coordinates, rounded outward.

@@ -25,7 +25,7 @@ typedef struct ShapeGroup {
 // How much of balls the rays have passed where they start, at most.
 static void group_set_passed(ShapeGroup *from, const RayGroup *group)
 {
-    bool is_on_ball = from->left && from->left->kind == PART_BALL;
+    bool is_on_ball = from->left && from->left->kind == PART_SPHERE;
     bool is_round = is_on_ball || (!from->left && shape_kind(from->start.shape) == SHAPE_SPHERE);
     from->far = vec3_length(group->end) + group->farthest;
     for (unsigned at = 0; at < group->whole; at += DOUBLES) {
@@ -117,7 +117,7 @@ static uint64_t group_item(const void *context, const RayGroup *group, const Ray
     ShapeItem item = table->items[table->unbounded_count + at];
     uint64_t may = ~occluded;
     (void)cone;
-    if (item & ITEM_BALL) {
+    if (item & ITEM_SPHERE) {
         occluded = group_ball(from, group, &table->solids[item_index(item)], &table->boxes[at], occluded, &may);
     }
     for (; may; may &= may - 1) {

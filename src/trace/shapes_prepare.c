@@ -65,7 +65,7 @@ static Bounds part_bounds(const Part *part, int exponent, double down)
         return BOUNDS_ALL;
     }
     double low[3], high[3];
-    bool is_along_axes = part->kind == PART_BALL && part_map_is_diagonal(part->to_world.m);
+    bool is_along_axes = part->kind == PART_SPHERE && part_map_is_diagonal(part->to_world.m);
     for (int axis = 0; axis < 3; axis++) {
         if (is_along_axes) { // what the general way comes to
             double half = fabs(part->to_world.m[axis][axis]), middle = part->to_world.m[3][axis];
@@ -297,7 +297,7 @@ static bool items_init(ShapeTable *table, Work *work, int threads)
 {
     for (uint32_t i = 0; i < table->solid_count; i++) {
         if (table->solids[i].node == NODE_NONE) {
-            add_item(table, work, i | (table->solids[i].kind == PART_BALL ? ITEM_BALL : 0), &work->solids[i]);
+            add_item(table, work, i | (table->solids[i].kind == PART_SPHERE ? ITEM_SPHERE : 0), &work->solids[i]);
         }
     }
     for (uint32_t i = 0; i < table->csg_count; i++) {

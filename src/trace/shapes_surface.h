@@ -17,7 +17,8 @@ static uint64_t surfaces_balls(const ShapeTable *table, const TileSurfaces *surf
     int64_t last = 0;
     for (int i = 0; i < surfaces->count; i++) {
         ShapeId shape = surfaces->shape[i];
-        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PART && table->solids[part_index(shape)].kind == PART_BALL) {
+        if ((asked >> i & 1) && shape_kind(shape) == SHAPE_PART &&
+            table->solids[part_index(shape)].kind == PART_SPHERE) {
             balls |= UINT64_C(1) << i;
             last = part_index(shape);
         }

@@ -21,7 +21,8 @@ typedef struct ShapesTile {
     const SphereTile *tile;
     TileForemost *first;
     TileHits *hits;          // the same's
-    uint64_t bounded, rough; // the rays whose first hit is a ball's of whose span only a bound is known; whose root is rough
+    uint64_t bounded, approximate; // the rays whose first hit is a ball's of whose span only a bound is known; whose
+                                   // root is approximate
     double far;              // of the rays' origin from 0
     double limit;            // up to where something may yet be the first of some ray
     _Alignas(64) double enter[TILE_RAYS]; // bounded_enter of a ShapeQuery
@@ -88,9 +89,9 @@ static void tile_ray_take(ShapesTile *of, unsigned i, Ray *ray, ShapeQuery *q, F
     query_start(q, of->table, ray, RAY_START_CAMERA, 0.0, false);
     q->bounded = of->bounded >> i & 1 ? part : NULL;
     q->bounded_enter = of->enter[i];
-    if (of->rough >> i & 1) {
+    if (of->approximate >> i & 1) {
         of->hits->t[i] = ball_refine(part, ray, of->hits->t[i]);
-        lane_bits_set(&of->rough, i, 1, 0);
+        lane_bits_set(&of->approximate, i, 1, 0);
     }
     *first = (Foremost){.hit = {of->hits->t[i], met, of->hits->inside >> i & 1},
                         .order = part ? part->order : all->order[i],
@@ -175,7 +176,7 @@ static void tile_ball_lanes(ShapesTile *of, const TileBall *own, unsigned at, un
                                                   (Doubles)*shape);
         lane_bits_set(&of->hits->met, at, nearest, ~0u);
         lane_bits_set(&of->bounded, at, nearest, ~0u);
-        lane_bits_set(&of->rough, at, nearest, ~0u);
+        lane_bits_set(&of->approximate, at, nearest, ~0u);
         lane_bits_set(&all->torn, at, nearest, 0);
         lane_bits_set(&of->hits->inside, at, nearest, ball->flips ? ~lanes.inside : lanes.inside);
     }
@@ -271,7 +272,7 @@ static bool tile_walk(ShapesTile *of, BvhWalk *walk)
             unsigned i = (unsigned)__builtin_ctz(met);
             bool is_leaf = node->child[i] & BVH_LEAF;
             ShapeItem item = is_leaf ? items[bvh_leaf_first(node->child[i])] : 0;
-            if (!is_leaf || (item & ITEM_BALL)) {
+            if (!is_leaf || (item & ITEM_SPHERE)) {
                 tile_expect(of, is_leaf, item);
                 bvh_walk_push(walk, bottom, bvh_walk_key(enters[i], node->child[i]));
             } else if (!beam_add(&of->others, node, i)) {
@@ -307,25 +308,25 @@ static bool tile_tree(ShapesTile *of)
     return direction_range_is_narrow(&range);
 }
 
-// Refines what is rough, a vector at a time.
-static void tile_settle(ShapesTile *of)
+// Refines what is approximate, a vector at a time.
+static void tile_refine_roots(ShapesTile *of)
 {
     const Solid *solids = of->table->solids;
     Vec3 eye = of->tile->origin;
     const Doubles origin[3] = {doubles_splat(eye.x), doubles_splat(eye.y), doubles_splat(eye.z)};
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
-        unsigned rough = of->rough >> at & ((1u << DOUBLES) - 1);
-        if (!rough) {
+        unsigned approximate = of->approximate >> at & ((1u << DOUBLES) - 1);
+        if (!approximate) {
             continue;
         }
         Doubles direction[3], before = doubles_load(&of->hits->t[at]), root = before;
-        DoublesMask shape = *(const DoublesMask *)&of->shape[at], is_rough = doubles_bits_mask(rough);
-        shape = (is_rough & shape) | (~is_rough & shape[__builtin_ctz(rough)]);
+        DoublesMask shape = *(const DoublesMask *)&of->shape[at], is_approximate = doubles_bits_mask(approximate);
+        shape = (is_approximate & shape) | (~is_approximate & shape[__builtin_ctz(approximate)]);
         lanes_load(of->tile->direction, at, direction);
         unsigned certain = balls_refine(solids, parts_index(shape), origin, direction, &root);
-        doubles_store(&of->hits->t[at], doubles_choose(is_rough, root, before));
-        for (rough &= ~certain; RT_UNLIKELY(rough); rough &= rough - 1) {
-            unsigned i = (unsigned)__builtin_ctz(rough);
+        doubles_store(&of->hits->t[at], doubles_choose(is_approximate, root, before));
+        for (approximate &= ~certain; RT_UNLIKELY(approximate); approximate &= approximate - 1) {
+            unsigned i = (unsigned)__builtin_ctz(approximate);
             Ray ray = {eye, lane_get(of->tile->direction, at + i)};
             of->hits->t[at + i] = ball_refine(&solids[part_index((ShapeId)of->shape[at + i])], &ray, before[i]);
         }
@@ -339,7 +340,7 @@ static void shapes_closest_tile(const ShapeTable *table, const SphereTile *tile,
     of.tile = tile;
     of.first = first;
     of.hits = first->hits;
-    of.bounded = of.rough = 0;
+    of.bounded = of.approximate = 0;
     of.far = vec3_length(tile->origin);
     of.limit = ~of.hits->met ? (double)INFINITY : tile_limit(first);
     for (unsigned i = 0; i < TILE_RAYS; i++) {
@@ -350,7 +351,7 @@ static void shapes_closest_tile(const ShapeTable *table, const SphereTile *tile,
     for (unsigned i = 0; i < TILE_RAYS && (!is_walked || table->unbounded_count + of.others.count > 0); i++) {
         tile_ray(&of, i, SOLID_NONE, NULL, is_walked ? &of.others : NULL);
     }
-    tile_settle(&of);
+    tile_refine_roots(&of);
     for (unsigned i = 0; i < TILE_RAYS; i++) {
         of.hits->shape[i] = (ShapeId)of.shape[i];
     }

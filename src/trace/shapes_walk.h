@@ -126,7 +126,7 @@ static void flat_closest(ShapeQuery *q, uint32_t index, const Ray *object, Forem
 }
 
 // The span of a first hit of which only a bound is known.
-static void settle_span(ShapeQuery *q, Foremost *first)
+static void span_refine(ShapeQuery *q, Foremost *first)
 {
     if (q->bounded) {
         Ray object = solid_ray(q->bounded, q->ray);
@@ -138,10 +138,10 @@ static void settle_span(ShapeQuery *q, Foremost *first)
     }
 }
 
-// Refines a rough root of a ball.
+// Refines a approximate root of a ball.
 static double ball_refine(const Solid *solid, const Ray *world, double t)
 {
-    const Ball unit = UNIT_BALL;
+    const SphereData unit = UNIT_SPHERE;
     Ray object = solid_ray(solid, world);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     return sphere_refine(&ray, &unit, t);
@@ -152,8 +152,8 @@ static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const S
                        double passed, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
-    const Ball unit = UNIT_BALL;
-    settle_span(q, first);
+    const SphereData unit = UNIT_SPHERE;
+    span_refine(q, first);
     double error = solid_ball_error(solid, q->ray, object, t);
     if (is_passed(t, error, passed)) {
         t = leaves ? 0.0 : sphere_root_inward(ray, &unit);
@@ -192,7 +192,7 @@ static bool ball_is_first(ShapeQuery *q, uint32_t index, double t, double bound,
 static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
-    const Ball unit = UNIT_BALL;
+    const SphereData unit = UNIT_SPHERE;
     Ray object = solid_ray(solid, q->ray);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     bool leaves;
@@ -201,7 +201,7 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     if (verdict == SPHERE_MISS) {
         return;
     }
-    if (verdict == SPHERE_DOUBTFUL) {
+    if (verdict == SPHERE_UNCERTAIN) {
         t = sphere_exact(&ray, &unit, NULL, &leaves);
         if (t > 0.0) {
             ball_offer(q, index, &object, &ray, t, leaves, passed_error(q, solid), first);
@@ -228,7 +228,7 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 // A ball that the ray goes into where it starts.
 static void ball_closest_inward(ShapeQuery *q, uint32_t index, Foremost *first)
 {
-    const Ball unit = UNIT_BALL;
+    const SphereData unit = UNIT_SPHERE;
     Ray object = solid_ray(&q->table->solids[index], q->ray);
     SphereRay ray = sphere_ray_make(object.origin, object.direction);
     double t = sphere_root_inward(&ray, &unit);
@@ -313,12 +313,12 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
     if (is_start && ((!inward && solid_is_convex(solid)) || solid_is_flat(solid))) {
         return;
     }
-    if (solid->kind == PART_BALL) {
+    if (solid->kind == PART_SPHERE) {
         (is_start ? ball_closest_inward : ball_closest)(q, index, first);
         return;
     }
     Ray object = solid_ray(solid, q->ray);
-    settle_span(q, first);
+    span_refine(q, first);
     if (solid_is_flat(solid)) {
         flat_closest(q, index, &object, first);
     } else {
@@ -337,7 +337,7 @@ static void item_closest(ShapeQuery *q, ShapeItem item, Foremost *first)
     } else if (table->abandon && trace_is_abandoned(table->abandon)) {
         return; // one ray may cross 10^5 parts
     } else if (item_enters(q, &enter) && enter <= first->limit) {
-        settle_span(q, first);
+        span_refine(q, first);
         csg_closest(table, &table->csg_trees[index - table->solid_count], q->ray, q->start, start_error(q), enter,
                     first);
     }

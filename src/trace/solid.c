@@ -253,11 +253,11 @@ static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
-    [PART_BALL] = {.intervals = ball_intervals,
-                   .normal = ball_normal,
-                   .gradient = ball_normal,
-                   .point = ball_point,
-                   .axes = ball_axes},
+    [PART_SPHERE] = {.intervals = ball_intervals,
+                     .normal = ball_normal,
+                     .gradient = ball_normal,
+                     .point = ball_point,
+                     .axes = ball_axes},
     [PART_PLANE] = {.intervals = plane_intervals,
                     .normal = plane_normal,
                     .gradient = plane_normal,

@@ -31,7 +31,7 @@ typedef struct ScaledCase {
     int length_exponent, direction_exponent;
 } ScaledCase;
 
-static bool case_init(ScaledCase *out, const SphereRay *ray, const Ball *ball)
+static bool case_init(ScaledCase *out, const SphereRay *ray, const SphereData *ball)
 {
     const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
     const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
@@ -59,13 +59,13 @@ static bool case_init(ScaledCase *out, const SphereRay *ray, const Ball *ball)
 
 // r'² - r², r' being the radius of a sphere that has the same centre and that the ray starts on: |f|² - r² without what
 // rounding did to the origin.
-static DoubleWord concentric_c(const ScaledCase *s, const Ball *start)
+static DoubleWord concentric_c(const ScaledCase *s, const SphereData *start)
 {
     double radius = ldexp(sqrt(start->radius_squared), -s->length_exponent);
     return double_word_mul(two_sum(radius, -s->radius), two_sum(radius, s->radius));
 }
 
-double sphere_exact(const SphereRay *ray, const Ball *ball, const Ball *start, bool *inside)
+double sphere_exact(const SphereRay *ray, const SphereData *ball, const SphereData *start, bool *inside)
 {
     ScaledCase s;
     *inside = false;
@@ -103,7 +103,7 @@ double sphere_exact(const SphereRay *ray, const Ball *ball, const Ball *start, b
 }
 
 // What is to be added to t, about a root, to come to the root: Newton's step, with the residual in double words.
-static double root_correction(const SphereRay *ray, const Ball *ball, double t)
+static double root_correction(const SphereRay *ray, const SphereData *ball, double t)
 {
     const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
     const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
@@ -117,7 +117,8 @@ static double root_correction(const SphereRay *ray, const Ball *ball, double t)
     return -0.5 * double_word_sub(sum_of_squares(p), two_product(radius, radius)).hi / slope;
 }
 
-int sphere_roots_compare(const SphereRay *ray, const Ball *a, bool a_inside, const Ball *b, bool b_inside, double t)
+int sphere_roots_compare(const SphereRay *ray, const SphereData *a, bool a_inside, const SphereData *b, bool b_inside,
+                         double t)
 {
     if (!vec3_equal(a->centre, b->centre)) {
         double after_a = root_correction(ray, a, t), after_b = root_correction(ray, b, t);
@@ -130,7 +131,7 @@ int sphere_roots_compare(const SphereRay *ray, const Ball *a, bool a_inside, con
     return a_inside ? is_greater : -is_greater;
 }
 
-Vec3 sphere_exact_offset(Ray ray, const Ball *ball, double t)
+Vec3 sphere_exact_offset(Ray ray, const SphereData *ball, double t)
 {
     const double o[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
     const double d[3] = {ray.direction.x, ray.direction.y, ray.direction.z};

@@ -73,12 +73,12 @@ static double maker_length(const Maker *maker, double length)
     return length * maker->scale[0] * maker->scale[1];
 }
 
-static inline Ball maker_ball(const Maker *maker, size_t number)
+static inline SphereData maker_ball(const Maker *maker, size_t number)
 {
     const Sphere *sphere = &maker->scene->spheres.items[number];
     Vec3 c = sphere->centre;
-    return ball_make(vec3(maker_length(maker, c.x), maker_length(maker, c.y), maker_length(maker, c.z)),
-                     maker_length(maker, sphere->radius));
+    return sphere_data_make(vec3(maker_length(maker, c.x), maker_length(maker, c.y), maker_length(maker, c.z)),
+                            maker_length(maker, sphere->radius));
 }
 
 static inline ShapeInfo maker_info(const Maker *maker, uint32_t number)
@@ -129,8 +129,8 @@ static void measure_work(void *client, size_t begin, size_t end)
     Chunk chunk = {.low = {(double)INFINITY, (double)INFINITY, (double)INFINITY},
                    .high = {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}};
     for (size_t i = begin; i < end; i++) {
-        Ball ball = maker_ball(maker, i);
-        if (!ball_is_usable(&ball)) {
+        SphereData ball = maker_ball(maker, i);
+        if (!sphere_data_is_usable(&ball)) {
             continue;
         }
         Vec3 c = ball.centre;
@@ -194,8 +194,8 @@ static void refs_work(void *client, size_t begin, size_t end)
     const Maker *maker = client;
     BvhRef *ref = maker->refs + maker->chunks[begin / CHUNK].first;
     for (size_t i = begin; i < end; i++) {
-        Ball ball = maker_ball(maker, i);
-        if (ball_is_usable(&ball) && ball.radius_squared <= maker->limit) {
+        SphereData ball = maker_ball(maker, i);
+        if (sphere_data_is_usable(&ball) && ball.radius_squared <= maker->limit) {
             double r = sqrt(ball.radius_squared);
             Vec3 radius = vec3(r, r, r);
             *ref++ = bvh_ref(&maker->table->bvh, vec3_sub(ball.centre, radius), vec3_add(ball.centre, radius),
@@ -204,7 +204,7 @@ static void refs_work(void *client, size_t begin, size_t end)
     }
 }
 
-static inline void block_put(SphereBlock *block, uint32_t at, const Ball *ball)
+static inline void block_put(SphereBlock *block, uint32_t at, const SphereData *ball)
 {
     block->x[at] = ball->centre.x;
     block->y[at] = ball->centre.y;
@@ -215,7 +215,7 @@ static inline void block_put(SphereBlock *block, uint32_t at, const Ball *ball)
 static void block_clear(SphereBlock *block, uint32_t begin)
 {
     for (uint32_t at = begin; at < SPHERE_BLOCK; at++) {
-        block_put(block, at, &(Ball){.radius_squared = (double)NAN});
+        block_put(block, at, &(SphereData){.radius_squared = (double)NAN});
     }
 }
 
@@ -225,8 +225,8 @@ static void maker_take_loose(Maker *maker)
     uint32_t count = 0;
     for (size_t chunk = 0; chunk < chunk_count(maker); chunk++) {
         for (size_t i = chunk * CHUNK; maker->chunks[chunk].large > 0 && i < chunk_end(maker, chunk); i++) {
-            Ball ball = maker_ball(maker, i);
-            if (ball_is_usable(&ball) && ball.radius_squared > maker->limit) {
+            SphereData ball = maker_ball(maker, i);
+            if (sphere_data_is_usable(&ball) && ball.radius_squared > maker->limit) {
                 block_put(&maker->loose, count, &ball);
                 maker->table->info[count++] = maker_info(maker, (uint32_t)i);
             }
@@ -252,7 +252,7 @@ static inline void fetch(const Maker *maker, uint32_t number)
     __builtin_prefetch((const char *)(sphere + 1) - 1); // it may lie across two lines
 }
 
-_Static_assert(sizeof(BvhRef) == sizeof(Ball), "a ball takes the place of a ref");
+_Static_assert(sizeof(BvhRef) == sizeof(SphereData), "a ball takes the place of a ref");
 
 // Puts the spheres of a leaf in the place of their refs, and says what their slots hold. The refs from `end` on are
 // another thread's.
@@ -264,7 +264,7 @@ static void leaf_take(const Maker *maker, uint32_t first, uint32_t count, uint32
             fetch(maker, bvh_ref_index(&maker->refs[ahead]));
         }
         uint32_t number = bvh_ref_index(&maker->refs[first + at]);
-        Ball ball = maker_ball(maker, number);
+        SphereData ball = maker_ball(maker, number);
         memcpy(&maker->refs[first + at], &ball, sizeof ball);
         info[at] = maker_info(maker, number);
     }
@@ -285,7 +285,7 @@ static void leaf_fill(const Maker *maker, uint32_t first, uint32_t count, uint32
     ShapeInfo *info = &maker->table->info[block * SPHERE_BLOCK];
     uint32_t slots = (end - block) * SPHERE_BLOCK;
     for (uint32_t at = 0; at < count; at++) {
-        Ball ball;
+        SphereData ball;
         if (maker->refs) {
             memcpy(&ball, &maker->refs[first + at], sizeof ball);
         } else {
@@ -426,7 +426,7 @@ static void table_measure(SphereTable *table)
 {
     table->radius_least = (double)INFINITY;
     for (uint32_t i = 0; sphere_table_is_few(table) && i < table->block_count * SPHERE_BLOCK; i++) {
-        Ball ball = sphere_table_ball(table, i);
+        SphereData ball = sphere_table_ball(table, i);
         if (!isnan(ball.radius_squared)) {
             Vec3 c = ball.centre;
             double radius = sqrt(ball.radius_squared);

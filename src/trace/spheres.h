@@ -54,12 +54,12 @@ RT_ALWAYS_INLINE bool sphere_table_is_few(const SphereTable *table)
     return table->block_count * SPHERE_BLOCK <= SPHERES_FEW_MOST;
 }
 
-// The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_rough`, hit.t is a
-// sphere's root as sphere_test gives it; nearest_settle makes it right.
+// The nearest hit so far; starts as t = the end of the ray's interval, shape = SHAPE_NONE. While `is_approximate`,
+// hit.t is a sphere's root as sphere_test gives it; nearest_settle makes it right.
 typedef struct Nearest {
     Hit hit;
     uint32_t order; // of hit.shape
-    bool is_rough;
+    bool is_approximate;
 } Nearest;
 
 enum { TILE_ROW = 8, TILE_RAYS = 64 };
@@ -281,11 +281,11 @@ RT_ALWAYS_INLINE Ray secondary_ray(const SecondaryRays *rays, unsigned i)
     return (Ray){lane_get(rays->origin, i), lane_get(rays->direction, i)};
 }
 
-RT_ALWAYS_INLINE Ball sphere_table_ball(const SphereTable *table, uint32_t slot)
+RT_ALWAYS_INLINE SphereData sphere_table_ball(const SphereTable *table, uint32_t slot)
 {
     const SphereBlock *block = &table->blocks[slot / SPHERE_BLOCK];
     uint32_t at = slot % SPHERE_BLOCK;
-    return (Ball){{block->x[at], block->y[at], block->z[at]}, block->radius_squared[at]};
+    return (SphereData){{block->x[at], block->y[at], block->z[at]}, block->radius_squared[at]};
 }
 
 // Equal distances: the shape that was declared first is seen. Both roots are right to the last rounding.
@@ -297,13 +297,13 @@ RT_ALWAYS_INLINE void nearest_offer(Nearest *nearest, double t, ShapeId shape, b
     }
 }
 
-// Refines a rough root.
+// Refines a approximate root.
 RT_ALWAYS_INLINE void nearest_settle(const SphereTable *table, const SphereRay *ray, Nearest *nearest)
 {
-    if (nearest->is_rough) {
-        Ball ball = sphere_table_ball(table, shape_index(nearest->hit.shape));
+    if (nearest->is_approximate) {
+        SphereData ball = sphere_table_ball(table, shape_index(nearest->hit.shape));
         nearest->hit.t = sphere_refine(ray, &ball, nearest->hit.t);
-        nearest->is_rough = false;
+        nearest->is_approximate = false;
     }
 }
 
@@ -319,14 +319,14 @@ RT_ALWAYS_INLINE double nearest_limit(double t_max)
 
 // A sphere that is met about where another one is, which the roots must tell apart once they are refined. Equal roots
 // are those of equal spheres, or as good as equal: then the order of declaration decides.
-RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, uint32_t slot, const Ball *ball, double t,
-                                 bool inside, bool is_rough, Nearest *nearest)
+RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray, uint32_t slot, const SphereData *ball,
+                                 double t, bool inside, bool is_approximate, Nearest *nearest)
 {
     nearest_settle(table, ray, nearest);
-    t = is_rough ? sphere_refine(ray, ball, t) : t;
+    t = is_approximate ? sphere_refine(ray, ball, t) : t;
     bool is_nearer = t < nearest->hit.t;
     if (t > 0.0 && nearest->hit.shape != SHAPE_NONE) {
-        Ball other = sphere_table_ball(table, shape_index(nearest->hit.shape));
+        SphereData other = sphere_table_ball(table, shape_index(nearest->hit.shape));
         if (fabs(t - nearest->hit.t) <= SPHERE_TIE * nearest->hit.t || vec3_equal(ball->centre, other.centre)) {
             int order = sphere_roots_compare(ray, ball, inside, &other, nearest->hit.inside, t);
             is_nearer = order < 0 || (order == 0 && table->info[slot].order < nearest->order);
@@ -337,46 +337,47 @@ RT_SELDOM void nearest_offer_tie(const SphereTable *table, const SphereRay *ray,
     }
 }
 
-// A sphere that is met, by sphere_test (t is rough) or by sphere_exact. Roots are refined only where rough ones could
-// be taken in the wrong order, so in the end the same sphere is nearest as if all had been.
+// A sphere that is met, by sphere_test (t is approximate) or by sphere_exact. Roots are refined only where approximate
+// ones could be taken in the wrong order, so in the end the same sphere is nearest as if all had been.
 RT_ALWAYS_INLINE void nearest_offer_sphere(const SphereTable *table, const SphereRay *ray, uint32_t slot,
-                                           const Ball *ball, double t, bool inside, bool is_rough, Nearest *nearest)
+                                           const SphereData *ball, double t, bool inside, bool is_approximate,
+                                           Nearest *nearest)
 {
     double slack = SPHERE_ROOT_SLACK * nearest->hit.t;
     if (!(t > 0.0) || t > nearest->hit.t + slack) {
         return;
     }
     if (RT_LIKELY(t < nearest->hit.t - slack || isinf(nearest->hit.t))) {
-        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, is_rough};
+        *nearest = (Nearest){{t, shape_id(SHAPE_SPHERE, slot), inside}, table->info[slot].order, is_approximate};
     } else {
-        nearest_offer_tie(table, ray, slot, ball, t, inside, is_rough, nearest);
+        nearest_offer_tie(table, ray, slot, ball, t, inside, is_approximate, nearest);
     }
 }
 
 // One sphere against the ray, for the nearest hit.
 RT_ALWAYS_INLINE void sphere_slot_closest(const SphereTable *table, uint32_t slot, const SphereRay *ray,
-                                          const Ball *start, Nearest *nearest)
+                                          const SphereData *start, Nearest *nearest)
 {
-    Ball ball = sphere_table_ball(table, slot);
+    SphereData ball = sphere_table_ball(table, slot);
     double t;
     bool inside;
     SphereVerdict verdict = sphere_test(ray, &ball, &t, &inside);
-    if (verdict == SPHERE_MISS || ball_equal(&ball, start)) {
+    if (verdict == SPHERE_MISS || sphere_data_equal(&ball, start)) {
         return;
     }
-    if (verdict == SPHERE_DOUBTFUL) {
+    if (verdict == SPHERE_UNCERTAIN) {
         t = sphere_exact(ray, &ball, start, &inside);
     }
     nearest_offer_sphere(table, ray, slot, &ball, t, inside, verdict == SPHERE_MET, nearest);
 }
 
-RT_SELDOM bool sphere_refined_is_before(const SphereRay *ray, const Ball *ball, double t, double t_max)
+RT_SELDOM bool sphere_refined_is_before(const SphereRay *ray, const SphereData *ball, double t, double t_max)
 {
     return sphere_refine(ray, ball, t) < t_max;
 }
 
-// Whether a rough root is before t_max once it is refined.
-RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const Ball *ball, double t, double t_max)
+// Whether a approximate root is before t_max once it is refined.
+RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const SphereData *ball, double t, double t_max)
 {
     double slack = SPHERE_ROOT_SLACK * t_max;
     if (t < t_max - slack || isinf(t_max)) {
@@ -387,16 +388,16 @@ RT_ALWAYS_INLINE bool sphere_root_is_before(const SphereRay *ray, const Ball *ba
 
 // One sphere against the ray, for any hit.
 RT_ALWAYS_INLINE bool sphere_slot_occludes(const SphereTable *table, uint32_t slot, const SphereRay *ray,
-                                           const Ball *start, double t_max)
+                                           const SphereData *start, double t_max)
 {
-    Ball ball = sphere_table_ball(table, slot);
+    SphereData ball = sphere_table_ball(table, slot);
     double t;
     bool inside;
     SphereVerdict verdict = sphere_test(ray, &ball, &t, &inside);
-    if (verdict == SPHERE_MISS || ball_equal(&ball, start)) {
+    if (verdict == SPHERE_MISS || sphere_data_equal(&ball, start)) {
         return false;
     }
-    if (verdict == SPHERE_DOUBTFUL) {
+    if (verdict == SPHERE_UNCERTAIN) {
         t = sphere_exact(ray, &ball, start, &inside);
         return t > 0.0 && t < t_max;
     }

@@ -1,12 +1,13 @@
 // All crossings of rays to a light with few spheres and a plane, found from the rays' starts: part of spheres_kernel.c.
 //
-// A walk from one crossing to the next, each found from the one before (render/shade_light.h), meets the same surfaces in
-// the same order wherever that is certain: every crossing of a line, and the place of its end, is told apart from the next
-// by more than all that rounding does on a walk's way. What is not so certain is left to be walked.
+// A walk from one crossing to the next, each found from the one before (render/shade_light.h), meets the same surfaces
+// in the same order wherever that is certain: every crossing of a line, and the place of its end, is told apart from
+// the next by more than all that rounding does on a walk's way. What is not so certain is left to be walked.
 //
 // Each start of the walk's rays is off the line by less than 2^-50 W, where no coordinate is beyond W, and there are
 // fewer than 2^7 of them: by less than 2^-43 W in all. That, and rounding here, change r² - |l|² and |f|² - r² by less
-// than 2^-41 W², and, those being beyond CROSSED_DOUBT W², roots by less than 2^-41 W² / (2 sqrt(2^-30) W) = 2^-27 W.
+// than 2^-41 W², and, those being beyond CROSSED_UNCERTAINTY W², roots by less than 2^-41 W² / (2 sqrt(2^-30) W) =
+// 2^-27 W.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_CROSSED_H
@@ -17,7 +18,7 @@
 #include "trace/spheres.h"
 #include "trace/spheres_secondary.h"
 
-#define CROSSED_DOUBT 0x1p-30 // of W², for r² - |l|² and |f|² - r²
+#define CROSSED_UNCERTAINTY 0x1p-30 // of W², for r² - |l|² and |f|² - r²
 #define CROSSED_APART 0x1p-25 // of W, for two roots
 #define CROSSED_GRAZE 0x1p-14 // of W: how far from the middle both roots are at most where it is grazed
 
@@ -31,7 +32,7 @@ typedef struct CrossedList {
 // Lines, some at once.
 typedef struct CrossedLines {
     Doubles origin[3], direction[3], direction_over_length2[3], inverse_square, end;
-    Doubles doubt, apart, graze; // what the names above stand for
+    Doubles uncertainty, apart, graze; // what the names above stand for
     DoublesMask inward;          // into what they start on
 } CrossedLines;
 
@@ -67,7 +68,7 @@ RT_ALWAYS_INLINE void crossed_lines_begin(CrossedLines *v, double reach)
     for (int axis = 0; axis < 3; axis++) {
         v->direction_over_length2[axis] = v->inverse_square * v->direction[axis];
     }
-    v->doubt = CROSSED_DOUBT * beyond * beyond;
+    v->uncertainty = CROSSED_UNCERTAINTY * beyond * beyond;
     v->apart = CROSSED_APART * (beyond + doubles_abs(v->end));
     v->graze = CROSSED_GRAZE * beyond;
 }
@@ -143,21 +144,22 @@ RT_ALWAYS_INLINE bool crossed_pairs(const CrossedLines *v, const Doubles centre[
     Doubles half = doubles_sqrt(doubles_abs(discriminant) * v->inverse_square);
     pairs->near_side = t_middle - half;
     // What it starts outside of and goes away from, or reaches after its end, is not met.
-    DoublesMask passed = ((c > v->doubt) & ((t_middle < 0.0) | (pairs->near_side > v->end + v->graze))) |
-                         ~(discriminant > -v->doubt);
+    DoublesMask passed = ((c > v->uncertainty) & ((t_middle < 0.0) | (pairs->near_side > v->end + v->graze))) |
+                         ~(discriminant > -v->uncertainty);
     DoublesMask possible = ~own & ~passed, goes_out = possible | (own & v->inward);
     if (!(doubles_mask_bits(goes_out) & asked)) {
         return false;
     }
     pairs->far_side = doubles_choose(own, 2.0 * t_middle, t_middle + half);
-    pairs->is_open = possible & ~((discriminant > v->doubt) & (doubles_abs(c) > v->doubt));
+    pairs->is_open = possible & ~((discriminant > v->uncertainty) & (doubles_abs(c) > v->uncertainty));
     pairs->into = crossed_before(v, possible & (c > 0.0), pairs->near_side, &pairs->is_open);
     pairs->out = crossed_before(v, goes_out, pairs->far_side, &pairs->is_open);
     return true;
 }
 
 // One sphere; the rays of `starts` start on it.
-RT_ALWAYS_INLINE void crossed_sphere(CrossedVector *v, const Ball *ball, ShapeId shape, unsigned starts, unsigned asked)
+RT_ALWAYS_INLINE void crossed_sphere(CrossedVector *v, const SphereData *ball, ShapeId shape, unsigned starts,
+                                     unsigned asked)
 {
     const Doubles centre[3] = {doubles_splat(ball->centre.x), doubles_splat(ball->centre.y),
                                doubles_splat(ball->centre.z)};
@@ -237,7 +239,7 @@ static uint64_t spheres_crossed(const SphereTable *table, const PlaneShape *plan
         }
         crossed_load(&v, from, rays, at, reach);
         for (uint32_t i = 0; i < few_slots(table); i++) {
-            Ball ball = sphere_table_ball(table, i);
+            SphereData ball = sphere_table_ball(table, i);
             if (!isnan(ball.radius_squared)) {
                 crossed_sphere(&v, &ball, shape_id(SHAPE_SPHERE, i), (unsigned)(starts[i] >> at) & all, own);
             }

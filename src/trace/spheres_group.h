@@ -24,7 +24,7 @@ enum {
 typedef struct RayGroup {
     Vec3 end;
     double aside, farthest; // of the rays' ends from there; of their starts
-    Ball start; // equals none where they do not start on a sphere
+    SphereData start;       // equals none where they do not start on a sphere
     unsigned count, whole;
     _Alignas(64) double origin[3][TILE_RAYS];
     _Alignas(64) double direction[3][TILE_RAYS]; // of about unit length, towards the end
@@ -40,7 +40,7 @@ static SphereRay group_ray(const RayGroup *group, unsigned i)
 }
 
 // Those of a vector's rays that meet the sphere before they end.
-RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const Ball *ball, unsigned at)
+RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const SphereData *ball, unsigned at)
 {
     Doubles dx = doubles_load(&group->direction[0][at]);
     Doubles dy = doubles_load(&group->direction[1][at]);
@@ -62,14 +62,14 @@ RT_ALWAYS_INLINE unsigned group_test(const RayGroup *group, const Ball *ball, un
         return 0;
     }
     Doubles c = f_squared - ball->radius_squared;
-    Doubles doubt = SPHERE_DOUBT * sum;
+    Doubles uncertainty = SPHERE_UNCERTAINTY * sum;
     Doubles ends = doubles_load(&group->distance[at]);
     Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * inverse_square);
     Doubles near_side = doubles_abs(c) * inverse_square / far_side;
     Doubles is_far = (Doubles)(~(DoublesMask)t_middle & (DoublesMask)c); // by its sign
     Doubles root = doubles_if_negative(is_far, far_side, near_side);
-    possible &= doubles_ge(t_middle, doubles_splat(0.0)) | ~doubles_ge(c, doubt);
-    unsigned certain = doubles_ge(discriminant, doubt) & doubles_ge(doubles_abs(c), doubt);
+    possible &= doubles_ge(t_middle, doubles_splat(0.0)) | ~doubles_ge(c, uncertainty);
+    unsigned certain = doubles_ge(discriminant, uncertainty) & doubles_ge(doubles_abs(c), uncertainty);
     unsigned before = ~doubles_ge(root, ends * (1.0 - SPHERE_ROOT_SLACK)); // as sphere_root_is_before says at once
     unsigned met = possible & certain & before;
     unsigned open = possible & ~met & (~certain | doubles_ge(ends + SPHERE_ROOT_SLACK * ends, root));
@@ -97,8 +97,8 @@ static uint64_t group_block(const void *context, const RayGroup *group, const Ra
     const SphereTable *table = context;
     unsigned touched = cone_spheres(cone, &table->blocks[block]);
     for (; touched; touched &= touched - 1) {
-        Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + (unsigned)__builtin_ctz(touched));
-        if (ball_equal(&ball, &group->start)) {
+        SphereData ball = sphere_table_ball(table, block * SPHERE_BLOCK + (unsigned)__builtin_ctz(touched));
+        if (sphere_data_equal(&ball, &group->start)) {
             continue;
         }
         for (unsigned at = 0; at < group->whole; at += DOUBLES) {
@@ -276,7 +276,7 @@ static uint64_t surfaces_occluded(const SphereTable *table, const TileSurfaces *
         rest &= ~members;
         ShapeId shape = from->shape[__builtin_ctzll(members)];
         group.start = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
-                                                        : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
+                                                        : (SphereData){{0.0, 0.0, 0.0}, (double)NAN};
         if (__builtin_popcountll(members) < GROUP_LEAST || !group_gather(from, rays, members, &group) ||
             !group_occluded(table, &group, &occluded)) {
             *left |= members;

@@ -30,7 +30,7 @@ enum { HALVES = SPHERE_BLOCK / DOUBLES };
 
 // What the test of a block tells of its eight spheres.
 typedef struct BlockHits {
-    _Alignas(64) double t[SPHERE_BLOCK]; // rough roots
+    _Alignas(64) double t[SPHERE_BLOCK]; // approximate roots
     unsigned met;                        // by a root no later than the limit, or doubtful
     unsigned doubtful;
     unsigned inside;
@@ -39,12 +39,13 @@ typedef struct BlockHits {
 // The sphere that a ray starts on.
 typedef struct BlockStart {
     uint32_t slot; // SLOT_NONE: none
-    Ball ball;     // equals none then
+    SphereData ball; // equals none then
 } BlockStart;
 
 RT_ALWAYS_INLINE BlockStart block_start(const SphereTable *table, uint32_t slot)
 {
-    return (BlockStart){slot, slot == SLOT_NONE ? (Ball){{0.0, 0.0, 0.0}, (double)NAN} : sphere_table_ball(table, slot)};
+    return (BlockStart){slot, slot == SLOT_NONE ? (SphereData){{0.0, 0.0, 0.0}, (double)NAN}
+                                                : sphere_table_ball(table, slot)};
 }
 
 // All of a block but that sphere, a bit for each.
@@ -83,14 +84,15 @@ RT_ALWAYS_INLINE bool block_test(const SphereBlock *block, const SphereRay *ray,
 #pragma GCC unroll 4
     for (int i = 0; i < HALVES; i++) {
         Doubles c = f_squared[i] - doubles_load(&block->radius_squared[i * DOUBLES]);
-        Doubles doubt = SPHERE_DOUBT * sum[i];
+        Doubles uncertainty = SPHERE_UNCERTAINTY * sum[i];
         Doubles far_side = doubles_abs(t_middle[i]) + doubles_sqrt(discriminant[i] * ray->inverse_square);
         Doubles near_side = doubles_abs(c) * ray->inverse_square / far_side;
         Doubles is_far = (Doubles)(~(DoublesMask)t_middle[i] & (DoublesMask)c); // by its sign
         Doubles t = doubles_if_negative(is_far, far_side, near_side);
         doubles_store(&hits->t[i * DOUBLES], t);
-        certain |= (doubles_ge(discriminant[i], doubt) & doubles_ge(doubles_abs(c), doubt)) << (i * DOUBLES);
-        outer |= doubles_ge(c, doubt) << (i * DOUBLES);
+        certain |= (doubles_ge(discriminant[i], uncertainty) & doubles_ge(doubles_abs(c), uncertainty))
+                   << (i * DOUBLES);
+        outer |= doubles_ge(c, uncertainty) << (i * DOUBLES);
         ahead |= doubles_ge(t_middle[i], doubles_splat(0.0)) << (i * DOUBLES);
         in_time |= doubles_ge(doubles_splat(limit), t) << (i * DOUBLES);
     }
@@ -113,17 +115,17 @@ RT_ALWAYS_INLINE bool block_closest(const SphereTable *table, uint32_t block, co
         unsigned at = (unsigned)__builtin_ctz(hits.met);
         hits.met &= hits.met - 1;
         uint32_t slot = block * SPHERE_BLOCK + at;
-        Ball ball = sphere_table_ball(table, slot);
+        SphereData ball = sphere_table_ball(table, slot);
         bool inside = hits.inside >> at & 1;
         double t = hits.t[at];
-        bool is_rough = !(hits.doubtful >> at & 1);
-        if (ball_equal(&ball, &start->ball)) {
+        bool is_approximate = !(hits.doubtful >> at & 1);
+        if (sphere_data_equal(&ball, &start->ball)) {
             continue;
         }
-        if (RT_UNLIKELY(!is_rough)) {
+        if (RT_UNLIKELY(!is_approximate)) {
             t = sphere_exact(ray, &ball, &start->ball, &inside);
         }
-        nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_rough, nearest);
+        nearest_offer_sphere(table, ray, slot, &ball, t, inside, is_approximate, nearest);
     } while (hits.met);
     return true;
 }
@@ -138,9 +140,9 @@ RT_ALWAYS_INLINE bool block_occludes(const SphereTable *table, uint32_t block, c
     do {
         unsigned at = (unsigned)__builtin_ctz(hits.met);
         hits.met &= hits.met - 1;
-        Ball ball = sphere_table_ball(table, block * SPHERE_BLOCK + at);
+        SphereData ball = sphere_table_ball(table, block * SPHERE_BLOCK + at);
         bool inside;
-        if (ball_equal(&ball, &start->ball)) {
+        if (sphere_data_equal(&ball, &start->ball)) {
             continue;
         }
         if (RT_UNLIKELY(hits.doubtful >> at & 1)) {

@@ -18,7 +18,7 @@ typedef struct SecondaryVector {
     Doubles t;                  // INFINITY where nothing is met
     DoublesMask shape;          // ShapeId
     DoublesMask inside, is_open; // -1 where it is; the ray is to be asked by itself
-    DoublesMask is_rough;       // t is sphere_test's, to be refined
+    DoublesMask is_approximate;  // t is sphere_test's, to be refined
 } SecondaryVector;
 
 // Slots of all spheres; some of the last may be empty.
@@ -41,10 +41,10 @@ static void secondary_starts(const SphereTable *table, const ShapeId *start, int
     }
     memcpy(starts, own, slots * sizeof *own);
     for (uint32_t j = 0; j < slots; j++) {
-        Ball other = sphere_table_ball(table, j);
+        SphereData other = sphere_table_ball(table, j);
         for (uint32_t i = 0; own[j] && i < slots; i++) {
-            Ball ball = sphere_table_ball(table, i);
-            starts[i] |= ball_equal(&ball, &other) ? own[j] : 0;
+            SphereData ball = sphere_table_ball(table, i);
+            starts[i] |= sphere_data_equal(&ball, &other) ? own[j] : 0;
         }
     }
 }
@@ -64,7 +64,7 @@ RT_ALWAYS_INLINE bool secondary_load(SecondaryVector *v, const SecondaryRays *ra
     }
     v->t = doubles_splat((double)INFINITY);
     v->shape = (DoublesMask){0} + (int64_t)SHAPE_NONE;
-    v->inside = v->is_open = v->is_rough = (DoublesMask){0};
+    v->inside = v->is_open = v->is_approximate = (DoublesMask){0};
     unsigned usable = doubles_gt(v->inverse_square, doubles_splat(0x1p-100)) &
                       doubles_gt(doubles_splat((double)INFINITY), v->inverse_square);
     return usable == (1u << DOUBLES) - 1;
@@ -79,7 +79,7 @@ RT_ALWAYS_INLINE void secondary_inward(const SphereTable *table, const Secondary
         int ray = at + i < rays->count ? at + i : rays->count - 1;
         ShapeId start = rays->start[ray];
         bool is_inward = (rays->inward >> ray & 1) && start != SHAPE_NONE && shape_kind(start) == SHAPE_SPHERE;
-        Ball ball = is_inward ? sphere_table_ball(table, shape_index(start)) : (Ball){{0.0, 0.0, 0.0}, 0.0};
+        SphereData ball = is_inward ? sphere_table_ball(table, shape_index(start)) : (SphereData){{0.0, 0.0, 0.0}, 0.0};
         into[i] = is_inward ? -1 : 0;
         shape[i] = (int64_t)start;
         centre[0][i] = ball.centre.x;
@@ -96,7 +96,7 @@ RT_ALWAYS_INLINE void secondary_inward(const SphereTable *table, const Secondary
 }
 
 // One sphere. The rays of `starts` leave it, or go into it.
-RT_ALWAYS_INLINE void secondary_sphere(SecondaryVector *v, const Ball *ball, uint32_t slot, unsigned starts)
+RT_ALWAYS_INLINE void secondary_sphere(SecondaryVector *v, const SphereData *ball, uint32_t slot, unsigned starts)
 {
     Doubles fx = v->origin[0] - ball->centre.x;
     Doubles fy = v->origin[1] - ball->centre.y;
@@ -114,26 +114,26 @@ RT_ALWAYS_INLINE void secondary_sphere(SecondaryVector *v, const Ball *ball, uin
         return;
     }
     Doubles c = f_squared - ball->radius_squared;
-    Doubles doubt = SPHERE_DOUBT * sum;
+    Doubles uncertainty = SPHERE_UNCERTAINTY * sum;
     Doubles far_side = doubles_abs(t_middle) + doubles_sqrt(discriminant * v->inverse_square);
     Doubles near_side = doubles_abs(c) * v->inverse_square / far_side;
     Doubles is_far = (Doubles)(~(DoublesMask)t_middle & (DoublesMask)c); // by its sign
     Doubles root = doubles_if_negative(is_far, far_side, near_side);
-    DoublesMask possible = (discriminant >= rounding) & ((t_middle >= 0.0) | ~(c >= doubt));
+    DoublesMask possible = (discriminant >= rounding) & ((t_middle >= 0.0) | ~(c >= uncertainty));
     possible = starts ? possible & ~doubles_bits_mask(starts) : possible;
-    DoublesMask certain = (discriminant >= doubt) & (doubles_abs(c) >= doubt);
+    DoublesMask certain = (discriminant >= uncertainty) & (doubles_abs(c) >= uncertainty);
     DoublesMask nearest = possible & certain & ~(root >= v->t * (1.0 - SPHERE_ROOT_SLACK)) & (root > 0.0);
     v->is_open |= possible & ~nearest & (~certain | (v->t + SPHERE_ROOT_SLACK * v->t >= root));
     v->t = doubles_choose(nearest, root, v->t);
     v->shape = (nearest & (int64_t)shape_id(SHAPE_SPHERE, slot)) | (~nearest & v->shape);
     v->inside = (nearest & (c < 0.0)) | (~nearest & v->inside);
-    v->is_rough |= nearest;
+    v->is_approximate |= nearest;
 }
 
 // Makes the roots right.
 static void secondary_settle(const SphereTable *table, SecondaryVector *v)
 {
-    DoublesMask met = v->is_rough;
+    DoublesMask met = v->is_approximate;
     unsigned any = doubles_mask_bits(met);
     if (!any) {
         return;
@@ -193,7 +193,7 @@ static uint64_t closest_secondary(const SphereTable *table, const PlaneShape *pl
             secondary_inward(table, rays, at, &v);
         }
         for (uint32_t i = 0; i < slots; i++) {
-            Ball ball = sphere_table_ball(table, i);
+            SphereData ball = sphere_table_ball(table, i);
             if (isnan(ball.radius_squared)) {
                 continue;
             }

@@ -30,8 +30,8 @@ RT_ALWAYS_INLINE uint64_t surfaces_find(const SphereTable *table, const double *
             begin[axis][i] = origin[axis][ray];
         }
         t[i] = hits->t[ray];
-        Ball ball = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
-                                                      : (Ball){{0.0, 0.0, 0.0}, (double)NAN};
+        SphereData ball = shape_kind(shape) == SHAPE_SPHERE ? sphere_table_ball(table, shape_index(shape))
+                                                            : (SphereData){{0.0, 0.0, 0.0}, (double)NAN};
         centre[0][i] = ball.centre.x;
         centre[1][i] = ball.centre.y;
         centre[2][i] = ball.centre.z;

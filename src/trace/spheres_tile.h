@@ -29,7 +29,7 @@ typedef struct TileBeam {
     const SphereTable *table;
     const SphereTile *tile;
     TileHits *hits;
-    uint64_t rough; // the rays whose roots are to be refined yet
+    uint64_t approximate; // the rays whose roots are to be refined yet
     double limit;   // up to where a root may yet be the nearest of some ray
     bool has_planes, has_rows; // whether the planes are known: many tiles come to no leaf, or meet nothing there
     bool has_news;             // hits came nearer
@@ -199,18 +199,18 @@ RT_ALWAYS_INLINE unsigned block_view(const TileBeam *beam, const SphereBlock *bl
 
 // What a sphere is to all rays of the tile.
 typedef struct TileSphere {
-    Ball ball;
+    SphereData ball;
     uint32_t slot;
     Vec3 f;
     double f_squared, distance, radius;
     double nearest; // no root is less
-    double c, rounding, doubt;
+    double c, rounding, uncertainty;
 } TileSphere;
 
 // What sphere_test says of a row of rays, but for those that met the sphere so much nearer than what they met before that
 // no root need be refined: they are done.
 typedef struct RowHits {
-    _Alignas(64) double t[TILE_ROW]; // rough roots
+    _Alignas(64) double t[TILE_ROW]; // approximate roots
     unsigned nearest;                // done
     unsigned other;                  // met about where something was met before, or doubtful
     unsigned doubtful;
@@ -264,9 +264,9 @@ static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, R
         Doubles near_side = fabs(sphere->c) * inverse_square / far_side;
         Doubles root = sphere->c > 0.0 ? near_side : doubles_if_negative(t_middle, near_side, far_side);
         unsigned ahead = doubles_ge(t_middle, doubles_splat(0.0));
-        possible &= sphere->c >= sphere->doubt ? ahead : ~0u;
-        unsigned certain = fabs(sphere->c) >= sphere->doubt ? doubles_ge(discriminant, doubles_splat(sphere->doubt))
-                                                            : 0;
+        possible &= sphere->c >= sphere->uncertainty ? ahead : ~0u;
+        unsigned certain =
+            fabs(sphere->c) >= sphere->uncertainty ? doubles_ge(discriminant, doubles_splat(sphere->uncertainty)) : 0;
         // 1 - slack is exact, so this is nearest_offer_sphere's t < before - slack, which fails where t is infinite.
         unsigned nearest = possible & certain & ~doubles_ge(root, before * (1.0 - SPHERE_ROOT_SLACK)) &
                            ~doubles_ge(doubles_splat(0.0), root);
@@ -285,7 +285,7 @@ static void row_test(const TileSphere *sphere, TileBeam *beam, unsigned begin, R
 }
 
 // A hit that may not be the nearest of its ray.
-RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, double t, bool is_doubtful)
+RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, double t, bool is_uncertain)
 {
     TileHits *hits = beam->hits;
     uint64_t bit = UINT64_C(1) << i;
@@ -293,16 +293,16 @@ RT_SELDOM void beam_offer(TileBeam *beam, const TileSphere *sphere, unsigned i, 
     ShapeId before = (ShapeId)beam->shape[i];
     Nearest nearest = {{hits->t[i], before, hits->inside & bit},
                        before == SHAPE_NONE ? 0 : beam->table->info[shape_index(before)].order,
-                       beam->rough & bit};
+                       beam->approximate & bit};
     bool inside = sphere->c < 0.0;
-    if (RT_UNLIKELY(is_doubtful)) {
+    if (RT_UNLIKELY(is_uncertain)) {
         t = sphere_exact(&ray, &sphere->ball, NULL, &inside);
     }
-    nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_doubtful, &nearest);
+    nearest_offer_sphere(beam->table, &ray, sphere->slot, &sphere->ball, t, inside, !is_uncertain, &nearest);
     tile_hit_set(hits, i, &nearest.hit);
     beam->shape[i] = nearest.hit.shape;
     beam->has_news = true;
-    beam->rough = (beam->rough & ~bit) | (nearest.is_rough ? bit : 0);
+    beam->approximate = (beam->approximate & ~bit) | (nearest.is_approximate ? bit : 0);
 }
 
 // Up to where a root may yet be the nearest of some ray of a row.
@@ -327,7 +327,7 @@ static void beam_row(TileBeam *beam, const TileSphere *sphere, unsigned begin)
     uint64_t nearest = (uint64_t)row.nearest << begin;
     hits->inside = sphere->c < 0.0 ? hits->inside | nearest : hits->inside & ~nearest;
     hits->met |= nearest;
-    beam->rough |= nearest;
+    beam->approximate |= nearest;
     for (; RT_UNLIKELY(row.other); row.other &= row.other - 1) {
         unsigned i = (unsigned)__builtin_ctz(row.other);
         beam_offer(beam, sphere, begin + i, row.t[i], row.doubtful >> i & 1);
@@ -350,7 +350,7 @@ static void beam_sphere(TileBeam *beam, uint32_t block, unsigned at, const Block
     double sum = sphere.f_squared + sphere.ball.radius_squared;
     sphere.c = sphere.f_squared - sphere.ball.radius_squared;
     sphere.rounding = -SPHERE_ROUNDING * sum;
-    sphere.doubt = SPHERE_DOUBT * sum;
+    sphere.uncertainty = SPHERE_UNCERTAINTY * sum;
     for (; rows; rows &= rows - 1) {
         beam_row(beam, &sphere, (unsigned)__builtin_ctz(rows) * TILE_ROW);
     }
@@ -383,34 +383,35 @@ static bool beam_block(TileBeam *beam, uint32_t block)
 }
 
 // One root that is right only in double words.
-RT_SELDOM void beam_settle_exact(const TileBeam *beam, unsigned i)
+RT_SELDOM void beam_refine_exact(const TileBeam *beam, unsigned i)
 {
     SphereRay ray = sphere_tile_ray(beam->tile, i);
-    Ball ball = sphere_table_ball(beam->table, shape_index((ShapeId)beam->shape[i]));
+    SphereData ball = sphere_table_ball(beam->table, shape_index((ShapeId)beam->shape[i]));
     bool inside;
     beam->hits->t[i] = sphere_exact(&ray, &ball, NULL, &inside);
 }
 
-// Makes the roots right that are rough, a vector at a time.
-static void beam_settle(const TileBeam *beam)
+// Makes the roots right that are approximate, a vector at a time.
+static void beam_refine(const TileBeam *beam)
 {
     const SphereTile *tile = beam->tile;
     const Doubles origin[3] = {doubles_splat(tile->origin.x), doubles_splat(tile->origin.y),
                                doubles_splat(tile->origin.z)};
     for (unsigned at = 0; at < TILE_RAYS; at += DOUBLES) {
-        unsigned rough = (unsigned)(beam->rough >> at) & ((1u << DOUBLES) - 1);
-        if (!rough) {
+        unsigned approximate = (unsigned)(beam->approximate >> at) & ((1u << DOUBLES) - 1);
+        if (!approximate) {
             continue;
         }
         const Doubles direction[3] = {doubles_load(&tile->direction[0][at]), doubles_load(&tile->direction[1][at]),
                                       doubles_load(&tile->direction[2][at])};
-        DoublesMask shape = *(const DoublesMask *)&beam->shape[at], is_rough = doubles_bits_mask(rough);
-        Balls balls = balls_gather(beam->table, (is_rough & shape) | (~is_rough & shape[__builtin_ctz(rough)]));
+        DoublesMask shape = *(const DoublesMask *)&beam->shape[at], is_approximate = doubles_bits_mask(approximate);
+        Balls balls =
+            balls_gather(beam->table, (is_approximate & shape) | (~is_approximate & shape[__builtin_ctz(approximate)]));
         Doubles before = doubles_load(&beam->hits->t[at]), root = before;
         unsigned certain = roots_refine(origin, direction, doubles_load(&tile->inverse_square[at]), &balls, &root);
-        doubles_store(&beam->hits->t[at], doubles_choose(is_rough, root, before));
-        for (rough &= ~certain; RT_UNLIKELY(rough); rough &= rough - 1) {
-            beam_settle_exact(beam, at + (unsigned)__builtin_ctz(rough));
+        doubles_store(&beam->hits->t[at], doubles_choose(is_approximate, root, before));
+        for (approximate &= ~certain; RT_UNLIKELY(approximate); approximate &= approximate - 1) {
+            beam_refine_exact(beam, at + (unsigned)__builtin_ctz(approximate));
         }
     }
 }
@@ -460,7 +461,7 @@ static bool tile_closest(const SphereTable *table, const SphereTile *tile, TileH
     beam.table = table;
     beam.tile = tile;
     beam.hits = hits;
-    beam.rough = 0;
+    beam.approximate = 0;
     beam.limit = (double)INFINITY;
     beam.has_planes = beam.has_rows = beam.has_news = false;
     for (unsigned i = 0; i < TILE_RAYS; i++) {
@@ -477,7 +478,7 @@ static bool tile_closest(const SphereTable *table, const SphereTile *tile, TileH
     if (table->bvh.nodes && !beam_tree(&beam)) {
         return false;
     }
-    beam_settle(&beam);
+    beam_refine(&beam);
     for (unsigned i = 0; i < TILE_RAYS; i++) {
         hits->shape[i] = (ShapeId)beam.shape[i];
     }

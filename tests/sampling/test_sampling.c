@@ -200,7 +200,7 @@ static void test_targets(void)
 }
 
 // Runs of very different lengths, on scenes of every kind, most of them never looked at when the prediction was made:
-// from the pilot alone, which is all that there is after a tenth of a short run, and from rounds.
+// from the corner pass alone, which is all that there is after a tenth of a short run, and from rounds.
 static void test_prediction(void)
 {
     static const struct {

@@ -29,7 +29,7 @@ typedef struct Wanted {
     X(many_shine, "a tree, shadows, highlights", TRACE_SPHERE_BVH, SHINE, MANY, true, true, false, false)              \
     X(many_mirrors, "a tree, shadows, highlights, mirrors", TRACE_SPHERE_BVH, SHINE | RENDER_REFLECTION, MANY, true,   \
       true, true, false)                                                                                               \
-    X(many_clear, "a tree, shadows, highlights, transparency", TRACE_SPHERE_BVH, SHINE | RENDER_TRANSPARENCY, MANY,    \
+    X(bvh_clear, "a tree, shadows, highlights, transparency", TRACE_SPHERE_BVH, SHINE | RENDER_TRANSPARENCY, MANY,     \
       true, true, false, true)
 
 #define OWN_KERNEL(name, text, geometry, shading, ...) DEFINE_KERNEL(name, text, geometry, shading)

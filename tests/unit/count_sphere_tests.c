@@ -16,11 +16,11 @@ typedef struct Counted {
     int hits, doubtful;
 } Counted;
 
-double count_textbook(const Ball *balls, Ray ray) __attribute__((noinline));
-double count_certified(const Ball *balls, Ray ray, int *doubtful) __attribute__((noinline));
+double count_textbook(const SphereData *balls, Ray ray) __attribute__((noinline));
+double count_certified(const SphereData *balls, Ray ray, int *doubtful) __attribute__((noinline));
 
 // a t² + b t + c = 0 by b² - 4ac, as lectures have it.
-double count_textbook(const Ball *balls, Ray ray)
+double count_textbook(const SphereData *balls, Ray ray)
 {
     double nearest = (double)INFINITY;
     double a = vec3_dot(ray.direction, ray.direction);
@@ -40,7 +40,7 @@ double count_textbook(const Ball *balls, Ray ray)
     return nearest;
 }
 
-double count_certified(const Ball *balls, Ray ray, int *doubtful)
+double count_certified(const SphereData *balls, Ray ray, int *doubtful)
 {
     double nearest = (double)INFINITY;
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
@@ -51,7 +51,7 @@ double count_certified(const Ball *balls, Ray ray, int *doubtful)
         if (verdict == SPHERE_MISS) {
             continue;
         }
-        if (verdict == SPHERE_DOUBTFUL) {
+        if (verdict == SPHERE_UNCERTAIN) {
             ++*doubtful;
             t = sphere_exact(&sphere_ray, &balls[i], NULL, &inside);
         }
@@ -63,12 +63,12 @@ double count_certified(const Ball *balls, Ray ray, int *doubtful)
 int main(void)
 {
     Random random = {5};
-    Ball balls[SPHERES];
+    SphereData balls[SPHERES];
     Counted textbook = {0}, certified = {0};
     for (int i = 0; i < SPHERES; i++) {
         double away = random_between(&random, 0, 10);
         Vec3 centre = vec3_scale(away, random_direction(&random));
-        balls[i] = ball_make(centre, random_between(&random, 0.1, 1));
+        balls[i] = sphere_data_make(centre, random_between(&random, 0.1, 1));
     }
     for (int i = 0; i < RAYS; i++) {
         Ray ray = {vec3_scale(15, random_direction(&random)), {0, 0, 0}};

@@ -146,19 +146,19 @@ static void test_areas(int count, double most_mean, double most)
     double worst = 0.0, squares = 0.0, whole = 0.0, rough_worst = 0.0;
     for (int i = 0; i < PIXELS / 10; i++) {
         Outline outlines[OUTLINES_MOST];
-        double areas[OUTLINES_MOST + 1], rough[OUTLINES_MOST + 1], wanted[OUTLINES_MOST + 1] = {0.0}, sum = 0.0;
+        double areas[OUTLINES_MOST + 1], approximate[OUTLINES_MOST + 1], wanted[OUTLINES_MOST + 1] = {0.0}, sum = 0.0;
         for (int j = 0; j < count; j++) {
             outlines[j] = any_outline();
         }
         outline_areas(outlines, count, areas);
-        outline_areas_roughly(outlines, count, rough);
+        outline_areas_roughly(outlines, count, approximate);
         for (int row = 0; row < ROWS; row++) {
             narrow_row(outlines, count, (row + 0.5) / ROWS - 0.5, wanted);
         }
         for (int j = 0; j <= count; j++) {
             double off = fabs(areas[j] - wanted[j] / ROWS);
             worst = fmax(worst, off);
-            rough_worst = fmax(rough_worst, fabs(rough[j] - wanted[j] / ROWS));
+            rough_worst = fmax(rough_worst, fabs(approximate[j] - wanted[j] / ROWS));
             squares += off * off;
             sum += areas[j];
         }
@@ -168,7 +168,7 @@ static void test_areas(int count, double most_mean, double most)
     tap_ok(mean <= most_mean && worst <= most && whole < 1e-12,
            "%d outlines: shares are off by %.2g (root mean square), %.2g at most, their sum by %.2g", count, mean,
            worst, whole);
-    tap_ok(rough_worst <= 0.1, "%d outlines: rough shares are off by %.2g at most", count, rough_worst);
+    tap_ok(rough_worst <= 0.1, "%d outlines: approximate shares are off by %.2g at most", count, rough_worst);
 }
 
 int main(void)

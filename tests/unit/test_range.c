@@ -94,7 +94,7 @@ static void write_scene(Random *random, char *text)
     }
 }
 
-static bool is_met(Vec3 eye, const Ball *ball)
+static bool is_met(Vec3 eye, const SphereData *ball)
 {
     bool inside;
     SphereRay ray = sphere_ray_make(eye, vec3_normalize(vec3_sub(ball->centre, eye)));
@@ -118,7 +118,7 @@ static bool look_up(rt_session *session, Told *told)
         Written *sphere = &told->spheres[at.line - HEAD_LINES - 1];
         sphere->is_record = true;
         for (uint32_t slot = 0; slot < table->block_count * SPHERE_BLOCK; slot++) {
-            Ball ball = sphere_table_ball(table, slot);
+            SphereData ball = sphere_table_ball(table, slot);
             if (!isnan(ball.radius_squared) && table->info[slot].order == scene_sphere_order(scene, i)) {
                 sphere->is_held = true;
                 sphere->is_met = is_met(eye, &ball);

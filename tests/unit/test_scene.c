@@ -42,7 +42,7 @@ static void test_materials(void)
 static bool build_scene(Scene *scene)
 {
     Transform stretch = transform_scale(vec3(1.0, 2.0, 3.0));
-    Part ball = {.kind = PART_BALL, .to_world = stretch, .source = 9};
+    Part ball = {.kind = PART_SPHERE, .to_world = stretch, .source = 9};
     MaterialIndex index;
     scene_init(scene);
     return transform_invert(&stretch, &ball.to_object) && add_material(scene, 0.1, 0.6, &index) &&
@@ -247,11 +247,11 @@ static bool make_crowd(Scene *scene, const uint32_t twins[CROWD_TWINS][2])
         is_made = scene_add_sphere(scene, centre, 1.0, 0, i + 1);
     }
     for (uint32_t i = 0; i < ROUND_TWINS && is_made; i++) { // in the way of the last one stands something else
-        Part part = {.kind = PART_BALL, .node = NODE_NONE, .source = CROWD + i + 1};
+        Part part = {.kind = PART_SPHERE, .node = NODE_NONE, .source = CROWD + i + 1};
         part.to_world = transform_translate(i == 2 ? vec3(1e6, 0.0, 0.0) : scene->spheres.items[7 + 30000 * i].centre);
         is_made = scene_add_part(scene, &part);
     }
-    Part leaf = {.kind = PART_BALL, .source = CROWD + 9};
+    Part leaf = {.kind = PART_SPHERE, .source = CROWD + 9};
     leaf.to_world = transform_translate(scene->spheres.items[CROWD - 3].centre);
     is_made = is_made && scene_begin_composite(scene, 0, CROWD + 8) &&
               scene_add_node(scene, NODE_INTERSECTION, false, NODE_NONE, CROWD + 8, &index);

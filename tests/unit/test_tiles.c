@@ -105,7 +105,7 @@ static int secondary_differing(const Geometry *g, unsigned features, SecondaryRa
 }
 
 // A direction in which a ray from a point grazes a sphere, but for rounding.
-static Vec3 grazing(Random *random, Vec3 point, const Ball *ball)
+static Vec3 grazing(Random *random, Vec3 point, const SphereData *ball)
 {
     Vec3 offset = vec3_sub(ball->centre, point);
     double distance = vec3_length(offset), sine = sqrt(ball->radius_squared) / distance;
@@ -124,7 +124,7 @@ static int secondary_try(const Geometry *g, unsigned features, const TileSurface
     for (int i = 0; i < from->count; i++) {
         Vec3 point = tile_surface_point(from, i), direction = random_direction(random);
         if (random_bits(random) % 4 == 0) {
-            Ball ball = sphere_table_ball(&g->spheres, (uint32_t)(random_bits(random) % g->spheres.count));
+            SphereData ball = sphere_table_ball(&g->spheres, (uint32_t)(random_bits(random) % g->spheres.count));
             direction = grazing(random, point, &ball);
         }
         secondary_ray_add(&rays, point, direction, from->shape[i],
@@ -168,12 +168,12 @@ static void crossed_try(const Geometry *g, unsigned features, const TileSurfaces
     SurfaceRays rays;
     for (int i = 0; i < from->count; i++) {
         Vec3 point = tile_surface_point(from, i), direction = random_direction(random);
-        Ball ball = sphere_table_ball(&g->spheres, (uint32_t)(random_bits(random) % g->spheres.count));
+        SphereData ball = sphere_table_ball(&g->spheres, (uint32_t)(random_bits(random) % g->spheres.count));
         double distance = sqrt(ball.radius_squared) * pow(10.0, random_between(random, -1, 2));
-        if (ball_is_usable(&ball) && random_bits(random) % 4 == 0) {
+        if (sphere_data_is_usable(&ball) && random_bits(random) % 4 == 0) {
             direction = grazing(random, point, &ball);
         }
-        if (ball_is_usable(&ball) && random_bits(random) % 8 == 0) { // it ends on a sphere
+        if (sphere_data_is_usable(&ball) && random_bits(random) % 8 == 0) { // it ends on a sphere
             Vec3 end = vec3_add_scaled(ball.centre, sqrt(ball.radius_squared), random_direction(random));
             distance = vec3_length(vec3_sub(end, point));
             direction = vec3_scale(1.0 / distance, vec3_sub(end, point));

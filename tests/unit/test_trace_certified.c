@@ -155,10 +155,10 @@ static bool is_excusable(Exact *e, const SphereCase *input)
 static void count_case(const SphereCase *input, Exact *exact, Counts *counts)
 {
     SphereRay ray = sphere_ray_make(input->ray.origin, input->ray.direction);
-    Ball ball = ball_make(input->centre, input->radius);
+    SphereData ball = sphere_data_make(input->centre, input->radius);
     bool inside = false;
     double unused;
-    counts->doubtful += sphere_test(&ray, &ball, &unused, &inside) == SPHERE_DOUBTFUL;
+    counts->doubtful += sphere_test(&ray, &ball, &unused, &inside) == SPHERE_UNCERTAIN;
     double t = sphere_hit(&ray, &ball, &inside);
     Class class = !(t > 0.0 && t < (double)INFINITY) ? CLASS_MISS : inside ? CLASS_FAR : CLASS_NEAR;
     counts->not_finite += t != 0.0 && !isfinite(t);
@@ -216,7 +216,7 @@ static void shell_case(Random *random, double gap, SphereCase out[2])
 static double rtlang_root(const SphereCase *input)
 {
     SphereRay ray = sphere_ray_make(input->ray.origin, input->ray.direction);
-    Ball ball = ball_make(input->centre, input->radius);
+    SphereData ball = sphere_data_make(input->centre, input->radius);
     bool inside;
     return sphere_hit(&ray, &ball, &inside);
 }

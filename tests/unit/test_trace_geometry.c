@@ -176,7 +176,7 @@ static double box_enter(const Geometry *g, uint32_t item, Ray ray)
 // is before `limit` for certain.
 static bool nearest_one_by_one(const Geometry *g, Ray ray, RayStart start, uint32_t from, Hit *hit, double *limit)
 {
-    const Ball unit = UNIT_BALL;
+    const SphereData unit = UNIT_SPHERE;
     double start_error = from == UINT32_MAX ? 0.0 : shapes_start_error(&g->shapes, &ray, start);
     uint32_t count = g->shapes.solid_count;
     struct {

@@ -42,7 +42,7 @@ static void add_composite(Scene *scene, Random *random, const Family *family)
 {
     uint32_t root;
     Vec3 at = random_point(random, family->spread);
-    Part ball = part_at(random, PART_BALL, family->size, at), box = part_at(random, PART_BOX, family->size, at);
+    Part ball = part_at(random, PART_SPHERE, family->size, at), box = part_at(random, PART_BOX, family->size, at);
     if (!scene_begin_composite(scene, 0, 0) || !scene_add_node(scene, NODE_INTERSECTION, false, NODE_NONE, 0, &root)) {
         abort();
     }
@@ -57,7 +57,7 @@ static void add_composite(Scene *scene, Random *random, const Family *family)
 static Part random_ball(Random *random, const Family *family, const Part *last)
 {
     double size = family->size * exp(random_between(random, -1, 0.5));
-    Part part = part_at(random, PART_BALL, size, random_point(random, family->spread));
+    Part part = part_at(random, PART_SPHERE, size, random_point(random, family->spread));
     uint64_t bits = random_bits(random);
     if (family->is_tied && last && bits % 2) {
         double apart = bits >> 4 & 1 ? 0x1p-30 : 0x1p-52;

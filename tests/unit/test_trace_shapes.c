@@ -10,7 +10,7 @@
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
 
-static const PartKind solid_kinds[] = {PART_BALL, PART_BOX, PART_CONE, PART_TORUS};
+static const PartKind solid_kinds[] = {PART_SPHERE, PART_BOX, PART_CONE, PART_TORUS};
 static const PartKind alone_kinds[] = {PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_TORUS};
 
 // How far inside of its fixed shape a point of the scene is, in units of that shape; negative outside.
@@ -19,7 +19,8 @@ static double depth(const Part *part, Vec3 point)
     Vec3 p = transform_point(&part->to_object, point);
     double round = hypot(p.x, p.y);
     switch (part->kind) {
-    case PART_BALL: return 1.0 - vec3_length(p);
+    case PART_SPHERE:
+        return 1.0 - vec3_length(p);
     case PART_BOX: {
         Vec3 low = vec3_sub(p, part->data[0]), high = vec3_sub(part->data[1], p);
         return fmin(fmin(fmin(low.x, low.y), low.z), fmin(fmin(high.x, high.y), high.z));
@@ -181,13 +182,13 @@ static void grow(Scene *scene, Random *random, uint32_t parent, int level)
 }
 
 // Whether a point is inside, by the insides of the leaves; *doubt turns true near a surface.
-static bool is_inside(const Scene *scene, uint32_t at, Vec3 point, bool *doubt)
+static bool is_inside(const Scene *scene, uint32_t at, Vec3 point, bool *uncertainty)
 {
     const Node *node = &scene->nodes.items[at];
     bool any = false, all = true;
     for (size_t i = 0; i < scene->nodes.count; i++) {
         if (scene->nodes.items[i].parent == at) {
-            bool inside = is_inside(scene, (uint32_t)i, point, doubt);
+            bool inside = is_inside(scene, (uint32_t)i, point, uncertainty);
             any = any || inside;
             all = all && inside;
         }
@@ -197,7 +198,7 @@ static bool is_inside(const Scene *scene, uint32_t at, Vec3 point, bool *doubt)
         if (part->node == at) {
             double deep = depth(part, point);
             bool inside = (deep > 0.0) != (bool)(part->flags & PART_INVERSE);
-            *doubt = *doubt || fabs(deep) < 1e-9;
+            *uncertainty = *doubt || fabs(deep) < 1e-9;
             any = any || inside;
             all = all && inside;
         }
@@ -223,11 +224,11 @@ static bool line_is_right(const Scene *scene, const Geometry *geometry, Ray ray,
     for (int guard = 0; guard < 200; guard++) {
         bool met = closest(geometry, ray, start, (double)INFINITY, &hit);
         double length = met ? hit.t : 50.0;
-        bool doubt = false;
-        bool inside = is_inside(scene, 0, ray_at(ray, random_between(random, 0.0, length)), &doubt);
+        bool uncertainty = false;
+        bool inside = is_inside(scene, 0, ray_at(ray, random_between(random, 0.0, length)), &uncertainty);
         for (int k = 0; k < 5; k++) {
             Vec3 point = ray_at(ray, random_between(random, 0.0, length));
-            bool same = is_inside(scene, 0, point, &doubt) == inside;
+            bool same = is_inside(scene, 0, point, &uncertainty) == inside;
             if (!doubt && !same) {
                 return false;
             }
@@ -362,7 +363,7 @@ static void test_scale(void)
 // What stands for the error of a crossing where either gives the same answer is never less.
 static void test_bounds(void)
 {
-    static const PartKind kinds[] = {PART_BALL, PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_TORUS};
+    static const PartKind kinds[] = {PART_SPHERE, PART_BOX, PART_CONE, PART_DISC, PART_TRIANGLE, PART_TORUS};
     Random random = {9};
     int asked = 0, less = 0, loose = 0;
     for (int i = 0; i < 3000; i++) {

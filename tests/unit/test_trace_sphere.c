@@ -14,7 +14,7 @@ typedef enum Class { CLASS_MISS, CLASS_NEAR, CLASS_FAR } Class;
 static Class computed_class(const SphereCase *input, double *t)
 {
     SphereRay ray = sphere_ray_make(input->ray.origin, input->ray.direction);
-    Ball ball = ball_make(input->centre, input->radius);
+    SphereData ball = sphere_data_make(input->centre, input->radius);
     bool inside = false;
     *t = sphere_ray_is_usable(&ray) ? sphere_hit(&ray, &ball, &inside) : 0.0;
     return !(*t > 0.0 && *t < (double)INFINITY) ? CLASS_MISS : inside ? CLASS_FAR : CLASS_NEAR;

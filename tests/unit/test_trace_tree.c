@@ -14,18 +14,18 @@
 
 // Every sphere in order of declaration; a later one has to be strictly nearer, and so by exact arithmetic where the roots
 // are the same but for their last bits.
-static double brute_force(const Scene *scene, const SphereRay *ray, const Ball *start, bool inward, double t_max,
+static double brute_force(const Scene *scene, const SphereRay *ray, const SphereData *start, bool inward, double t_max,
                           uint32_t *order)
 {
     double t_best = t_max;
-    Ball best = *start;
+    SphereData best = *start;
     bool best_inside = false;
     *order = UINT32_MAX;
     for (size_t i = 0; i < scene->spheres.count; i++) {
-        Ball ball = ball_make(scene->spheres.items[i].centre, scene->spheres.items[i].radius);
+        SphereData ball = sphere_data_make(scene->spheres.items[i].centre, scene->spheres.items[i].radius);
         bool inside = inward;
-        double t = ball_equal(&ball, start) ? (inward ? sphere_root_inward(ray, &ball) : (double)NAN)
-                                            : sphere_hit(ray, &ball, &inside);
+        double t = sphere_data_equal(&ball, start) ? (inward ? sphere_root_inward(ray, &ball) : (double)NAN)
+                                                   : sphere_hit(ray, &ball, &inside);
         bool is_tie = *order != UINT32_MAX && fabs(t - t_best) <= SPHERE_TIE * t_best;
         if (t > 0.0 && (is_tie ? sphere_roots_compare(ray, &ball, inside, &best, best_inside, t) < 0 : t < t_best)) {
             t_best = t;
@@ -82,7 +82,7 @@ static bool same_hit(const Scene *scene, const Geometry *geometry, Ray ray, RayS
                      Hit *hit)
 {
     SphereRay sphere_ray = sphere_ray_make(ray.origin, ray.direction);
-    Ball start_ball = query_start_sphere(geometry, TRACE_ALL_FEATURES, start).ball;
+    SphereData start_ball = query_start_sphere(geometry, TRACE_ALL_FEATURES, start).ball;
     uint32_t order;
     double t = brute_force(scene, &sphere_ray, &start_ball, start.inward, t_max, &order);
     *met = closest(geometry, ray, start, t_max, hit);
@@ -93,10 +93,9 @@ static bool same_hit(const Scene *scene, const Geometry *geometry, Ray ray, RayS
         return !*met;
     }
     // Of spheres equal to the one that is left inward any is right: they are one surface.
-    Ball hit_ball = sphere_table_ball(&geometry->spheres, shape_index(hit->shape));
+    SphereData hit_ball = sphere_table_ball(&geometry->spheres, shape_index(hit->shape));
     const ShapeInfo *info = &geometry->spheres.info[shape_index(hit->shape)];
-    return info->order == order ||
-           (start.inward && ball_equal(&hit_ball, &start_ball));
+    return info->order == order || (start.inward && sphere_data_equal(&hit_ball, &start_ball));
 }
 
 static void test_tree_is_brute_force(size_t family, int count, int rays)
@@ -168,7 +167,7 @@ static void tree_walk(const SphereTable *table, uint32_t at, unsigned depth, Tre
         if (child & BVH_LEAF) {
             facts->blocks++;
             for (uint32_t k = 0; k < SPHERE_BLOCK; k++) {
-                Ball ball = sphere_table_ball(table, (child & ~BVH_LEAF) * SPHERE_BLOCK + k);
+                SphereData ball = sphere_table_ball(table, (child & ~BVH_LEAF) * SPHERE_BLOCK + k);
                 bool is_there = !isnan(ball.radius_squared);
                 facts->spheres += is_there;
                 facts->outside += is_there && !box_holds(&table->bvh, &table->bvh.nodes[at], i, ball.centre,

@@ -34,7 +34,7 @@ __attribute__((unused)) static Geometry *prepare(const Scene *scene, int exponen
 
 __attribute__((unused)) static void add_ellipsoid(Scene *scene, Transform to_world)
 {
-    Part ball = {.kind = PART_BALL, .to_world = to_world};
+    Part ball = {.kind = PART_SPHERE, .to_world = to_world};
     if (!transform_invert(&to_world, &ball.to_object) || !scene_add_part(scene, &ball)) {
         abort();
     }

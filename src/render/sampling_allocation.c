@@ -10,7 +10,7 @@
 
 #include "render/sampling.h"
 
-enum { BUCKET_SHIFT = 21 };                     // bits of a float below a bucket's
+enum { BUCKET_SHIFT = 21 }; // bits of a float below a bucket's
 // A round that would take less than this of its share takes the next bucket, too, however many pixels are in it: it
 // costs a look at all pixels.
 static const double ROUND_LEAST = 0.5;
@@ -50,7 +50,7 @@ static inline uint16_t bucket_of(double priority)
 typedef struct Constants {
     double to_constant[LEVELS], to_priority[LEVELS]; // by level: counts are powers of two
     double floor;
-    double of_share; // from the variance that strata bring to the halves' halves that it would be seen by
+    double of_share;              // from the variance that strata bring to the halves' halves that it would be seen by
     double of_sort[SPREAD_SORTS]; // the mean constant of pixels with such a spread
 } Constants;
 
@@ -116,7 +116,8 @@ static void constants_init(Constants *constants, const Estimate *estimate, doubl
 
 // The buckets of a row, from the constants around its pixels. A pixel's own counts the more, the more samples it is
 // from.
-static void choose_row(Choice *choice, const Constants *constants, const Round *round, int y, const double *near)
+static void choose_row(Allocation *allocation, const Constants *constants, const Round *round, int y,
+                       const double *near)
 {
     size_t begin = (size_t)y * (size_t)round->film->width;
     for (int x = 0; x < round->film->width; x++) {
@@ -128,37 +129,37 @@ static void choose_row(Choice *choice, const Constants *constants, const Round *
         constant = constant > constants->floor ? constant : constants->floor;
         bool is_full = record->count > UINT32_MAX / 4;
         uint16_t bucket = is_full ? 0 : bucket_of(constant * constants->to_priority[level]);
-        choice->of_pixel[pixel] = bucket;
+        allocation->of_pixel[pixel] = bucket;
         if (round_starts(round, record->count)) {
-            choice->corner_cost[bucket] += START_SAMPLES;
+            allocation->corner_cost[bucket] += START_SAMPLES;
         } else {
-            choice->cost[bucket] += count;
+            allocation->cost[bucket] += count;
         }
     }
 }
 
-void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
+void allocation_make(Allocation *allocation, const Estimate *estimate, const Round *round)
 {
     const Film *film = round->film;
     Constants constants;
     double spent = 0.0;
-    choice->power = mean_log_ratio(estimate);
+    allocation->power = mean_log_ratio(estimate);
     if (round->share) {
         share_set_contrasts(round);
     }
-    constants_init(&constants, estimate, (double)film->width * film->height, choice->power);
+    constants_init(&constants, estimate, (double)film->width * film->height, allocation->power);
     sorts_init(&constants, film);
-    choice->corner_priority = 1.0;
+    allocation->corner_priority = 1.0;
     if (round->has_corners) {
         // Of corners that are followed by START_SAMPLES, as of samples that are doubled.
-        double left = exp2(-choice->power);
-        choice->corner_priority = (1.0 - left * left) / (START_SAMPLES * (1.0 - left));
-        constants.to_priority[0] = choice->corner_priority;
+        double left = exp2(-allocation->power);
+        allocation->corner_priority = (1.0 - left * left) / (START_SAMPLES * (1.0 - left));
+        constants.to_priority[0] = allocation->corner_priority;
     }
     for (int i = 0; i < BUCKETS; i++) {
-        choice->cost[i] = choice->corner_cost[i] = 0.0;
+        allocation->cost[i] = allocation->corner_cost[i] = 0.0;
     }
-    Near near = near_begin(choice->memory, film->width, film->height);
+    Near near = near_begin(allocation->memory, film->width, film->height);
     for (int y = 0; y <= film->height; y++) {
         size_t begin = (size_t)y * (size_t)film->width;
         for (int x = 0; y < film->height && x < film->width; x++) {
@@ -167,26 +168,26 @@ void choice_make(Choice *choice, const Estimate *estimate, const Round *round)
         near_give(&near, y);
         if (y > 0) {
             near_take(&near, y - 1);
-            choose_row(choice, &constants, round, y - 1, near.values);
+            choose_row(allocation, &constants, round, y - 1, near.values);
         }
     }
     int least = BUCKETS;
     double most = ROUND_SHARE * (double)estimate->samples;
-    while (least > 1 && (spent < ROUND_LEAST * most || spent + choice_cost(choice, least - 1) <= most)) {
-        spent += choice_cost(choice, --least);
+    while (least > 1 && (spent < ROUND_LEAST * most || spent + allocation_cost(allocation, least - 1) <= most)) {
+        spent += allocation_cost(allocation, --least);
     }
-    choice->least_bucket = (uint16_t)least;
-    choice->spent = spent;
+    allocation->least_bucket = (uint16_t)least;
+    allocation->spent = spent;
 }
 
 // Adds the steps of a bucket that are below `end`, until there are enough samples; the least key taken.
-static uint32_t bucket_cut(const Choice *choice, const Round *round, uint32_t bucket, uint32_t end, double most,
+static uint32_t bucket_cut(const Allocation *allocation, const Round *round, uint32_t bucket, uint32_t end, double most,
                            double *spent)
 {
     size_t pixels = (size_t)round->film->width * (size_t)round->film->height;
     double costs[CUT_STEPS] = {0.0};
     for (size_t i = 0; i < pixels; i++) {
-        if (choice->of_pixel[i] == bucket) {
+        if (allocation->of_pixel[i] == bucket) {
             uint32_t count = round->film->records[i].count;
             costs[round_key(round, i) % CUT_STEPS] += round_starts(round, count) ? START_SAMPLES : count;
         }
@@ -198,19 +199,19 @@ static uint32_t bucket_cut(const Choice *choice, const Round *round, uint32_t bu
     return key;
 }
 
-uint32_t choice_cut(const Choice *choice, const Round *round, uint32_t end, double most, double *spent)
+uint32_t allocation_cut(const Allocation *allocation, const Round *round, uint32_t end, double most, double *spent)
 {
     uint32_t bucket = end >> CUT_BITS;
     *spent = 0.0;
     if (end % CUT_STEPS != 0) {
-        end = bucket_cut(choice, round, bucket, end, most, spent);
+        end = bucket_cut(allocation, round, bucket, end, most, spent);
     }
-    while (*spent < most && end % CUT_STEPS == 0 && bucket-- > choice->least_bucket) {
-        if (*spent + choice_cost(choice, (int)bucket) < most) {
-            *spent += choice_cost(choice, (int)bucket);
+    while (*spent < most && end % CUT_STEPS == 0 && bucket-- > allocation->least_bucket) {
+        if (*spent + allocation_cost(allocation, (int)bucket) < most) {
+            *spent += allocation_cost(allocation, (int)bucket);
             end = bucket << CUT_BITS;
         } else {
-            end = bucket_cut(choice, round, bucket, end, most, spent);
+            end = bucket_cut(allocation, round, bucket, end, most, spent);
         }
     }
     return end;

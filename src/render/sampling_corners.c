@@ -19,10 +19,10 @@ enum {
 
 // Four places in a row, of which the two in the middle are corners of a pixel; where the first or the last is beyond
 // the picture, it is NULL.
-typedef struct Side {
+typedef struct PixelEdge {
     float bend; // what the mean along it is over that of its ends, where light is even: by a parabola
     float jump; // by how much its ends differ more than those of the sides before and after
-} Side;
+} PixelEdge;
 
 static inline float least(float a, float b)
 {
@@ -34,7 +34,7 @@ static inline float most(float a, float b)
     return a > b ? a : b;
 }
 
-static inline Side side_make(const float *before, const float *first, const float *second, const float *after)
+static inline PixelEdge side_make(const float *before, const float *first, const float *second, const float *after)
 {
     float own = *second - *first;
     float next = after ? *after - *second : 0.0f, last = before ? *first - *before : next;
@@ -42,7 +42,7 @@ static inline Side side_make(const float *before, const float *first, const floa
     float a = last - own, b = own - next;
     float bend = a > 0.0f ? most(least(a, b), 0.0f) : least(most(a, b), 0.0f);
     float middle = most(least(last, own), least(most(last, own), next));
-    return (Side){bend / 12.0f, own - middle};
+    return (PixelEdge){bend / 12.0f, own - middle};
 }
 
 // A pixel from its corners, and the square of its jumps.
@@ -53,10 +53,10 @@ static inline float pixel_make(const Film *film, const float *corner, int x, int
     float jumps = 0.0f;
     for (int i = 0; i < 3; i++) {
         const float *a = corner + i, *b = a + across, *c = a + down, *d = c + across;
-        Side sides[4] = {side_make(left ? a - across : NULL, a, b, right ? b + across : NULL),
-                         side_make(left ? c - across : NULL, c, d, right ? d + across : NULL),
-                         side_make(above ? a - down : NULL, a, c, below ? c + down : NULL),
-                         side_make(above ? b - down : NULL, b, d, below ? d + down : NULL)};
+        PixelEdge sides[4] = {side_make(left ? a - across : NULL, a, b, right ? b + across : NULL),
+                              side_make(left ? c - across : NULL, c, d, right ? d + across : NULL),
+                              side_make(above ? a - down : NULL, a, c, below ? c + down : NULL),
+                              side_make(above ? b - down : NULL, b, d, below ? d + down : NULL)};
         value[i] = 0.25f * (*a + *b + *c + *d);
         for (int j = 0; j < 4; j++) {
             value[i] += 0.5f * sides[j].bend;

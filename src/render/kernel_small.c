@@ -4,7 +4,7 @@
 #include "render/kernel_instance.h"
 
 #define KERNELS(X)                                                                                                     \
-    X(few_opaque, "few spheres, opaque", GEOMETRY_FEW, SHADING_OPAQUE)                                                 \
-    X(few_clear, "few spheres, clear", GEOMETRY_FEW, SHADING_CLEAR)
+    X(small_opaque, "few spheres, opaque", GEOMETRY_SMALL, SHADING_OPAQUE)                                             \
+    X(small_clear, "few spheres, clear", GEOMETRY_SMALL, SHADING_CLEAR)
 
 DEFINE_KERNELS(kernels_few, KERNELS)

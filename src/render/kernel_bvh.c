@@ -4,7 +4,7 @@
 #include "render/kernel_instance.h"
 
 #define KERNELS(X)                                                                                                     \
-    X(many_opaque, "tree of spheres, opaque", GEOMETRY_MANY, SHADING_OPAQUE)                                           \
-    X(many_clear, "tree of spheres, clear", GEOMETRY_MANY, SHADING_CLEAR)
+    X(bvh_opaque, "tree of spheres, opaque", GEOMETRY_BVH, SHADING_OPAQUE)                                             \
+    X(bvh_clear, "tree of spheres, clear", GEOMETRY_BVH, SHADING_CLEAR)
 
 DEFINE_KERNELS(kernels_many, KERNELS)
