@@ -1,7 +1,7 @@
 // Fragments: an item, an expression or the head of a directive, parsed from tokens that somebody else delivers.
 //
 // Has the directives and calls resolved that stand before the next token, and decides where one ends what is being
-// parsed. Builds the nodes of names and operators, which are worked out as soon as they are whole. Owns nothing. Knows
+// parsed. Builds the nodes of names and operators, which are computed as soon as they are whole. Owns nothing. Knows
 // nothing of what directives do.
 //
 // SPDX-License-Identifier: MIT
@@ -181,7 +181,7 @@ static void begin_directive(GrammarState *state, const Token *token)
     state->takes_string = takes_string(token->kind);
     state->takes_mode = token->kind == TOKEN_HASH_FOPEN;
     state->takes_elements = token->kind == TOKEN_HASH_UNDEF || token->kind == TOKEN_HASH_READ;
-    // What is read again ends where the live text goes on.
+    // What is read again ends where the live text continues.
     state->own_place = feed->live != NULL && feed->is_kept ? 1 : feed->place;
 }
 
@@ -318,7 +318,7 @@ static AstNode *mark_pastes(AstNode *node)
     return pastes ? ast_flag(node, AST_PASTES) : node;
 }
 
-// Twelve components, which are worked out each by itself: no value holds them all.
+// Twelve components, which are computed each by itself: no value holds them all.
 static bool is_matrix(const AstNode *node)
 {
     size_t count = 0;

@@ -214,7 +214,7 @@ bool grammar_parse_all(const GrammarContext *context, Source *source, AstList *i
 
 // ---- text that is kept as tokens
 
-// Whether an expression may be going on beyond the first or the last token of a text.
+// Whether an expression may be continuing beyond the first or the last token of a text.
 static bool goes_on(const GrammarText *text)
 {
     if (text->count == 0) {

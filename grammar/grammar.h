@@ -134,7 +134,7 @@ struct GrammarContext {
 // call only. Returning false stops the parse.
 typedef bool (*GrammarItemFn)(void *client, const AstNode *item);
 
-// Parses the whole source. After a syntax fault the parser resynchronises at `}`, `;` or a directive and goes on, so
+// Parses the whole source. After a syntax fault the parser resynchronises at `}`, `;` or a directive and continues, so
 // that one run reports many faults; items that are whole are still handed over. True when no fault was found and the
 // client never returned false.
 bool grammar_parse(const GrammarContext *context, Source *source, GrammarItemFn item, void *client) RT_MUST_CHECK;
@@ -185,7 +185,7 @@ struct GrammarFeed {
     const GrammarFeedCalls *calls;
     GrammarState *live; // the parse that gives the text after the one that is kept; NULL: there is none
     unsigned macros;    // that the text stands in
-    bool failed;        // reading cannot go on: nothing but the end is delivered
+    bool failed;        // reading cannot continue: nothing but the end is delivered
     bool is_refused;    // at the place where the statement was torn, see GrammarHooks
     Span end;           // of the last token
     unsigned place;     // of the last token
@@ -215,7 +215,7 @@ GrammarText *grammar_text_read(const GrammarContext *context, Source *source) RT
 GrammarText *grammar_text_again(const GrammarContext *context, Span span) RT_MUST_CHECK;
 // The body of a macro, whose definition stands in the span.
 GrammarText *grammar_text_body(const GrammarContext *context, Span macro) RT_MUST_CHECK;
-// Whether its brackets pair up and no expression goes on beyond it, taking the first branch of each directive.
+// Whether its brackets pair up and no expression continues beyond it, taking the first branch of each directive.
 bool grammar_text_is_balanced(const GrammarText *text);
 bool grammar_text_is_empty(const GrammarText *text);
 // A copy in an arena; NULL when out of memory.

@@ -117,7 +117,7 @@ typedef struct GrammarState {
     unsigned counter_place; // of the feed, where the name of a #for stands
     int fragment;          // what it begins with: TOKEN_START_…
     bool is_declared;      // the last token delivered is the name that it declares
-    bool takes_mode;   // it is #fopen, which goes on behind the name of the file
+    bool takes_mode;       // it is #fopen, which continues behind the name of the file
     bool takes_string;     // it is a directive that takes a string
     bool ends_before;      // the last token delivered may end an expression
     bool ends_vector;      // it is the `>` of a vector
@@ -142,10 +142,10 @@ const char *grammar_window(GrammarState *state, const char **end);
 // The next piece for the scanner, which has `pending` bytes of a token that has not ended; returns its length, 0 at the
 // end of the text.
 size_t grammar_window_give(GrammarState *state, char *buffer, size_t size, size_t pending);
-void grammar_window_rewind(GrammarState *state);  // the scanner goes on at `offset`, which is in the window
+void grammar_window_rewind(GrammarState *state); // the scanner continues at `offset`, which is in the window
 // Goes back or forth to an offset of the source, among items.
 void grammar_scan_seek(GrammarState *state, uint64_t offset);
-void grammar_window_restart(GrammarState *state); // nothing is in it: the source goes on at `offset`
+void grammar_window_restart(GrammarState *state); // nothing is in it: the source continues at `offset`
 
 // Statements like earlier ones: hands those over that come next, between two top-level items. The second one when a token
 // was read ahead, which is forgotten when the answer is true.
@@ -156,7 +156,7 @@ void grammar_statements_free(GrammarState *state);
 
 // The next token, if it can be read at once from the scanner's buffer (quick.c).
 bool grammar_scan_quick(GrammarState *state, Token *token);
-// The same for the buffer, which ends with a zero: returns where reading goes on, and moves `offset` there; NULL:
+// The same for the buffer, which ends with a zero: returns where reading continues, and moves `offset` there; NULL:
 // nothing was read.
 const char *grammar_quick_read(GrammarState *state, const char *at, const char *end, Token *token);
 // The current token was refused: it becomes the mark that it begins with, and the scanner goes back to what follows.
@@ -166,7 +166,7 @@ void grammar_quick_free(GrammarQuick *quick);
 // The items between braces have been parsed: their nodes.
 void grammar_learn_items(GrammarState *state, Span braces, AstList list);
 // The same, for what quick.c owns; and items after the previous token, a word, that are like some that were learnt:
-// their nodes into `list`, and where reading goes on; NULL: there are none, or they are perhaps learnt now.
+// their nodes into `list`, and where reading continues; NULL: there are none, or they are perhaps learnt now.
 GrammarBlocks *grammar_blocks_new(void) RT_MUST_CHECK; // NULL when out of memory
 void grammar_blocks_free(GrammarBlocks *blocks);
 void grammar_blocks_learn(GrammarBlocks *blocks, const GrammarState *state, Span braces, AstList list);
@@ -193,7 +193,7 @@ void grammar_fragment_token(GrammarState *state, Token *token);
 // more, and what it then says of it is all that is said. Ends the reading.
 bool grammar_feed_is_refused(GrammarFeed *feed, Span at);
 
-// Builders for names and expressions, which are worked out at once in a fragment.
+// Builders for names and expressions, which are computed at once in a fragment.
 AstNode *grammar_name(GrammarState *state, Symbol symbol, Span span);
 AstNode *grammar_element(GrammarState *state, AstNode *node);
 AstNode *grammar_call(GrammarState *state, AstNode *node); // of a name
@@ -209,8 +209,8 @@ void grammar_report_syntax(GrammarState *state, const char *const *expected, siz
 
 // ---- hints.c
 
-// The directive that another language's word most likely stands for, or NULL; *stands_for_it: reading can go on as if
-// it stood there.
+// The directive that another language's word most likely stands for, or NULL; *stands_for_it: reading can continue as
+// if it stood there.
 const char *grammar_foreign_directive(const char *word, size_t length, bool *stands_for_it);
 // The help for a mark that is an operator in other languages, or NULL.
 const char *grammar_foreign_mark(char mark);

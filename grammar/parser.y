@@ -2,7 +2,7 @@
 //
 // It knows expressions, statements and generic blocks (`word { items }`), never kinds of objects. Every action is one
 // ast_* call or one list append; a completed top-level item goes to the client. After a fault the token stream skips to
-// a place where reading can go on and says so by the token RESYNC (see tokens.c).
+// a place where reading can continue and says so by the token RESYNC (see tokens.c).
 //
 // SPDX-License-Identifier: MIT
 %require "3.8"
@@ -225,7 +225,7 @@ entry:
 | '[' ']'                           { $$ = LIST(ENTRY, SYMBOL_NONE, @$, EMPTY); }
 ;
 
-// As items, but after a fault the block around the entry goes on, not the entry.
+// As items, but after a fault the block around the entry continues, not the entry.
 entry_items:
   item                              { $$ = ONE($item); }
 | entry_items item                  { $$ = ast_append($1, $item); }

@@ -26,7 +26,7 @@ struct StatementReader {
 // A statement that ends here was taken: as if its tokens had been delivered.
 void statements_pass(GrammarState *state, int last, uint64_t end);
 
-// From `offset` on, piece by piece. False: nothing was read. True: reading goes on in the source at `offset`, and the
+// From `offset` on, piece by piece. False: nothing was read. True: reading continues in the source at `offset`, and the
 // window is out of date.
 bool statements_read_many(GrammarState *state);
 

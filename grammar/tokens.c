@@ -1,7 +1,7 @@
 // The token stream between the scanner and the parser.
 //
 // Passes tokens on, keeps the stack of open brackets and directives, and skips from a token that the parser refuses to
-// a place where reading can go on. It owns the tables of word classes and directives; what is said of a fault is the
+// a place where reading can continue. It owns the tables of word classes and directives; what is said of a fault is the
 // matter of messages.c, the shape of statements the parser's alone.
 //
 // SPDX-License-Identifier: MIT
@@ -144,7 +144,7 @@ int grammar_directive_token(GrammarState *state, const char *word, size_t length
         diag_suggest(state->context->diags, "did you mean `#%s`?", suggest.best);
         diag_replace(state->context->diags, span, "#%s", suggest.best);
     }
-    // Reading goes on as if the suggestion stood there, unless it is far for such a short word.
+    // Reading continues as if the suggestion stood there, unless it is far for such a short word.
     if (foreign != NULL ? !stands_for_it : suggest.best_cost > GUESS_COST && length <= GUESS_LENGTH) {
         state->unknown_directives++;
         return TOKEN_INVALID;
@@ -267,9 +267,9 @@ void grammar_track(GrammarState *state, const Token *token)
     }
 }
 
-// ---- Delivery, and going on after a fault.
+// ---- Delivery, and continuing after a fault.
 
-// Old scenes write `declare` and `default` without `#`; POV-Ray warns and goes on, and so do we.
+// Old scenes write `declare` and `default` without `#`; POV-Ray warns and continues, and so do we.
 static void supply_hash(GrammarState *state, Token *token, int before)
 {
     if ((token->symbol == W_declare || token->symbol == W_default) && before != '.') {
@@ -461,7 +461,7 @@ void grammar_describe_token(const GrammarState *state, const Token *token, TextB
 }
 
 // A sign right after the head, an #else or the end of a directive (or the string that it takes) may belong to the value
-// before it, or the value may go on after the #end: then it is not a value of its own.
+// before it, or the value may continue after the #end: then it is not a value of its own.
 static bool is_doubtful_sign(const GrammarState *state)
 {
     if (state->current.kind != '+' && state->current.kind != '-') {

@@ -2,7 +2,7 @@
 """Tests draw their random numbers in an order that the language fixes, so that a seed means the same with any compiler.
 
 C leaves open in which order the arguments of a call, the operands of an operator and the values of an initialiser are
-worked out: where two of them draw, each is to be a statement of its own. Prints TAP.
+computed: where two of them draw, each is to be a statement of its own. Prints TAP.
 SPDX-License-Identifier: MIT
 """
 import glob
@@ -18,7 +18,7 @@ from tap import Tap  # noqa: E402
 SOURCES = ["src/math/random.h", "src/study/*.[ch]", "tests/*/*.[ch]"]
 NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\])+\'|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*', re.S | re.M)
 TOKEN = re.compile(r"\w+|\|\||&&|\s*\{|[^\s\w]")
-# What is worked out before what comes after it.
+# What is computed before what comes after it.
 SEQUENCED = {"&&", "||", "?", ":", ";"}
 STREAMS = {"random", "seed", "rays"}
 

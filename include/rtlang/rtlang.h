@@ -334,7 +334,7 @@ typedef struct rt_sampling {
     int adaptive;        /* more where the error is, `samples` in the mean; goals imply it */
     double target_error; /* root mean square in linear light, at which the run ends; 0: none */
     double time_limit;   /* seconds of tracing; 0: none */
-    int no_estimate;     /* do not work out the error; the picture is the same */
+    int no_estimate;     /* do not compute the error; the picture is the same */
     int no_pixel_errors; /* errors of single pixels are not asked for, so that of a large picture some tell the error */
     int max_trace_level; /* instead of the scene's; 0: the scene's */
 } rt_sampling;
@@ -404,8 +404,8 @@ RT_API rt_status rt_set_planes(rt_session *session, unsigned planes);
  * RT_FAULT_USAGE unless it is what the plane takes, 4 bytes a number, and unless rt_set_planes asked for it. */
 RT_API rt_status rt_get_plane(rt_session *session, rt_plane plane, void *values, size_t bytes);
 
-/* Nobody asks for the scene after the next rt_render, which may free parts of it as it goes on: with very many spheres
- * it takes a tenth less memory. From then on no scene is loaded, and the session does not load another. */
+/* Nobody asks for the scene after the next rt_render, which may free parts of it as it continues: with very many
+ * spheres it takes a tenth less memory. From then on no scene is loaded, and the session does not load another. */
 RT_API void rt_discard_scene(rt_session *session);
 
 /* Trace the loaded scene with `threads` threads, 0 for as many as the machine has: the second step. May be repeated,
@@ -413,15 +413,15 @@ RT_API void rt_discard_scene(rt_session *session);
  * the new picture takes the place of the old one. */
 RT_API rt_status rt_render(rt_session *session, int threads);
 /* The life of the ray through the middle of pixel x, y (from 0, the top left one) of the loaded scene: what it meets,
- * the quadratic of each sphere and the root that is used, the hit and its light, and the same for the rays that go on.
- * Its colour is the picture's. Text, or with RT_FORMAT_JSON one object on one line. *text is valid until the next call
- * on the session. RT_FAULT_USAGE when the pixel is not in the picture. */
+ * the quadratic of each sphere and the root that is used, the hit and its light, and the same for the rays that
+ * continue. Its colour is the picture's. Text, or with RT_FORMAT_JSON one object on one line. *text is valid until the
+ * next call on the session. RT_FAULT_USAGE when the pixel is not in the picture. */
 RT_API rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text);
 
 /* Why a sampled run ended. */
 typedef enum rt_end { RT_END_DONE, RT_END_TARGET, RT_END_TIME, RT_END_INTERRUPTED } rt_end;
 
-/* What sampling leaves of error in the picture, worked out from the samples themselves. May be asked for while
+/* What sampling leaves of error in the picture, computed from the samples themselves. May be asked for while
  * rendering, from the progress callback. */
 typedef struct rt_error {
     int known;              /* 0: one ray a pixel, or no estimate; only `samples` then means something */
@@ -452,7 +452,7 @@ RT_API rt_status rt_write_error(rt_session *session, const char *path);
 /* Makes a running rt_load_*, rt_dump_syntax or rt_render stop soon. The only call that may be made from another thread
  * or a signal handler. */
 RT_API void rt_cancel(rt_session *session);
-/* Takes that back, so that the session may go on. */
+/* Takes that back, so that the session may continue. */
 RT_API void rt_resume(rt_session *session);
 
 /* How the picture is written. */

@@ -1,6 +1,6 @@
 """One session of the library: calls with statuses become calls with exceptions.
 
-A session is used by one thread at a time; a second one is refused. Rendering goes on in a thread of its own, so that
+A session is used by one thread at a time; a second one is refused. Rendering continues in a thread of its own, so that
 Ctrl-C reaches Python. SPDX-License-Identifier: MIT
 """
 from __future__ import annotations

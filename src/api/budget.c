@@ -1,4 +1,4 @@
-// What a run takes of memory, worked out before it is taken.
+// What a run takes of memory, computed before it is taken.
 //
 // Turns a loaded session into bytes, and refuses what is above the limit. Takes nothing itself.
 //

@@ -129,7 +129,7 @@ static void tell_sphere(const Printer *p, const LoggedSphere *s)
         tell(p, ", off by less than ", s->bound);
     }
     if (s->is_uncertain) {
-        put(p, "\n    near enough to a tangent, or to the surface, that rounding could decide: worked out in double "
+        put(p, "\n    near enough to a tangent, or to the surface, that rounding could decide: computed in double "
                "words");
     }
     if (s->is_misjudged) {

@@ -1,4 +1,4 @@
-// The abstract syntax tree: what was written, before anything is looked up or worked out.
+// The abstract syntax tree: what was written, before anything is looked up or computed.
 //
 // Turns parser actions into nodes (ast_* builders) and nodes into text again (ast_print). Nodes live in the arena that
 // the builder was given and are never changed after the statement they belong to is complete. Knows nothing of kinds of
@@ -36,13 +36,13 @@ enum {
     AST_AFTER_COMMA = 1,  // an item with a comma before it
     AST_BEFORE_COMMA = 2, // the last item of a body, argument of a call or component, with a comma after it
     AST_ENDED = 4,        // a #declare with its `;`; ast_equal does not look at it
-    AST_UNREADABLE = 16, // a #declare whose value was not understood and has been reported; 0 stands for it
+    AST_UNREADABLE = 16,  // a #declare whose value was not understood and has been reported; 0 stands for it
     AST_IN_PARENTHESES =
         8, // an expression with its own parentheses: a macro's argument, value or call may depend on them
     AST_WITHOUT_COMMA = 16, // an argument that follows another with a blank only; ast_equal does not look at it
-    AST_KNOWN = 32,         // an expression that was worked out while it was read: its value is in `known`
-    AST_BEFORE_NAME = 128, // a #declare or #version without `;` right before the declared name, or before a macro's
-    AST_ENDED_TWICE = 256, // a #declare with `;;`
+    AST_KNOWN = 32,         // an expression that was computed while it was read: its value is in `known`
+    AST_BEFORE_NAME = 128,  // a #declare or #version without `;` right before the declared name, or before a macro's
+    AST_ENDED_TWICE = 256,  // a #declare with `;;`
     AST_BEFORE_SEMICOLON = 512, // the last item of a body, with a `;` after it that is not its own
     AST_PASTES = 64, // an expression with a macro call for an operand or an element, whose text may fall apart there
 };

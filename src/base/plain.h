@@ -39,7 +39,7 @@ static inline bool plain_is_letter(char c)
     return (unsigned char)((c | ' ') - 'a') < 26 || c == '_';
 }
 
-// What goes on with a number, or makes a word of its end.
+// What continues with a number, or makes a word of its end.
 static inline bool plain_goes_on(char c)
 {
     static const bool table[256] = {
@@ -114,7 +114,8 @@ static const struct {
                   {10000000000000, {1e13, -1e13}},
                   {100000000000000, {1e14, -1e14}}};
 
-// After `whole` and the point there are `count` digits, which the eight bytes begin with: NULL when the number goes on.
+// After `whole` and the point there are `count` digits, which the eight bytes begin with: NULL when the number
+// continues.
 RT_ALWAYS_INLINE const char *plain_end_number(const char *point, int64_t whole, uint64_t chunk, unsigned count,
                                               bool is_negative, double *number)
 {
@@ -125,8 +126,9 @@ RT_ALWAYS_INLINE const char *plain_end_number(const char *point, int64_t whole, 
 
 // A number with or without a minus sign, and what follows it: neither a letter nor more of a number. NULL: not so.
 // A number that is cut off by the end of the buffer is read as if it ended there.
-// Signs come as they like, and a branch on them would be foretold badly: they are in what is divided by. How many digits a number
-// has is mostly as before: branches on that are foretold well, and reading goes on behind it before it is counted.
+// Signs come as they like, and a branch on them would be foretold badly: they are in what is divided by. How many
+// digits a number has is mostly as before: branches on that are foretold well, and reading continues behind it before
+// it is counted.
 RT_ALWAYS_INLINE const char *plain_read_number(const char *at, const char *end, double *number)
 {
     bool is_negative = *at == '-';

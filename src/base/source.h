@@ -120,7 +120,7 @@ ptrdiff_t source_read(Source *source, char *buffer, size_t size) RT_MUST_CHECK;
 // Bytes at a position, counted from the text's first, whatever was read before: fills the buffer, or is false. May be
 // called from several threads at once.
 bool source_read_at(const Source *source, uint64_t position, char *buffer, size_t size) RT_MUST_CHECK;
-// source_read goes on at a position, which is not beyond the end.
+// source_read continues at a position, which is not beyond the end.
 void source_seek(Source *source, uint64_t position);
 
 void source_close(Source *source);

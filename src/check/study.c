@@ -1,4 +1,4 @@
-// The runs of a study, and what is worked out of them.
+// The runs of a study, and what is computed of them.
 //
 // SPDX-License-Identifier: MIT
 #ifndef _GNU_SOURCE

@@ -16,7 +16,7 @@ typedef struct Frames {
     double clock_from, clock_to;
 } Frames;
 
-// How much the clock goes on from frame to frame; 0 where there is only one.
+// How much the clock continues from frame to frame; 0 where there is only one.
 double frames_clock_delta(const Frames *frames);
 double frames_clock(const Frames *frames, int frame);
 

@@ -21,7 +21,7 @@ enum { OUTPUT_BUFFER = 1 << 16 }; // more than --help says
 static rt_session *volatile interrupted_session;
 static volatile sig_atomic_t interrupted_by;
 
-// The timer's signals go on, should one come before the call that it is to end.
+// The timer's signals continue, should one come before the call that it is to end.
 static void on_interrupt(int signal_number)
 {
     interrupted_by = interrupted_by ? interrupted_by : signal_number;

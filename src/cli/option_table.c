@@ -581,7 +581,8 @@ static const OptionRow rows[] = {
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
     {0, "crop", "L,T,W,H", apply_crop,
      "trace W x H pixels from column L and row T only; they are those of the whole picture"},
-    {0, "whole", NULL, apply_whole, "with --crop: the picture has its whole size, and is black where it was not traced"},
+    {0, "whole", NULL, apply_whole,
+     "with --crop: the picture has its whole size, and is black where it was not traced"},
     {'t', "threads", "N", apply_threads, "threads to use (default: all processors); the picture does not depend on it"},
     {0, "isa", "NAME", apply_isa,
      "instruction set to use: plain, v2, v3 or v4 (default: the best there is); the picture does not depend on it"},
@@ -630,7 +631,7 @@ static const OptionRow rows[] = {
      "sample until the picture's error is below E: root mean square in linear light, with 95 % confidence"},
     {0, "time-limit", "SECONDS", apply_time_limit,
      "sample as long as that; rounds are not begun that would take longer"},
-    {0, "no-estimate", NULL, apply_no_estimate, "do not work out the error of --samples; the picture is the same"},
+    {0, "no-estimate", NULL, apply_no_estimate, "do not compute the error of --samples; the picture is the same"},
     {0, "antialias", "1|2", apply_antialias,
      "more rays where colours differ, as POV-Ray's `+A -J` with `+AM1` or `+AM2`; not with --samples"},
     {0, "antialias-depth", "N", apply_antialias_depth,
@@ -681,7 +682,8 @@ static const OptionRow rows[] = {
      "print the life of the ray of one pixel, from 0,0 at the top left, and stop; no picture is made"},
     {'q', "quiet", NULL, apply_quiet, "no progress and no summary; messages about the scene stay"},
     {'V', "version", NULL, NULL, "print the version and stop"},
-    {'h', "help", "[povray]", NULL, "print this and stop, or with `=povray` POV-Ray's options and what becomes of each"},
+    {'h', "help", "[povray]", NULL,
+     "print this and stop, or with `=povray` POV-Ray's options and what becomes of each"},
 };
 _Static_assert(COUNT_OF(rows) <= OPTIONS_MOST, "enlarge OPTIONS_MOST");
 

@@ -16,8 +16,8 @@ extern const char *const color_choices[];
 // has a NO_COLOR that is not empty.
 bool color_is_on(ColorChoice choice);
 
-// The word of the command line that getopt found fault with, for a letter that it does not know or 0: it goes on to the
-// next word behind the last letter of one.
+// The word of the command line that getopt found fault with, for a letter that it does not know or 0: it continues to
+// the next word behind the last letter of one.
 const char *option_word(int argc, char **argv, int letter);
 
 // The place of a word among names of which the last is NULL; -1: it is none of them.

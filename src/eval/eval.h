@@ -1,8 +1,8 @@
 // The evaluator: AST items become scene records.
 //
-// eval_source parses a scene through grammar's facade, one top-level item at a time, runs its directives, works out its
+// eval_source parses a scene through grammar's facade, one top-level item at a time, runs its directives, computes its
 // expressions and adds cameras, lights and shapes to a Scene. The language is pure: only scene text is read, nothing is
-// written or run. Faults are recorded where they are found; evaluation goes on to find more.
+// written or run. Faults are recorded where they are found; evaluation continues to find more.
 // Knows nothing of rays or pictures.
 //
 // SPDX-License-Identifier: MIT

@@ -329,7 +329,7 @@ static bool varies_state(const Slice *slice)
     return false;
 }
 
-// Streams of random numbers go on from call to call, whoever calls.
+// Streams of random numbers continue from call to call, whoever calls.
 static bool shares_chance(const Slice *slice)
 {
     bool in_slice = false, outside = false;

@@ -206,7 +206,7 @@ static void pop_block(Layout *layout)
     }
 }
 
-// Blocks that a branch opened go on behind the directive, one level less deep; those that it closed are gone.
+// Blocks that a branch opened continue behind the directive, one level less deep; those that it closed are gone.
 static void pop_group(Layout *layout, size_t group)
 {
     if (group == 0) {

@@ -321,7 +321,7 @@ static void read_mark(Reader *reader)
 
 // ---- Where things begin.
 
-// A word that goes on with what the word before has begun: `diffuse albedo 0.5`.
+// A word that continues with what the word before has begun: `diffuse albedo 0.5`.
 static bool continues_word(Symbol symbol)
 {
     return symbol == W_albedo || symbol == W_append || symbol == W_df3 || symbol == W_utf8 || symbol == W_sqr;

@@ -2,7 +2,7 @@
 // film.
 //
 // Turns a prepared scene into a film the other way round: light goes from each source to a surface, is scattered there
-// by the same lighting model that the renderer uses, goes on over mirrors, and counts when it passes the lens. The
+// by the same lighting model that the renderer uses, continues over mirrors, and counts when it passes the lens. The
 // variant that connects each hit to the lens asks instead what of its light arrives there. Both have the mean that the
 // renderer has, for light that was scattered by one dull surface and by any mirrors after it; glow and background do
 // not come from lights and are left out. A study of cost, in a room of its own: nothing of it runs unless it is asked

@@ -163,7 +163,7 @@ static int clamp_index(int index, int count)
     return index < 0 ? 0 : index >= count ? count - 1 : index;
 }
 
-// One pass along the rows or the columns; beyond its edge a plane goes on as it is there. Adds weight times
+// One pass along the rows or the columns; beyond its edge a plane continues as it is there. Adds weight times
 // the result to `to`.
 static void filter_pass(Size size, const double *from, bool along_rows, const double taps[TAPS], double weight,
                         double *to)

@@ -10,7 +10,7 @@
 // back to where setjmp was called.
 void png_fault_error(png_structp png, png_const_charp message);
 
-// Memory of libpng's; one that fails is noted in the same ImageError, because libpng goes on without it where it can.
+// Memory of libpng's; one that fails is noted in the same ImageError, because libpng continues without it where it can.
 png_voidp png_fault_malloc(png_structp png, png_alloc_size_t size);
 void png_fault_free(png_structp png, png_voidp memory);
 

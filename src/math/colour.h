@@ -85,7 +85,7 @@ static inline bool rgb_is_black(Rgb a)
 }
 
 // The sRGB transfer function of IEC 61966-2-1: a stored value to linear light, piecewise, for values >= 0; below 0 the
-// linear piece goes on.
+// linear piece continues.
 static inline double rgb_srgb_decode(double stored)
 {
     return stored <= 0.04045 ? stored / 12.92 : pow((stored + 0.055) / 1.055, 2.4);

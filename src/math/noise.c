@@ -1,6 +1,6 @@
 // Noise, from tables of hashes and gradients.
 //
-// Turns points into numbers. The tables are POV-Ray's, worked out anew from its random sequence where they come from
+// Turns points into numbers. The tables are POV-Ray's, computed anew from its random sequence where they come from
 // there, else as measured. Owns constant data only.
 //
 // SPDX-License-Identifier: MIT

@@ -1,7 +1,7 @@
 // Noise: smooth random numbers over space, the same as POV-Ray's three generators give.
 //
 // A point becomes a number, or a vector of three. How each generator works was found by evaluating POV-Ray's functions
-// at chosen points; docs/language.md, "Noise", says how, and what the numbers of noise.c are. The tables are worked out
+// at chosen points; docs/language.md, "Noise", says how, and what the numbers of noise.c are. The tables are computed
 // once by whoever needs noise, and only read afterwards.
 //
 // SPDX-License-Identifier: MIT

@@ -27,7 +27,7 @@ static inline double random_between(Random *random, double low, double high)
     return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
 }
 
-// Each component evenly from one range. One after the other: C leaves open in which order arguments are worked out.
+// Each component evenly from one range. One after the other: C leaves open in which order arguments are computed.
 static inline Vec3 random_vec3(Random *random, double low, double high)
 {
     double x = random_between(random, low, high);

@@ -1,6 +1,6 @@
 // Affine transforms: makes, composes, inverts and applies them, and tells which ones keep a sphere a sphere.
 //
-// Rotations by multiples of 90 degrees have exact entries, and sines are worked out here rather than by libm, whose
+// Rotations by multiples of 90 degrees have exact entries, and sines are computed here rather than by libm, whose
 // last bit differs between machines. Powers of two pass through every function without changing any other bit, so
 // that a scene scaled by 2^k has its transforms scaled exactly. Knows nothing of shapes.
 //

@@ -1,6 +1,6 @@
 // The shading of surfaces that are more than one material: patterns, layers and maps of textures, bumps.
 //
-// Walks what is seen at the point and adds up the light of each, by its share, and what goes on from there. Two
+// Walks what is seen at the point and adds up the light of each, by its share, and what continues from there. Two
 // functions with all features, one of them without bumps: next to the walk, a test for another feature that is not
 // there costs little.
 //

@@ -164,7 +164,7 @@ static double sample_alpha(const Picture *picture, size_t i)
     return ((const float *)picture->samples)[i];
 }
 
-// Column and row, from above, may be beyond the edges: a picture that is seen once goes on as it ends, another begins
+// Column and row, from above, may be beyond the edges: a picture that is seen once continues as it ends, another begins
 // anew.
 static void pixel_get(const PreparedImage *image, int column, int row, double parts[static PARTS])
 {

@@ -12,7 +12,7 @@
 // Of unit length, and along nothing that people like to build along.
 static const Vec3 odd_direction = {0.36, 0.80, 0.48};
 
-// What the line goes on from: the other side of the surface that was hit.
+// What the line continues from: the other side of the surface that was hit.
 static void go_through(const Prepared *prepared, Ray *ray, RayStart *start, const Hit *hit, uint64_t *body,
                        MaterialIndex *material, uint32_t *order)
 {

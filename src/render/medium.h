@@ -2,9 +2,9 @@
 // one, with empty space below.
 //
 // Such a list is one number, the node of the body that was entered last; each node knows the one below it, so that rays
-// that go on from a surface share what they have in common and each keeps four bytes of it. Nodes stand in a table of a
-// thread, which a stack of rays takes from and gives back to as it grows and shrinks: a node stands after all those
-// below it, so that what some lists need ends at a place in the table. All measured beside POV-Ray.
+// that continue from a surface share what they have in common and each keeps four bytes of it. Nodes stand in a table
+// of a thread, which a stack of rays takes from and gives back to as it grows and shrinks: a node stands after all
+// those below it, so that what some lists need ends at a place in the table. All measured beside POV-Ray.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_MEDIUM_H

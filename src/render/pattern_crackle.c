@@ -71,7 +71,7 @@ static Nearest find_nearest(const Pattern *pattern, const NoiseSource *source, V
     return nearest;
 }
 
-// ---- the usual metric, by squares, and nothing worked out twice
+// ---- the usual metric, by squares, and nothing computed twice
 
 // What cubes that share a coordinate have in common.
 typedef struct Slice {

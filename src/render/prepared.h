@@ -45,7 +45,7 @@ typedef struct PreparedLight {
     uint64_t seed;   // of `jitter`
 } PreparedLight;
 
-// A finish with everything worked out that does not depend on pigment and ray.
+// A finish with everything computed that does not depend on pigment and ray.
 typedef struct PreparedFinish {
     Rgb glow;                     // ambient × ambient light + emission
     double diffuse, diffuse_back; // >= 0
@@ -56,7 +56,7 @@ typedef struct PreparedFinish {
     Rgb reflection_min, reflection_max;
     double reflection_falloff, reflection_exponent, reflection_metallic;
     double reflection_weight; // the greatest component of both
-    double refraction;        // share of what is let through that goes on
+    double refraction;        // share of what is let through that continues
     bool shines, reflects, conserves_energy, is_fresnel;
     bool reflects_evenly; // the same at all angles, and not metallic
 } PreparedFinish;
@@ -98,7 +98,7 @@ struct Prepared {
     const struct SobolKernel *points;     // likewise
 };
 
-// Asked for each ray that goes on: one camera ray's tree may take longer than anybody waits.
+// Asked for each ray that continues: one camera ray's tree may take longer than anybody waits.
 static inline bool prepared_is_abandoned(const Prepared *p)
 {
     return trace_is_abandoned(p->abandon);

@@ -165,7 +165,7 @@ typedef struct SamplingError {
     bool is_known;
     double rmse, low, high; // root mean square, linear light, and the ends of its 95 % interval
     double samples;         // a pixel, in the mean
-    double slope;           // of the logarithm of rmse in that of samples, as it is taken to go on; < 0
+    double slope;           // of the logarithm of rmse in that of samples, as it is taken to continue; < 0
     double pixel_scale;     // of render_pixel_error, so that its mean square is that of rmse
     UnmetShapes unmet[SMALL_KINDS]; // what they would bring is in the error
     bool unmet_is_all;      // they were counted; else there are about so many

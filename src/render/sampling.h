@@ -34,7 +34,7 @@ typedef struct Round {
     float *corners;          // of the picture's pixels, rows of width + 1 colours; NULL: not kept any more
     Share *share;            // NULL: no pixel has strata
     Small *small;            // NULL: there are no small shapes, or nobody asks for the error
-    bool has_corners;        // a pixel with one sample has the mean of its corners: what goes on from there starts anew
+    bool has_corners; // a pixel with one sample has the mean of its corners: what continues from there starts anew
     bool draws_more;         // than the place in the pixel: for area lights or a lens
     bool is_corners;         // these rays
     bool is_pilot;           // pixels that start are to say how good their corners were

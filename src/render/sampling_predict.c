@@ -251,7 +251,7 @@ static void play_double(Play *play, int bucket, int level, const Class *class)
     play_put(play, to - SPREAD, next, play->better_count * class->count, play->better_outer * outer);
 }
 
-// One bucket; where to go on from.
+// One bucket; where to continue from.
 static int play_bucket(Play *play, int bucket, bool has_corners)
 {
     int next = bucket;

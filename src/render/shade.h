@@ -1,4 +1,4 @@
-// Light along one ray: what is hit, how it shines (render/shade_light.h), and the rays that go on from there
+// Light along one ray: what is hit, how it shines (render/shade_light.h), and the rays that continue from there
 // (render/shade_scatter.h).
 //
 // Everything here is always-inline and takes the kernel's features as a constant.
@@ -281,8 +281,8 @@ RT_ALWAYS_INLINE void shade_ways(const Prepared *p, unsigned features, RayStack 
     }
 }
 
-// Takes the ray that was put on the list last: its light is added, and the rays that go on from where it hits are put
-// on the list.
+// Takes the ray that was put on the list last: its light is added, and the rays that continue from where it hits are
+// put on the list.
 RT_ALWAYS_INLINE void shade_path_step(const Prepared *p, unsigned features, RayStack *stack, SampleStream *stream,
                                       RenderStatistics *statistics, ShadeStep *step)
 {

@@ -329,7 +329,7 @@ RT_ALWAYS_INLINE double shade_highlights(const PreparedFinish *finish, const Sha
 // The share of the pigment in a metallic highlight falls with the light's angle x (in right angles) to the normal as 1
 // - F, F being the Fresnel curve of P. Strauss, "A Realistic Lighting Model for Computer Animators", IEEE CG&A 10(6),
 // 1990: F(x) = (1 / (x - k)² - 1 / k²) / (1 / (1 - k)² - 1 / k²) with k = 1.12. Renderings agree with it to 1/65535. A
-// normal with bumps may be turned away from the viewer: then F goes on beyond 1 right angle, but not above 1.
+// normal with bumps may be turned away from the viewer: then F continues beyond 1 right angle, but not above 1.
 RT_ALWAYS_INLINE Rgb shade_metallic(unsigned features, double metallic, Rgb pigment, double cosine)
 {
     const double k = 1.12;

@@ -1,4 +1,4 @@
-// The rays that go on from a surface: mirrored, straight through, bent, or mirrored for want of a way out.
+// The rays that continue from a surface: mirrored, straight through, bent, or mirrored for want of a way out.
 //
 // They wait on a stack with the weight of what they will add, so that no recursion is needed and the order of additions
 // is fixed. Everything is always-inline and takes the kernel's features as a constant.
@@ -101,7 +101,7 @@ RT_ALWAYS_INLINE Vec3 shade_mirrored(unsigned features, const ShadingPoint *at)
     return vec3_normalize(mirrored);
 }
 
-// Whether a mirrored ray of such a weight goes on: it is neither too deep nor worth too little.
+// Whether a mirrored ray of such a weight continues: it is neither too deep nor worth too little.
 RT_ALWAYS_INLINE bool shade_is_followed(const Prepared *p, int level, double weight)
 {
     return level < p->max_trace_level && !(weight < p->adc_bailout) && !prepared_is_abandoned(p);
@@ -150,7 +150,7 @@ RT_ALWAYS_INLINE bool shade_goes_on(const Prepared *p, const ScatterRecord *scat
     return goes_on;
 }
 
-// Light that a surface sends through, 0 where its finish lets none go on.
+// Light that a surface sends through, 0 where its finish lets none continue.
 RT_ALWAYS_INLINE Rgb shade_sent_through(const ScatterRecord *scatter)
 {
     return rgb_scale(scatter->refraction, scatter->through);
@@ -261,8 +261,8 @@ RT_ALWAYS_INLINE void shade_note_cut(const Prepared *p, int level, Rgb share, Re
     statistics->cut_by_weight += level >= p->max_trace_level ? 0 : units;
 }
 
-// The rays that go on from a hit; the reflected one will be traced first. `behind` is what the ray is inside of behind
-// the surface, where there are interiors.
+// The rays that continue from a hit; the reflected one will be traced first. `behind` is what the ray is inside of
+// behind the surface, where there are interiors.
 RT_ALWAYS_INLINE void shade_go_on(const Prepared *p, unsigned features, const ScatterRecord *scatter,
                                   const ShadingPoint *at, const StackedRay *from, MediumStack behind, RayStack *stack,
                                   RenderStatistics *statistics)

@@ -1,9 +1,9 @@
 // Light along the camera rays of a tile: the same as render/shade.h gives ray by ray, bit for bit, with the arithmetic
 // of the first surface done for some rays at once.
 //
-// For surfaces of one layer, and no interiors. What the rays that go on from them meet is the tile's next surfaces: a ray
-// is mirrored first, and what went through waits. Everything is always-inline and takes the kernel's features as a
-// constant.
+// For surfaces of one layer, and no interiors. What the rays that continue from them meet is the tile's next surfaces:
+// a ray is mirrored first, and what went through waits. Everything is always-inline and takes the kernel's features as
+// a constant.
 //
 // SPDX-License-Identifier: MIT
 #ifndef RENDER_SHADE_TILE_H
@@ -54,7 +54,7 @@ typedef struct TileClear {
     Rgb through[TILE_RAYS]; // by the tile's surfaces: what is multiplied with what goes through
     int level[TILE_RAYS];
     uint64_t passed[TILE_RAYS];
-    uint64_t resting; // a bit for each ray: it goes on with what waits
+    uint64_t resting; // a bit for each ray: it continues with what waits
     int count[TILE_RAYS];
     TileWaiting waiting[SHADE_WAITING_MOST][TILE_RAYS];
 } TileClear;
@@ -358,7 +358,7 @@ RT_ALWAYS_INLINE void shade_tile_gather(const LightTile *tile, const TilePaths *
     }
 }
 
-// Whether a surface mirrors its ray, at a level, and that is followed: then its share is what goes on.
+// Whether a surface mirrors its ray, at a level, and that is followed: then its share is what continues.
 RT_ALWAYS_INLINE bool shade_tile_mirrors(const Prepared *p, unsigned features, const LightTile *tile, int i, int level,
                                          TilePaths *paths, RenderStatistics *statistics)
 {
@@ -388,7 +388,7 @@ RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, Li
 {
     TileSurfaces *surfaces = &tile->surfaces;
     _Alignas(64) double mirrored[3][TILE_RAYS];
-    uint8_t own[TILE_RAYS]; // of the rays that go on, which of the tile's they are
+    uint8_t own[TILE_RAYS]; // of the rays that continue, which of the tile's they are
     SecondaryRays rays;
     TileHits hits;
     rays.count = 0;
@@ -449,7 +449,7 @@ RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(unsigned features, const Lig
     return scatter;
 }
 
-// Whether light goes on through a surface: then as what waits.
+// Whether light continues through a surface: then as what waits.
 RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile, const TilePaths *paths,
                                         const TileClear *clear, int i, const ScatterRecord *scatter,
                                         TileWaiting *through, RenderStatistics *statistics)
@@ -475,7 +475,7 @@ RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile
     return true;
 }
 
-// Whether a surface mirrors its ray and that is followed: then its share and weight are those of what goes on.
+// Whether a surface mirrors its ray and that is followed: then its share and weight are those of what continues.
 RT_ALWAYS_INLINE bool shade_tile_reflects(const Prepared *p, unsigned ray, const ScatterRecord *scatter,
                                           TilePaths *paths, TileClear *clear, RenderStatistics *statistics)
 {
@@ -507,8 +507,8 @@ RT_ALWAYS_INLINE void shade_tile_resume(const TileWaiting *through, unsigned ray
     secondary_ray_add(rays, through->ray.origin, through->ray.direction, through->start, through->inward);
 }
 
-// The rays that go on from the tile's surfaces, and of those that meet nothing more, what waited last; `own` says which
-// of the tile's they are.
+// The rays that continue from the tile's surfaces, and of those that meet nothing more, what waited last; `own` says
+// which of the tile's they are.
 RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, const LightTile *tile, TilePaths *paths,
                                       TileClear *clear, SecondaryRays *rays, uint8_t own[TILE_RAYS],
                                       RenderStatistics *statistics)
@@ -547,8 +547,8 @@ RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, cons
     }
 }
 
-// Takes what the rays that go on meet for the tile's surfaces. Adds the light of those that meet nothing. False when
-// none goes on.
+// Takes what the rays that continue meet for the tile's surfaces. Adds the light of those that meet nothing. False when
+// none continues.
 RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, LightTile *tile,
                                       MaterialIndex material[TILE_RAYS], TilePaths *paths, TileClear *clear, Rgb *light,
                                       RenderStatistics *statistics)
@@ -580,7 +580,7 @@ RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, Ligh
     return true;
 }
 
-// The light of what the rays have met where surfaces let light through, and of all that goes on from there.
+// The light of what the rays have met where surfaces let light through, and of all that continues from there.
 RT_ALWAYS_INLINE void shade_tile_clear(const Prepared *p, unsigned features, TileScratch *scratch,
                                        MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
                                        RenderStatistics *statistics)

@@ -50,7 +50,7 @@ Rgb sky_light(const Prepared *p, Vec3 direction)
 // ---- fog
 
 // The mean density between two heights above the fog's offset, both >= 0, of 1 / (1 + (h / alt)²).
-// atan(b / alt) - atan(a / alt) is worked out as one angle, so that heights may be close.
+// atan(b / alt) - atan(a / alt) is computed as one angle, so that heights may be close.
 static double mean_density(double alt, double a, double b)
 {
     double rise = b - a;

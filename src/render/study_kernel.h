@@ -182,7 +182,7 @@ static RealRgb real_light(const RealScene *s, const PreparedLight *light, const 
     return real_rgb_mul(sum, arriving);
 }
 
-// ---- rays that go on
+// ---- rays that continue
 
 static Real real_fresnel(Real cosine, Real ratio)
 {
@@ -226,7 +226,7 @@ static RealVec real_mirrored(RealVec direction, RealVec normal)
     return real_unit(real_add_scaled(direction, -2 * real_dot(direction, normal), normal));
 }
 
-// What one hit is to the rays that go on.
+// What one hit is to the rays that continue.
 typedef struct RealJunction {
     RealHit at;
     RealVec normal; // turned to where the ray comes from
@@ -239,7 +239,7 @@ typedef struct RealJunction {
 } RealJunction;
 
 // A ray that is followed through all that it goes through. Where it is mirrored, the next level is that of the mirrored
-// ray, whose light is added before this one goes on.
+// ray, whose light is added before this one continues.
 typedef struct RealLevel {
     RealWay way;
     MediumStack inside;

@@ -1,4 +1,4 @@
-// Textures at a point, worked out by walking the scene's records.
+// Textures at a point, computed by walking the scene's records.
 //
 // A pattern along another one lies in that one's space, so a point is moved step by step on the way in. Owns the
 // inverse transforms. The records nest no deeper than the language lets them, so recursion is bounded.

@@ -1,6 +1,6 @@
 // Textures at a point: which pigments and finishes are seen there, and how much of each.
 //
-// The scene's records with every pattern's way back from prepared space worked out. Read-only once made, shared by
+// The scene's records with every pattern's way back from prepared space computed. Read-only once made, shared by
 // threads. Refers to the scene, which must outlive it. Knows nothing of light.
 //
 // SPDX-License-Identifier: MIT
@@ -89,7 +89,7 @@ typedef struct TextureLayer {
     Rgb above;   // what the layers above let through
 } TextureLayer;
 
-// Returns the share of light, by colour, that goes on to what is below, beside what the pigment lets through.
+// Returns the share of light, by colour, that continues to what is below, beside what the pigment lets through.
 typedef Rgb (*TextureVisit)(void *client, const TextureLayer *layer);
 
 // What all layers let through, by colour, the parts of those textures of a map that let any through, and the greatest
@@ -101,7 +101,7 @@ typedef struct TextureThrough {
 } TextureThrough;
 
 // Calls `visit`, unless it is NULL, for each surface seen at a point of prepared space, from top to bottom. Light that
-// is darker than `cut` in grey does not go on to the layer below or out of the last one.
+// is darker than `cut` in grey does not continue to the layer below or out of the last one.
 TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
                             void *client);
 

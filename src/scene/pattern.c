@@ -1,6 +1,6 @@
 // The patterns' table.
 //
-// Turns types into words; owns constant data only. How a pattern is worked out is the renderer's.
+// Turns types into words; owns constant data only. How a pattern is computed is the renderer's.
 //
 // SPDX-License-Identifier: MIT
 #include "scene/pattern.h"

@@ -253,7 +253,7 @@ bool scene_add_light(Scene *scene, const Light *light)
     return ARRAY_PUSH(&scene->lights, *light);
 }
 
-// Whether the next sphere goes on with the last run.
+// Whether the next sphere continues with the last run.
 static bool run_goes_on(const Scene *scene, uint64_t source)
 {
     if (scene->sphere_runs.count == 0) {

@@ -94,7 +94,7 @@ typedef struct Finish {
     double reflection_falloff;          // exponent of the way from min to max, 1 if nothing was said
     double reflection_exponent;         // of the reflected light, 1 if nothing was said
     double reflection_metallic;
-    double refraction; // share of what is let through that goes on, 1 if nothing was said
+    double refraction; // share of what is let through that continues, 1 if nothing was said
     uint64_t flags;    // FINISH_…
 } Finish;
 
@@ -196,7 +196,7 @@ typedef struct Interior {
 typedef struct Compound {
     uint32_t texture;   // Scene.textures
     uint32_t interior;  // Scene.interiors, or RECORD_NONE
-    uint32_t is_hollow; // fog goes on inside of it
+    uint32_t is_hollow; // fog continues inside of it
 } Compound;
 
 // Index into Scene.materials, or into Scene.compounds when MATERIAL_COMPOUND is set.

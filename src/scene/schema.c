@@ -439,7 +439,7 @@ static const SchemaProperty finish_properties[] = {
     {"reflection_exponent", TYPE_NUMBER, FINISH_AT(reflection_exponent), .range = POSITIVE,
      .doc = "the same as `exponent` in `reflection { }`"},
     {"refraction", TYPE_NUMBER, FINISH_AT(refraction), .range = {RANGE_FAULT, false, 0.0, INFINITY},
-     .doc = "old: share of the light let through that goes on"},
+     .doc = "old: share of the light let through that continues"},
     {"ior", TYPE_NUMBER, AT(FinishDesc, ior), .range = {RANGE_FAULT, false, 0.0, INFINITY},
      .doc = "old: the `ior` of the interior; 0: as the interior says"},
     {"conserve_energy", TYPE_FLAG, AT(FinishDesc, conserve_energy),

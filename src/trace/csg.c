@@ -20,7 +20,7 @@ typedef struct Crossing {
     bool is_film;   // changes nothing: of a flat leaf, or within one
     bool has_surface; // one that can be seen: that of a shape that clips cannot
     bool is_hidden; // found before the crossings of its group
-    bool has_error, has_bound; // worked out when they are asked for first: most crossings are never come to
+    bool has_error, has_bound; // computed when they are asked for first: most crossings are never come to
 } Crossing;
 
 // A CSG tree while a ray passes through it.

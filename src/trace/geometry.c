@@ -1,6 +1,6 @@
 // Scene shapes prepared for rays: scaled and put into arrays of their kind; the spheres by trace/spheres.h.
 //
-// Everything is worked out from the scaled lengths alone, so that a scene scaled by 2^k and prepared with an exponent
+// Everything is computed from the scaled lengths alone, so that a scene scaled by 2^k and prepared with an exponent
 // greater by k gives the same Geometry bit for bit.
 //
 // SPDX-License-Identifier: MIT

@@ -314,7 +314,7 @@ RT_ALWAYS_INLINE bool query_is_few(const Geometry *g, unsigned features)
     return !has_others && sphere_table_is_few(&g->spheres);
 }
 
-// What rays that go on from surfaces meet, as geometry_closest says of each; there is at least one.
+// What rays that continue from surfaces meet, as geometry_closest says of each; there is at least one.
 RT_ALWAYS_INLINE void geometry_closest_secondary(const Geometry *g, unsigned features, SecondaryRays *rays,
                                                  TileHits *hits)
 {
@@ -621,7 +621,7 @@ RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned feature
     }
 }
 
-// Those that rays which go on have met, one at least.
+// Those that rays which continue have met, one at least.
 RT_ALWAYS_INLINE void geometry_secondary_surfaces(const Geometry *g, unsigned features, const SecondaryRays *rays,
                                                   const TileHits *hits, TileSurfaces *surfaces,
                                                   MaterialIndex material[TILE_RAYS])

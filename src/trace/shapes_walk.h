@@ -166,7 +166,7 @@ static void ball_offer(ShapeQuery *q, uint32_t index, const Ray *object, const S
     root_offer(q, index, t, error, 0, leaves, first);
 }
 
-// Takes a ball, whose root is in t ± bound, as the first where that is certain; its span is worked out when somebody
+// Takes a ball, whose root is in t ± bound, as the first where that is certain; its span is computed when somebody
 // asks. True when it was.
 static bool ball_is_first(ShapeQuery *q, uint32_t index, double t, double bound, bool leaves, double enter,
                           Foremost *first)

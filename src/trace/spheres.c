@@ -1,6 +1,6 @@
 // The table of spheres made from a scene, and the choice of its kernels.
 //
-// Everything is worked out from the scaled lengths alone, so that a scene scaled by 2^k and prepared with an exponent
+// Everything is computed from the scaled lengths alone, so that a scene scaled by 2^k and prepared with an exponent
 // greater by k gives the same table bit for bit.
 //
 // SPDX-License-Identifier: MIT

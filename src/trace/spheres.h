@@ -106,7 +106,7 @@ typedef struct SurfaceRays {
     double distance[TILE_RAYS];
 } SurfaceRays;
 
-// Rays that go on from surfaces of a tile, each from its own point.
+// Rays that continue from surfaces of a tile, each from its own point.
 typedef struct SecondaryRays {
     int count;
     uint64_t inward; // a bit for each: into the shape that it starts on
@@ -150,9 +150,9 @@ typedef struct SphereKernels {
     // them up to a whole vector. Returns those that are spheres and done; the others' points and normals are open.
     uint64_t (*surfaces)(const SphereTable *table, const SphereTile *tile, const TileHits *hits,
                          TileSurfaces *surfaces);
-    // What rays that go on meet of few spheres and of a plane that nothing coincides with (NULL: there is none).
-    // Returns those for which that is decided; `hits` mean nothing for the others. Writes what is after the rays up to a
-    // whole vector.
+    // What rays that continue meet of few spheres and of a plane that nothing coincides with (NULL: there is none).
+    // Returns those for which that is decided; `hits` mean nothing for the others. Writes what is after the rays up to
+    // a whole vector.
     uint64_t (*closest_secondary)(const SphereTable *table, const PlaneShape *plane, ShapeId plane_shape,
                                   SecondaryRays *rays, TileHits *hits);
     // `surfaces` for such rays.

@@ -56,7 +56,7 @@ static double crossed_reach(const SphereTable *table, const PlaneShape *plane)
     return table->radius_least >= 0x1p-9 * reach && reach < 0x1p200 && reach > 0x1p-200 ? reach : 0.0;
 }
 
-// What is worked out of origin, direction and end, where no other coordinate is beyond `reach`.
+// What is computed of origin, direction and end, where no other coordinate is beyond `reach`.
 RT_ALWAYS_INLINE void crossed_lines_begin(CrossedLines *v, double reach)
 {
     Doubles square = doubles_splat(0.0), beyond = doubles_splat(reach);

@@ -1,7 +1,8 @@
-// Rays that go on from surfaces against few spheres and a plane: part of spheres_kernel.c.
+// Rays that continue from surfaces against few spheres and a plane: part of spheres_kernel.c.
 //
-// Some rays at once against one sphere after the other: sphere_test, operation by operation, so the answers are those of
-// single rays. A ray for which one of them is doubtful, or two are about equally near, is left to be asked by itself.
+// Some rays at once against one sphere after the other: sphere_test, operation by operation, so the answers are those
+// of single rays. A ray for which one of them is doubtful, or two are about equally near, is left to be asked by
+// itself.
 //
 // SPDX-License-Identifier: MIT
 #ifndef TRACE_SPHERES_SECONDARY_H

@@ -158,7 +158,7 @@ static double root_between(const TorusLine *line, double low, double high, bool 
 typedef struct Piece {
     double low, high;
     bool is_convex, is_out_low, is_out_high;
-    bool has_start; // at `low` h is 0 and goes on in the way of is_out_low
+    bool has_start; // at `low` h is 0 and continues in the way of is_out_low
 } Piece;
 
 static void piece_roots(const TorusLine *line, const Piece *piece, TorusRoots *roots)

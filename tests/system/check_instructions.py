@@ -4,7 +4,7 @@
 The certified sphere test costs at most 1.6 times the instructions of the textbook's in the same loop, one by one and in
 vectors, and takes the way of double-word arithmetic in no ordinary scene; a scene without sky and fog runs nothing of
 either; the kernel that is chosen for a scene executes what one does that was compiled with nothing but what the scene
-has; the error of a sampled picture costs at most some 2 % of the sampling; spheres that a loop reads or works out cost a
+has; the error of a sampled picture costs at most some 2 % of the sampling; spheres that a loop reads or computes cost a
 share of what they cost the usual way; stretched spheres cost at most twice what plain ones do; and rays that miss a
 polyhedron of planes ask none of them. Counted by callgrind, so that no clock decides. The bars are of gcc's code; where
 clang's takes more, the bar of its own stands beside.
@@ -51,9 +51,9 @@ AROUND = {"sky_sphere { pigment { gradient y } }": "sky_light", "fog { distance 
 SPHERE = "sphere { 5 * z, 1 pigment { rgb 1 } } light_source { <3, 4, -5> rgb 1 }\n"
 MANY = ("#declare S = seed(7); light_source { <-8, 12, -10> rgb 1 }\n#for (I, 1, 300) sphere { <rand(S) * 8 - 4, rand(S) * 6 - 3,"
         " rand(S) * 8 + 4>, 0.1 + 0.25 * rand(S) pigment { rgb <rand(S), rand(S), rand(S)> } } #end\n")
-# Scene, samples a pixel: what is worked out for a pixel is paid once for each doubling of its samples.
+# Scene, samples a pixel: what is computed for a pixel is paid once for each doubling of its samples.
 SAMPLED = [("one sphere", SPHERE, 4), ("one sphere", SPHERE, 16), ("one sphere", SPHERE, 64), ("300 spheres", MANY, 16)]
-# Large enough that some of the pixels tell the error, and that what is worked out once a round does not count.
+# Large enough that some of the pixels tell the error, and that what is computed once a round does not count.
 SAMPLED_SIZE = ("-W160", "-H120")
 # By samples a pixel; of the 300 spheres many are small, whose lists, looks and replicas come on top.
 ESTIMATE_BAR = {4: 1.027 if IS_CLANG else 1.02, 16: 1.02, 64: 1.02}

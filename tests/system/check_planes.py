@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Planes of a picture, as channels of an EXR: depth, normals, numbers of objects and colours of what each pixel sees,
-beside distances, normals and objects worked out here from the scene's numbers; the same with samples, crops, any number
+beside distances, normals and objects computed here from the scene's numbers; the same with samples, crops, any number
 of threads and any precision; alpha and error together. Scenes are drawn at random. Prints TAP.
 
 Wants RTLANG. RTLANG_SEED repeats a run. SPDX-License-Identifier: MIT

@@ -362,7 +362,7 @@ def check_interrupts():
     image = scene.render(320, 240, time_limit=60)
     tap.ok(image.end == "interrupted" and image.pixels.any() and image.rmse > 0 and time.monotonic() - begun < 30,
            f"Ctrl-C keeps what is done: {image}")
-    tap.ok(scene.render(32, 24).pixels.any(), "and the scene goes on")
+    tap.ok(scene.render(32, 24).pixels.any(), "and the scene continues")
 
     def stop(_):
         raise RuntimeError("enough")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The report of rtcheck: what is in the page, that it needs nothing but itself, and how it behaves in a browser.
 
-A stand-in for POV-Ray hands out the picture of another scene, so that there are differences to show. FLIP is worked out
+A stand-in for POV-Ray hands out the picture of another scene, so that there are differences to show. FLIP is computed
 here a second time, straight from the paper's formulas. What needs a browser is skipped without chromium. Prints TAP.
 SPDX-License-Identifier: MIT
 """
@@ -181,7 +181,7 @@ def check_page(tap, text, page, answers, folder):
     tap.ok(second == expected, "in the right bins", (second, expected))
     direct = flip.flip(WIDTH, HEIGHT, *([value / 65535 for value in values] for values in (ours, theirs)))
     tap.ok(abs(direct - told["flip"]) < 1e-6 and direct > 0.001,
-           f"FLIP: {told['flip']}, worked out directly {direct:.9f}")
+           f"FLIP: {told['flip']}, computed directly {direct:.9f}")
 
 
 def browse(page, more, folder):

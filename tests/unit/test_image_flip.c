@@ -24,7 +24,7 @@ static bool picture_plain(Image *image, int width, int height, const double colo
     return true;
 }
 
-// NAN when it could not be worked out.
+// NAN when it could not be computed.
 static double flip_of(const Image *a, const Image *b)
 {
     double mean = NAN;

@@ -57,7 +57,7 @@ static void shadow(MediumTable *table, MediumStack stack, Random *random)
     table->count = kept;
 }
 
-// Paths like those of rays in a scene of bodies in each other: each turn one ray goes on as none, one or more.
+// Paths like those of rays in a scene of bodies in each other: each turn one ray continues as none, one or more.
 static void test_paths(Random *random, unsigned bodies)
 {
     RenderScratch *scratch = scratch_new();

@@ -120,7 +120,7 @@ static void test_limb(void)
         int x = (int)floor(SIDE / 2.0 + radius * cos(angle)), y = (int)floor(SIDE / 2.0 + radius * sin(angle));
         gaps += pixels[3 * (y * SIDE + x)] > 0.6F;
     }
-    tap_ok(gaps == 0, "a limb before a plane that goes on behind it: %d of 360 places without a line", gaps);
+    tap_ok(gaps == 0, "a limb before a plane that continues behind it: %d of 360 places without a line", gaps);
 }
 
 #define CROWD                                                                                                          \

@@ -116,7 +116,7 @@ static Vec3 grazing(Random *random, Vec3 point, const SphereData *ball)
     return vec3_normalize(vec3_add_scaled(vec3_scale(sqrt(1.0 - sine * sine), towards), sine, aside));
 }
 
-// Rays that go on from surfaces: anywhere, in or out, or along other spheres.
+// Rays that continue from surfaces: anywhere, in or out, or along other spheres.
 static int secondary_try(const Geometry *g, unsigned features, const TileSurfaces *from, Random *random, int *met,
                          int *together)
 {
@@ -283,8 +283,8 @@ static void test_secondary_ties(uint64_t seed)
         geometry_free(g);
         scene_fini(&scene);
     }
-    tap_ok(different == 0 && met > 6000, "rays that go on meet the first of shells about equally near: %d of %d do not",
-           different, met);
+    tap_ok(different == 0 && met > 6000,
+           "rays that continue meet the first of shells about equally near: %d of %d do not", different, met);
 }
 
 // As prepared_new has it of the least size.
@@ -356,7 +356,7 @@ static void test_geometry(uint64_t seed, size_t number, int count, int planes)
            planes, shadows.different, shadows.dark, shadows.lit, shadows.together);
     bool may_together = query_is_few(g, features);
     tap_ok(secondary_different == 0 && secondary_met > 100 && (together > 1000) == may_together,
-           "%s, %d, %d planes: rays that go on meet what single rays do (%d of %d not; %d traced together)",
+           "%s, %d, %d planes: rays that continue meet what single rays do (%d of %d not; %d traced together)",
            family->name, count, planes, secondary_different, secondary_met, together);
     tap_ok(crossed.different == 0 && (crossed.told == 0 || may_together),
            "%s, %d, %d planes: what lies on ways to a place, too (%d of %d not; %d asked for)", family->name, count, planes,

@@ -214,7 +214,7 @@ static bool nearest_one_by_one(const Geometry *g, Ray ray, RayStart start, uint3
     return hit->t > 0.0;
 }
 
-// What differs of a ray, and of two that go on from where it ends. Counts what they meet.
+// What differs of a ray, and of two that continue from where it ends. Counts what they meet.
 static int legs_that_differ(const Geometry *g, Ray ray, Random *random, int *met)
 {
     RayStart start = RAY_START_FREE;

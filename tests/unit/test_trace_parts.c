@@ -168,7 +168,7 @@ static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces
     }
 }
 
-// Surfaces of the tile's rays, and of others that go on from there.
+// Surfaces of the tile's rays, and of others that continue from there.
 static void surfaces_try(const Geometry *g, unsigned features, const SphereTile *tile, const TileHits *hits,
                          Random *random, TileSurfaces *surfaces, Found *found)
 {

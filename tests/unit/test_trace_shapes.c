@@ -181,7 +181,7 @@ static void grow(Scene *scene, Random *random, uint32_t parent, int level)
     }
 }
 
-// Whether a point is inside, by the insides of the leaves; *doubt turns true near a surface.
+// Whether a point is inside, by the insides of the leaves; *uncertainty turns true near a surface.
 static bool is_inside(const Scene *scene, uint32_t at, Vec3 point, bool *uncertainty)
 {
     const Node *node = &scene->nodes.items[at];
@@ -198,7 +198,7 @@ static bool is_inside(const Scene *scene, uint32_t at, Vec3 point, bool *uncerta
         if (part->node == at) {
             double deep = depth(part, point);
             bool inside = (deep > 0.0) != (bool)(part->flags & PART_INVERSE);
-            *uncertainty = *doubt || fabs(deep) < 1e-9;
+            *uncertainty = *uncertainty || fabs(deep) < 1e-9;
             any = any || inside;
             all = all && inside;
         }
@@ -229,11 +229,11 @@ static bool line_is_right(const Scene *scene, const Geometry *geometry, Ray ray,
         for (int k = 0; k < 5; k++) {
             Vec3 point = ray_at(ray, random_between(random, 0.0, length));
             bool same = is_inside(scene, 0, point, &uncertainty) == inside;
-            if (!doubt && !same) {
+            if (!uncertainty && !same) {
                 return false;
             }
         }
-        if (!doubt && met && hit.inside != inside) {
+        if (!uncertainty && met && hit.inside != inside) {
             return false;
         }
         if (!met) {

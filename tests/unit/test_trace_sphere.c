@@ -1,4 +1,4 @@
-// The sphere test on cases that can be worked out by hand, and on inputs that are not numbers. The families of
+// The sphere test on cases that can be computed by hand, and on inputs that are not numbers. The families of
 // test_trace_certified.c compare it with exact arithmetic.
 //
 // SPDX-License-Identifier: MIT

@@ -43,7 +43,7 @@ bool material_take_name(Block *block, const MaterialDesc *material, Span span)
     return true;
 }
 
-// A material goes on from what the object is: it moves its texture, too.
+// A material continues from what the object is: it moves its texture, too.
 bool material_action(Block *block, const SchemaProperty *property, const AstNode *item)
 {
     (void)property;

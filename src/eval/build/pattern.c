@@ -1,7 +1,7 @@
 // Patterns: the words that spread a pigment or a texture over space, and the maps of what lies along them.
 //
 // Writes into the PatternPart at the start of a pigment's or texture's description. A map becomes a list of entries in
-// the block's arena that is never changed again. Knows nothing of how a pattern is worked out.
+// the block's arena that is never changed again. Knows nothing of how a pattern is computed.
 //
 // SPDX-License-Identifier: MIT
 #include <string.h>

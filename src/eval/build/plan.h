@@ -150,7 +150,7 @@ void plan_try(Eval *ev, const PlanTrial *trial, const AstNode *item);           
 PlanPlace *plan_place_of(Eval *ev, const AstNode *item);
 bool plan_place_is_known(const Eval *ev, const PlanPlace *place, const AstNode *item);
 bool plan_turn(Eval *ev, PlanPlace *place, const AstNode *item, bool *is_fine) RT_MUST_CHECK;
-// At the end of a body of a loop that is shapes and names only: goes on with its turns as long as they are known. The
+// At the end of a body of a loop that is shapes and names only: continues with its turns as long as they are known. The
 // cursor then stands where it would by itself.
 void plan_turns(Cursor *cursor);
 

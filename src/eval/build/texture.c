@@ -1,7 +1,7 @@
 // Textures: pigments, finishes and layers.
 //
 // A block inside another one changes only what it says; the rest is the surrounding texture's, or that of #default at
-// the time. An object's texture is never changed in place, for copies may share it. Albedo forms are worked out at a
+// the time. An object's texture is never changed in place, for copies may share it. Albedo forms are computed at a
 // finish's closing brace, with the exponents it has by then. Knows nothing of shapes.
 //
 // SPDX-License-Identifier: MIT
@@ -191,7 +191,7 @@ static bool read_new_finish(Eval *ev, const AstNode *item, Arena *arena, Texture
     return true;
 }
 
-// Programs write the same finish again and again: it is worked out once, unless there was something to say about it.
+// Programs write the same finish again and again: it is computed once, unless there was something to say about it.
 static bool read_finish(Eval *ev, const AstNode *item, Arena *arena, TextureDesc *texture)
 {
     FinishMemo *memo = &ev->objects->finish;

@@ -1,6 +1,6 @@
 // Colour phrases: `color rgb <1, 0, 0> filter 0.5`, `Red`, `red 1 green 0.5` and the like.
 //
-// Reads items from a cursor. Everything is worked out in double precision and rounded to single at the end, as POV-Ray
+// Reads items from a cursor. Everything is computed in double precision and rounded to single at the end, as POV-Ray
 // keeps colours. Knows nothing of what a colour is for.
 //
 // SPDX-License-Identifier: MIT

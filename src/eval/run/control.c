@@ -45,7 +45,7 @@ static bool head_decide(Eval *ev, const AstNode *node, double *subject, bool *ho
 
 // ---- heads of directives in a text
 
-// Works out a head that was just parsed; false after a fault.
+// Computes a head that was just parsed; false after a fault.
 static bool decide(Expansion *expansion, AstKind kind, const Token *directive, AstNode *a, AstNode *b, double *subject,
                    bool *holds)
 {
@@ -167,7 +167,7 @@ const AstNode *case_items(const AstNode *node)
 bool case_continues(Eval *ev, CursorFrame *frame)
 {
     frame->node = frame->node->next;
-    // The head of a case that is run into is worked out, too, as in POV-Ray.
+    // The head of a case that is run into is computed, too, as in POV-Ray.
     bool is_next = frame->node != NULL && head_decide(ev, frame->node, &(double){0}, &(bool){false});
     frame->next = is_next ? case_items(frame->node) : NULL;
     return is_next;
@@ -221,7 +221,7 @@ void control_begin_switch(Expansion *expansion, const Token *directive)
     }
 }
 
-// A case, or the #else, of a #switch in a text. The head of one that is run into is worked out.
+// A case, or the #else, of a #switch in a text. The head of one that is run into is computed.
 static void next_case(Expansion *expansion, CursorFrame *frame, const Token *directive)
 {
     FrameText *text = &frame->text;

@@ -207,7 +207,7 @@ static void expand(Cursor *cursor, const AstNode *call)
     }
 }
 
-// The text of a macro that begins with a sign goes on with the value before it, which has been taken as whole.
+// The text of a macro that begins with a sign continues with the value before it, which has been taken as whole.
 static void check_pasted_sign(Cursor *cursor, const AstNode *item)
 {
     bool is_value = item->kind <= AST_MEMBER;

@@ -100,7 +100,7 @@ static bool is_left(const Eval *ev, const AstNode *node, const ValueArray *array
     return node->op == AST_OP_LOCAL && array->first.kind != VALUE_NONE && scope_is_new(ev, base->symbol, true);
 }
 
-// Before the value is worked out: the macros that are called in an index come first.
+// Before the value is computed: the macros that are called in an index come first.
 static bool find_target(Eval *ev, const AstNode *node, Target *target)
 {
     *target = (Target){0};

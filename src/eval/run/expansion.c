@@ -74,7 +74,7 @@ void frame_set_text(CursorFrame *frame, const GrammarText *text, GrammarText *ow
     frame->text.count = text->count;
 }
 
-// The text goes on, in the frames above.
+// The text continues, in the frames above.
 static void leave(Expansion *expansion, CursorFrame *frame)
 {
     frame_leave(expansion->cursor, frame);

@@ -68,7 +68,7 @@ static inline bool frame_has_text(const CursorFrame *frame)
 // directive; NULL: there is none.
 CursorFrame *expansion_owner_of_middle(const Expansion *expansion);
 size_t expansion_open_directives(const Expansion *expansion);
-// The place of the innermost text; what is read again goes on in the live one.
+// The place of the innermost text; what is read again continues in the live one.
 unsigned expansion_own_place(const Expansion *expansion);
 
 // Tokens as they stand, see GrammarFeedCalls.

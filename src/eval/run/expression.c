@@ -84,7 +84,7 @@ bool name_fault_undeclared(Eval *ev, const AstNode *node, const char *what)
     return false;
 }
 
-// The declaration that is being worked out makes the name, which hides any other from then on, as in POV-Ray.
+// The declaration that is being computed makes the name, which hides any other from then on, as in POV-Ray.
 bool name_fault_unset(Eval *ev, const AstNode *node)
 {
     const char *name = eval_text(ev, node->symbol);
@@ -267,7 +267,7 @@ static bool fault_no_expression(Eval *ev, const AstNode *node)
                       has_word ? "`" : "");
 }
 
-// What was worked out while it was read, and what may have to be read again.
+// What was computed while it was read, and what may have to be read again.
 static bool eval_special(Eval *ev, const AstNode *node, EvalFn evaluate, Value *value)
 {
     if ((node->flags & AST_KNOWN) && node->kind != AST_NAME) {

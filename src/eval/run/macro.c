@@ -275,7 +275,7 @@ static bool read_fewer(Eval *ev, const AstNode *call, const Macro *macro, Argume
     return missing == 0 || fault_count(ev, call, macro);
 }
 
-// All arguments are worked out in the caller's scope before the first is bound.
+// All arguments are computed in the caller's scope before the first is bound.
 static bool bind_all(Eval *ev, const AstNode *call, const Macro *macro)
 {
     Argument few[ARGUMENTS_FEW];
@@ -454,7 +454,7 @@ static bool take_value(Cursor *cursor, const Wanted *wanted, bool whole, Value *
     return fine;
 }
 
-// Whether a `;` may end the value that is taken now; it may end none of those that are worked out on the way.
+// Whether a `;` may end the value that is taken now; it may end none of those that are computed on the way.
 static bool begin_end(Eval *ev, bool *outer)
 {
     *outer = ev->takes_end;

@@ -1,9 +1,9 @@
-// Numbers that are worked out at once: expressions of numbers and of names and elements that are numbers, of which
+// Numbers that are computed at once: expressions of numbers and of names and elements that are numbers, of which
 // loops are full.
 //
-// Gives what expression.c and operators.c give where that is one number, or a vector of three, and nothing is to be said
-// of it. Anything else is refused and goes the usual way, which tells what is to be told; nothing has happened then but
-// that random numbers were drawn, and those only where the caller takes them back. Owns nothing.
+// Gives what expression.c and operators.c give where that is one number, or a vector of three, and nothing is to be
+// said of it. Anything else is refused and goes the usual way, which tells what is to be told; nothing has happened
+// then but that random numbers were drawn, and those only where the caller takes them back. Owns nothing.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

@@ -120,7 +120,7 @@ static int base_of_items(const Expansion *expansion)
     return expansion->within ? GRAMMAR_NO_BASE : 0;
 }
 
-// What was read again is at its end: the live text goes on.
+// What was read again is at its end: the live text continues.
 static void leave_kept(Expansion *expansion)
 {
     CursorFrame *frame = expansion->cursor->frame;

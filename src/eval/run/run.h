@@ -2,7 +2,7 @@
 // expanded on the way, files.
 //
 //   items.c      the top level                      scope.c     names and what they stand for
-//   expression.c AST expressions to values          quick.c     numbers that are worked out at once
+//   expression.c AST expressions to values          quick.c     numbers that are computed at once
 //   array.c      arrays and their elements          colour.c    colour phrases
 //   cursor.c     items of a block                   directive.c what each directive does
 //   macro.c      definitions, calls and their values
@@ -66,7 +66,7 @@ EvalNames scope_count(const Eval *ev);
 // #declare changes what the name stands for, or makes a global; #local makes or changes a name of the innermost level.
 bool scope_declare(Eval *ev, Symbol name, bool local, const Value *value, Span span) RT_MUST_CHECK;
 
-// Before the value of a #declare or #local is worked out: a name that it will make is there already, without a value.
+// Before the value of a #declare or #local is computed: a name that it will make is there already, without a value.
 bool scope_declare_begin(Eval *ev, Symbol name, bool local, Span span) RT_MUST_CHECK;
 // Whether the name is to be made, and would hide another or none.
 bool scope_is_new(const Eval *ev, Symbol name, bool local);
@@ -93,7 +93,7 @@ const char *name_standard_file(size_t i);
 bool array_create(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // The element that an INDEX node means, set or not, and its array.
 bool array_locate(Eval *ev, const AstNode *node, Value **element, ValueArray **array) RT_MUST_CHECK;
-// Reports the use of a name whose first value is being worked out; returns false.
+// Reports the use of a name whose first value is being computed; returns false.
 bool name_fault_unset(Eval *ev, const AstNode *node);
 // Reports that `what` of a name is not declared, once for each name; returns false.
 bool name_fault_undeclared(Eval *ev, const AstNode *node, const char *what);
@@ -112,7 +112,7 @@ bool eval_string(Eval *ev, const AstNode *node, Value *value) RT_MUST_CHECK;
 // A condition of a directive.
 bool eval_condition(Eval *ev, const AstNode *node, bool *holds) RT_MUST_CHECK;
 
-// Numbers at once (quick.c): false, or 0, where the expression is to be worked out the usual way. `draws`: random
+// Numbers at once (quick.c): false, or 0, where the expression is to be computed the usual way. `draws`: random
 // numbers may be drawn, which the caller takes back after that; else nothing has happened.
 bool quick_number_of(Eval *ev, const AstNode *node, bool draws, double *number) RT_MUST_CHECK;
 // A vector of three: 3; or a number, which then stands in all three: 1.

@@ -159,7 +159,7 @@ static const AstNode *find_name(const AstNode *node, Symbol name)
     return found;
 }
 
-// Its value was worked out before the name is made, which in POV-Ray is the other way round.
+// Its value was computed before the name is made, which in POV-Ray is the other way round.
 static bool uses_hidden(Eval *ev, const AstNode *directive)
 {
     const AstNode *target = directive->a;

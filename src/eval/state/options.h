@@ -54,7 +54,7 @@ typedef struct EvalHit {
 // The tracer, which the evaluator itself must not know.
 typedef struct EvalTracer {
     void *(*open)(const Scene *parts); // NULL when out of memory; the scene stays as it is until `close`
-    // From a point, or going on from where a surface was met; the direction is of unit length. False: nothing is met.
+    // From a point, or continuing from where a surface was met; the direction is of unit length. False: nothing is met.
     bool (*closest)(const void *opened, Vec3 origin, Vec3 direction, const EvalHit *from, EvalHit *hit);
     void (*close)(void *opened);
 } EvalTracer;

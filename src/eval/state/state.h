@@ -143,7 +143,7 @@ struct Eval {
     PlanPlace plan_places[PLAN_PLACES];
     bool is_value_made;  // the last function or spline was written where it is used, and has no name
     unsigned scopes_within; // calls and files that began in the text of a #local and are not over: it is none of theirs
-    bool takes_end;      // a `;` may end the text of what is worked out: it is the value of a declaration, or its end
+    bool takes_end;         // a `;` may end the text of what is computed: it is the value of a declaration, or its end
     bool is_value_cut;   // a directive stands behind the value in such a text
     unsigned value_ends; // how many such semicolons stand in the text of the value
     bool has_stray;      // at the top level, reported: the values after it are not reported as well
@@ -152,9 +152,9 @@ struct Eval {
     bool faulty;         // something was reported, if only before
     bool tells_plan;     // the next statement that is read by a plan is to be told: those after it are not
     size_t errors_before; // that were reported when the evaluation began
-    unsigned inner;      // parentheses of any kind around the expression that is being worked out
-    unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are worked out; 0: none
-    bool at_colour;      // the value that is being worked out stands where a colour word could
+    unsigned inner;       // parentheses of any kind around the expression that is being computed
+    unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are computed; 0: none
+    bool at_colour;       // the value that is being computed stands where a colour word could
     bool stop;           // a limit is exhausted, #error was met or there are too many faults: unwind
 };
 

@@ -32,7 +32,7 @@ static bool give_vector(Value *value, Vec3 vector)
     return true;
 }
 
-// The first arguments of a call as numbers. All are worked out, so that each has its message.
+// The first arguments of a call as numbers. All are computed, so that each has its message.
 static bool numbers(Eval *ev, const AstNode *node, double *out, unsigned count)
 {
     bool fine = true;

@@ -54,7 +54,7 @@ typedef enum FunctionKind {
 
 typedef struct FunctionNode FunctionNode;
 
-// One call that is running. A scalar: one number is worked out at a time.
+// One call that is running. A scalar: one number is computed at a time.
 typedef struct FunctionRun {
     Eval *ev;
     Span span;                         // of the call in the scene, for messages

@@ -98,7 +98,7 @@ static double run_extreme(const FunctionNode *node, FunctionRun *run)
     return best;
 }
 
-// All arguments are worked out, as in POV-Ray.
+// All arguments are computed, as in POV-Ray.
 static double run_select(const FunctionNode *node, FunctionRun *run)
 {
     double a[4] = {0};

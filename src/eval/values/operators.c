@@ -1,7 +1,7 @@
 // Operators: what they make of values, with the language's promotions and its tolerance of comparisons.
 //
 // A number beside a vector fills all of its components, a shorter vector is continued with zeros. Both sides are always
-// worked out. Owns nothing. Knows nothing of names and blocks.
+// computed. Owns nothing. Knows nothing of names and blocks.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -245,7 +245,7 @@ bool operator_binary(Eval *ev, const AstNode *node, Value *value)
     return fault_operand(ev, node, value, &right);
 }
 
-// Both branches are always worked out, as in POV-Ray.
+// Both branches are always computed, as in POV-Ray.
 bool operator_conditional(Eval *ev, const AstNode *node, Value *value)
 {
     double condition = 0;

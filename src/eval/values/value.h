@@ -7,8 +7,8 @@
 #include "eval/state/state.h"
 
 typedef enum ValueKind {
-    VALUE_NONE, // an uninitialised array element, or the result of a fault that has been reported
-    VALUE_UNSET, // what a name stands for while its first value is worked out
+    VALUE_NONE,  // an uninitialised array element, or the result of a fault that has been reported
+    VALUE_UNSET, // what a name stands for while its first value is computed
     VALUE_NUMBER,
     VALUE_VECTOR, // 2 to 5 components
     VALUE_COLOUR, // red, green, blue, filter, transmit
