@@ -27,6 +27,7 @@ HEAD = {  # shapes without a closing brace, about 1 in size
     "open cone": "cone { {-0.9~-0.6}*y, {0.6~0.9}, {0.6~0.9}*y, {0.2~0.4} open",
     "disc": "disc { {point}, {axis}, {0.7~1}",
     "disc with a hole": "disc { {point}, {axis}, {0.8~1}, {0.2~0.5}",
+    "torus": "torus { {0.5~0.7}, {0.15~0.3} sturm",
     "triangle": "triangle { <{-1~-0.7}, {-0.7~-0.5}, 0>, <{0.7~1}, {-0.5~-0.2}, 0.3>, <{-0.3~0.3}, {0.7~1}, -0.2>",
     "smooth triangle": "smooth_triangle { <{-1~-0.7}, {-0.7~-0.5}, 0>, <-0.4, -0.2, -1>, <{0.7~1}, {-0.5~-0.2}, 0.3>,"
                        " <0.5, -0.1, -1>, <{-0.3~0.3}, {0.7~1}, -0.2>, <0, 0.6, -1>",
