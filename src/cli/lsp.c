@@ -566,7 +566,8 @@ int lsp_run(const Options *options)
         if (whole.begin) {
             dispatch(&server, whole);
         } else {
-            answer((Json){"null", "null" + 4}, "\"error\":{\"code\":-32700,\"message\":\"this is not JSON\"}");
+            static const char none[] = "null";
+            answer((Json){none, none + 4}, "\"error\":{\"code\":-32700,\"message\":\"this is not JSON\"}");
         }
         free(text);
     }
