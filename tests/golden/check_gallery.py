@@ -8,7 +8,6 @@ SPDX-License-Identifier: MIT
 import glob
 import os
 import sys
-import tempfile
 
 TOP = os.environ.get("top_srcdir", ".")
 sys.path.insert(0, os.path.join(TOP, "tests/povray"))
@@ -41,21 +40,8 @@ def check(scene, folder):
 
 
 def main():
-    number, failed = 0, 0
-    for scene in sorted(glob.glob(os.path.join(TOP, "examples/gallery/*.scn")) +
-                        glob.glob(os.path.join(TOP, "examples/gallery/*.pov"))):
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                results = list(check(scene, folder))
-            except pictures.RunFailed as failure:
-                results = [("rtlang accepts it", f"{failure}: {failure.text.splitlines()[:1]}")]
-        for what, fault in results:
-            number += 1
-            failed += bool(fault)
-            line = f"{number} - {os.path.basename(scene)}: {what}"
-            print(f"not ok {line}: {fault}" if fault else f"ok {line}")
-    print(f"1..{number}")
-    return 1 if failed or not number else 0
+    scenes = [scene for ending in ("scn", "pov") for scene in glob.glob(os.path.join(TOP, f"examples/gallery/*.{ending}"))]
+    return check_golden.check_all(sorted(scenes), check)
 
 
 if __name__ == "__main__":

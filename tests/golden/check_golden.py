@@ -113,21 +113,26 @@ def check_example(scene, folder):
     yield from check_picture(scene, golden + ".png", folder, folders)
 
 
-def main():
+def check_all(scenes, check, name_length=None):
+    """A line for each thing that check(scene, folder) gives of each scene, by the beginning of its name; the exit status."""
     number, failed = 0, 0
-    for scene in sorted(glob.glob(os.path.join(TOP, "examples", "[0-9][0-9]_*.scn"))):
+    for scene in scenes:
         with tempfile.TemporaryDirectory() as folder:
             try:
-                results = list(check_example(scene, folder))
+                results = list(check(scene, folder))
             except pictures.RunFailed as failure:
                 results = [("rtlang accepts it", f"{failure}: {failure.text.splitlines()[:1]}")]
         for what, fault in results:
             number += 1
             failed += bool(fault)
-            name = f"{os.path.basename(scene)[:2]}: {what}"
+            name = f"{os.path.basename(scene)[:name_length]}: {what}"
             print(f"not ok {number} - {name}: {fault}" if fault else f"ok {number} - {name}")
     print(f"1..{number}")
     return 1 if failed or not number else 0
+
+
+def main():
+    return check_all(sorted(glob.glob(os.path.join(TOP, "examples", "[0-9][0-9]_*.scn"))), check_example, 2)
 
 
 if __name__ == "__main__":

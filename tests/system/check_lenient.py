@@ -4,7 +4,6 @@
 The expected pictures are drawn of texts from which the blocks were cut by hand. Prints TAP. SPDX-License-Identifier: MIT
 """
 import os
-import struct
 import subprocess
 import sys
 import tempfile
@@ -13,6 +12,7 @@ import zlib
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import tap  # noqa: E402
+from picture_bytes import png_chunks  # noqa: E402
 
 PROGRAM = os.path.abspath(os.environ["RTLANG"])
 # [[...]] is what rtlang has not
@@ -32,23 +32,15 @@ WARNING = ("drawn without radiosity in global_settings, photons in global_settin
            "dispersion in interior, blob")
 
 
-def chunks(data):
-    at = 8
-    while at < len(data):
-        size = struct.unpack(">I", data[at:at + 4])[0]
-        yield data[at + 4:at + 8], data[at + 8:at + 8 + size]
-        at += 12 + size
-
-
 def notes(path):
     with open(path, "rb") as file:
-        texts = [body.split(b"\0", 1) for kind, body in chunks(file.read()) if kind == b"tEXt"]
+        texts = [body.split(b"\0", 1) for kind, body in png_chunks(file.read()) if kind == b"tEXt"]
     return {name.decode(): text.decode() for name, text in texts}
 
 
 def pixels(path):
     with open(path, "rb") as file:
-        return zlib.decompress(b"".join(body for kind, body in chunks(file.read()) if kind == b"IDAT"))
+        return zlib.decompress(b"".join(body for kind, body in png_chunks(file.read()) if kind == b"IDAT"))
 
 
 def run(folder, *words):

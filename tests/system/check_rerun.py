@@ -13,6 +13,7 @@ import tempfile
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import tap  # noqa: E402
+from picture_bytes import png_chunks  # noqa: E402
 
 PROGRAM = os.path.abspath(os.environ["RTLANG"])
 SCENE = """#version 3.7;
@@ -43,14 +44,6 @@ CASES = [
 ]
 
 
-def chunks(data):
-    at = 8
-    while at < len(data):
-        size = struct.unpack(">I", data[at:at + 4])[0]
-        yield data[at + 4:at + 8], data[at + 8:at + 8 + size]
-        at += 12 + size
-
-
 def attributes(data):
     """Texts of an EXR header."""
     at, found = 8, {}
@@ -70,7 +63,7 @@ def notes(path):
         data = file.read()
     if path.endswith(".exr"):
         return attributes(data)
-    return dict(body.decode().split("\0", 1) for kind, body in chunks(data) if kind == b"tEXt")
+    return dict(body.decode().split("\0", 1) for kind, body in png_chunks(data) if kind == b"tEXt")
 
 
 def run(folder, *words):
