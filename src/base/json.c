@@ -27,6 +27,16 @@ void json_string(TextBuffer *out, const char *text, size_t length)
     text_append_char(out, '"');
 }
 
+void json_write_text(FILE *out, const char *text, size_t length)
+{
+    TextBuffer buffer;
+
+    text_init(&buffer);
+    json_string(&buffer, text, length);
+    fputs(text_get(&buffer), out);
+    text_fini(&buffer);
+}
+
 void json_number(TextBuffer *out, double value)
 {
     if (isfinite(value)) {

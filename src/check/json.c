@@ -8,12 +8,7 @@
 
 void json_print_text(FILE *out, const char *text)
 {
-    TextBuffer buffer;
-
-    text_init(&buffer);
-    json_string(&buffer, text, strlen(text));
-    fputs(text_get(&buffer), out);
-    text_fini(&buffer);
+    json_write_text(out, text, strlen(text));
 }
 
 void json_print_number(FILE *out, const char *name, double value)

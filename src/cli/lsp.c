@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/json.h"
 #include "cli/lsp_json.h"
 #include "cli/lsp_text.h"
 #include "cli/run.h"

@@ -214,19 +214,3 @@ int json_take_count(Json value)
     long number = value.begin && *value.begin >= '0' && *value.begin <= '9' ? strtol(value.begin, &end, 10) : -1;
     return number >= 0 && number <= INT32_MAX && end == value.end ? (int)number : -1;
 }
-
-void json_write_text(FILE *out, const char *text, size_t length)
-{
-    putc('"', out);
-    for (size_t i = 0; i < length; i++) {
-        if (text[i] == '"' || text[i] == '\\') {
-            putc('\\', out);
-        }
-        if ((unsigned char)text[i] < 0x20) {
-            fprintf(out, "\\u%04x", (unsigned)text[i]);
-        } else {
-            putc(text[i], out);
-        }
-    }
-    putc('"', out);
-}

@@ -1,5 +1,5 @@
 // JSON (RFC 8259) as messages of the Language Server Protocol need it: a value is found by its path in the text, without a
-// tree of it; texts are written with escapes.
+// tree of it.
 //
 // SPDX-License-Identifier: MIT
 #ifndef CLI_LSP_JSON_H
@@ -7,7 +7,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdio.h>
 
 // A value within a message; NULL: there is none.
 typedef struct Json {
@@ -22,7 +21,5 @@ Json json_at(Json value, const char *path);
 char *json_take_text(Json value);
 // A whole number from 0 that an int holds; -1: it is none.
 int json_take_count(Json value);
-
-void json_write_text(FILE *out, const char *text, size_t length);
 
 #endif
