@@ -43,8 +43,9 @@ def choices(name, argument):
 def options():
     """(letter, name, argument, what it takes, help) of each."""
     found = []
-    for letter, name, argument, told in re.findall(r"^  (?:-(\w), |    )--([\w-]+)(\[?=[^\s]+)?\s+(.*)$",
+    for letter, name, argument, told in re.findall(r"^  (?:-(\w), |    )--([\w-]+)(\[?=[^\s]+)?\s+(.*(?:\n {29}.*)*)$",
                                                    output_of(PROGRAM, "--help"), re.M):
+        told = re.sub(r"\n +", " ", told)
         argument = argument.replace("=", "") if argument else ""
         kind = "file" if argument in ("FILE", "PICTURE") else "folder" if argument == "FOLDER" else ""
         found.append((letter, name, argument, kind or (choices(name, argument) if argument else ""), told))

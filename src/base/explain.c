@@ -35,24 +35,6 @@ bool explain_find(const char *name, DiagCode *code)
     return false;
 }
 
-// Breaks between words, so that no line is longer than `columns` if its words are not. The first line has `column`
-// characters already.
-static void append_wrapped(TextBuffer *out, const char *text, size_t column, size_t columns)
-{
-    while (*text != '\0') {
-        size_t length = strcspn(text, " ");
-        if (column > 0) {
-            bool fits = column + 1 + length <= columns;
-            text_append_char(out, fits ? ' ' : '\n');
-            column = fits ? column + 1 : 0;
-        }
-        text_append_n(out, text, length);
-        column += length;
-        text += length + strspn(text + length, " ");
-    }
-    text_append_char(out, '\n');
-}
-
 static const char *severity_name(DiagCode code)
 {
     return diag_code_severity(code) == DIAG_ERROR ? "error" : "warning";
@@ -68,7 +50,7 @@ void explain_write(DiagCode code, TextBuffer *out)
     } else {
         text_printf(out, "    for example: %s\n\n", explanation->wrong);
     }
-    append_wrapped(out, explanation->text, 0, TERMINAL_COLUMNS);
+    text_append_wrapped(out, explanation->text, 0, 0, TERMINAL_COLUMNS);
 }
 
 static void append_section(TextBuffer *out, DiagCode code)
@@ -78,7 +60,8 @@ static void append_section(TextBuffer *out, DiagCode code)
     size_t start = out->length;
     text_printf(out, "*%s, exit code %d%s.*", severity_name(code), (int)diag_code_class(code),
                 diag_code_is_extra(code) ? ", with `-Wall` only" : "");
-    append_wrapped(out, explanation->text, out->length - start, DOCUMENT_COLUMNS);
+    text_append_char(out, ' ');
+    text_append_wrapped(out, explanation->text, out->length - start, 0, DOCUMENT_COLUMNS);
     text_append_char(out, '\n');
     if (explanation->right) {
         text_printf(out, "```\nwrong: %s\nright: %s\n```\n\n", explanation->wrong, explanation->right);

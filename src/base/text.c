@@ -324,6 +324,34 @@ size_t text_append_escape(TextBuffer *buffer, const char *text, size_t length)
     return 0;
 }
 
+// In UTF-8 a character's further bytes are 10xxxxxx.
+static size_t count_characters(const char *text, size_t length)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < length; i++) {
+        count += ((unsigned char)text[i] & 0xC0) != 0x80;
+    }
+    return count;
+}
+
+void text_append_wrapped(TextBuffer *buffer, const char *words, size_t column, size_t indent, size_t columns)
+{
+    for (bool is_first = true; *words != '\0'; is_first = false) {
+        size_t length = strcspn(words, " "), width = count_characters(words, length);
+        if (!is_first && column + 1 + width > columns) {
+            text_printf(buffer, "\n%*s", (int)indent, "");
+            column = indent;
+        } else if (!is_first) {
+            text_append_char(buffer, ' ');
+            column++;
+        }
+        text_append_n(buffer, words, length);
+        column += width;
+        words += length + strspn(words + length, " ");
+    }
+    text_append_char(buffer, '\n');
+}
+
 const char *text_get(const TextBuffer *buffer)
 {
     return buffer->text ? buffer->text : "";

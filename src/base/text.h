@@ -41,6 +41,10 @@ size_t text_append_escape(TextBuffer *buffer, const char *text, size_t length);
 // Not for NaN or infinity (written as `nan`, `inf`, `-inf`).
 void text_append_double(TextBuffer *buffer, double value);
 
+// Words and a line break at the end, broken between words so that no line is longer than `columns` if its words are not.
+// The first line has `column` characters already; the others begin with `indent` spaces.
+void text_append_wrapped(TextBuffer *buffer, const char *words, size_t column, size_t indent, size_t columns);
+
 // The text so far, "" when empty; valid until the next call.
 const char *text_get(const TextBuffer *buffer);
 

@@ -189,6 +189,7 @@ static const OptionRow rows[] = {
     {'W', "width", "PIXELS", apply_width, "width of the pictures (default 320)"},
     {'H', "height", "PIXELS", apply_height, "height of the pictures (default 240)"},
     {'K', "clock", "NUMBER", apply_clock, "the scene's clock (default 0)"},
+    {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat"},
     {0, "threshold", "VALUE", apply_threshold,
      "greatest difference of a pixel that counts as equal (default 2/65535)"},
     {0, "ties", "SHARE", apply_ties,
@@ -198,36 +199,42 @@ static const OptionRow rows[] = {
     {0, "elsewhere", "N", apply_elsewhere,
      "have POV-Ray draw what differs N more times, all but the same: where it does not agree with itself does not count"},
     {0, "povray", "PROGRAM", apply_povray, "POV-Ray's program (default povray)"},
-    {'I', "include-path", "FOLDER", apply_include_path, "also look here for #include; may repeat"},
-    {'j', "threads", "N", apply_threads,
-     "threads of each renderer (default: all processors)"},
-    {0, "keep", "FOLDER", apply_keep, "keep the pictures and POV-Ray's messages there"},
-    {0, "report", "FOLDER", apply_report, "write index.html there, with all pictures in it"},
+    {0, "study", NULL, apply_study,
+     "error against time instead: ladders of samples, and the race against POV-Ray's anti-aliasing"},
+    {0, "race", NULL, apply_race, "of --study the race against POV-Ray alone"},
+    {0, "budget", "SECONDS", apply_budget,
+     "with --study: what POV-Ray's runs of a race may take of the processor (default 60; 0: no limit)"},
+    {0, "most", "N", apply_most,
+     "with --study: samples a pixel at the top of a ladder (default 256, with --race 64)"},
+    {0, "reference", "N", apply_reference,
+     "with --study: samples a pixel of the reference (default 16 times --most, of a race 256)"},
+    {0, "size", "WxH", apply_size,
+     "with --study: size of the race's pictures (default: POV-Ray's shortest run takes 0.5 s)"},
     {0, "stability", NULL, apply_stability,
      "measure how numbers hold up: formulas, stiff scenes, and the scenes put elsewhere"},
     {0, "cases", "N", apply_cases,
      "with --stability: cases of each family (default 20000)"},
     {0, "seed", "N", apply_seed,
      "with --stability: other random cases (default 0)"},
+    {0, "report", "FOLDER", apply_report, "write index.html there, with all pictures in it"},
+    {0, "keep", "FOLDER", apply_keep, "keep the pictures and POV-Ray's messages there"},
     {0, "json", NULL, apply_json, "print one JSON object a scene; with --report also results.json"},
-    {0, "study", NULL, apply_study,
-     "error against time instead: ladders of samples, and the race against POV-Ray's anti-aliasing"},
-    {0, "race", NULL, apply_race, "of --study the race against POV-Ray alone"},
-    {0, "budget", "SECONDS", apply_budget,
-     "with --study: what POV-Ray's runs of a race may take of the processor (default 60; 0: no limit)"},
-    {0, "size", "WxH", apply_size,
-     "with --study: size of the race's pictures (default: POV-Ray's shortest run takes 0.5 s)"},
-    {0, "reference", "N", apply_reference,
-     "with --study: samples a pixel of the reference (default 16 times --most, of a race 256)"},
-    {0, "most", "N", apply_most,
-     "with --study: samples a pixel at the top of a ladder (default 256, with --race 64)"},
     {0, "color", "WHEN", apply_color,
      "colour what is said on stderr: always, never, or auto (default): on a terminal, unless NO_COLOR is set"},
+    {'j', "threads", "N", apply_threads,
+     "threads of each renderer (default: all processors)"},
     {'V', "version", NULL, NULL, "print the version and stop"},
     {'h', "help", NULL, NULL, "print this and stop"},
 };
 
-static const OptionTable option_table = {rows, COUNT_OF(rows)};
+static const OptionGroup groups[] = {
+    {"The cross-check against POV-Ray", "width"},
+    {"Error against time (--study)", "study"},
+    {"How numbers hold up (--stability)", "stability"},
+    {"What it writes", "report"},
+    {"The machine", "threads"},
+};
+static const OptionTable option_table = {rows, COUNT_OF(rows), groups, COUNT_OF(groups)};
 _Static_assert(COUNT_OF(rows) <= OPTIONS_MOST, "enlarge OPTIONS_MOST");
 
 static void print_help(void)
@@ -235,8 +242,9 @@ static void print_help(void)
     printf("Usage: rtcheck [OPTION]... SCENE...\n"
            "       rtcheck --stability [OPTION]... [SCENE]...\n"
            "       rtcheck --study [OPTION]... SCENE...\n"
-           "Renders each scene with rtlang and with POV-Ray, without anti-aliasing, and compares the pictures in\n"
-           "linear 16 bit. Differences are printed in steps of 1/65535.\n\n");
+           "Renders each scene with rtlang and with POV-Ray, without anti-aliasing, and\n"
+           "compares the pictures in linear 16 bit. Differences are printed in steps of\n"
+           "1/65535.\n\n");
     option_print_rows(&option_table, stdout);
     printf("\nExit status: 0 every scene agrees, 1 one does not, 2 usage, 3 POV-Ray is missing.\n");
 }

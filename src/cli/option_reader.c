@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "cli/terminal.h"
 
 static bool is_optional(const OptionRow *row)
@@ -14,19 +15,49 @@ static bool is_optional(const OptionRow *row)
     return row->argument && row->argument[0] == '[';
 }
 
-void option_print_rows(const OptionTable *table, FILE *out)
+enum { HELP_COLUMNS = 80, HELP_INDENT = 29 };
+
+static void append_heading(const OptionTable *table, const OptionRow *row, TextBuffer *out)
+{
+    for (size_t i = 0; i < table->group_count; i++) {
+        if (strcmp(table->groups[i].first, row->name) == 0) {
+            text_printf(out, "%s%s:\n", i > 0 ? "\n" : "", table->groups[i].heading);
+        }
+    }
+}
+
+static void append_row(const OptionRow *row, TextBuffer *out)
+{
+    size_t start = out->length;
+    bool may_lack = is_optional(row);
+    text_printf(out, row->letter ? "  -%c, --%s" : "  %c   --%s", row->letter ? row->letter : ' ', row->name);
+    if (row->argument) {
+        text_printf(out, "%s%s", may_lack ? "[=" : "=", row->argument + may_lack);
+    }
+    size_t width = out->length - start;
+    if (width + 2 > HELP_INDENT) {
+        text_append_char(out, '\n');
+        width = 0;
+    }
+    text_printf(out, "%*s", HELP_INDENT - (int)width, "");
+    text_append_wrapped(out, row->help, HELP_INDENT, HELP_INDENT, HELP_COLUMNS);
+}
+
+static void append_rows(const OptionTable *table, TextBuffer *out)
 {
     for (const OptionRow *row = table->rows; row < table->rows + table->count; row++) {
-        char left[64];
-        bool may_lack = is_optional(row);
-        snprintf(left, sizeof left, row->letter ? "-%c, --%s%s%s" : "%c   --%s%s%s", row->letter ? row->letter : ' ',
-                 row->name, row->argument ? may_lack ? "[=" : "=" : "", row->argument ? row->argument + may_lack : "");
-        fprintf(out, "  %-28s ", left);
-        for (const char *c = row->help; *c; c++) {
-            *c == '\n' ? fprintf(out, "\n%31s", "") : fputc(*c, out);
-        }
-        fputc('\n', out);
+        append_heading(table, row, out);
+        append_row(row, out);
     }
+}
+
+void option_print_rows(const OptionTable *table, FILE *out)
+{
+    TextBuffer text;
+    text_init(&text);
+    append_rows(table, &text);
+    fputs(text_get(&text), out);
+    text_fini(&text);
 }
 
 // The table in getopt's two forms. An option's `val` is its row's number above all characters.

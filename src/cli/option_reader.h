@@ -33,12 +33,20 @@ typedef struct OptionRow {
     const char *name;
     const char *argument; // NULL: takes none; may be left out when it begins with `[`
     OptionApply apply;    // NULL: it prints something and ends the program
-    const char *help;     // may have several lines
+    const char *help;     // one sentence or more, which the printer wraps
 } OptionRow;
+
+// A heading of the help.
+typedef struct OptionGroup {
+    const char *heading;
+    const char *first; // the name of the option that it stands before
+} OptionGroup;
 
 typedef struct OptionTable {
     const OptionRow *rows;
     size_t count; // at most OPTIONS_MOST
+    const OptionGroup *groups;
+    size_t group_count;
 } OptionTable;
 
 enum { OPTIONS_MOST = 96 };
@@ -58,7 +66,7 @@ OptionsResult option_reader_run(const OptionTable *table, int argc, char **argv,
 // Sets the complaint; returns OPTIONS_WRONG.
 OptionsResult option_complain(OptionReading *reading, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// The rows of a help.
+// The rows of a help under their headings, in lines of at most 80 columns.
 void option_print_rows(const OptionTable *table, FILE *out);
 
 // A whole number of that range, and nothing else.

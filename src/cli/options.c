@@ -15,9 +15,10 @@
 void options_print_help(FILE *out)
 {
     fprintf(out, "Usage: rtlang [OPTION]... SCENE...\n"
-                 "Reads each SCENE, traces it and writes a picture. A SCENE of - is standard input.\n\n");
+                 "Reads each SCENE, traces it and writes a picture. SCENE - is standard input.\n\n");
     option_print_rows(&option_table, out);
-    fprintf(out, "\nExit status: 0 fine, 1 a fault in the scene, 2 usage, 3 input or output, 4 a limit.\n");
+    fprintf(out, "\nExit status: 0 fine, 1 a fault in the scene, 2 usage, 3 input or output,\n"
+                 "4 a limit.\n");
 }
 
 // --help and --version.

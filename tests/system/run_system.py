@@ -338,6 +338,11 @@ def test_actions():
     tap.ok(version.returncode == 0 and re.fullmatch(rb"rtlang \d+\.\d+\.\d+\nconfinement: .+\n", version.stdout), "--version", version)
     usage = rtlang("--help")
     tap.equal((usage.returncode, usage.stderr), (0, b""), "--help")
+    lines = usage.stdout.decode().split("\n")
+    tap.equal([line for line in lines if len(line) > 80], [], "--help has lines of 80 columns at most")
+    headings = [at for at, line in enumerate(lines) if re.fullmatch(r"[A-Z].*:", line)]
+    first = [line for line in lines[headings[0]:headings[1]] if re.match(r"  .{4}--", line)]
+    tap.ok(len(headings) >= 8 and len(first) == 5, "--help has groups, and first the five options that most runs need", first)
     options = "clock allow-read max-steps max-depth max-objects max-text max-memory max-messages output width height threads " \
         "include-path declare depth file-gamma check dump quiet version help"
     for option in options.split():
