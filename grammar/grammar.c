@@ -314,7 +314,7 @@ GrammarText *grammar_text_read(const GrammarContext *context, Source *source)
 
 GrammarText *grammar_text_again(const GrammarContext *context, Span span)
 {
-    // What is wrong with it has been told when it was read first.
+    // What is wrong with it has been reported when it was read first.
     GrammarContext quiet_context = *context;
     GrammarState state;
     DiagSink quiet;

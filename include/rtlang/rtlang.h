@@ -34,7 +34,7 @@ typedef enum rt_status {
     RT_CANCELLED = 5    /* rt_cancel was called */
 } rt_status;
 
-/* A note tells of messages that were only counted. */
+/* A note reports messages that were only counted. */
 typedef enum rt_severity { RT_WARNING, RT_ERROR, RT_NOTE } rt_severity;
 
 /* One message about the scene or the run. All pointers are valid during the callback only. */
@@ -109,7 +109,7 @@ RT_API rt_status rt_set_limit(rt_session *session, rt_limit limit, uint64_t valu
 RT_API void rt_set_untrusted(rt_session *session);
 /* NAME=VALUE, as POV-Ray's Declare=: the value is a number. Of two declarations of a name the first holds. */
 RT_API rt_status rt_declare(rt_session *session, const char *name_value);
-/* Which warnings are told, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with
+/* Which warnings are reported, in the words of the program's -W: "all", "error", "W0201", "error=W0201", each also with
  * "no-" before it. */
 RT_API rt_status rt_set_warning(rt_session *session, const char *what);
 /* Which of some names, of which the last is NULL, a mistyped one most likely stands for; NULL: none is near. */
@@ -156,7 +156,7 @@ RT_API rt_status rt_load_text(rt_session *session, const char *name, const char 
  * and 24 of a colour that differs. Numbers are checked before any is taken: after a fault of
  * rt_add_*, rt_set_* or rt_update_spheres the scene is as it was, and the message says "spheres[17]" where element 17,
  * from 0, is wrong; after one of rt_load_* it is lost, and all that needs it returns RT_FAULT_USAGE. What can only be
- * told of the whole scene, rt_render tells. */
+ * reported for the whole scene, rt_render reports. */
 
 /* `count` is not here: element i stands at (const char *)data + i * stride, and its numbers follow each other `step`
  * bytes apart. */
@@ -427,7 +427,7 @@ typedef struct rt_error {
     int known;              /* 0: one ray a pixel, or no estimate; only `samples` then means something */
     double rmse, low, high; /* root mean square over all values, in linear light; ends of the 95 % interval */
     double samples;         /* a pixel, in the mean; 0: not every pixel has one */
-    double slope;           /* of log rmse in log samples, as far as can be told */
+    double slope;           /* of log rmse in log samples, as far as it is known */
     double bias;            /* what rays cut by max_trace_level or adc_bailout would add in the mean, at the least */
     double bias_by_level;   /* of it: by max_trace_level */
     rt_end end;
@@ -478,7 +478,7 @@ RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt
  * so on. RT_FAULT_USAGE for a plane that was not wanted when the picture was rendered. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
 
-/* The rendered picture (after RT_CANCELLED, too, when rt_get_error tells of samples): width * height * 3 floats (red,
+/* The rendered picture (after RT_CANCELLED, too, when rt_get_error reports samples): width * height * 3 floats (red,
  * green, blue) from the top row, in linear light, not clamped; of a scene that says nothing of gamma (docs/language.md,
  * "Gamma"), the values as they are stored in the file. Valid until the next rt_render and the session's end; NULL
  * before rt_render. */
@@ -508,7 +508,7 @@ typedef struct rt_budget {
     uint64_t picture;  /* the film */
     uint64_t limit;    /* of all together: RT_LIMIT_MEMORY */
 } rt_budget;
-/* What rt_render will need, told before it is spent. RT_FAULT_USAGE when no scene is loaded. */
+/* What rt_render will need, reported before it is spent. RT_FAULT_USAGE when no scene is loaded. */
 RT_API rt_status rt_get_budget(const rt_session *session, rt_budget *budget);
 
 /* What was done and how long it took. */

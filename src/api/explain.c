@@ -36,7 +36,7 @@ typedef enum Without {
     WITHOUT_FOG,
 } Without;
 
-// Each feature that a scene may have or lack: why it is left out, and what its costs can be told by.
+// Each feature that a scene may have or lack: why it is left out, and which of its costs are known.
 #define PARTS(PART)                                                                                                  \
     PART("spheres one by one", TRACE_SPHERES, "no sphere, or so many that they stand in a tree", WITHOUT_NOTHING)    \
     PART("tree of spheres", TRACE_SPHERE_BVH, "no sphere", WITHOUT_NOTHING)                                          \
@@ -60,7 +60,7 @@ typedef struct Feature {
     const char *name;
     unsigned feature;
     const char *absent;
-    Without without; // WITHOUT_NOTHING: what it costs alone cannot be told
+    Without without; // WITHOUT_NOTHING: its cost alone is not known
 } Feature;
 
 static const Feature feature_rows[] = {

@@ -1,4 +1,4 @@
-// Planes of the rendered picture: what it tells of each pixel beside light, for a client and for a file.
+// Planes of the rendered picture: what it holds of each pixel beside light, for a client and for a file.
 //
 // Owns the table of public planes: their channels, and where their numbers are. Traces nothing.
 //

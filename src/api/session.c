@@ -195,7 +195,7 @@ static void forward_message(void *client, EvalStream stream, const char *text, s
         [EVAL_STREAM_STATISTICS] = RT_STREAM_STATISTICS,
     };
     rt_session *session = client;
-    session_deliver(session); // what was told before comes before
+    session_deliver(session); // what was reported before comes before
     session_say(session, streams[stream], text, length);
 }
 

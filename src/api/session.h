@@ -221,7 +221,7 @@ bool session_load_pictures(rt_session *session, Scene *scene);
 // Evaluates a source and adds what it gives to the scene. `version` is that of the language at its beginning, 0: none.
 bool session_evaluate(rt_session *session, Source *source, Scene *scene, double version);
 
-// A call begins on a session that is built by calls: what was told before is forgotten. False when it may not be made.
+// A call begins on a session that is built by calls: what was reported before is forgotten. False when it may not be made.
 bool session_begin(rt_session *session) RT_MUST_CHECK;
 // Its shapes change: what was built for them is given back.
 void session_shapes_change(rt_session *session);

@@ -1,4 +1,4 @@
-// Diagnostics: what is to be told about a scene or a run, recorded as plain data where the fact is known.
+// Diagnostics: what is to be reported about a scene or a run, recorded as plain data where the fact is known.
 //
 // Nothing here prints. A sink counts and keeps the records; diag_print turns one into the text form, diag_json into the
 // form for programs. The codes stand in base/diag_codes.def; base/diag_texts.def explains each.

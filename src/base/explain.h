@@ -1,4 +1,4 @@
-// Explanations: what is told at length of each diagnostic code, for the terminal and for docs/diagnostics.md.
+// Explanations: what is reported at length of each diagnostic code, for the terminal and for docs/diagnostics.md.
 //
 // SPDX-License-Identifier: MIT
 #ifndef BASE_EXPLAIN_H

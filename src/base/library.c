@@ -1,6 +1,6 @@
 // Finds rtlang's own include files, POV-Ray's and Open Babel's.
 //
-// POV-Ray is told where its files are by the first povray.ini of those that its manual lists ("INI Files" of its Unix
+// POV-Ray finds its files by the first povray.ini of those that its manual lists ("INI Files" of its Unix
 // part, "Using INI Files"); that file's lines `Library_Path=FOLDER` and `+LFOLDER` are read, up to the first
 // `[section]`. A povray.ini in the current folder is left out: it would come along with a scene, which could then
 // choose what it may read. Knows nothing of scenes.

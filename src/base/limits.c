@@ -1,4 +1,4 @@
-// Limits: how an exhausted memory is told, and numbers of bytes for people.
+// Limits: how exhausted memory is reported, and numbers of bytes for people.
 //
 // Owns nothing and counts nothing: each limit is kept where the thing is counted.
 //

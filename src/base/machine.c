@@ -1,4 +1,4 @@
-// Reads the limits of memory that the system tells of. Owns nothing.
+// Reads the limits of memory that the system reports. Owns nothing.
 //
 // SPDX-License-Identifier: MIT
 #include "base/machine.h"

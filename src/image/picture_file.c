@@ -71,7 +71,7 @@ typedef ImageStatus (*StreamRead)(FILE *, const PictureLimit *, PictureFile *, I
 // How files of a format begin, and who reads it: a function of ours, or OpenImageIO under its name for it.
 static const struct {
     const char *format;
-    const char *beginnings[2]; // none: it cannot be told
+    const char *beginnings[2]; // none: its kind cannot be recognised
     size_t length;
     StreamRead read;
     const char *module_name;

@@ -55,7 +55,7 @@ typedef struct Faces {
     size_t count;
     double unit; // of distances in keys
     size_t compared;
-    uint64_t told; // the order, + 1, of the shape that was told of last
+    uint64_t told; // the order, + 1, of the shape that was reported last
 } Faces;
 
 // ---- faces of shapes
@@ -127,7 +127,7 @@ static Face face_at(const Scene *scene, FaceRef ref)
 
 // ---- two of them
 
-// Shapes that coincident.c tells of.
+// Shapes that coincident.c reports.
 static bool are_equal(const Scene *scene, FaceRef a, FaceRef b)
 {
     size_t planes = scene->planes.count;
@@ -228,7 +228,7 @@ static uint64_t mix(uint64_t hash, double number)
 }
 
 // Of a plane, whichever side of it is out. Numbers that rounding has made different are the same here, but for one in
-// some thousands; those that are the same by chance are told apart by `overlap`.
+// some thousands; those that are the same by chance are distinguished by `overlap`.
 static uint64_t plane_key(const Faces *faces, const FacePlane *plane)
 {
     const Vec3 way = {0.61, 0.53, 0.59}; // at right angles to no plane that anybody would write

@@ -93,7 +93,7 @@ typedef struct Extent {
     double size;
     Vec3 place;
     uint64_t source;
-    const char *what; // of a part it is made when it is told of
+    const char *what; // of a part it is made when it is reported
     const Part *part; // or NULL
 } Extent;
 

@@ -37,7 +37,7 @@ typedef struct SceneScale {
 
 // The exponent puts the scene's lengths in the middle of the range of double: scaled by 2^-exponent, squares of the
 // greatest and the least are as far from overflow as from underflow. Where they span more than that range, it is the
-// one that the most of the scene has, as if what cannot be held beside it, which scene_warn_of_range tells of, were not
+// one that the most of the scene has, as if what cannot be held beside it, which scene_warn_of_range reports, were not
 // there; the camera always counts. A scene times 2^k has an exponent greater by k, so both become the same numbers.
 // (The direction and screen of a perspective camera have no length that matters.)
 SceneScale scene_scale(const Scene *scene, int threads);

@@ -26,7 +26,7 @@
 static const SchemaProperty transforms[] = {
     {"translate", TYPE_ACTION, ACTION_TRANSLATE, .doc = "moves by a vector"},
     {"rotate", TYPE_ACTION, ACTION_ROTATE, .doc = "turns about x, then y, then z, by a vector of degrees, left-handed"},
-    {"scale", TYPE_ACTION, ACTION_SCALE, .doc = "stretches by a vector; a component of 0 is told and taken as 1"},
+    {"scale", TYPE_ACTION, ACTION_SCALE, .doc = "stretches by a vector; a component of 0 is reported and taken as 1"},
     {"matrix", TYPE_ACTION, ACTION_MATRIX, .doc = "`<…>` of twelve numbers: the images of x, y, z and of the origin"},
     {"transform", TYPE_ACTION, ACTION_TRANSFORM, .doc = "`{ transforms }`, or the name of a declared transform"},
 };
@@ -744,7 +744,7 @@ static const SchemaBlock kinds[KIND_COUNT] = {
          .size = sizeof(ImageDesc),
          .defaults = &image_defaults,
          .groups = {LIST(image_properties)},
-         .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name tells it."},
+         .doc = "In a pigment: a picture from a file. Its type may be left out where the ending of its name says it."},
     [KIND_NORMAL_MAP] = {.word = "normal_map",
                          .what = "a map of normals",
                          .size = sizeof(PatternMap),

@@ -115,9 +115,9 @@ typedef enum SchemaAction {
 typedef enum SchemaPolicy {
     RANGE_ANY,   // every finite number
     RANGE_FAULT, // outside is an error
-    RANGE_WARN,  // outside is told and used
-    RANGE_CLAMP, // outside is told and the nearest end is used
-    RANGE_RAISE, // below is told and the low end is used, above is an error
+    RANGE_WARN,  // outside is reported and used
+    RANGE_CLAMP, // outside is reported and the nearest end is used
+    RANGE_RAISE, // below is reported and the low end is used, above is an error
 } SchemaPolicy;
 
 typedef struct SchemaRange {

@@ -54,7 +54,7 @@ static bool grow(UniqueIndex *index, const void *records, size_t count, size_t s
     return true;
 }
 
-// The record that was told last, which most are like; compared word by word, for they are short.
+// The record that was added last, which most are like; compared word by word, for they are short.
 static inline bool is_last(const UniqueIndex *index, const void *records, size_t count, size_t size, const void *record)
 {
     if (index->last >= count) {

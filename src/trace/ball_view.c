@@ -2,7 +2,7 @@
 //
 // Every way from the point to a place of the ball lies in a cone around the way to its centre. What a plane parts from
 // that cone is before none of them, and neither is the plane that the point lies on, or a sphere that the point lies on
-// and the ball outside of. No is also said where that cannot be told.
+// and the ball outside of. No is also said where that cannot be decided.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>

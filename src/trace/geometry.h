@@ -21,7 +21,7 @@ typedef struct PlaneEntry {
 
 struct Geometry {
     unsigned features;
-    const SphereKernels *kernels; // for this processor, or as told
+    const SphereKernels *kernels; // for this processor, or as given
     SphereTable spheres;
     PlaneEntry *planes;
     uint32_t plane_count;

@@ -473,7 +473,7 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
     return occluded;
 }
 
-// What lies on the ways of surfaces that are asked for; returns those for which that is told. The others are to be
+// What lies on the ways of surfaces that are asked for; returns those for which that is known. The others are to be
 // walked.
 RT_ALWAYS_INLINE uint64_t geometry_crossed(const Geometry *g, unsigned features, const TileSurfaces *from,
                                            const SurfaceRays *rays, uint64_t asked, TileCrossings *crossings)
@@ -485,7 +485,7 @@ RT_ALWAYS_INLINE uint64_t geometry_crossed(const Geometry *g, unsigned features,
     return g->kernels->crossed(&g->spheres, plane, shape_id(SHAPE_PLANE, 0), from, rays, asked, crossings);
 }
 
-// The same of one ray: whether that is told.
+// The same of one ray: whether that is known.
 RT_ALWAYS_INLINE bool geometry_ray_crossed(const Geometry *g, unsigned features, Ray ray, RayStart start, double t_max,
                                            RayCrossings *crossings)
 {

@@ -120,7 +120,7 @@ double sphere_exact(const SphereRay *ray, const SphereData *ball, const SphereDa
     __attribute__((cold));
 
 // Which of two spheres is met first, where both roots are within some ulps of t: below 0 when that is a. Roots that
-// differ by u² of the distances are told apart; spheres of one centre by their radii, however far their roots are
+// differ by u² of the distances are distinguished; spheres of one centre by their radii, however far their roots are
 // apart.
 int sphere_roots_compare(const SphereRay *ray, const SphereData *a, bool a_inside, const SphereData *b, bool b_inside,
                          double t) __attribute__((cold));

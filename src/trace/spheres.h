@@ -136,7 +136,7 @@ typedef struct TileView {
 
 typedef struct ShapeTable ShapeTable; // trace/shapes.h
 
-// Brings `nearest` up to date with all spheres, and settles it; tells whether one is met at 0 < t < t_max. Spheres equal
+// Brings `nearest` up to date with all spheres, and settles it; returns whether one is met at 0 < t < t_max. Spheres equal
 // to that of the slot `start`, which may be SLOT_NONE, are passed over.
 typedef struct SphereKernels {
     const char *name;

@@ -1,7 +1,7 @@
 // All crossings of rays to a light with few spheres and a plane, found from the rays' starts: part of spheres_kernel.c.
 //
 // A walk from one crossing to the next, each found from the one before (render/shade_light.h), meets the same surfaces
-// in the same order wherever that is certain: every crossing of a line, and the place of its end, is told apart from
+// in the same order wherever that is certain: every crossing of a line, and the place of its end, is distinguished from
 // the next by more than all that rounding does on a walk's way. What is not so certain is left to be walked.
 //
 // Each start of the walk's rays is off the line by less than 2^-50 W, where no coordinate is beyond W, and there are
@@ -186,7 +186,7 @@ RT_ALWAYS_INLINE DoublesMask crossed_plane(const CrossedLines *v, const PlaneSha
     return crossed_before(v, ahead, *root, is_open);
 }
 
-// Both lists of a ray in one; false when two crossings are not told apart.
+// Both lists of a ray in one; false when two crossings are not distinguished.
 static bool crossed_merge(const CrossedList *into, const CrossedList *out, double apart, ShapeId *shapes)
 {
     int in = 0, left = out->count;
@@ -205,7 +205,7 @@ static bool crossed_merge(const CrossedList *into, const CrossedList *out, doubl
     return true;
 }
 
-// The rays of a vector for which the crossings are told.
+// The rays of a vector for which the crossings are known.
 static unsigned crossed_end(const CrossedVector *v, unsigned asked, int at, TileCrossings *crossings)
 {
     unsigned told = 0;

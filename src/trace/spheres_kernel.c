@@ -28,7 +28,7 @@ RT_ALWAYS_INLINE Vec3 by_parts(const Vec3 *a)
 
 enum { HALVES = SPHERE_BLOCK / DOUBLES };
 
-// What the test of a block tells of its eight spheres.
+// What the test of a block finds of its eight spheres.
 typedef struct BlockHits {
     _Alignas(64) double t[SPHERE_BLOCK]; // approximate roots
     unsigned met;                        // by a root no later than the limit, or doubtful

@@ -4,7 +4,7 @@
 // with -R for R is. Along the line h is a square's polynomial minus 2 R rho, and rho is convex: h'' = 0 only where rho is
 // cbrt(R D), D being the square of the line's distance from the axis times that of its slope to it. So h is convex, then
 // concave between two places that are known, then convex again; each piece has at most two roots, which the signs at its
-// ends and at its one extremum tell apart, and no root is lost.
+// ends and at its one extremum distinguish, and no root is lost.
 //
 // h as a difference of lengths is good to some u of the distance from the tube's middle, so that thin tubes cost no
 // digits, where the coefficients of a quartic lose as many as r² has beside R². A sign that this does not decide, and

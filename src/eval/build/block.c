@@ -1,7 +1,7 @@
 // The generic evaluator of blocks: `word { … }` becomes a description, as the schema says.
 //
 // Takes a leading identifier or the positional arguments, then the properties, each by its type or by the action that
-// the table names. Whatever does not fit is a located fault and is passed over, so that one run tells all faults. Knows
+// the table names. Whatever does not fit is a located fault and is passed over, so that one run reports all faults. Knows
 // nothing of what a property means.
 //
 // SPDX-License-Identifier: MIT

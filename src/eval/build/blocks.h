@@ -338,7 +338,7 @@ bool box_is_inside_out(SchemaKind kind, const void *object);
 // Such a sphere where it is refused: in a union or merge that is one object, and as what a light looks like.
 bool box_fault(Eval *ev, Span span);
 bool box_fault_of_look(Eval *ev, Span span);
-// Such a sphere alone is not drawn, with a warning; at the end of a scene it is told whether that was right.
+// Such a sphere alone is not drawn, with a warning; at the end of a scene rtlang reports whether that was right.
 bool box_leave_out(Eval *ev, Span span) RT_MUST_CHECK;
 bool box_left_out_rightly(Eval *ev) RT_MUST_CHECK;
 // Where a ray may start inside of the shape that was placed last, with parts from `first_part` on: in the owner's box.

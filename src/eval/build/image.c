@@ -71,7 +71,7 @@ static PictureFormat format_of_name(const char *name)
     return (PictureFormat)format;
 }
 
-// The expression that names the file stands next. PICTURE_FORMATS: its ending tells the format.
+// The expression that names the file stands next. PICTURE_FORMATS: its ending names the format.
 static bool read_file(Block *block, PictureFormat format)
 {
     ImageDesc *image = &block->record->image;

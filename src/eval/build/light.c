@@ -103,7 +103,7 @@ bool light_look_action(Block *block, const SchemaProperty *property, const AstNo
         return false;
     }
     if (!schema_kind(is)->is_object) {
-        block->has_unsupported = true; // and was told
+        block->has_unsupported = true; // and was reported
         return true;
     }
     UnionMember look = {NULL, arena_copy(block->arena, &record, schema_kind(is)->size), is};

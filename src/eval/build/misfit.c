@@ -148,7 +148,7 @@ void block_unknown_property(Block *block, const AstNode *item)
 
 void block_refuse_colour(Block *block, const AstNode *item)
 {
-    bool may_be_missing = block->has_fault; // it may have its place in what was told
+    bool may_be_missing = block->has_fault; // it may have its place in what was reported
     block->has_fault = true;
     bool takes_pigment = block->ev->objects->properties[block->kind][W_pigment] != 0;
     if (!may_be_missing && !eval_follows_syntax(block->ev, block->node->span) &&
@@ -308,7 +308,7 @@ static bool is_deferred(const UnsupportedDesc *list, const UnsupportedDesc *what
     return list != NULL;
 }
 
-// A fault is told of the first word alone, what is left out of each.
+// The first word alone is a fault; what is left out is reported of each.
 void block_unsupported_name(Eval *ev, const UnsupportedDesc *what, Span use)
 {
     ObjectState *objects = ev->objects;

@@ -93,7 +93,7 @@ bool plan_keep(void *client, const void *list, size_t count, size_t more)
             bool is_added = i > 0 ? scene_add_other_material(scene, &record->material, &index)
                                   : scene_add_material_record(scene, &record->material, &index);
             if (!is_added) {
-                return false; // one by one it will be told
+                return false; // one by one it will be reported
             }
         }
         sphere[i] = (Sphere){record->centre, record->radius, index, (uint32_t)record->source};

@@ -1,4 +1,4 @@
-// trace and inside: what a ray or a point is told of a declared object.
+// trace and inside: what a ray or a point finds of a declared object.
 //
 // Turns an object into its shapes, which the tracer holds (EvalTracer), and keeps that for the next time. As POV-Ray
 // does it, all surfaces of the shapes are met one after the other, and the first one counts that the groups and clips
@@ -199,7 +199,7 @@ static Probe *find_probe(Eval *ev, const Value *object, Span span)
 {
     for (size_t i = 0; i < ev->probes.count; i++) {
         if (ev->probes.items[i]->object == object->record) {
-            return ev->probes.items[i]->geometry != NULL ? ev->probes.items[i] : NULL; // what is wrong has been told
+            return ev->probes.items[i]->geometry != NULL ? ev->probes.items[i] : NULL; // what is wrong has been reported
         }
     }
     Probe *probe = arena_alloc(&ev->program, sizeof *probe);

@@ -10,7 +10,7 @@
 
 // Half of what a disc is thick.
 static const double disc_thickness = 0.001;
-// Sides of planes are told apart with this. Measured.
+// Sides of planes are distinguished with this. Measured.
 static const double plane_tolerance = 1e-10;
 
 // ---- sphere and plane: their extents follow rules of their own

@@ -22,7 +22,7 @@ typedef struct Declared {
 struct Lint {
     ARRAY(uint8_t) marks; // by symbol
     ARRAY(Declared) declared;
-    bool failed; // out of memory, or not all text was seen: nothing is told of names
+    bool failed; // out of memory, or not all text was seen: nothing is reported of names
 };
 
 bool lint_init(Eval *ev)
@@ -75,7 +75,7 @@ static void use(Eval *ev, Symbol name)
     }
 }
 
-// The first declaration of a name is the one that is told.
+// The first declaration of a name is the one that is reported.
 static void declare(Eval *ev, Symbol name, DiagCode code, Span span)
 {
     uint8_t *mark = mark_of(ev, name);

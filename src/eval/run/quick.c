@@ -2,7 +2,7 @@
 // loops are full.
 //
 // Gives what expression.c and operators.c give where that is one number, or a vector of three, and nothing is to be
-// said of it. Anything else is refused and goes the usual way, which tells what is to be told; nothing has happened
+// said of it. Anything else is refused and goes the usual way, which reports what is to be reported; nothing has happened
 // then but that random numbers were drawn, and those only where the caller takes them back. Owns nothing.
 //
 // SPDX-License-Identifier: MIT
@@ -10,7 +10,7 @@
 
 #include "eval/run/scope.h"
 
-// Numbers that are nearer to one another than this, and differ, are told of where they are compared.
+// Numbers that are nearer to one another than this, and differ, are reported where they are compared.
 #define NEARNESS 1e-9
 
 static inline bool number_of(Eval *ev, const AstNode *node, bool draws, double *number);

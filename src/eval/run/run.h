@@ -342,7 +342,7 @@ bool lint_init(Eval *ev) RT_MUST_CHECK; // false when out of memory
 void lint_fini(Eval *ev);
 // Looks at items that are about to be evaluated, when a warning of this kind is on.
 void lint_items(Eval *ev, const AstNode *first);
-// Some text is not seen as items, so nothing can be told of unused names.
+// Some text is not seen as items, so nothing can be reported of unused names.
 void lint_give_up(Eval *ev);
 void lint_finish(Eval *ev); // after the last item
 

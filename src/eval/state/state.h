@@ -150,7 +150,7 @@ struct Eval {
     bool lacks_brace;    // so is what follows a block's word without its brace, up to an object
     bool explains_steps; // too many steps were reported, and not yet which loop does not end
     bool faulty;         // something was reported, if only before
-    bool tells_plan;     // the next statement that is read by a plan is to be told: those after it are not
+    bool tells_plan;     // the next statement that is read by a plan is to be noted: those after it are not
     size_t errors_before; // that were reported when the evaluation began
     unsigned inner;       // parentheses of any kind around the expression that is being computed
     unsigned initialiser; // of an array, in braces: 1 + the call_depth at which its elements are computed; 0: none
