@@ -13,7 +13,7 @@ static const double OUTLINE_LEAST = 0x1p-5, OUTLINE_MOST = 0x1p24;
 // A break that is so near to its place, in pixels, is as good.
 static const double ROOT_NEAR = 1e-5;
 
-enum { ROUGH_ROWS = 16, BREAKS_MOST = 64, ROOT_STEPS = 12, DIP_STEPS = 12 };
+enum { ROUGH_ROWS = 16, BREAKS_MOST = 64, ROOT_STEPS = 32, DIP_STEPS = 32 };
 
 bool outline_view_init(OutlineView *view, const PreparedCamera *camera, int width, int height)
 {
@@ -249,46 +249,70 @@ static double edges_cross(Edge a, Edge b, double low, double high, const double 
     return y;
 }
 
-// How far two edges are from each other at the part t of a piece; heights go as 3 t² - 2 t³, so that roots at the ends
-// are smooth in t.
-static double edges_off(Edge a, Edge b, double low, double high, double t, double *y)
+static double edge_slope(Edge edge, double y)
 {
-    *y = low + (high - low) * t * t * (3.0 - 2.0 * t);
-    return edge_at(a, *y) - edge_at(b, *y);
+    const Outline *outline = edge.outline;
+    double down = y - outline->y, part = 1.0 - outline->narrowing * (down * down);
+    double curve = outline->half_row * outline->narrowing * down / sqrt(part > 0.0 ? part : 0.0);
+    return outline->slope - edge.side * curve;
 }
 
-// Whether two edges that are on the same sides at both ends of a piece cross twice between; `*y`: where the first is at
-// the other side. The distance is followed to its least by golden section (J. Kiefer, Proc. AMS 4, 1953), if it falls
-// from both ends on.
+// Where the distance of two edges bends the other way: nowhere if one is a left one and the other a right one, and else
+// where w n / (1 - n u²)^1.5 is alike for both, an edge having the second derivative of w (1 - n u²)^0.5. Puts low,
+// such heights between and high, in order; returns the number of parts.
+static int bends_find(Edge a, Edge b, double low, double high, double at[4])
+{
+    const Outline *one = a.outline, *other = b.outline;
+    int parts = 1;
+    at[0] = low;
+    if (a.side == b.side) {
+        double quotient = one->half_row * one->narrowing / (other->half_row * other->narrowing);
+        double k = cbrt(quotient * quotient), of_other = k * other->narrowing;
+        double above = low - one->y, above_other = low - other->y;
+        double square = one->narrowing - of_other;
+        double half = one->narrowing * above - of_other * above_other;
+        double rest = one->narrowing * above * above - of_other * above_other * above_other + (k - 1.0);
+        double root = half * half - square * rest;
+        double sum = -(half + copysign(sqrt(root > 0.0 ? root : 0.0), half));
+        double first = low + sum / square, second = low + rest / sum; // not between, where there are none
+        double begin = first < second ? first : second, end = first < second ? second : first;
+        if (root > 0.0 && begin > low && begin < high) {
+            at[parts++] = begin;
+        }
+        if (root > 0.0 && end > low && end < high) {
+            at[parts++] = end;
+        }
+    }
+    at[parts] = high;
+    return parts;
+}
+
+// Whether two edges that are on the same sides at both ends of a part, in which their distance bends to one side only,
+// cross twice between; `*y`: where the first is at the other side. The least distance lies where the tangents at both
+// ends of a range meet or higher; the range is cut there, or halved where a tangent is upright or nearly so.
 static bool edges_dip(Edge a, Edge b, double low, double high, const double off[2], double *y)
 {
-    const double step = 0.0625, part = 0.3819660112501051;
-    double sign = off[0] > 0.0 ? 1.0 : -1.0;
-    if (sign * edges_off(a, b, low, high, step, y) >= sign * off[0] ||
-        sign * edges_off(a, b, low, high, 1.0 - step, y) >= sign * off[1]) {
-        return false;
-    }
-    double begin = 0.0, end = 1.0, t[2] = {part, 1.0 - part}, value[2];
+    double sign = off[0] + off[1] > 0.0 ? 1.0 : -1.0, at[2] = {low, high};
+    double value[2] = {sign * off[0], sign * off[1]}, slope[2];
     for (int i = 0; i < 2; i++) {
-        value[i] = sign * edges_off(a, b, low, high, t[i], y);
-        if (value[i] < 0.0) {
-            return true;
-        }
+        slope[i] = sign * (edge_slope(a, at[i]) - edge_slope(b, at[i]));
     }
-    for (int i = 0; i < DIP_STEPS; i++) {
-        int low_one = value[0] < value[1] ? 0 : 1; // the other ends the search's range
-        if (low_one == 0) {
-            end = t[1];
-        } else {
-            begin = t[0];
+    for (int step = 0; step < DIP_STEPS && slope[0] < 0.0 && slope[1] > 0.0; step++) {
+        double wide = at[1] - at[0], fall = value[0] - value[1] + wide * slope[1];
+        double part = fall / (slope[1] - slope[0]), least = value[0] + part * slope[0];
+        bool has_both = part > 0.0 && part < wide;
+        if (wide < ROOT_NEAR || (has_both && least > -ROOT_NEAR)) {
+            break;
         }
-        t[1 - low_one] = t[low_one];
-        value[1 - low_one] = value[low_one];
-        t[low_one] = low_one == 0 ? begin + part * (end - begin) : end - part * (end - begin);
-        value[low_one] = sign * edges_off(a, b, low, high, t[low_one], y);
-        if (value[low_one] < 0.0) {
+        *y = at[0] + (has_both && step % 2 == 0 ? part : 0.5 * wide);
+        double here = sign * (edge_at(a, *y) - edge_at(b, *y)), rise = sign * (edge_slope(a, *y) - edge_slope(b, *y));
+        if (here < 0.0) {
             return true;
         }
+        int end = rise > 0.0 ? 1 : 0;
+        at[end] = *y;
+        value[end] = here;
+        slope[end] = rise;
     }
     return false;
 }
@@ -315,10 +339,22 @@ static void breaks_add_crossing(Breaks *breaks, Edge a, Edge b, double low, doub
     double y;
     if (off[0] * off[1] < 0.0) {
         breaks_add(breaks, edges_cross(a, b, low, high, off));
-    } else if (off[0] * off[1] > 0.0 && a.outline != b.outline && edges_dip(a, b, low, high, off, &y)) {
+    } else if (edges_dip(a, b, low, high, off, &y)) {
         double there = edge_at(a, y) - edge_at(b, y);
         breaks_add(breaks, edges_cross(a, b, low, y, (double[2]){off[0], there}));
         breaks_add(breaks, edges_cross(a, b, y, high, (double[2]){there, off[1]}));
+    }
+}
+
+// Of the edges of two outlines; the same outline's meet at its ends only.
+static void breaks_add_pair(Breaks *breaks, Edge a, Edge b, double low, double high, const double off[2])
+{
+    double at[4], before = off[0];
+    int parts = a.outline != b.outline ? bends_find(a, b, low, high, at) : 0;
+    for (int i = 0; i < parts; i++) {
+        double next = i + 1 < parts ? edge_at(a, at[i + 1]) - edge_at(b, at[i + 1]) : off[1];
+        breaks_add_crossing(breaks, a, b, at[i], at[i + 1], (double[2]){before, next});
+        before = next;
     }
 }
 
@@ -335,7 +371,7 @@ static void breaks_add_crossings(Breaks *breaks, const Outline *outlines, int co
             at_high[i] = edge_at(edges[i], high);
             for (int j = 0; j < i; j++) {
                 double off[2] = {at_low[i] - at_low[j], at_high[i] - at_high[j]};
-                breaks_add_crossing(breaks, edges[i], edges[j], low, high, off);
+                breaks_add_pair(breaks, edges[i], edges[j], low, high, off);
             }
         }
     }

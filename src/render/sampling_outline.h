@@ -76,7 +76,7 @@ OutlineColumns outline_columns(const Outline *outline, double top, double bottom
 enum { OUTLINES_MOST = 4, OUTLINES_ROUGH = 8 };
 
 // Shares of the square of one pixel around 0, 0: those of each outline that are in none before it, then that of the
-// rest. Exact but for rounding and for crossings that are found to 1e-5 of a pixel; OUTLINES_MOST outlines at most.
+// rest. Exact but for rounding and for crossings that are found where edges are 1e-5 of a pixel apart; OUTLINES_MOST outlines at most.
 void outline_areas(const Outline *outlines, int count, double *areas);
 
 // The same from a few rows, of OUTLINES_ROUGH outlines at most.

@@ -171,6 +171,31 @@ static void test_areas(int count, double most_mean, double most)
     tap_ok(rough_worst <= 0.1, "%d outlines: approximate shares are off by %.2g at most", count, rough_worst);
 }
 
+// Edges that cross twice within few rows, near an end of both.
+static void test_near_ends(void)
+{
+    static const Outline pairs[][2] = {
+        {{-1.6504741891018859, 0.48022302980037368, -1.1542332476373289, 1.6136573402025578, 0.94230640197094873},
+         {-1.6802525866418119, -0.44176498937339059, 1.8131043490651939, 1.5126038728990845, 1.5146704678915173}},
+        {{-0.036031102062629605, 0.57726442317686188, -0.29007818567085714, 0.45803722907714778, 1.3966493946754295},
+         {0.66311153283149527, -0.062086507056122626, -1.7851485192115235, 0.80212522998901359, 6.2575369630494233}},
+        {{1.6438608689141323, -0.30045129128583731, -1.3805484806770976, 1.378477748946028, 1.1996495164856797},
+         {0.15199598160016103, 0.42063025961923806, 0.74746090296149514, 0.27946004576602856, 7.6744998927734676}}};
+    enum { PAIRS = sizeof pairs / sizeof pairs[0] };
+    double worst = 0.0;
+    for (int i = 0; i < PAIRS; i++) {
+        double areas[3], wanted[3] = {0.0};
+        outline_areas(pairs[i], 2, areas);
+        for (int row = 0; row < ROWS; row++) {
+            narrow_row(pairs[i], 2, (row + 0.5) / ROWS - 0.5, wanted);
+        }
+        for (int j = 0; j < 3; j++) {
+            worst = fmax(worst, fabs(areas[j] - wanted[j] / ROWS));
+        }
+    }
+    tap_ok(worst < 1e-6, "two crossings near an end of both edges: shares are off by %.2g at most", worst);
+}
+
 int main(void)
 {
     drawn_by = (Random){random_seed(NULL)};
@@ -179,5 +204,6 @@ int main(void)
     test_areas(1, 1e-6, 1e-5);
     test_areas(2, 1e-6, 1e-5);
     test_areas(4, 1e-6, 1e-5);
+    test_near_ends();
     return tap_done();
 }
