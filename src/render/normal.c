@@ -81,6 +81,12 @@ static Vec3 mapped(const TextureTable *table, uint32_t index, Vec3 point, Vec3 n
     return vec3_add(vec3_scale(1.0 - place.share, low), vec3_scale(place.share, high));
 }
 
+// What a map or blocks make of a normal is of length 1 in the map around them, too; an average is not. Measured.
+static bool has_own_length(const Normal *record)
+{
+    return record->entries != RECORD_NONE && record->pattern.type != PATTERN_AVERAGE;
+}
+
 static Vec3 turned(const TextureTable *table, uint32_t index, Vec3 outer, Vec3 normal, bool keeps_length)
 {
     const Normal *record = &table->scene->normals.items[index];
@@ -99,7 +105,7 @@ static Vec3 turned(const TextureTable *table, uint32_t index, Vec3 outer, Vec3 n
         inner = vec3_sub(inner, vec3_scale(factor, lean(table, index, point)));
     }
     inner = transform_normal(to_pattern, inner);
-    return keeps_length ? inner : vec3_normalize(inner);
+    return keeps_length && !has_own_length(record) ? inner : vec3_normalize(inner);
 }
 
 // The normal in the space of a pattern of textures.
