@@ -487,14 +487,20 @@ static bool can_tear(const GrammarState *state)
            state->current.span.begin >= state->told_to;
 }
 
-bool grammar_scan_defers(GrammarState *state)
+// Whether the text is read again with its directives resolved, or never: what is wrong in it may not matter.
+static bool is_deferred(const GrammarState *state)
 {
     bool defers = state->is_quiet;
     for (size_t i = 0; i < state->openers.count && !defers && can_tear(state); i++) {
         defers = grammar_is_directive(state->openers.items[i].kind);
     }
-    state->is_unreadable = defers;
     return defers;
+}
+
+bool grammar_scan_defers(GrammarState *state)
+{
+    state->is_unreadable = is_deferred(state);
+    return state->is_unreadable;
 }
 
 bool grammar_tear(GrammarState *state)
@@ -551,6 +557,21 @@ static void pass_current(GrammarState *state)
     }
 }
 
+// A name that is not declared begins where a number ends: 0x1F, 1.5f. Reading continues as if it were not there.
+static bool refuse_suffix(GrammarState *state)
+{
+    const GrammarHooks *hooks = state->context->hooks;
+    const Token *name = &state->current;
+    if (name->kind != TOKEN_NAME || state->previous.kind != TOKEN_NUMBER ||
+        name->span.begin != state->previous.span.end || hooks == NULL || is_deferred(state) ||
+        hooks->capture(hooks->client, name->symbol, name->span) != NULL) {
+        return false;
+    }
+    grammar_fault(state, DIAG_E0106, name->span, "`%s` stands at the end of a number, which is decimal and has no suffix",
+                  intern_get(state->context->names, name->symbol));
+    return true;
+}
+
 static void next_token(GrammarState *state)
 {
     grammar_track(state, &state->current);
@@ -571,6 +592,9 @@ static void next_token(GrammarState *state)
     }
     if (RT_UNLIKELY(state->current.kind == TOKEN_BUILTIN && state->current.symbol == W_internal)) {
         settle_internal(state);
+    }
+    if (RT_UNLIKELY(refuse_suffix(state))) {
+        state->current.kind = TOKEN_INVALID;
     }
     if (state->item_begin == 0) {
         state->item_begin = state->current.span.begin;

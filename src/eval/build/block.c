@@ -362,7 +362,8 @@ static void read_name(Block *block)
     bool is_value = eval_expression(block->ev, item, &value);
     block->ev->at_colour = false;
     if (!is_value) {
-        block->has_name = block->has_fault = true;
+        block->has_fault = true;
+        block->has_name = !object_is_group(block->kind); // of a group it may have been a member
         cursor_skip(&block->cursor);
         if (block->kind == KIND_PIGMENT) {
             skip_values(block); // of a colour word that was not understood

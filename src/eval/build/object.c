@@ -147,7 +147,9 @@ bool object_members(Block *block)
 
 bool union_close(Block *block)
 {
-    if (!block->has_name && !block->has_unsupported && block->record->group.count < 2) {
+    // After a fault, here or before, what is missing may be missing because of it.
+    bool has_faults = block->ev->options.diags->error_count > block->ev->errors_before;
+    if (!block->has_name && !block->has_unsupported && !has_faults && block->record->group.count < 2) {
         bool begins_with_vowel = block->kind == KIND_INTERSECTION;
         eval_warn(block->ev, DIAG_W0407, block->node->span, "%s %s should have at least two objects",
                   begins_with_vowel ? "an" : "a", schema_kind(block->kind)->word);

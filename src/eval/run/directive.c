@@ -61,14 +61,8 @@ static void check_end(Eval *ev, const AstNode *node, const Value *value)
     if (!eval_report(ev, DIAG_E0205, end, "a `;` is missing after the declaration of %s", value_describe(value))) {
         return;
     }
-    char next = ' ';
-    bool is_read = source_read_span(ev->options.diags->sources, (Span){end.end, end.end + 1}, &next);
-    if (is_read && node->b->kind == AST_NUMBER && (next == '_' || ((next | ' ') >= 'a' && (next | ' ') <= 'z'))) {
-        diag_suggest(ev->options.diags, "numbers are decimal and have no suffix: this one ends here");
-    } else {
-        diag_suggest(ev->options.diags, "write `;` after it");
-        diag_replace(ev->options.diags, (Span){end.end, end.end}, ";");
-    }
+    diag_suggest(ev->options.diags, "write `;` after it");
+    diag_replace(ev->options.diags, (Span){end.end, end.end}, ";");
 }
 
 // After a fault the name is kept without a value, so that its uses are not reported as well.
