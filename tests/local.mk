@@ -47,6 +47,7 @@ unit_programs = \
   tests/unit/test_range \
   tests/unit/test_invariance \
   tests/unit/test_build \
+  tests/unit/test_refit \
   tests/unit/test_overlay \
   tests/unit/test_stack \
   tests/unit/test_study \
@@ -165,6 +166,8 @@ tests_unit_test_render_SOURCES = %D%/unit/test_render.c
 tests_unit_test_render_LDADD = librender.la $(UNIT_TRACE)
 tests_unit_test_build_SOURCES = %D%/unit/test_build.c %D%/unit/build_scenes.h $(unit_headers)
 tests_unit_test_build_LDADD = libapi.la
+tests_unit_test_refit_SOURCES = %D%/unit/test_refit.c $(unit_headers)
+tests_unit_test_refit_LDADD = libapi.la
 tests_unit_test_overlay_SOURCES = %D%/unit/test_overlay.c
 tests_unit_test_overlay_LDADD = libapi.la
 tests_unit_test_stack_SOURCES = %D%/unit/test_stack.c $(unit_headers)

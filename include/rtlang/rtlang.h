@@ -209,8 +209,8 @@ RT_API rt_status rt_add_spheres(rt_session *session, const rt_spheres *spheres, 
 RT_API rt_status rt_add_rods(rt_session *session, const rt_rods *rods);
 RT_API rt_status rt_add_triangles(rt_session *session, const rt_triangles *triangles);
 /* Other numbers for spheres first to first + count - 1 of a group: those arrays that are given. Finish and name are not
- * looked at. RT_FAULT_USAGE for a group of which spheres of radius 0 were left out. With colours alone no tree is built
- * again from the second time on. */
+ * looked at. RT_FAULT_USAGE for a group of which spheres of radius 0 were left out. Colours alone build no tree; spheres
+ * that move keep theirs, whose boxes are made to fit, as long as it stays about as good as a new one: rt_summary tells. */
 RT_API rt_status rt_update_spheres(rt_session *session, size_t group, size_t first, const rt_spheres *spheres);
 
 /* A camera; the same as the text that stands at the right, with 0 for what is left at 0. */
@@ -519,7 +519,8 @@ typedef struct rt_summary {
     double parse_seconds, prepare_seconds, trace_seconds, write_seconds; /* wall time */
     uint64_t errors, warnings;
     const char *kernel; /* name of the kernel that traced the picture, "" before rt_render */
-    uint64_t trees; /* that were built of the scene's shapes, in all calls of rt_render */
+    uint64_t trees;  /* that were built of the scene's shapes, in all calls of rt_render */
+    uint64_t refits; /* and how often that of the spheres stayed for others, its boxes made to fit */
     uint64_t out_of_range; /* of the warnings, those of shapes, lights and cameras beyond the range of numbers */
 } rt_summary;
 RT_API void rt_get_summary(const rt_session *session, rt_summary *summary);

@@ -97,7 +97,8 @@ class Summary(Structure):
                 ("camera_rays", c_uint64), ("shadow_rays", c_uint64), ("reflected_rays", c_uint64),
                 ("transmitted_rays", c_uint64), ("parse_seconds", c_double), ("prepare_seconds", c_double),
                 ("trace_seconds", c_double), ("write_seconds", c_double), ("errors", c_uint64),
-                ("warnings", c_uint64), ("kernel", c_char_p), ("out_of_range", c_uint64)]
+                ("warnings", c_uint64), ("kernel", c_char_p), ("trees", c_uint64),
+                ("refits", c_uint64), ("out_of_range", c_uint64)]
 
 
 _SESSION = c_void_p

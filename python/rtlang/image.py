@@ -28,13 +28,16 @@ class Image:
     interval  (low, high) that holds it with 95 % confidence, None likewise
     end       why sampling ended: "done", "target", "time" or "interrupted"
     seconds   {"prepare": ..., "trace": ...}: for the tree and what else is prepared, and for the rays
+    built     {"trees": ..., "refits": ...}: how many trees all pictures of the scene took until then, and how often that
+              of the spheres stayed and was made to fit
     """
 
     def __init__(self, pixels: np.ndarray, alpha: Optional[np.ndarray] = None, samples: float = 1.0,
                  rmse: Optional[float] = None, interval: Optional[Tuple[float, float]] = None, end: str = "done",
-                 seconds: Optional[dict] = None, planes: Optional[dict] = None):
+                 seconds: Optional[dict] = None, planes: Optional[dict] = None, built: Optional[dict] = None):
         self.pixels, self.alpha, self.samples, self.planes = pixels, alpha, samples, planes or {}
         self.rmse, self.interval, self.end, self.seconds = rmse, interval, end, seconds or {}
+        self.built = built or {}
 
     @property
     def width(self) -> int:

@@ -56,7 +56,8 @@ class SphereGroup:
     def update(self, centers=None, radii=None, colors=None, first: int = 0) -> None:
         """Other numbers for the spheres from `first` on, as many as the arrays are long; None: as they were.
 
-        Other colors alone cost no new tree from the second time on; centers and radii do, and nothing else.
+        Other colors alone cost no tree. As long as spheres stay about where they were, the tree stays, too, and its
+        boxes are made to fit; a new one is built where that would cost rays too much (Image.built).
         """
         given = {}
         if centers is not None:
@@ -447,7 +448,8 @@ class Scene:
         return Image(_copy(address, shape + (3,)), None if not clear else 1 - _copy(clear, shape),
                      error.samples or 1.0, error.rmse if known else None, (error.low, error.high) if known else None,
                      c.ENDS[error.end], {"prepare": summary.prepare_seconds, "trace": summary.trace_seconds},
-                     {name: self._plane(name, shape) for name in planes})
+                     {name: self._plane(name, shape) for name in planes},
+                     {"trees": summary.trees, "refits": summary.refits})
 
     def dump(self) -> str:
         """The scene as text of the scene language, which gives the same records, bit for bit."""

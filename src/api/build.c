@@ -20,13 +20,6 @@ bool session_begin(rt_session *session)
     return session->is_built && !session->is_broken && !session->is_spent;
 }
 
-void session_shapes_change(rt_session *session)
-{
-    geometry_free(session->kept.geometry);
-    session->kept.geometry = NULL;
-    session->is_checked = false;
-}
-
 rt_status rt_begin_scene(rt_session *session)
 {
     if (session->loaded || session->is_spent || session->is_broken || session->world.scale > 0.0) {
@@ -195,7 +188,7 @@ rt_status rt_add_spheres(rt_session *session, const rt_spheres *spheres, size_t 
                           &spheres->look) &&
                 spheres_add(&list, spheres, &added);
     if (fine) {
-        session_shapes_change(session);
+        session->is_checked = false;
         fine = ARRAY_PUSH(&session->groups, added);
         if (group) {
             *group = session->groups.count - 1;
@@ -206,7 +199,7 @@ rt_status rt_add_spheres(rt_session *session, const rt_spheres *spheres, size_t 
 
 // ---- other numbers for spheres
 
-// Their colours move to materials of their own, which may then be changed in place. The tree holds on to the old ones.
+// Their colours move to materials of their own, which may then be changed in place.
 static bool group_own_materials(rt_session *session, SessionGroup *group)
 {
     Scene *scene = &session->scene;
@@ -224,7 +217,7 @@ static bool group_own_materials(rt_session *session, SessionGroup *group)
         sphere->material = (MaterialIndex)(first + i);
     }
     group->own = first;
-    session_shapes_change(session);
+    geometry_kept_change(&session->kept, group->first, group->first + group->count);
     return true;
 }
 
@@ -242,7 +235,9 @@ static void group_change(rt_session *session, const SessionGroup *group, size_t 
         }
     }
     if (moves || grows) {
-        session_shapes_change(session);
+        size_t begin = group->first + first;
+        geometry_kept_change(&session->kept, begin, begin + spheres->count);
+        session->is_checked = false;
     }
 }
 
@@ -369,7 +364,7 @@ rt_status rt_add_rods(rt_session *session, const rt_rods *rods)
     bool fine = list_open(&list, session, rods->name ? rods->name : "rods", rods->count, checks, 5, &rods->look) &&
                 rods_have_ends(session, rods, list.base) &&
                 parts_add(&list, make_rod, rods, rods->count, &rods->look);
-    session_shapes_change(session);
+    session->is_checked = false;
     return finish_call(session, fine);
 }
 
@@ -400,6 +395,6 @@ rt_status rt_add_triangles(rt_session *session, const rt_triangles *triangles)
     bool fine = list_open(&list, session, triangles->name ? triangles->name : "triangles", triangles->count, checks, 3,
                           &triangles->look) &&
                 parts_add(&list, make_triangle, triangles, triangles->count, &triangles->look);
-    session_shapes_change(session);
+    session->is_checked = false;
     return finish_call(session, fine);
 }

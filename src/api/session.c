@@ -91,7 +91,7 @@ void rt_session_free(rt_session *session)
     for (size_t i = 0; i < session->declarations.count; i++) {
         free((char *)session->declarations.items[i].name);
     }
-    geometry_free(session->kept.geometry);
+    geometry_kept_fini(&session->kept);
     free(session->png);
     ARRAY_FREE(&session->groups);
     free(session->header);
@@ -305,7 +305,7 @@ static bool may_load(rt_session *session)
     if (!session->is_built) {
         return !session->loaded && !session->is_spent;
     }
-    session_shapes_change(session);
+    session->is_checked = false;
     return session_begin(session);
 }
 
@@ -572,11 +572,8 @@ rt_status rt_render(rt_session *session, int threads)
     int max_trace_level = settings->max_trace_level;
     settings->max_trace_level = session->max_trace_level > 0 ? session->max_trace_level : max_trace_level;
     Vec3 origin = scene_recentre(&session->scene);
-    if (!vec3_equal(origin, session->kept_origin)) {
-        geometry_free(session->kept.geometry);
-        session->kept.geometry = NULL;
-        session->kept_origin = origin;
-    }
+    session->kept.is_elsewhere = session->kept.is_elsewhere || !vec3_equal(origin, session->kept_origin);
+    session->kept_origin = origin;
     status = session_run_deep(session, render_scene, &threads);
     settings->max_trace_level = max_trace_level;
     session->is_spent = session->is_last;
@@ -626,6 +623,7 @@ void rt_get_summary(const rt_session *session, rt_summary *summary)
         .warnings = session->past_warnings + session->diags.warning_count,
         .kernel = session->kernel,
         .trees = session->kept.builds + session->is_spent,
+        .refits = session->kept.refits,
         .out_of_range = out_of_range(&session->diags),
     };
 }

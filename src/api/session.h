@@ -21,6 +21,7 @@
 #include "render/render.h"
 #include "rtlang/rtlang.h"
 #include "scene/scene.h"
+#include "trace/kept.h"
 
 // Spheres of one array.
 typedef struct SessionGroup {
@@ -223,8 +224,6 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
 
 // A call begins on a session that is built by calls: what was reported before is forgotten. False when it may not be made.
 bool session_begin(rt_session *session) RT_MUST_CHECK;
-// Its shapes change: what was built for them is given back.
-void session_shapes_change(rt_session *session);
 // frames.c
 void session_note_statement(void *client, Span span);
 void session_frames_fini(rt_session *session);

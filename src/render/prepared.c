@@ -11,6 +11,7 @@
 #include "render/sampler_many.h"
 #include "render/tile_light.h"
 #include "scene/range.h"
+#include "trace/kept.h"
 
 static const double radians_per_degree = 0x1.1df46a2529d39p-6; // pi / 180
 
@@ -248,23 +249,6 @@ void prepared_seed(Prepared *prepared, uint64_t seed)
     }
 }
 
-// The geometry that was kept, if it is what a new one would be; else a new one.
-static Geometry *take_geometry(const Scene *scene, int exponent, const GeometryOptions *options)
-{
-    GeometryKept *kept = options->kept;
-    if (!kept) {
-        return geometry_new_with(scene, exponent, options);
-    }
-    if (kept->geometry && (kept->exponent != exponent || kept->isa != options->isa)) {
-        geometry_free(kept->geometry);
-        kept->geometry = NULL;
-    }
-    if (!kept->geometry) {
-        *kept = (GeometryKept){geometry_new_with(scene, exponent, options), exponent, options->isa, kept->builds + 1};
-    }
-    return kept->geometry;
-}
-
 Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
 {
     Prepared *p = calloc(1, sizeof *p);
@@ -275,7 +259,8 @@ Prepared *prepared_new(const Scene *scene, const GeometryOptions *options)
     int exponent = scale.exponent;
     p->abandon = calloc(1, sizeof *p->abandon);
     p->is_kept = options->kept != NULL;
-    p->geometry = take_geometry(scene, exponent, options);
+    p->geometry = options->kept ? geometry_kept_take(options->kept, scene, exponent, options)
+                                : geometry_new_with(scene, exponent, options);
     p->lights = calloc(scene->lights.count + 1, sizeof *p->lights);
     p->finishes = calloc(scene->finishes.count + 1, sizeof *p->finishes);
     if (!p->abandon || !p->geometry || !p->lights || !p->finishes ||

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "scene/part.h"
+#include "trace/kept.h"
 
 static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
 {
@@ -29,7 +30,6 @@ static bool planes_init(Geometry *geometry, const Scene *scene, int exponent)
         };
     }
     geometry->plane_count = (uint32_t)count;
-    geometry->features |= TRACE_PLANES;
     return true;
 }
 
@@ -73,6 +73,7 @@ static bool coincident_init(Geometry *geometry)
     size_t count = 0;
     for (uint32_t i = 0; balls && i < shapes->solid_count; i++) {
         Solid *solid = &shapes->solids[i];
+        solid->twin = SLOT_NONE;
         if (solid->kind == PART_SPHERE && part_map_is_round(solid->to_world.m)) {
             balls[count++] = solid;
         }
@@ -107,6 +108,14 @@ const char *geometry_isa(size_t i)
     return NULL;
 }
 
+static void find_features(Geometry *geometry)
+{
+    uint32_t loose = geometry->spheres.loose_count;
+    geometry->features = geometry->spheres.count > loose ? TRACE_SPHERE_BVH : loose > 0 ? TRACE_SPHERES : 0u;
+    geometry->features |= geometry->plane_count > 0 ? (unsigned)TRACE_PLANES : 0;
+    geometry->features |= geometry->shapes.solid_count > 0 ? (unsigned)TRACE_PARTS : 0;
+}
+
 Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOptions *options)
 {
     Geometry *geometry = calloc(1, sizeof(*geometry));
@@ -121,9 +130,7 @@ Geometry *geometry_new_with(const Scene *scene, int exponent, const GeometryOpti
         geometry_free(geometry);
         return NULL;
     }
-    uint32_t loose = geometry->spheres.loose_count;
-    geometry->features |= geometry->spheres.count > loose ? TRACE_SPHERE_BVH : loose > 0 ? TRACE_SPHERES : 0u;
-    geometry->features |= scene->parts.count > 0 ? (unsigned)TRACE_PARTS : 0;
+    find_features(geometry);
     return geometry;
 }
 
@@ -141,6 +148,109 @@ void geometry_free(Geometry *geometry)
         free(geometry);
     }
 }
+
+// ---- a geometry that is kept
+
+void geometry_kept_change(GeometryKept *kept, size_t begin, size_t end)
+{
+    SphereRange *all = &kept->changed;
+    bool is_first = all->begin == all->end;
+    all->begin = is_first || begin < all->begin ? begin : all->begin;
+    all->end = is_first || end > all->end ? end : all->end;
+}
+
+// What brings it up to date.
+typedef struct Follow {
+    const Scene *scene;
+    int exponent, threads;
+    bool is_elsewhere;         // all places and lengths are others
+    bool is_built, is_changed; // a tree is a new one; any shape is
+} Follow;
+
+// The spheres as they are now: by the tree that there is, or by a new one.
+static bool kept_take_spheres(GeometryKept *kept, Follow *follow)
+{
+    SphereTable *spheres = &kept->geometry->spheres;
+    size_t count = follow->scene->spheres.count;
+    SphereRange changed = follow->is_elsewhere ? (SphereRange){0, count} : kept->changed;
+    bool has_more = kept->spheres != count;
+    if (!has_more && changed.begin == changed.end) {
+        return true;
+    }
+    follow->is_changed = true;
+    if (!has_more && sphere_table_refit(spheres, &kept->refit, follow->scene, follow->exponent, changed, follow->threads)) {
+        kept->refits++;
+        return true;
+    }
+    follow->is_built = true;
+    kept->refit.in_root = 0.0;
+    sphere_table_fini(spheres);
+    return sphere_table_init(spheres, follow->scene, follow->exponent, follow->threads, NULL);
+}
+
+// The rest as it is now.
+static bool kept_take_others(GeometryKept *kept, Follow *follow)
+{
+    Geometry *geometry = kept->geometry;
+    const Scene *scene = follow->scene;
+    if (follow->is_elsewhere || kept->planes != scene->planes.count) {
+        free(geometry->planes);
+        geometry->planes = NULL;
+        if (!planes_init(geometry, scene, follow->exponent)) {
+            return false;
+        }
+    }
+    if ((follow->is_elsewhere && kept->parts > 0) || kept->parts != scene->parts.count) {
+        follow->is_built = follow->is_changed = true;
+        shapes_fini(&geometry->shapes);
+        return shapes_init(&geometry->shapes, scene, follow->exponent, follow->threads);
+    }
+    return true;
+}
+
+static bool kept_follow(GeometryKept *kept, const Scene *scene, int exponent, const GeometryOptions *options)
+{
+    Follow follow = {.scene = scene,
+                     .exponent = exponent,
+                     .threads = options->threads,
+                     .is_elsewhere = kept->is_elsewhere || kept->exponent != exponent};
+    bool is_done = kept_take_spheres(kept, &follow) && kept_take_others(kept, &follow) &&
+                   (!follow.is_changed || coincident_init(kept->geometry));
+    kept->geometry->kernels = sphere_kernels_choose(options->isa);
+    if (!is_done || !kept->geometry->kernels) {
+        geometry_kept_fini(kept);
+        return false;
+    }
+    find_features(kept->geometry);
+    kept->builds += follow.is_built;
+    return true;
+}
+
+Geometry *geometry_kept_take(GeometryKept *kept, const Scene *scene, int exponent, const GeometryOptions *options)
+{
+    if (!kept->geometry) {
+        kept->geometry = geometry_new_with(scene, exponent, options);
+        kept->builds++;
+        kept->refit = (SphereRefit){0};
+    } else if (!kept_follow(kept, scene, exponent, options)) {
+        return NULL;
+    }
+    kept->exponent = exponent;
+    kept->spheres = scene->spheres.count;
+    kept->planes = scene->planes.count;
+    kept->parts = scene->parts.count;
+    kept->changed = (SphereRange){0, 0};
+    kept->is_elsewhere = false;
+    return kept->geometry;
+}
+
+void geometry_kept_fini(GeometryKept *kept)
+{
+    geometry_free(kept->geometry);
+    kept->geometry = NULL;
+}
+
+// ---- what it holds
 
 unsigned geometry_features(const Geometry *geometry)
 {

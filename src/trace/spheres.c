@@ -13,6 +13,7 @@
 #include "base/isa.h"
 #include "base/pages.h"
 #include "base/parallel.h"
+#include "trace/sphere_records.h"
 
 enum {
     LOOSE_SPHERES_MOST = SPHERE_BLOCK, // a scene with no more than these has no tree
@@ -22,7 +23,7 @@ enum {
     LARGE_RADIUS_RATIO = 32,
     CHUNK = 16384,      // spheres that a thread takes at a time
     NODES_CHUNK = 256,  // nodes whose leaves a thread fills at a time
-    AHEAD = 24,         // spheres that are asked for before they are needed
+    AHEAD = SPHERES_AHEAD,
 };
 
 // ---- kernels
@@ -57,7 +58,7 @@ typedef struct Chunk {
 typedef struct Maker {
     SphereTable *table;
     const Scene *scene;
-    double scale[2]; // lengths are multiplied by both
+    SphereRecords records; // of the scene
     double limit;    // spheres whose radius squared is above are large, and loose
     Chunk *chunks;
     Scene *spent;           // the scene, if its spheres may be given up
@@ -68,25 +69,14 @@ typedef struct Maker {
     SphereBlock loose;
 } Maker;
 
-static double maker_length(const Maker *maker, double length)
-{
-    return length * maker->scale[0] * maker->scale[1];
-}
-
 static inline SphereData maker_ball(const Maker *maker, size_t number)
 {
-    const Sphere *sphere = &maker->scene->spheres.items[number];
-    Vec3 c = sphere->centre;
-    return sphere_data_make(vec3(maker_length(maker, c.x), maker_length(maker, c.y), maker_length(maker, c.z)),
-                            maker_length(maker, sphere->radius));
+    return sphere_records_ball(&maker->records, number);
 }
 
 static inline ShapeInfo maker_info(const Maker *maker, uint32_t number)
 {
-    const Scene *scene = maker->scene;
-    const SphereRun *first = scene->sphere_runs.items;
-    uint32_t order = scene->sphere_runs.count == 1 ? first->order + number : scene_sphere_order(scene, number);
-    return (ShapeInfo){scene->spheres.items[number].material, order};
+    return sphere_records_info(&maker->records, number);
 }
 
 static size_t chunk_count(const Maker *maker)
@@ -204,18 +194,10 @@ static void refs_work(void *client, size_t begin, size_t end)
     }
 }
 
-static inline void block_put(SphereBlock *block, uint32_t at, const SphereData *ball)
-{
-    block->x[at] = ball->centre.x;
-    block->y[at] = ball->centre.y;
-    block->z[at] = ball->centre.z;
-    block->radius_squared[at] = ball->radius_squared;
-}
-
 static void block_clear(SphereBlock *block, uint32_t begin)
 {
     for (uint32_t at = begin; at < SPHERE_BLOCK; at++) {
-        block_put(block, at, &(SphereData){.radius_squared = (double)NAN});
+        sphere_block_put(block, at, &(SphereData){.radius_squared = (double)NAN});
     }
 }
 
@@ -227,7 +209,7 @@ static void maker_take_loose(Maker *maker)
         for (size_t i = chunk * CHUNK; maker->chunks[chunk].large > 0 && i < chunk_end(maker, chunk); i++) {
             SphereData ball = maker_ball(maker, i);
             if (sphere_data_is_usable(&ball) && ball.radius_squared > maker->limit) {
-                block_put(&maker->loose, count, &ball);
+                sphere_block_put(&maker->loose, count, &ball);
                 maker->table->info[count++] = maker_info(maker, (uint32_t)i);
             }
         }
@@ -244,14 +226,6 @@ static void maker_take_loose(Maker *maker)
 // it holds; then the blocks are filled. Where the scene's spheres are given up, they are put in order in the memory of the
 // refs, and are gone before there are blocks: neither way has all three in memory at once.
 
-// Asks for a sphere before it is needed.
-static inline void fetch(const Maker *maker, uint32_t number)
-{
-    const Sphere *sphere = &maker->scene->spheres.items[number];
-    __builtin_prefetch(sphere);
-    __builtin_prefetch((const char *)(sphere + 1) - 1); // it may lie across two lines
-}
-
 _Static_assert(sizeof(BvhRef) == sizeof(SphereData), "a ball takes the place of a ref");
 
 // Puts the spheres of a leaf in the place of their refs, and says what their slots hold. The refs from `end` on are
@@ -261,7 +235,7 @@ static void leaf_take(const Maker *maker, uint32_t first, uint32_t count, uint32
     for (uint32_t at = 0; at < count; at++) {
         uint32_t ahead = first + at + AHEAD;
         if (ahead < end) {
-            fetch(maker, bvh_ref_index(&maker->refs[ahead]));
+            sphere_records_fetch(&maker->records, bvh_ref_index(&maker->refs[ahead]));
         }
         uint32_t number = bvh_ref_index(&maker->refs[first + at]);
         SphereData ball = maker_ball(maker, number);
@@ -290,11 +264,11 @@ static void leaf_fill(const Maker *maker, uint32_t first, uint32_t count, uint32
             memcpy(&ball, &maker->refs[first + at], sizeof ball);
         } else {
             uint32_t number = info[at].order;
-            fetch(maker, at + AHEAD < slots ? info[at + AHEAD].order : number);
+            sphere_records_fetch(&maker->records, at + AHEAD < slots ? info[at + AHEAD].order : number);
             ball = maker_ball(maker, number);
             info[at] = maker_info(maker, number);
         }
-        block_put(spheres, at, &ball);
+        sphere_block_put(spheres, at, &ball);
     }
     block_clear(spheres, count);
 }
@@ -421,9 +395,9 @@ static bool maker_make(Maker *maker, int threads)
     return table->block_count == 0 || (maker_number_slots(maker, threads) && maker_fill_blocks(maker, threads));
 }
 
-// How far few spheres reach, and the least of them.
-static void table_measure(SphereTable *table)
+void sphere_table_measure(SphereTable *table)
 {
+    table->reach = 0.0;
     table->radius_least = (double)INFINITY;
     for (uint32_t i = 0; sphere_table_is_few(table) && i < table->block_count * SPHERE_BLOCK; i++) {
         SphereData ball = sphere_table_ball(table, i);
@@ -442,18 +416,14 @@ bool sphere_table_init(SphereTable *table, const Scene *scene, int exponent, int
     if (scene->spheres.count == 0) {
         return true;
     }
-    // In two steps, each of which is in range for any exponent that a double can have.
-    Maker maker = {.table = table,
-                   .scene = scene,
-                   .spent = spent,
-                   .scale = {ldexp(1.0, -(exponent / 2)), ldexp(1.0, -(exponent - exponent / 2))}};
+    Maker maker = {.table = table, .scene = scene, .spent = spent, .records = sphere_records(scene, exponent)};
     maker.chunks = malloc(chunk_count(&maker) * sizeof(*maker.chunks));
     bool done = maker.chunks && maker_make(&maker, threads);
     free(maker.chunks);
     pages_give(&maker.ref_pages);
     free(maker.first_blocks);
     if (done) {
-        table_measure(table);
+        sphere_table_measure(table);
     }
     return done;
 }

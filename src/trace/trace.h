@@ -81,7 +81,6 @@ typedef struct Surface {
 
 typedef struct Geometry Geometry;
 
-// A geometry that serves several pictures of the same shapes, as long as these have one exponent.
 // Whether rays may be left untraced, since nothing of the picture will be kept.
 typedef struct Abandon {
     const atomic_bool *cancel; // turns true when the run is to end; may be NULL
@@ -94,12 +93,7 @@ static inline bool trace_is_abandoned(const Abandon *abandon)
            !atomic_load_explicit(&abandon->keeps, memory_order_relaxed);
 }
 
-typedef struct GeometryKept {
-    Geometry *geometry; // NULL: none yet
-    int exponent;
-    const char *isa;
-    unsigned builds; // how often one was built
-} GeometryKept;
+typedef struct GeometryKept GeometryKept; // trace/kept.h
 
 typedef struct GeometryOptions {
     int threads;     // >= 1, for building; the result does not depend on it
