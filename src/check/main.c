@@ -411,7 +411,7 @@ static int scenes_report(Check *check)
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
         return report_complain(check->options, folder);
     }
-    if (scenes_report_init(&report, check->folder, check->options->scene_count)) {
+    if (scenes_report_init(&report, check->options->scene_count)) {
         check->report = &report;
         exit_code = report_write(check, scenes_check(check));
     } else {
@@ -487,7 +487,7 @@ static void folder_remove(const Check *check)
 #ifdef WITH_STUDY
 static bool stability_write(const Check *check, const Stability *stability)
 {
-    char path[PATH_MAX], scratch[PATH_MAX + 16];
+    char path[PATH_MAX];
     const char *folder = check->options->report;
     ReportPage *page;
     bool fine;
@@ -496,12 +496,11 @@ static bool stability_write(const Check *check, const Stability *stability)
         return true;
     }
     snprintf(path, sizeof path, "%s/index.html", folder);
-    snprintf(scratch, sizeof scratch, "%s/page.png", check->folder);
     page = (mkdir(folder, 0777) == 0 || errno == EEXIST) ? report_page_open(path) : NULL;
     if (!page) {
         return false;
     }
-    fine = stability_page(stability, page, scratch);
+    fine = stability_page(stability, page);
     fine = report_page_close(page) && fine;
     snprintf(path, sizeof path, "%s/stability.json", folder);
     FILE *out = fine ? fopen(path, "wb") : NULL;

@@ -116,38 +116,36 @@ void html_text(FILE *out, const char *text)
 }
 
 // RFC 4648, section 4.
-static void base64_print(FILE *out, FILE *from)
+static void base64_print(FILE *out, const unsigned char *bytes, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    unsigned char bytes[3];
-    size_t count;
 
-    do {
+    for (size_t at = 0; at < size; at += 3) {
+        size_t count = size - at < 3 ? size - at : 3;
         char text[5] = "====";
-        unsigned bits;
+        unsigned bits = 0;
 
-        memset(bytes, 0, sizeof bytes);
-        count = fread(bytes, 1, sizeof bytes, from);
-        bits = (unsigned)bytes[0] << 16 | (unsigned)bytes[1] << 8 | bytes[2];
-        for (size_t i = 0; i <= count && count > 0; i++) {
+        for (size_t i = 0; i < 3; i++) {
+            bits = bits << 8 | (i < count ? bytes[at + i] : 0U);
+        }
+        for (size_t i = 0; i <= count; i++) {
             text[i] = digits[bits >> (18 - 6 * i) & 63];
         }
-        fputs(count > 0 ? text : "", out);
-    } while (count == sizeof bytes);
+        fputs(text, out);
+    }
 }
 
-bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding, const char *scratch)
+bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding)
 {
     ImageError error = {.no_memory = false};
-    bool fine = image_write(image, encoding, scratch, &error) == IMAGE_OK;
-    FILE *file = fine ? fopen(scratch, "rb") : NULL;
+    unsigned char *bytes;
+    size_t size;
 
-    if (file) {
-        fputs("data:image/png;base64,", out);
-        base64_print(out, file);
-        fine = ferror(file) == 0;
-        fclose(file);
+    if (image_encode_png(image, encoding, &bytes, &size, &error) != IMAGE_OK) {
+        return false;
     }
-    unlink(scratch);
-    return fine && file;
+    fputs("data:image/png;base64,", out);
+    base64_print(out, bytes, size);
+    free(bytes);
+    return ferror(out) == 0;
 }

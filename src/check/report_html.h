@@ -34,8 +34,8 @@ bool report_page_close(ReportPage *page);
 // Text as HTML, also within a quoted attribute.
 void html_text(FILE *out, const char *text);
 
-// The address of a picture that holds the picture itself, as PNG: what belongs into src="". `scratch` is the path of a
-// file that may be written and removed. False when it could not be made.
-bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding, const char *scratch);
+// The address of a picture that holds the picture itself, as PNG: what belongs into src="". False when it could not be
+// made.
+bool html_picture(FILE *out, const Image *image, const ImageEncoding *encoding);
 
 #endif

@@ -1,9 +1,6 @@
 // Rows of the table at once, pictures as they come: those of all scenes together need not fit into memory.
 //
 // SPDX-License-Identifier: MIT
-#ifndef _GNU_SOURCE
-#define _GNU_SOURCE
-#endif
 #include "check/report_scenes.h"
 
 #include <inttypes.h>
@@ -131,7 +128,7 @@ static bool figure_print(ScenesReport *report, const Image *image, const ImageEn
     fputs("<figure><button type=\"button\" aria-pressed=\"false\"><img alt=\"", report->out);
     html_text(report->out, words);
     fprintf(report->out, "\" width=\"%d\" height=\"%d\" src=\"", image->width, image->height);
-    fine = html_picture(report->out, image, encoding, report->scratch);
+    fine = html_picture(report->out, image, encoding);
     fputs("\"></button><figcaption>", report->out);
     html_text(report->out, words);
     fputs("</figcaption></figure>\n", report->out);
@@ -155,7 +152,7 @@ static bool differences_print(ScenesReport *report, const Image *ours, const Ima
     fine = fine && figure_print(report, &heat, &as_codes, "the difference");
     if (fine) {
         fputs("<img class=\"steps\" alt=\"\" hidden src=\"", report->out);
-        fine = html_picture(report->out, &exact, &as_codes, report->scratch);
+        fine = html_picture(report->out, &exact, &as_codes);
         fputs("\">\n", report->out);
     }
     image_fini(&heat);
@@ -179,15 +176,12 @@ static bool pictures_print(ScenesReport *report, const Image *ours, const Image 
     return fine;
 }
 
-bool scenes_report_init(ScenesReport *report, const char *folder, int scene_count)
+bool scenes_report_init(ScenesReport *report, int scene_count)
 {
     *report = (ScenesReport){.room = scene_count};
     report->outcomes = calloc((size_t)scene_count + 1, sizeof *report->outcomes);
     report->out = tmpfile();
-    if (asprintf(&report->scratch, "%s/scratch.png", folder) < 0) {
-        report->scratch = NULL;
-    }
-    return report->outcomes && report->out && report->scratch;
+    return report->outcomes && report->out;
 }
 
 void scenes_report_fini(ScenesReport *report)
@@ -196,7 +190,6 @@ void scenes_report_fini(ScenesReport *report)
         fclose(report->out);
     }
     free(report->outcomes);
-    free(report->scratch);
 }
 
 static void range_print(FILE *out, const Outcome *outcome)

@@ -18,14 +18,13 @@ typedef struct Histogram {
 
 typedef struct ScenesReport {
     FILE *out;         // of the pictures, which come behind the table; owned
-    char *scratch;     // path of a file that may be written and removed, ends with .png; owned
     Outcome *outcomes; // owned
     int count, room;
     Histogram all;
 } ScenesReport;
 
-// `folder` is for scratch files. False when out of memory or of room for files.
-bool scenes_report_init(ScenesReport *report, const char *folder, int scene_count);
+// False when out of memory or of room for files.
+bool scenes_report_init(ScenesReport *report, int scene_count);
 void scenes_report_fini(ScenesReport *report);
 
 // Adds a scene, its outcome being copied but for the name. Where the pictures were compared, `ours` and `theirs` are

@@ -79,6 +79,6 @@ bool stability_holds(const Stability *stability);
 void stability_print(const Stability *stability, FILE *out);
 void stability_json(const Stability *stability, FILE *out);
 // stability_html.c
-bool stability_page(const Stability *stability, ReportPage *page, const char *scratch);
+bool stability_page(const Stability *stability, ReportPage *page);
 
 #endif

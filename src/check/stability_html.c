@@ -223,16 +223,16 @@ static void put_pictures(const Stability *stability, FILE *out)
     tail(out);
 }
 
-static bool put_picture(const Image *image, const char *caption, const char *scratch, FILE *out)
+static bool put_picture(const Image *image, const char *caption, FILE *out)
 {
     static const ImageEncoding encoding = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_SRGB};
     fputs("<figure><img alt=\"\" src=\"", out);
-    bool fine = html_picture(out, image, &encoding, scratch);
+    bool fine = html_picture(out, image, &encoding);
     fprintf(out, "\"><figcaption>%s</figcaption></figure>\n", caption);
     return fine;
 }
 
-static bool put_shown(const Stability *stability, const char *scratch, FILE *out)
+static bool put_shown(const Stability *stability, FILE *out)
 {
     static const char *const captions[SHOWN] = {
         [SHOWN_FLOAT] = "float", [SHOWN_DOUBLE] = "double", [SHOWN_QUAD] = "quad", [SHOWN_POVRAY] = "POV-Ray"};
@@ -243,7 +243,7 @@ static bool put_shown(const Stability *stability, const char *scratch, FILE *out
         fprintf(out, "<article><h3>%s</h3><div class=\"pictures four\">\n", row->scene);
         for (int way = 0; way < SHOWN; way++) {
             if (row->has[way]) {
-                fine = put_picture(&row->in[way], captions[way], scratch, out) && fine;
+                fine = put_picture(&row->in[way], captions[way], out) && fine;
             } else {
                 fprintf(out, "<p class=\"bad\">No picture: %s.</p>\n", captions[way]);
             }
@@ -253,7 +253,7 @@ static bool put_shown(const Stability *stability, const char *scratch, FILE *out
     return fine;
 }
 
-static bool put_breaks(const Stability *stability, const char *scratch, FILE *out)
+static bool put_breaks(const Stability *stability, FILE *out)
 {
     bool fine = true;
     fputs("<h3>Where POV-Ray's range ends</h3>\n<p>The same scenes in other units and places. Pixels are counted that "
@@ -267,11 +267,11 @@ static bool put_breaks(const Stability *stability, const char *scratch, FILE *ou
         html_text(out, row->scene);
         fprintf(out, ", %s</h3><div class=\"pictures\">\n", row->what);
         snprintf(caption, sizeof caption, "rtlang: %" PRIu64 " of %" PRIu64 " pixels differ", row->off, row->pixels);
-        fine = put_picture(&row->ours, caption, scratch, out) && fine;
+        fine = put_picture(&row->ours, caption, out) && fine;
         if (row->has_povray) {
             snprintf(caption, sizeof caption, "POV-Ray: %" PRIu64 " of %" PRIu64 " pixels differ", row->povray_off,
                      row->pixels);
-            fine = put_picture(&row->povray, caption, scratch, out) && fine;
+            fine = put_picture(&row->povray, caption, out) && fine;
         } else {
             fputs("<p class=\"bad\">POV-Ray makes no picture of it.</p>\n", out);
         }
@@ -280,7 +280,7 @@ static bool put_breaks(const Stability *stability, const char *scratch, FILE *ou
     return fine;
 }
 
-bool stability_page(const Stability *stability, ReportPage *page, const char *scratch)
+bool stability_page(const Stability *stability, ReportPage *page)
 {
     FILE *out = report_page_section(page, "stability", "Numerical stability");
     fprintf(out, "<p>%s</p>\n",
@@ -291,7 +291,7 @@ bool stability_page(const Stability *stability, ReportPage *page, const char *sc
     put_secondary(stability, out);
     put_mirrors(stability, out);
     put_shells(stability, out);
-    bool fine = put_shown(stability, scratch, out);
+    bool fine = put_shown(stability, out);
     put_pictures(stability, out);
-    return put_breaks(stability, scratch, out) && fine && !ferror(out);
+    return put_breaks(stability, out) && fine && !ferror(out);
 }
