@@ -468,6 +468,7 @@ typedef struct rt_output {
     double file_gamma; /* 0: sRGB; otherwise the power, 1 writes linear values */
     unsigned planes;   /* of rt_plane, that the file has as channels beside its light; only EXR has room for them */
     int whole;         /* 1: after rt_set_crop, a picture of rt_set_size that is black around the part */
+    int continues;     /* 1: of Y4M, a further frame of the film that was begun on standard output */
 } rt_output;
 
 /* Whether a picture of this size fits the memory limit and could be written to this path, asked before a long run.
@@ -475,7 +476,8 @@ typedef struct rt_output {
  * none. */
 RT_API rt_status rt_check_output(rt_session *session, const char *path, const rt_output *output);
 /* Write the rendered picture, the format by the ending of the path; "-" writes PNG to standard output, "-.ppm" PPM, and
- * so on. RT_FAULT_USAGE for a plane that was not wanted when the picture was rendered. */
+ * so on; "-.y4m" is a film, of which each call writes a frame. RT_FAULT_USAGE for a plane that was not wanted when the
+ * picture was rendered. */
 RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output *output);
 
 /* The rendered picture (after RT_CANCELLED, too, when rt_get_error reports samples): width * height * 3 floats (red,

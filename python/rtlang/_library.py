@@ -84,7 +84,7 @@ class SamplingError(Structure):
 
 
 class Output(Structure):
-    _fields_ = [("depth", c_int), ("file_gamma", c_double), ("planes", ctypes.c_uint), ("whole", c_int)]
+    _fields_ = [("depth", c_int), ("file_gamma", c_double), ("planes", ctypes.c_uint), ("whole", c_int), ("continues", c_int)]
 
 
 PLANES = {  # name: (bit of rt_plane, the type of its numbers, how many a pixel has)

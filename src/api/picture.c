@@ -126,6 +126,7 @@ static ImageEncoding encoding_of(const rt_session *session, const rt_output *out
         .transfer = output->file_gamma > 0.0 ? IMAGE_TRANSFER_POWER : IMAGE_TRANSFER_SRGB,
         .gamma = output->file_gamma,
         .already_encoded = session->scene.settings.gamma_model == GAMMA_NONE,
+        .continues = output->continues,
         .threads = session->threads,
     };
 }

@@ -118,6 +118,7 @@ static rt_status run_one(Options *options, Voice *voice, bool *wrote)
     if (!session) {
         return RT_FAULT_LIMIT;
     }
+    options->encoding.continues = *wrote;
     rt_status status = interrupted_by ? RT_CANCELLED : run(session, options, voice);
     *wrote = is_picture_left(session, status) || *wrote;
     close_session(session);
@@ -135,6 +136,7 @@ static rt_status run_frames(Options *options, Voice *voice, bool *wrote)
     options->keeps_scene = frames->last - frames->first >= frames->step;
     for (options->frame = frames->first; !status && options->frame <= frames->last; options->frame += frames->step) {
         bool is_drawn = false;
+        options->encoding.continues = *wrote;
         if (options->continues && run_has_frame(options)) {
             counts.there++;
             continue;

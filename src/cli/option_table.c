@@ -575,8 +575,8 @@ static bool apply_crop(Options *options, const char *argument, OptionReading *re
 
 static const OptionRow rows[] = {
     {'o', "output", "FILE", apply_output,
-     "write the picture to FILE, its format by the ending; - is PNG to standard output, -.ppm PPM "
-     "(default: the scene's name with .png, in the current folder)"},
+     "write the picture to FILE, its format by the ending (- is PNG to standard output, -.ppm PPM, -.y4m the film of "
+     "all frames; default: the scene's name with .png, in the current folder)"},
     {'W', "width", "PIXELS", apply_width, "width of the picture (default 320)"},
     {'H', "height", "PIXELS", apply_height, "height of the picture (default 240)"},
     {0, "target-error", "E", apply_target_error,
@@ -590,7 +590,7 @@ static const OptionRow rows[] = {
     {0, "file-gamma", "srgb|NUMBER", apply_file_gamma, "how values are stored (default srgb; 1 writes linear values)"},
     {0, "alpha", NULL, apply_alpha,
      "with a channel that tells where what is behind the scene is seen, as POV-Ray's `+UA`: "
-     "no background, or its transmit and filter; the picture must be PNG or EXR"},
+     "no background, or its transmit and filter; the picture must be PNG, Targa or EXR"},
     {0, "planes", "LIST", apply_planes,
      "channels beside the light, in EXR: error and samples of sampled pictures; depth, normal, "
      "object (a number) and albedo (its colour) of what is seen; several with commas between"},

@@ -215,14 +215,24 @@ static rt_status set_sampling(rt_session *session, const Options *options)
                                    : "`--samples` wants a whole number, unless with `--adaptive` or a goal");
 }
 
+// Y4M holds all frames, of which a file for each would be a film of its own.
+static bool is_film_in_parts(const Options *options, const char *output)
+{
+    size_t length = strlen(output);
+    return options->frames.step && output[0] != '-' && length > 4 && strcmp(output + length - 4, ".y4m") == 0;
+}
+
 static rt_status check_output(rt_session *session, const Options *options, const char *output)
 {
+    if (is_film_in_parts(options, output)) {
+        return fail_usage(session, "frames in Y4M go to standard output, as one film: `-o -.y4m`");
+    }
     rt_status status = rt_check_output(session, output, &options->encoding);
     if (status != RT_FAULT_USAGE) {
         return status;
     }
     return options->encoding.planes ? fail_usage(session, "`--planes` wants a picture in EXR")
-           : options->has_alpha     ? fail_usage(session, "`--alpha` wants a picture in PNG or EXR")
+           : options->has_alpha     ? fail_usage(session, "`--alpha` wants a picture in PNG, Targa or EXR")
                                     : status;
 }
 

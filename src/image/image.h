@@ -1,6 +1,6 @@
 // Pictures as files: encoding, atomic writing, reading, and comparing.
 //
-// PNG goes through libpng; PPM and Targa are written as they are (image/plain_write.c). Everything else goes through
+// PNG goes through libpng; PPM, Targa and Y4M are written as they are (image/plain_write.c). Everything else goes through
 // modules that are loaded on first use: reading JPEG through libjpeg (image/jpeg_module.c), the rest through OpenImageIO
 // (image/oiio_module.cpp). A picture is written to a temporary file beside its destination and renamed, so an old
 // picture is either kept or wholly replaced. The same picture and encoding give the same bytes.
@@ -54,6 +54,7 @@ typedef struct ImageEncoding {
     ImageTransfer transfer;
     double gamma;      // IMAGE_TRANSFER_POWER only
     bool already_encoded; // values are written as they are; `transfer` only names what the file says of itself
+    bool continues;       // of Y4M: a further frame of the film that the same stream holds already
     int threads;          // to use for it, at most; the file does not depend on it
     const ImageNote *notes;
     size_t note_count;

@@ -1,4 +1,5 @@
-// PPM after netpbm's ppm(5) and pgm(5), Targa after Truevision's "TGA File Format Specification", version 2.0.
+// PPM after netpbm's ppm(5) and pgm(5), Targa after Truevision's "TGA File Format Specification", version 2.0, Y4M after
+// mjpegtools' yuv4mpeg(5), its colours after ITU-R BT.601.
 //
 // SPDX-License-Identifier: MIT
 #include "image/plain_write.h"
@@ -11,20 +12,26 @@
 #include "base/text.h"
 
 enum { TARGA_HEADER = 18, TARGA_TRUE_COLOUR = 2, TARGA_GREY = 3, TARGA_FROM_TOP = 0x20, ROWS_AT_ONCE = 64 };
+enum { FILM_PLANES = 3, FILM_RATE = 25 };
 
 static bool is_targa(const char *ending)
 {
     return strcmp(ending, "tga") == 0;
 }
 
+static bool is_ppm(const char *ending)
+{
+    return strcmp(ending, "ppm") == 0;
+}
+
 bool plain_has_format(const char *ending)
 {
-    return is_targa(ending) || strcmp(ending, "ppm") == 0;
+    return is_targa(ending) || is_ppm(ending) || strcmp(ending, "y4m") == 0;
 }
 
 bool plain_has_depth(const char *ending, ImageDepth depth)
 {
-    return depth == IMAGE_DEPTH_8 || (depth == IMAGE_DEPTH_16 && !is_targa(ending));
+    return depth == IMAGE_DEPTH_8 || (depth == IMAGE_DEPTH_16 && is_ppm(ending));
 }
 
 // A comment a note; a picture of one channel is a PGM, whatever its name.
@@ -79,9 +86,52 @@ static void put_high_byte_first(unsigned char *samples, size_t count)
     }
 }
 
+// (numerator / denominator + offset) rounded, of a sum that is not negative.
+static unsigned char rounded(int numerator, int denominator, int offset)
+{
+    return (unsigned char)((numerator + offset * denominator + denominator / 2) / denominator);
+}
+
+// Codes of red, green and blue to luma of 16..235 and differences of colour of 16..240, one plane each.
+static void put_planes(const unsigned char *samples, size_t pixels, int channels, size_t plane, unsigned char *out)
+{
+    int green = channels >= 3 ? 1 : 0, blue = channels >= 3 ? 2 : 0;
+    for (size_t i = 0; i < pixels; i++) {
+        const unsigned char *code = samples + i * (size_t)channels;
+        int r = code[0], g = code[green], b = code[blue];
+        out[i] = rounded(219 * (299 * r + 587 * g + 114 * b), 255 * 1000, 16);
+        out[plane + i] = rounded(224 * (886 * b - 299 * r - 587 * g), 255 * 2 * 886, 128);
+        out[2 * plane + i] = rounded(224 * (701 * r - 587 * g - 114 * b), 255 * 2 * 701, 128);
+    }
+}
+
+// A frame of a film: colours at full resolution, since any size can have them.
+static ImageStatus write_frame(const Image *image, const Encoder *encoder, const AtomicFile *file, ImageError *error)
+{
+    size_t width = (size_t)image->width, plane = width * (size_t)image->height;
+    unsigned char *planes = malloc(plane * FILM_PLANES), *samples = malloc(width * (size_t)image->channels);
+    char header[128];
+    int length = snprintf(header, sizeof header, "YUV4MPEG2 W%d H%d F%d:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n", image->width,
+                          image->height, FILM_RATE);
+    bool is_enough = planes && samples;
+    for (size_t y = 0; is_enough && y < (size_t)image->height; y++) {
+        encoder_run(encoder, image->values + y * width * (size_t)image->channels, width, samples);
+        put_planes(samples, width, image->channels, plane, planes + y * width);
+    }
+    bool fine = is_enough && (encoder->encoding.continues || atomic_file_write(file, header, (size_t)length, error)) &&
+                atomic_file_write(file, "FRAME\n", 6, error) &&
+                atomic_file_write(file, planes, plane * FILM_PLANES, error);
+    free(planes);
+    free(samples);
+    return fine ? IMAGE_OK : is_enough ? IMAGE_IO : IMAGE_NO_MEMORY;
+}
+
 ImageStatus plain_write(const char *ending, const Image *image, const Encoder *encoder, const AtomicFile *file,
                         ImageError *error)
 {
+    if (!is_targa(ending) && !is_ppm(ending)) {
+        return write_frame(image, encoder, file, error);
+    }
     bool targa = is_targa(ending);
     size_t channels = (size_t)image->channels, width = (size_t)image->width;
     size_t row = width * channels * encode_sample_bytes(encoder->encoding.depth);

@@ -1,4 +1,4 @@
-// Formats that are a header and samples as they are: portable pixmaps (PPM) and uncompressed Targa.
+// Formats that are a header and samples as they are: portable pixmaps (PPM), uncompressed Targa, and films (Y4M).
 //
 // Programs that call a renderer read these from a pipe, and they cost no library. Knows nothing of paths.
 //
@@ -14,10 +14,11 @@
 // Whether a file name's ending, in lower case, is that of one of these formats.
 bool plain_has_format(const char *ending);
 
-// Whether that format has samples of this depth: PPM of 8 and 16 bit, Targa of 8.
+// Whether that format has samples of this depth: PPM of 8 and 16 bit, the others of 8.
 bool plain_has_depth(const char *ending, ImageDepth depth);
 
-// Writes the picture; PPM has no room for alpha. IMAGE_NO_MEMORY or IMAGE_IO when it could not.
+// Writes the picture; only Targa has room for alpha. Y4M is one frame of a film, behind the film's header unless the
+// encoding continues one. IMAGE_NO_MEMORY or IMAGE_IO when it could not.
 ImageStatus plain_write(const char *ending, const Image *image, const Encoder *encoder, const AtomicFile *file,
                         ImageError *error) RT_MUST_CHECK;
 

@@ -125,6 +125,49 @@ def check_stream(report, folder):
               "standard output is PPM after PPM", len(out))
 
 
+def ppm_codes(data):
+    """Red, green and blue of each pixel of a PPM whose header has comments."""
+    lines = data.split(b"\n")
+    head = 1 + sum(line.startswith(b"#") for line in lines[1:30]) + 2
+    body = data[sum(len(line) + 1 for line in lines[:head]):]
+    return list(zip(body[0::3], body[1::3], body[2::3]))
+
+
+def film_codes(planes, pixels):
+    """The same of a frame of Y4M, by the inverse of BT.601."""
+    found = []
+    for y, cb, cr in zip(planes[:pixels], planes[pixels:2 * pixels], planes[2 * pixels:]):
+        light, blue, red = (y - 16) / 219, (cb - 128) / 224, (cr - 128) / 224
+        found.append(tuple(255 * value for value in (light + 1.402 * red, light - 0.344136 * blue - 0.714136 * red,
+                                                     light + 1.772 * blue)))
+    return found
+
+
+def farthest(one, other):
+    return max(abs(a - b) for left, right in zip(one, other) for a, b in zip(left, right))
+
+
+def check_film(report, folder):
+    put(folder, "s.scn", HEAD + CAMERA + LIGHT + "background { rgb <0.05, 0.3, 0.9> }\n" + BALLS)
+    run(folder, "-q", "--frames=1..3", "-o", "p.ppm", "s.scn")
+    status, out, _ = run(folder, "-q", "--frames=1..3", "-o", "-.y4m", "s.scn")
+    head, pixels = b"YUV4MPEG2 W40 H30 F25:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n", 40 * 30
+    step = len(b"FRAME\n") + 3 * pixels
+    frames = [out[len(head) + i * step:len(head) + (i + 1) * step] for i in range(3)]
+    is_film = status == 0 and out.startswith(head) and len(out) == len(head) + 3 * step
+    report.ok(is_film and all(frame.startswith(b"FRAME\n") for frame in frames),
+              "-.y4m is one film of three frames", out[:200])
+    apart = [farthest(film_codes(frame[6:], pixels), ppm_codes(content(folder, f"p{i}.ppm"))) for i, frame in enumerate(frames, 1)]
+    # A code of luma or colour is rounded by half of one: at most 0.5 * 255 * (1 / 219 + 1.772 / 224) of red, green or blue.
+    report.ok(max(apart) < 1.6, "whose colours are those of the pictures", apart)
+    report.ok(frames[0] != frames[1], "and which moves")
+    for words, told in ((["--frames=1..3", "-o", "f.y4m"], "E0703]: frames in Y4M go to standard output, as one film: `-o -.y4m`"),
+                        (["--depth=16", "-o", "f.y4m"], "E0702]: `f.y4m` cannot have the wanted depth"),
+                        (["--alpha", "-o", "-.y4m"], "E0703]: `--alpha` wants a picture in PNG, Targa or EXR")):
+        status, out, said = run(folder, *words, "s.scn")
+        report.ok(status == 2 and not out and told in said, f"{' '.join(words)} is refused", f"{status} {said}")
+
+
 def main():
     report = tap.Tap()
     with tempfile.TemporaryDirectory() as folder:
@@ -137,6 +180,7 @@ def main():
             check_case(report, folder, " ".join(options), moving, ONCE, *options)
         check_continue(report, folder)
         check_stream(report, folder)
+        check_film(report, folder)
     report.done()
 
 

@@ -8,13 +8,13 @@
 
 #include "image/image.h"
 
-static const ImageEncoding srgb_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0, NULL, 0};
-static const ImageEncoding srgb_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0, NULL, 0};
-static const ImageEncoding linear_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0, NULL, 0};
-static const ImageEncoding linear_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 1.0, false, 1, NULL, 0, NULL, 0};
-static const ImageEncoding power_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0, NULL, 0};
-static const ImageEncoding power_16 = {IMAGE_DEPTH_16, IMAGE_TRANSFER_POWER, 2.2, false, 1, NULL, 0, NULL, 0};
-static const ImageEncoding as_is_8 = {IMAGE_DEPTH_8, IMAGE_TRANSFER_SRGB, 0.0, true, 1, NULL, 0, NULL, 0};
+static const ImageEncoding srgb_8 = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_SRGB, .threads = 1};
+static const ImageEncoding srgb_16 = {.depth = IMAGE_DEPTH_16, .transfer = IMAGE_TRANSFER_SRGB, .threads = 1};
+static const ImageEncoding linear_8 = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_POWER, .gamma = 1.0, .threads = 1};
+static const ImageEncoding linear_16 = {.depth = IMAGE_DEPTH_16, .transfer = IMAGE_TRANSFER_POWER, .gamma = 1.0, .threads = 1};
+static const ImageEncoding power_8 = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_POWER, .gamma = 2.2, .threads = 1};
+static const ImageEncoding power_16 = {.depth = IMAGE_DEPTH_16, .transfer = IMAGE_TRANSFER_POWER, .gamma = 2.2, .threads = 1};
+static const ImageEncoding as_is_8 = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_SRGB, .already_encoded = true, .threads = 1};
 
 static inline uint32_t next_random(uint32_t *state) // xorshift32: G. Marsaglia, "Xorshift RNGs", 2003
 {

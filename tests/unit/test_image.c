@@ -26,7 +26,7 @@
 
 enum { WIDTH = 37, HEIGHT = 70 }; // more rows than the module fetches at once
 
-static const ImageEncoding float_linear = {IMAGE_DEPTH_FLOAT, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0, NULL, 0};
+static const ImageEncoding float_linear = {.depth = IMAGE_DEPTH_FLOAT, .transfer = IMAGE_TRANSFER_SRGB, .threads = 1};
 
 enum { SMOOTH = 0 }; // in place of a seed
 
@@ -216,7 +216,7 @@ static void test_paths(void)
     tap_ok(mkdir("folder.png", 0777) == 0 && file_save("a.png", "old") && picture_make(&image, 3, 1), "paths: set up");
     before = files_in_folder();
     for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
-        ImageEncoding encoding = {cases[i].depth, IMAGE_TRANSFER_SRGB, 0.0, false, 1, NULL, 0, NULL, 0};
+        ImageEncoding encoding = {.depth = cases[i].depth, .threads = 1};
         ImageError error;
         ImageStatus status = image_check_path(cases[i].path, cases[i].depth, &error);
 

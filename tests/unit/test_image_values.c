@@ -65,7 +65,7 @@ static void test_rounding(void)
 static void test_tables(void)
 {
     static const ImageEncoding *const encodings[] = {&srgb_8, &linear_8, &power_8, &as_is_8};
-    static const ImageEncoding steep = {IMAGE_DEPTH_8, IMAGE_TRANSFER_POWER, 0.1, false, 1, NULL, 0, NULL, 0};
+    static const ImageEncoding steep = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_POWER, .gamma = 0.1, .threads = 1};
     static Encoder encoder;
     uint32_t state = 12345;
 
