@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # The race to equal error over bench/race/*.scn as docs/sampling.md has it: runs rtcheck --race on each scene, and prints a table.
-# With arguments: options of rtcheck (--budget=20), then scenes, if not all. With --update first the table goes into the
+# With arguments: options of rtcheck (--budget=120), then scenes, if not all. With --update first the table goes into the
 # document.
 #
 # Wants RTCHECK, the program.
@@ -40,7 +40,7 @@ def update():
 
 def main():
     words = [word for word in sys.argv[1:] if word != "--update"]
-    options = [word for word in words if word.startswith("-")] or ["--budget=20"]
+    options = [word for word in words if word.startswith("-")] or ["--budget=120"]
     scenes = [word for word in words if not word.startswith("-")] or sorted(glob.glob(os.path.join(HERE, "*.scn")))
     found = {}
     say("| scene | size |", " | ".join(HEADINGS.values()), "| least | tried, run, front |")

@@ -436,9 +436,9 @@ static int scenes_study(const Check *check)
                               .reference_samples = options->reference,
                               .race_width = options->race_width,
                               .race_height = options->race_height,
-                              .budget = options->budget,
+                              .seconds = options->budget,
+                              .shows_progress = !options->json,
                               .only_race = options->race,
-                              .shows_progress = isatty(STDERR_FILENO) != 0,
                               .interrupted = &interrupted};
     StudiesResult result = studies_run(options, &settings);
 

@@ -203,19 +203,19 @@ static const OptionRow rows[] = {
      "error against time instead: ladders of samples, and the race against POV-Ray's anti-aliasing"},
     {0, "race", NULL, apply_race, "of --study the race against POV-Ray alone"},
     {0, "budget", "SECONDS", apply_budget,
-     "with --study: what POV-Ray's runs of a race may take of the processor (default 60; 0: no limit)"},
+     "how long a scene's study may take, what does not fit being left out (default 120; 0: no limit)"},
     {0, "most", "N", apply_most,
-     "with --study: samples a pixel at the top of a ladder (default 256, with --race 64)"},
+     "samples a pixel at the top of a ladder (default 256, with --race 64)"},
     {0, "reference", "N", apply_reference,
-     "with --study: samples a pixel of the reference (default 16 times --most, of a race 256)"},
+     "samples a pixel of the reference (default 16 times --most, of a race 256, or less by the budget)"},
     {0, "size", "WxH", apply_size,
-     "with --study: size of the race's pictures (default: POV-Ray's shortest run takes 0.5 s)"},
+     "size of the race's pictures (default: POV-Ray's shortest run takes 0.5 s, or less by the budget)"},
     {0, "stability", NULL, apply_stability,
      "measure how numbers hold up: formulas, stiff scenes, and the scenes put elsewhere"},
     {0, "cases", "N", apply_cases,
-     "with --stability: cases of each family (default 20000)"},
+     "cases of each family (default 20000)"},
     {0, "seed", "N", apply_seed,
-     "with --stability: other random cases (default 0)"},
+     "other random cases (default 0)"},
     {0, "report", "FOLDER", apply_report, "write index.html there, with all pictures in it"},
     {0, "keep", "FOLDER", apply_keep, "keep the pictures and POV-Ray's messages there"},
     {0, "json", NULL, apply_json, "print one JSON object a scene; with --report also results.json"},
@@ -267,7 +267,7 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
                          .ties = 1e-4,
                          .povray = "povray",
                          .cases = 20000,
-                         .budget = 60.0};
+                         .budget = 120.0};
     options->include_paths = calloc((size_t)argc + 1, sizeof *options->include_paths); // no more than arguments
     if (!options->include_paths) {
         (void)option_complain(&reading, "out of memory");

@@ -31,7 +31,7 @@ struct Options {
     bool json;
     int most_samples; // of a study
     int reference; // samples of a study's references; 0: by most_samples
-    double budget; // of a race, seconds
+    double budget; // of a study, seconds by the clock; 0: no limit
     int race_width, race_height; // 0: as large as it takes
     bool race;  // the race alone
     bool study; // of error against time, instead of a comparison

@@ -7,9 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "check/study_render.h"
 
 enum {
+    REFERENCE_DEPTH = 4, // of POV-Ray's, +R; 4 means 256 rays a pixel
     REFERENCE_SAMPLES = 256, // where nothing else is asked for
     RUNS_MOST = 3,       // of a setting that is soon done
     SIDE_LEAST = 64,
@@ -21,13 +23,23 @@ enum {
 };
 
 static const double SHORTEST = 0.5; // seconds of POV-Ray's processor time
+static const double SHORTEST_OF_BUDGET = 400.0; // less than that: a part of what is left
 static const double ENOUGH = 1.0;   // a run that takes so long is not repeated
 
 typedef struct Running {
     Race *race;
     StudySettings settings; // at the race's size
-    Image rtlang, povray;   // the references
+    Image povray;           // POV-Ray's reference; without values where the budget leaves it out
+    double seconds_a_ray;   // POV-Ray's, of the processor
+    double overhead;        // of a run of POV-Ray, seconds by the clock that are not tracing
+    double stretch;         // seconds by the clock for one of the processor
 } Running;
+
+// Seconds by the clock that a run of POV-Ray takes.
+static double povray_expected(const Running *running, double rays)
+{
+    return running->overhead + running->stretch * running->seconds_a_ray * rays;
+}
 
 // The root mean square in some rows.
 static double distance_in(const Image *picture, const Image *reference, int first, int last)
@@ -55,9 +67,10 @@ static double without_floor(double distance, double floor)
 static void entry_judge(const Running *running, RaceEntry *entry, const Image *picture, bool is_povray)
 {
     const Race *race = running->race;
-    double whole = distance_in(picture, &running->rtlang, 0, race->height);
-    double ours = distance_in(picture, &running->rtlang, race->first_row, race->last_row);
-    double theirs = distance_in(picture, &running->povray, race->first_row, race->last_row);
+    double whole = distance_in(picture, &race->picture, 0, race->height);
+    double ours = distance_in(picture, &race->picture, race->first_row, race->last_row);
+    double theirs = running->povray.values ? distance_in(picture, &running->povray, race->first_row, race->last_row)
+                                           : (double)NAN;
 
     entry->errors[RACE_BY_RTLANG] = without_floor(whole, race->floor);
     entry->errors[RACE_BY_POVRAY] = theirs >= 2.0 * race->apart ? theirs : (double)NAN;
@@ -87,7 +100,7 @@ static bool povray_once(const Running *running, const RaceEntry *entry, int thre
     return fine;
 }
 
-static bool povray_entry(Running *running, RaceEntry *entry)
+static bool povray_entry(Running *running, RaceEntry *entry, int most)
 {
     Race *race = running->race;
     double seconds[3][RUNS_MOST];
@@ -108,7 +121,7 @@ static bool povray_entry(Running *running, RaceEntry *entry)
         seconds[RACE_WALL][count] = run.cost.wall;
         seconds[RACE_WHOLE][count] = run.whole;
         race->spent += run.whole;
-    } while (seconds[RACE_CPU][count++] < ENOUGH && count < RUNS_MOST);
+    } while (seconds[RACE_CPU][count++] < ENOUGH && count < most);
     for (int i = 0; i <= RACE_WHOLE; i++) {
         entry->seconds[i] = study_median(seconds[i], count);
     }
@@ -130,31 +143,54 @@ static bool povray_entry_all(Running *running, RaceEntry *entry)
     return true;
 }
 
-// All in order, but those that would take more than what is left.
-static bool povray_entries(Running *running, const int *order, int count, double seconds_a_ray)
+// All in order, but those that the budget's stage has no room for. A run is repeated where there is room for all.
+static bool povray_entries(Running *running, const int *order, int count)
 {
     Race *race = running->race;
+    StudyBudget *budget = running->settings.budget;
+    double all = 0.0;
 
     for (int i = 0; i < count; i++) {
+        all += povray_expected(running, race->povray[order[i]].small_rays * race->width * race->height);
+    }
+    int most = RUNS_MOST * all <= budget_left(budget) ? RUNS_MOST : 1;
+    for (int i = 0; i < count; i++) {
         RaceEntry *entry = &race->povray[order[i]];
-        double expected = entry->small_rays * seconds_a_ray;
-        if (race->budget > 0.0 && race->spent + expected > race->budget) {
+        budget_say(budget, race->scene, "POV-Ray's settings", i + 1, count);
+        bool is_late = povray_expected(running, entry->small_rays * race->width * race->height) > budget_left(budget);
+        if (i > 0 && is_late) {
             race->left_out++;
-            continue;
-        }
-        if (!povray_entry(running, entry)) {
+        } else if (!povray_entry(running, entry, most)) {
             return false;
         }
-        study_progress(&running->settings, race->scene, "POV-Ray's settings", i + 1, count);
     }
+    if (race->left_out > 0) {
+        budget_leave_out(budget, "%d of POV-Ray's settings, those that are farthest from the front",
+                         race->left_out);
+    }
+    return true;
+}
+
+// Those at the front a second time, with all threads.
+static bool povray_front(Running *running, const int *order, int count)
+{
+    Race *race = running->race;
+    StudyBudget *budget = running->settings.budget;
+    int left_out = 0;
+
     for (int i = 0; i < count; i++) {
         RaceEntry *entry = &race->povray[order[i]];
         bool is_front = race_is_front(race, entry, RACE_CPU, RACE_BY_RTLANG) ||
                         race_is_front(race, entry, RACE_WALL, RACE_BY_RTLANG);
-        if (is_front && !povray_entry_all(running, entry)) {
+        budget_say(budget, race->scene, "the front with all threads", i + 1, count);
+        if (is_front && running->overhead + entry->seconds[RACE_WALL] > budget_left(budget)) {
+            left_out++;
+        } else if (is_front && !povray_entry_all(running, entry)) {
             return false;
         }
-        study_progress(&running->settings, race->scene, "the front with all threads", i + 1, count);
+    }
+    if (left_out > 0) {
+        budget_leave_out(budget, "runs with all threads of %d of POV-Ray's settings at the front", left_out);
     }
     return true;
 }
@@ -166,7 +202,7 @@ static bool rtlang_rung(Running *running, bool is_adaptive, double samples)
     Race *race = running->race;
     RaceEntry *entry = &race->rtlang[race->rtlang_count++];
     rt_sampling sampling = {.adaptive = is_adaptive, .samples = samples, .seed = 100};
-    double seconds[RACE_TIMES][RUNS_MOST];
+    double seconds[RACE_TIMES][RUNS_MOST], begin = clock_seconds();
     char output[4096];
     int count = 0;
 
@@ -193,7 +229,8 @@ static bool rtlang_rung(Running *running, bool is_adaptive, double samples)
         seconds[RACE_WHOLE][count] = one.whole;
         seconds[RACE_CPU_ALL][count] = all.seconds;
         seconds[RACE_WALL_ALL][count] = all.wall;
-    } while (seconds[RACE_CPU][count++] < ENOUGH && count < RUNS_MOST);
+    } while (seconds[RACE_CPU][count++] < ENOUGH && count < RUNS_MOST &&
+             (clock_seconds() - begin) / count <= budget_left(running->settings.budget));
     for (int i = 0; i < RACE_TIMES; i++) {
         entry->seconds[i] = study_median(seconds[i], count);
     }
@@ -218,16 +255,23 @@ static bool is_nearest(const Race *race, const RaceEntry *rung)
 static bool rtlang_ladder(Running *running, bool is_adaptive, double least, double factor)
 {
     Race *race = running->race;
-    double most = running->settings.most_samples;
+    StudyBudget *budget = running->settings.budget;
+    const char *name = is_adaptive ? "--adaptive --samples" : "--samples";
+    double most = running->settings.most_samples, expected = 0.0;
     bool is_done = false;
 
     for (double samples = least; samples <= most && race->rtlang_count < RACE_RUNGS && !is_done; samples *= factor) {
+        double begin = clock_seconds();
+        if (samples > least && expected > budget_left(budget)) {
+            budget_leave_out(budget, "rtlang's runs of %s=%g and more in the race", name, samples);
+            break;
+        }
+        budget_say(budget, race->scene, name, (int)samples, (int)most);
         if (!rtlang_rung(running, is_adaptive, samples)) {
             return false;
         }
         is_done = is_nearest(race, &race->rtlang[race->rtlang_count - 1]);
-        study_progress(&running->settings, race->scene, is_adaptive ? "--adaptive" : "--samples", (int)samples,
-                       (int)most);
+        expected = factor * (clock_seconds() - begin);
     }
     return true;
 }
@@ -237,40 +281,64 @@ static bool rtlang_ladder(Running *running, bool is_adaptive, double least, doub
 static bool rtlang_reference(Running *running)
 {
     Race *race = running->race;
-    int samples = running->settings.reference_samples;
+    int asked = running->settings.reference_samples;
+
+    budget_say(running->settings.budget, race->scene, "the race's references", 1, 2);
     // Not the sampler that races.
     rt_sampling sampling = {
         .sampler = "halton",
-        .samples = samples > 0 ? samples : REFERENCE_SAMPLES,
+        .samples = asked > 0 ? asked : study_reference_samples(race->scene, &running->settings, REFERENCE_SAMPLES, "the race's reference"),
         .seed = 1};
     RtlangRun run = {.method = RT_METHOD_BACKWARD};
 
     rtlang_render(race->scene, &running->settings, &sampling, RT_PRECISION_DOUBLE, 0, &run);
-    running->rtlang = run.image;
+    race->picture = run.image;
     race->reference_samples = run.error.samples;
     race->floor = run.error.rmse;
     return run.status == RT_OK;
+}
+
+// The greatest depth whose picture of these rows the budget's stage has room for; 0: none. A square of depth n has up to
+// 4^n rays.
+static int reference_depth(const Running *running, int rows)
+{
+    for (int depth = REFERENCE_DEPTH; depth > 1; depth--) {
+        double rays = (double)running->race->width * rows * (double)(1 << (2 * depth));
+        if (povray_expected(running, rays) <= budget_left(running->settings.budget)) {
+            return depth;
+        }
+    }
+    return 0;
 }
 
 // The middle rows alone: 256 rays a pixel of a regular grid, each pixel's corners shared, take POV-Ray long.
 static bool povray_reference(Running *running)
 {
     Race *race = running->race;
-    char first[32], last[32];
-    int rows = race->height / PART_OF_ROWS;
+    char first[32], last[32], square[16];
+    int rows = race->height / PART_OF_ROWS, depth = reference_depth(running, rows);
 
     race->first_row = (race->height - rows) / 2;
     race->last_row = race->first_row + rows;
+    race->apart = (double)NAN;
+    if (depth < REFERENCE_DEPTH) {
+        budget_leave_out(running->settings.budget, depth > 0 ? "POV-Ray's reference is of less depth"
+                                                             : "POV-Ray's own reference");
+    }
+    if (depth == 0) {
+        return true;
+    }
     snprintf(first, sizeof first, "+SR%d", race->first_row + 1);
     snprintf(last, sizeof last, "+ER%d", race->last_row);
-    snprintf(race->povray_reference, sizeof race->povray_reference, "+AM2 +A0.0 +R4 -J");
-    const char *switches[] = {"+AM2", "+A0.0", "+R4", "-J", first, last, NULL};
+    snprintf(square, sizeof square, "+R%d", depth);
+    snprintf(race->povray_reference, sizeof race->povray_reference, "+AM2 +A0.0 %s -J", square);
+    const char *switches[] = {"+AM2", "+A0.0", square, "-J", first, last, NULL};
     PovrayRun run = {.name = "reference", .switches = switches};
     bool fine = povray_render(race->scene, &running->settings, &run);
     running->povray = run.image;
     if (fine) {
         race->povray_reference_rays = run.cost.rays / ((double)race->width * rows);
-        race->apart = distance_in(&running->povray, &running->rtlang, race->first_row, race->last_row);
+        race->apart = distance_in(&running->povray, &race->picture, race->first_row, race->last_row);
     }
     return fine;
 }
@@ -284,29 +352,40 @@ static int side_of(double length)
     return side < SIDE_LEAST ? SIDE_LEAST : side > SIDE_MOST ? SIDE_MOST : side;
 }
 
-// Grows the picture until the setting that has the fewest rays takes POV-Ray long enough; seconds of a ray.
-static bool size_find(Running *running, const RaceEntry *least, double *seconds_a_ray)
+// What a run tells of the next ones.
+static void cost_learn(Running *running, const PovrayRun *run, double seconds)
+{
+    running->seconds_a_ray = run->cost.seconds / run->cost.rays;
+    running->overhead = fmax(seconds - run->cost.wall, 0.0);
+    running->stretch = fmax(run->cost.wall / fmax(run->cost.seconds, 1e-3), 1.0);
+}
+
+// Grows the picture until the setting that has the fewest rays takes POV-Ray long enough.
+static bool size_find(Running *running, const RaceEntry *least)
 {
     Race *race = running->race;
     StudySettings *settings = &running->settings;
     bool is_fixed = settings->race_width > 0;
+    double enough = fmin(SHORTEST, fmax(budget_left(settings->budget), 0.0) / SHORTEST_OF_BUDGET);
 
     settings->width = is_fixed ? settings->race_width : FIRST_WIDTH;
     settings->height = is_fixed ? settings->race_height : FIRST_HEIGHT;
     for (int i = 0; i < SIZE_TRIES; i++) {
         PovrayRun run;
-        if (!povray_once(running, least, 1, &run)) {
+        double begin = clock_seconds();
+        budget_say(settings->budget, race->scene, "the race's size", i + 1, SIZE_TRIES);
+        if (*settings->interrupted != 0 || !povray_once(running, least, 1, &run)) {
             return false;
         }
         image_fini(&run.image);
         race->width = settings->width;
         race->height = settings->height;
         race->shortest = run.cost.seconds;
-        *seconds_a_ray = run.cost.seconds / run.cost.rays * (double)race->width * race->height;
-        if (is_fixed || race->shortest >= SHORTEST || settings->width >= SIDE_MOST) {
+        cost_learn(running, &run, clock_seconds() - begin);
+        if (is_fixed || race->shortest >= enough || settings->width >= SIDE_MOST) {
             break;
         }
-        double grow = fmin(sqrt(1.1 * SHORTEST / fmax(run.cost.seconds, 1e-3)), 8.0);
+        double grow = fmin(sqrt(1.1 * enough / fmax(run.cost.seconds, 1e-3)), 8.0);
         settings->width = side_of(grow * settings->width);
         settings->height = side_of(0.75 * settings->width);
     }
@@ -316,9 +395,10 @@ static bool size_find(Running *running, const RaceEntry *least, double *seconds_
 static bool race_all(Running *running)
 {
     Race *race = running->race;
+    StudyBudget *budget = running->settings.budget;
     int order[RACE_SETTINGS];
-    double seconds_a_ray;
 
+    budget_stage(budget, 0.35);
     if (!race_try_small(race, &running->settings)) {
         return false;
     }
@@ -328,16 +408,27 @@ static bool race_all(Running *running)
         const RaceEntry *entry = &race->povray[order[i]];
         least = entry->small_rays < least->small_rays ? entry : least;
     }
-    return size_find(running, least, &seconds_a_ray) && rtlang_reference(running) && povray_reference(running) &&
-           povray_entries(running, order, count, seconds_a_ray) &&
-           rtlang_ladder(running, false, 1.0, 4.0) && rtlang_ladder(running, true, 2.0, 2.0);
+    budget_stage(budget, 1.0);
+    bool fine = size_find(running, least);
+    budget_stage(budget, 0.15);
+    fine = fine && rtlang_reference(running);
+    budget_stage(budget, 0.15);
+    fine = fine && povray_reference(running);
+    budget_stage(budget, 0.55);
+    fine = fine && povray_entries(running, order, count);
+    budget_stage(budget, 0.3);
+    fine = fine && povray_front(running, order, count);
+    budget_stage(budget, 0.5);
+    fine = fine && rtlang_ladder(running, true, 2.0, 2.0);
+    budget_stage(budget, 1.0);
+    return fine && rtlang_ladder(running, false, 1.0, 4.0);
 }
 
 bool race_run(Race *race, const char *scene, const StudySettings *settings)
 {
     Running running = {.race = race, .settings = *settings};
 
-    *race = (Race){.scene = scene, .budget = settings->budget};
+    *race = (Race){.scene = scene};
     race_settings_list(race);
     for (int i = 0; i < race->povray_count; i++) {
         numbers_unset(&race->povray[i]);
@@ -346,7 +437,6 @@ bool race_run(Race *race, const char *scene, const StudySettings *settings)
     if (!fine && race->fault[0] == '\0') {
         snprintf(race->fault, sizeof race->fault, *settings->interrupted != 0 ? "interrupted" : "a run failed");
     }
-    image_fini(&running.rtlang);
     image_fini(&running.povray);
     return fine;
 }

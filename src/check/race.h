@@ -1,8 +1,8 @@
 // The race to equal error: rtlang's samples against POV-Ray's anti-aliasing, at all settings of both.
 //
 // Every setting of POV-Ray is tried on a small picture first, which shows those that make the same picture as another
-// and how much dearer each is than the best ones to its error. In that order they run at the race's size, until the
-// budget is spent; what was not run is kept and counted. A setting is at the front when no other has both less time and
+// and how much dearer each is than the best ones to its error. In that order they run at the race's size, as far as the
+// budget lets them; what was not run is kept and counted. A setting is at the front when no other has both less time and
 // less error. The ratio at such a setting is POV-Ray's time over rtlang's to the same error: rtlang's is read off the
 // line between the two rungs of a ladder around it, both axes in logarithms, from the ladder that is faster there; where
 // no ladder reaches the error there is no ratio. Knows nothing of how it is printed.
@@ -12,6 +12,8 @@
 #define CHECK_RACE_H
 
 #include <stdbool.h>
+
+#include "image/image.h"
 
 typedef struct StudySettings StudySettings;
 
@@ -70,10 +72,11 @@ typedef struct Race {
     double floor;                           // the own error of rtlang's reference, which is taken off
     double apart;                           // how far the references are apart in POV-Ray's rows
     double shortest;                        // POV-Ray's shortest run, seconds of the processor
-    double budget, spent;                   // seconds of the processor for POV-Ray's runs; 0: no limit
+    double spent;                           // seconds of the processor, by POV-Ray's runs at the race's size
     RaceEntry povray[RACE_SETTINGS], rtlang[RACE_RUNGS];
     int povray_count, rtlang_count;
-    int same, left_out; // settings that make another's picture; that the budget left out
+    int same, left_out; // settings that make another's picture; that the budget left out once they were tried
+    Image picture; // rtlang's reference; owned by the study that has it
     char fault[RACE_TEXT];
 } Race;
 

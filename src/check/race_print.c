@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "check/json.h"
+#include "check/report_html.h"
 
 // The ratios that are said, and what each is called.
 typedef struct Told {
@@ -44,10 +45,14 @@ static void print_head(const Race *race, FILE *out, const char *before, const ch
     fprintf(out, "%sthe race: %d x %d pixels; POV-Ray's shortest run takes %.2f s of the processor%s\n", before,
             race->width, race->height, race->shortest, after);
     fprintf(out,
-            "%sreferences: rtlang's of %g samples a pixel (its own error, %.3g, is taken off); POV-Ray's by %s, %.4g rays "
-            "a pixel of the rows %d to %d; %.3g apart there%s\n",
-            before, race->reference_samples, race->floor, race->povray_reference, race->povray_reference_rays,
-            race->first_row + 1, race->last_row, race->apart, after);
+            "%sreferences: rtlang's of %g samples a pixel (its own error, %.3g, is taken off); POV-Ray's ",
+            before, race->reference_samples, race->floor);
+    if (isnan(race->apart)) {
+        fprintf(out, "left out by the budget%s\n", after);
+    } else {
+        fprintf(out, "by %s, %.4g rays a pixel of the rows %d to %d; %.3g apart there%s\n", race->povray_reference,
+                race->povray_reference_rays, race->first_row + 1, race->last_row, race->apart, after);
+    }
     int tried = 0, run = 0;
     for (int i = 0; i < race->povray_count; i++) {
         tried += !isnan(race->povray[i].small_rays);
@@ -55,7 +60,7 @@ static void print_head(const Race *race, FILE *out, const char *before, const ch
     }
     fprintf(out,
             "%sPOV-Ray's settings: %d tried at %d x %d pixels, %d of them with another's picture; %d run, nearest to the "
-            "front first, in %.0f s; %d left out by the budget%s\n",
+            "front first, in %.0f s of the processor; %d left out by the budget%s\n",
             before, tried, race->small_width, race->small_height, race->same, run, race->spent, race->left_out, after);
 }
 
@@ -139,7 +144,6 @@ void race_print_json(const Race *race, FILE *out)
     json_print_text(out, race->povray_reference);
     json_print_number(out, "povray_reference_rays", race->povray_reference_rays);
     json_print_number(out, "references_apart", race->apart);
-    json_print_number(out, "budget", race->budget);
     json_print_number(out, "spent", race->spent);
     json_print_number(out, "same", race->same);
     json_print_number(out, "left_out", race->left_out);
@@ -191,16 +195,29 @@ static void html_row(const Race *race, const RaceEntry *entry, FILE *out)
     fprintf(out, "<td>%s</td></tr>\n", front_text(race, entry));
 }
 
+static const ReportColumn columns[] = {
+    {"setting", "What the program was asked for: rtlang's samples a pixel; POV-Ray's method, threshold, depth and jitter."},
+    {"rays", "Rays from the camera for a pixel, as the program counted them."},
+    {"processor, s", "Time of the processor with one thread, tracing alone."},
+    {"clock, s", "The same by the clock."},
+    {"with reading and writing, s", "Time of the processor of the whole run, from the scene's text to the file."},
+    {"processor, all threads", "Time of the processor, tracing with all threads. POV-Ray's settings at the front only."},
+    {"clock, all threads", "The same by the clock."},
+    {"rmse", "The error: the root of the mean square distance from rtlang's reference, in linear light from 0 to 1."},
+    {"rmse, by POV-Ray's reference", "The same against the reference that POV-Ray drew of the middle rows."},
+    {"rtlang to that error, s", "What rtlang takes to the same error: read off the line between two rungs of a ladder, in "
+                                "logarithms, or a rung that is nearer still, whichever is least."},
+    {"ratio", "Time of the processor over rtlang's to the same error. Above 1 rtlang is faster."},
+    {"at the front by", "No other setting of POV-Ray's has both less time and less error."},
+};
+
 void race_print_html(const Race *race, FILE *out)
 {
     fputs("<h3>The race</h3>\n<ul>\n", out);
     print_head(race, out, "<li>", "</li>");
     print_ratios(race, out, "<li>", "</li>");
-    fputs("</ul>\n<table class=\"sortable\"><thead><tr><th>setting</th><th>rays</th><th>processor, s</th><th>clock, s</th>"
-          "<th>with reading and writing, s</th><th>processor, all threads</th><th>clock, all threads</th><th>rmse</th>"
-          "<th>rmse, by POV-Ray's reference</th><th>rtlang to that error, s</th><th>ratio</th><th>at the front by</th>"
-          "</tr></thead><tbody>\n",
-          out);
+    fputs("</ul>\n", out);
+    report_table_open(out, "All runs of the race", columns, sizeof columns / sizeof columns[0]);
     for (int i = 0; i < race->rtlang_count; i++) {
         html_row(race, &race->rtlang[i], out);
     }
@@ -209,10 +226,7 @@ void race_print_html(const Race *race, FILE *out)
             html_row(race, &race->povray[i], out);
         }
     }
-    fputs("</tbody></table>\n<p>At the front: no other setting of POV-Ray has both less time and less error. rtlang's time "
-          "to an error is read off the line between two rungs of a ladder, in logarithms, or is that of a rung that is "
-          "nearer still, whichever is least.</p>\n",
-          out);
+    report_table_close(out);
 }
 
 // ---- all scenes of a run

@@ -20,10 +20,12 @@ static const double CHEAPEST = 0.005;
 
 typedef struct Small {
     Race *race;
+    int depth; // that is being tried
+    bool is_over[RACE_LADDERS]; // a setting of the ladder took too many rays
     StudySettings settings; // of the small picture
     Image reference;
     uint64_t hashes[RACE_SETTINGS]; // of pictures; 0: none
-    atomic_int next, done;
+    atomic_int next, left_out;
     atomic_bool failed;
 } Small;
 
@@ -61,28 +63,53 @@ static bool try_one(Small *small, int number)
     return fine;
 }
 
-static void *try_ladders(void *client)
+// One rung of each ladder that is not over.
+static void *try_rungs(void *client)
 {
     Small *small = client;
 
     for (int ladder; (ladder = atomic_fetch_add(&small->next, 1)) < RACE_LADDERS;) {
-        for (int depth = 0; depth < RACE_DEPTHS; depth++) {
-            int number = ladder * RACE_DEPTHS + depth;
-            if (*small->settings.interrupted != 0 || atomic_load(&small->failed)) {
-                return NULL;
-            }
-            if (!try_one(small, number)) {
-                atomic_store(&small->failed, true);
-                return NULL;
-            }
-            if (small->race->povray[number].small_rays > RACE_RAYS_MOST) {
-                break;
-            }
+        int number = ladder * RACE_DEPTHS + small->depth;
+        if (*small->settings.interrupted != 0 || atomic_load(&small->failed)) {
+            return NULL;
         }
-        study_progress(&small->settings, small->race->scene, "small pictures", atomic_fetch_add(&small->done, 1) + 1,
-                       RACE_LADDERS);
+        if (small->is_over[ladder]) {
+            continue;
+        }
+        if (small->depth > 0 && budget_left(small->settings.budget) <= 0.0) {
+            atomic_fetch_add(&small->left_out, 1);
+            small->is_over[ladder] = true;
+        } else if (!try_one(small, number)) {
+            atomic_store(&small->failed, true);
+            return NULL;
+        } else {
+            small->is_over[ladder] = small->race->povray[number].small_rays > RACE_RAYS_MOST;
+        }
     }
     return NULL;
+}
+
+// All ladders of settings, depth by depth: what the budget leaves out has the most rays.
+static void try_depths(Small *small)
+{
+    for (small->depth = 0; small->depth < RACE_DEPTHS; small->depth++) {
+        pthread_t threads[AT_A_TIME];
+        int started = 0;
+
+        budget_say(small->settings.budget, small->race->scene, "small pictures, depth", small->depth + 1, RACE_DEPTHS);
+        atomic_store(&small->next, 0);
+        while (started < AT_A_TIME - 1 && pthread_create(&threads[started], NULL, try_rungs, small) == 0) {
+            started++;
+        }
+        try_rungs(small);
+        for (int i = 0; i < started; i++) {
+            pthread_join(threads[i], NULL);
+        }
+    }
+    if (atomic_load(&small->left_out) > 0) {
+        budget_leave_out(small->settings.budget, "the upper ends of %d of POV-Ray's %d ladders of depths",
+                         atomic_load(&small->left_out), RACE_LADDERS);
+    }
 }
 
 // Of settings that make one picture the first is kept.
@@ -126,8 +153,6 @@ bool race_try_small(Race *race, const StudySettings *settings)
         return false;
     }
     Small small = {.race = race, .settings = *settings};
-    pthread_t threads[AT_A_TIME];
-    int started = 0;
     rt_sampling sampling = {.sampler = "halton", .samples = SMALL_SAMPLES, .seed = 1};
     RtlangRun reference = {.method = RT_METHOD_BACKWARD};
 
@@ -139,13 +164,7 @@ bool race_try_small(Race *race, const StudySettings *settings)
         return false;
     }
     small.reference = reference.image;
-    while (started < AT_A_TIME - 1 && pthread_create(&threads[started], NULL, try_ladders, &small) == 0) {
-        started++;
-    }
-    try_ladders(&small);
-    for (int i = 0; i < started; i++) {
-        pthread_join(threads[i], NULL);
-    }
+    try_depths(&small);
     find_same(&small);
     image_fini(&reference.image);
     return !atomic_load(&small.failed) && *settings->interrupted == 0;

@@ -102,6 +102,34 @@ bool report_page_close(ReportPage *page)
     return fine;
 }
 
+void report_table_open(FILE *out, const char *name, const ReportColumn *columns, size_t count)
+{
+    fputs("<details class=\"columns\" open><summary>What the columns mean</summary><dl>\n", out);
+    for (size_t i = 0; i < count; i++) {
+        fputs("<dt>", out);
+        html_text(out, columns[i].heading);
+        fputs("</dt><dd>", out);
+        html_text(out, columns[i].meaning);
+        fputs("</dd>\n", out);
+    }
+    fputs("</dl></details>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"", out);
+    html_text(out, name);
+    fputs("\"><table class=\"sortable\"><thead><tr>", out);
+    for (size_t i = 0; i < count; i++) {
+        fputs("<th scope=\"col\" title=\"", out);
+        html_text(out, columns[i].meaning);
+        fputs("\">", out);
+        html_text(out, columns[i].heading);
+        fputs("</th>", out);
+    }
+    fputs("</tr></thead><tbody>\n", out);
+}
+
+void report_table_close(FILE *out)
+{
+    fputs("</tbody></table></div>\n", out);
+}
+
 void html_text(FILE *out, const char *text)
 {
     for (const char *c = text; *c != '\0'; c++) {

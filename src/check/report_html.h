@@ -31,6 +31,13 @@ FILE *report_page_section(ReportPage *page, const char *id, const char *title);
 // written; errno says why.
 bool report_page_close(ReportPage *page);
 
+// A table that can be sorted, and in front of it what its columns mean, one below the other. `name` says what it holds.
+typedef struct ReportColumn {
+    const char *heading, *meaning; // plain text
+} ReportColumn;
+void report_table_open(FILE *out, const char *name, const ReportColumn *columns, size_t count);
+void report_table_close(FILE *out);
+
 // Text as HTML, also within a quoted attribute.
 void html_text(FILE *out, const char *text);
 

@@ -100,6 +100,17 @@ static void study_say(const Study *study, bool as_json)
     fflush(stdout);
 }
 
+// False when there is no study; it was said why.
+static bool one_run(Study *study, const char *scene, const Options *options, const StudySettings *settings)
+{
+    bool fine = study_run(study, scene, settings);
+
+    if (!fine) {
+        say(options, "%s: %s", scene, study->fault);
+    }
+    return fine;
+}
+
 StudiesResult studies_run(const Options *options, const StudySettings *settings)
 {
     Files files;
@@ -113,16 +124,16 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
     }
     bool fine = files_open(&files, options->report);
     for (int i = 0; fine && i < options->scene_count && *settings->interrupted == 0; i++) {
-        if (study_run(study, options->scenes[i], settings)) {
+        if (one_run(study, options->scenes[i], options, settings)) {
             study_say(study, options->json);
             if (study->has_race) {
                 race_total_add(&total, &study->race);
             }
             fine = files_add(&files, study);
         } else {
-            say(options, "%s: %s", options->scenes[i], study->fault);
             result = STUDIES_FAILED;
         }
+        study_fini(study);
     }
     if (!options->json) {
         study_print_total(&total, stdout);

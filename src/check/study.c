@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "check/study_render.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
@@ -17,47 +18,62 @@
 enum {
     RUNS_MOST = 9,
     REFERENCE_TIMES = 16, // the greatest number of samples of a ladder
+    REFERENCE_TIMES_LEAST = 4,
+    LADDER_LEAST = 16,
     DEEPER = 64,
     REFERENCE_SECONDS = 3, // of a rung of the reference kernels
     PHOTONS_LEAST = 400,   // for each sample of the greatest number
     PHOTONS_TIMES = 100,
 };
 
-static void point_add(StudyPoint *point, const StudyMetric *metric, int runs)
+static void point_add(StudyPoint *point, const StudyMetric *metric)
 {
-    point->rmse += metric->rmse * metric->rmse / runs;
-    point->relmse += metric->relmse / runs;
+    point->rmse += metric->rmse * metric->rmse;
+    point->relmse += metric->relmse;
     point->greatest = fmax(point->greatest, metric->greatest);
-    point->p999 += metric->p999 / runs;
-    point->flip += metric->flip / runs;
+    point->p999 += metric->p999;
+    point->flip += metric->flip;
 }
 
-// A rung: the same with several seeds. False when one failed.
-static bool rtlang_point(const Study *study, const StudySettings *settings, const Image *reference,
-                         const rt_sampling *sampling, rt_precision precision, StudyPoint *point)
+static void point_mean(StudyPoint *point, int runs)
 {
-    double seconds[RUNS_MOST];
-    int runs = settings->repeats < RUNS_MOST ? settings->repeats : RUNS_MOST;
+    point->rmse = sqrt(point->rmse / runs);
+    point->relmse /= runs;
+    point->p999 /= runs;
+    point->flip /= runs;
+    point->samples /= runs;
+    point->estimate /= runs;
+}
+
+// A rung: the same with several seeds, fewer of them when the budget's stage ends. *expected is how long each took by the
+// clock. False when one failed.
+static bool rtlang_point(const Study *study, const StudySettings *settings, const Image *reference,
+                         const rt_sampling *sampling, rt_precision precision, StudyPoint *point,
+                         double *expected)
+{
+    double seconds[RUNS_MOST], begin = clock_seconds();
+    int most = settings->repeats < RUNS_MOST ? settings->repeats : RUNS_MOST, runs = 0;
 
     *point = (StudyPoint){0};
-    for (int i = 0; i < runs; i++) {
+    do {
         rt_sampling one = *sampling;
         StudyMetric metric;
         RtlangRun run = {.method = RT_METHOD_BACKWARD};
 
-        one.seed = 100 + (uint64_t)i;
+        one.seed = 100 + (uint64_t)runs;
         rtlang_render(study->scene, settings, &one, precision, 1, &run);
         bool fine = run.status == RT_OK && study_compare(&run.image, reference, &metric);
         image_fini(&run.image);
         if (!fine) {
             return false;
         }
-        seconds[i] = run.seconds;
-        point_add(point, &metric, runs);
-        point->samples += fmax(run.error.samples, 1.0) / runs;
-        point->estimate += run.error.known != 0 ? run.error.rmse / runs : 0.0;
-    }
-    point->rmse = sqrt(point->rmse);
+        seconds[runs++] = run.seconds;
+        point_add(point, &metric);
+        point->samples += fmax(run.error.samples, 1.0);
+        point->estimate += run.error.known != 0 ? run.error.rmse : 0.0;
+        *expected = (clock_seconds() - begin) / runs;
+    } while (runs < most && *expected <= budget_left(settings->budget));
+    point_mean(point, runs);
     point->seconds = study_median(seconds, runs);
     point->effort = sampling->samples;
     snprintf(point->setting, sizeof point->setting,
@@ -74,29 +90,89 @@ static StudyMethod *method_begin(Study *study, const char *name, StudyKind kind)
     return method;
 }
 
+typedef struct Ladder {
+    const char *name;
+    rt_sampling sampling;
+    int least, factor; // samples
+    StudyMethod *method;
+    double expected; // seconds of a run of the next rung
+    int ends_before; // samples; 0: it is not over
+} Ladder;
+
+// One rung more, unless the budget's stage would end before it. False when it failed.
+static bool ladder_climb(Study *study, const StudySettings *settings, const Image *reference, Ladder *ladder,
+                         int samples)
+{
+    StudyMethod *method = ladder->method;
+    rt_sampling sampling = ladder->sampling;
+    double one;
+
+    if (ladder->expected > budget_left(settings->budget)) {
+        ladder->ends_before = samples;
+        return true;
+    }
+    sampling.samples = samples;
+    budget_say(settings->budget, study->scene, ladder->name, samples, study->ladder_top);
+    if (*settings->interrupted != 0 || !rtlang_point(study, settings, reference, &sampling, RT_PRECISION_DOUBLE,
+                                                     &method->points[method->count], &one)) {
+        return false;
+    }
+    method->count++;
+    ladder->expected = ladder->factor * one;
+    return true;
+}
+
+// One sentence for all ladders that end before the same rung.
+static void ladders_note(const Study *study, const StudySettings *settings, const Ladder *ladders, size_t count)
+{
+    for (int samples = 1; samples <= study->ladder_top; samples *= 2) {
+        char names[BUDGET_TEXT] = "";
+        size_t length = 0;
+
+        for (size_t i = 0; i < count; i++) {
+            if (ladders[i].ends_before == samples && length < sizeof names) {
+                length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", length > 0 ? ", " : "",
+                                           ladders[i].name);
+            }
+        }
+        if (length > 0) {
+            budget_leave_out(settings->budget, "runs of %d samples a pixel and more: %s", samples, names);
+        }
+    }
+}
+
+// Rung by rung over all ladders: what the budget leaves out is the dearest.
 static bool rtlang_methods(Study *study, const StudySettings *settings, const Image *reference)
 {
-    static const struct {
-        const char *name;
-        rt_sampling sampling;
-        int least; // samples
-    } methods[] = {{"rtlang sobol", {.sampler = "sobol"}, 1},   {"rtlang adaptive", {.adaptive = 1}, 2},
-                   {"rtlang halton", {.sampler = "halton"}, 4}, {"rtlang jittered", {.sampler = "jittered"}, 4},
-                   {"rtlang grid", {.sampler = "grid"}, 4},     {"rtlang random", {.sampler = "random"}, 4}};
+    Ladder ladders[] = {{.name = "rtlang sobol", .sampling = {.sampler = "sobol"}, .least = 1, .factor = 4},
+                        {.name = "rtlang adaptive", .sampling = {.adaptive = 1}, .least = 2, .factor = 2},
+                        {.name = "rtlang halton", .sampling = {.sampler = "halton"}, .least = 4, .factor = 4},
+                        {.name = "rtlang jittered", .sampling = {.sampler = "jittered"}, .least = 4, .factor = 4},
+                        {.name = "rtlang grid", .sampling = {.sampler = "grid"}, .least = 4, .factor = 4},
+                        {.name = "rtlang random", .sampling = {.sampler = "random"}, .least = 4, .factor = 4}};
+    int next[COUNT_OF(ladders)]; // samples
 
-    for (size_t i = 0; i < COUNT_OF(methods); i++) {
-        StudyMethod *method = method_begin(study, methods[i].name, STUDY_SAMPLER);
-        for (int samples = methods[i].least; samples <= settings->most_samples && method->count < STUDY_POINTS;
-             samples *= methods[i].sampling.adaptive != 0 ? 2 : 4) {
-            rt_sampling sampling = methods[i].sampling;
-            sampling.samples = samples;
-            if (*settings->interrupted != 0 || !rtlang_point(study, settings, reference, &sampling, RT_PRECISION_DOUBLE,
-                                                             &method->points[method->count])) {
+    for (size_t i = 0; i < COUNT_OF(ladders); i++) {
+        ladders[i].method = method_begin(study, ladders[i].name, STUDY_SAMPLER);
+        next[i] = ladders[i].least;
+    }
+    for (int samples = 1; samples <= study->ladder_top; samples *= 2) {
+        for (size_t i = 0; i < COUNT_OF(ladders); i++) {
+            if (next[i] != samples || ladders[i].ends_before > 0) {
+                continue;
+            }
+            if (i > 1 && ladders[i].method->count == 0) {
+                ladders[i].expected = ladders[0].expected / ladders[0].factor; // of the first, for as many samples
+            }
+            if (!ladder_climb(study, settings, reference, &ladders[i], samples)) {
                 return false;
             }
-            method->count++;
+            next[i] *= ladders[i].factor;
         }
-        study_fit(method, study->floor);
+    }
+    ladders_note(study, settings, ladders, COUNT_OF(ladders));
+    for (size_t i = 0; i < COUNT_OF(ladders); i++) {
+        study_fit(ladders[i].method, study->floor);
     }
     return true;
 }
@@ -105,7 +181,8 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
 
 // The program's own sampler in each precision, where the scene is known to be drawn in it. A rung that would take long
 // is left out: what quadruple precision has to show, the lower ones show.
-static bool reference_methods(Study *study, const StudySettings *settings, const Image *reference)
+static bool reference_methods(Study *study, const StudySettings *settings, const Image *reference,
+                              double quad_seconds)
 {
     static const struct {
         const char *name;
@@ -118,16 +195,26 @@ static bool reference_methods(Study *study, const StudySettings *settings, const
     once.repeats = 1;
     for (size_t i = 0; i < COUNT_OF(methods) && !isnan(study->arithmetic); i++) {
         StudyMethod *method = method_begin(study, methods[i].name, STUDY_REFERENCE);
-        double seconds = 0.0;
-        for (int samples = 4; samples <= settings->most_samples && 4.0 * seconds < REFERENCE_SECONDS; samples *= 4) {
+        double seconds = 0.0, one = 0.0;
+        if (methods[i].precision == RT_PRECISION_QUAD && 4.0 * quad_seconds > budget_left(settings->budget)) {
+            budget_leave_out(settings->budget, "all runs: %s", methods[i].name);
+            break;
+        }
+        budget_say(settings->budget, study->scene, methods[i].name, (int)i + 1, (int)COUNT_OF(methods));
+        for (int samples = 4; samples <= study->ladder_top && 4.0 * seconds < REFERENCE_SECONDS; samples *= 4) {
             rt_sampling sampling = {.samples = samples};
             StudyPoint *point = &method->points[method->count];
             if (*settings->interrupted != 0 ||
-                !rtlang_point(study, &once, reference, &sampling, methods[i].precision, point)) {
+                !rtlang_point(study, &once, reference, &sampling, methods[i].precision, point, &one)) {
                 return false;
             }
             seconds = point->seconds;
             method->count++;
+            if (4.0 * one > budget_left(settings->budget)) {
+                budget_leave_out(settings->budget, "runs of %d samples a pixel and more: %s", 4 * samples,
+                                 methods[i].name);
+                break;
+            }
         }
         study_fit(method, study->floor);
     }
@@ -164,8 +251,8 @@ static bool forward_point(Study *study, const StudySettings *settings, const Ima
                           .estimate = run->error.rmse,
                           .effort = (double)run->photons,
                           .samples = (double)run->photons / ((double)study->width * study->height)};
-    point_add(point, &metric, 1);
-    point->rmse = sqrt(point->rmse);
+    point_add(point, &metric);
+    point_mean(point, 1);
     snprintf(point->setting, sizeof point->setting, "--photons=%llu", (unsigned long long)run->photons);
     ladder->photons_an_arrival = (double)run->counts.emitted / (double)run->counts.arrived;
     ladder->count++;
@@ -178,10 +265,16 @@ static bool forward_ladder(Study *study, const StudySettings *settings, const Im
 {
     StudyMethod *ladder = method_begin(study, name, STUDY_FORWARD);
 
-    uint64_t least = PHOTONS_LEAST * (uint64_t)settings->most_samples;
+    uint64_t least = PHOTONS_LEAST * (uint64_t)study->ladder_top;
     for (uint64_t photons = least; photons <= PHOTONS_TIMES * least; photons *= 10) {
         RtlangRun run = {.method = method, .photons = photons};
         bool misfits = false;
+        double seconds = ladder->count > 0 ? ladder->points[ladder->count - 1].seconds : 0.0;
+        if (10.0 * seconds > budget_left(settings->budget)) {
+            budget_leave_out(settings->budget, "runs of %g photons and more: %s", (double)photons, name);
+            break;
+        }
+        budget_say(settings->budget, study->scene, name, ladder->count + 1, 3);
         if (*settings->interrupted != 0 || !forward_point(study, settings, reference, ladder, &run, &misfits)) {
             return false;
         }
@@ -212,10 +305,11 @@ static double distance_of(const RtlangRun *picture, const RtlangRun *reference)
     return fine ? metric.rmse : (double)NAN;
 }
 
-static void model_find(Study *study, const StudySettings *settings)
+// *quad_seconds: what a ray a pixel takes in quadruple precision, by the clock.
+static void model_find(Study *study, const StudySettings *settings, double *quad_seconds)
 {
     static const rt_sampling one = {0};
-    RtlangRun ours = {.method = RT_METHOD_BACKWARD}, exact = ours, single = ours, theirs = {.status = RT_OK};
+    RtlangRun ours = {.method = RT_METHOD_BACKWARD}, exact = {.method = RT_METHOD_BACKWARD, .is_optional = true}, single = ours, theirs = {.status = RT_OK};
     PovrayRun povray = {.name = "model", .threads = 1};
 
     study->model = (double)NAN;
@@ -228,7 +322,13 @@ static void model_find(Study *study, const StudySettings *settings)
     rtlang_render(study->scene, settings, &one, RT_PRECISION_FLOAT, 0, &single);
     study->arithmetic = distance_of(&ours, &exact);
     study->arithmetic_float = distance_of(&single, &exact);
-    plain_text(study->arithmetic_why, exact.fault[0] != '\0' ? exact.fault : "built without the reference kernels");
+    *quad_seconds = exact.wall;
+    if (exact.status == RT_CANCELLED && *settings->interrupted == 0) {
+        budget_leave_out(settings->budget, "arithmetic in quadruple precision");
+    }
+    plain_text(study->arithmetic_why, exact.status == RT_CANCELLED ? "the budget left it out"
+                                      : exact.fault[0] != '\0'    ? exact.fault
+                                                                  : "built without the reference kernels");
     image_fini(&ours.image);
     image_fini(&theirs.image);
     image_fini(&exact.image);
@@ -247,6 +347,10 @@ static void depth_find(Study *study, const StudySettings *settings, const rt_sam
     if (!(study->cut_bias > 0.0)) {
         return;
     }
+    if (2.0 * reference->wall > budget_left(settings->budget)) {
+        budget_leave_out(settings->budget, "what more levels would change");
+        return;
+    }
     deeper.max_trace_level = DEEPER;
     rtlang_render(study->scene, settings, &deeper, RT_PRECISION_DOUBLE, 0, &run);
     if (run.status == RT_OK && study_compare(&run.image, &reference->image, &metric)) {
@@ -255,45 +359,99 @@ static void depth_find(Study *study, const StudySettings *settings, const rt_sam
     image_fini(&run.image);
 }
 
+// The picture that all are compared with.
+static bool reference_make(Study *study, const StudySettings *settings, rt_sampling *sampling, RtlangRun *reference)
+{
+    int asked = settings->reference_samples, most = REFERENCE_TIMES * settings->most_samples;
+
+    budget_say(settings->budget, study->scene, "the reference", 1, 2);
+    budget_stage(settings->budget, settings->povray ? 0.1 : 0.2);
+    // Not the sampler that is studied.
+    *sampling = (rt_sampling){.sampler = "halton",
+                              .samples = asked > 0 ? asked : study_reference_samples(study->scene, settings, most, "the reference"),
+                              .seed = 1};
+    *reference = (RtlangRun){.method = RT_METHOD_BACKWARD};
+    rtlang_render(study->scene, settings, sampling, RT_PRECISION_DOUBLE, 0, reference);
+    if (reference->status != RT_OK) {
+        snprintf(study->fault, sizeof study->fault, "%s", reference->fault);
+        return false;
+    }
+    study->reference_samples = reference->error.samples;
+    study->floor = reference->error.rmse;
+    study->ladder_top = settings->most_samples;
+    while (study->ladder_top > LADDER_LEAST && REFERENCE_TIMES_LEAST * study->ladder_top > sampling->samples) {
+        study->ladder_top /= 4;
+    }
+    if (study->ladder_top < settings->most_samples) {
+        budget_leave_out(settings->budget, "runs of more than %d samples a pixel, in place of %d", study->ladder_top,
+                         settings->most_samples);
+    }
+    return true;
+}
+
 // The ladders of all of rtlang's methods against one reference. False when something failed.
 static bool methods_run(Study *study, const StudySettings *settings)
 {
-    int samples = settings->reference_samples > 0 ? settings->reference_samples
-                                                  : REFERENCE_TIMES * settings->most_samples;
-    // Not the sampler that is studied.
-    rt_sampling sampling = {.sampler = "halton", .samples = samples, .seed = 1};
+    rt_sampling sampling;
     RtlangRun reference = {.method = RT_METHOD_BACKWARD};
+    double left = settings->povray ? 0.4 : 1.0; // of the budget, for all that is not the race
 
     study->has_methods = true;
-    rtlang_render(study->scene, settings, &sampling, RT_PRECISION_DOUBLE, 0, &reference);
-    if (reference.status != RT_OK) {
-        snprintf(study->fault, sizeof study->fault, "%s", reference.fault);
+    if (!reference_make(study, settings, &sampling, &reference)) {
         return false;
     }
-    study->reference_samples = reference.error.samples;
-    study->floor = reference.error.rmse;
-    model_find(study, settings);
+    budget_stage(settings->budget, 0.2 * left);
+    double quad_seconds;
+    model_find(study, settings, &quad_seconds);
     depth_find(study, settings, &sampling, &reference);
-    bool fine = rtlang_methods(study, settings, &reference.image) &&
-                reference_methods(study, settings, &reference.image) &&
-                forward_methods(study, settings, &reference.image);
-    image_fini(&reference.image);
+    budget_stage(settings->budget, 0.6 * left);
+    bool fine = rtlang_methods(study, settings, &reference.image);
+    budget_stage(settings->budget, 0.3 * left);
+    fine = fine && reference_methods(study, settings, &reference.image, quad_seconds);
+    budget_stage(settings->budget, 0.5 * left);
+    fine = fine && forward_methods(study, settings, &reference.image);
+    study->picture = reference.image;
+    return fine;
+}
+
+// What was computed is the study's, also of one that failed.
+static bool study_all(Study *study, const StudySettings *settings)
+{
+    bool fine = settings->only_race || methods_run(study, settings);
+
+    if (fine && settings->povray) {
+        budget_stage(settings->budget, 1.0);
+        study->has_race = fine = race_run(&study->race, study->scene, settings);
+        if (!fine) {
+            snprintf(study->fault, sizeof study->fault, "%s", study->race.fault);
+        }
+    }
     return fine;
 }
 
 bool study_run(Study *study, const char *scene, const StudySettings *settings)
 {
-    *study = (Study){.scene = scene, .width = settings->width, .height = settings->height};
-    bool fine = settings->only_race || methods_run(study, settings);
+    StudySettings own = *settings;
 
-    if (fine && settings->povray) {
-        study->has_race = fine = race_run(&study->race, scene, settings);
-        if (!fine) {
-            snprintf(study->fault, sizeof study->fault, "%s", study->race.fault);
-        }
-    }
+    *study = (Study){.scene = scene, .width = settings->width, .height = settings->height};
+    budget_begin(&study->budget, settings->seconds, settings->shows_progress);
+    own.budget = &study->budget;
+    bool fine = study_all(study, &own);
+    budget_end(&study->budget);
+
     if (!fine && study->fault[0] == '\0') {
         snprintf(study->fault, sizeof study->fault, *settings->interrupted != 0 ? "interrupted" : "a run failed");
     }
+    if (!study->picture.values) {
+        study->picture = study->race.picture;
+        study->race.picture = (Image){0};
+    }
+    study->seconds = clock_seconds() - study->budget.begin;
     return fine;
+}
+
+void study_fini(Study *study)
+{
+    image_fini(&study->picture);
+    image_fini(&study->race.picture);
 }

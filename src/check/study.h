@@ -14,6 +14,7 @@
 #include <stddef.h>
 
 #include "check/race.h"
+#include "check/study_budget.h"
 #include "image/image.h"
 
 enum { STUDY_POINTS = 32, STUDY_METHODS = 20, STUDY_TEXT = 256 };
@@ -63,6 +64,10 @@ typedef struct Study {
     double arithmetic_float;  // that of the float reference kernel; NAN: not known
     char arithmetic_why[STUDY_TEXT]; // not known, why
     char forward_why[STUDY_TEXT];    // why there is no forward method; "" if there is
+    Image picture;                   // the reference of the methods, or of the race where there is that alone; owned
+    int ladder_top;                  // samples a pixel, the most that a ladder may have
+    StudyBudget budget;              // what is left of it, and what it left out
+    double seconds;                  // that the study took by the clock
     char fault[STUDY_TEXT];          // why there is no study
 } Study;
 
@@ -77,17 +82,21 @@ struct StudySettings {
     int most_samples;   // of a ladder, >= 64; photons grow along
     int reference_samples;       // 0: 16 times as many as a ladder has at its top, of a race 256
     int race_width, race_height; // 0: as large as it takes
-    double budget;               // of POV-Ray's runs of a race, seconds of the processor; 0: no limit
-    bool only_race;              // without the ladders of all methods
+    double seconds;              // that a study may take by the clock; 0: no limit
     bool shows_progress;
+    StudyBudget *budget;         // of the study that runs; study_run sets it
+    bool only_race;              // without the ladders of all methods
     const volatile sig_atomic_t *interrupted;
 };
 
 // False when there is no study: `fault` says why.
 bool study_run(Study *study, const char *scene, const StudySettings *settings);
 
-// One line on stderr that says how far a study has come; nothing where nobody looks.
-void study_progress(const StudySettings *settings, const char *scene, const char *what, int done, int all);
+void study_fini(Study *study);
+
+// The one sentence that a reader wants: the error, rtlang's time to it, and POV-Ray's, or where there was no race that of
+// plain random samples.
+void study_verdict(const Study *study, char text[STUDY_TEXT]);
 
 // ---- study_metric.c
 

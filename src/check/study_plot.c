@@ -3,13 +3,17 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "check/study_print.h"
 
-enum { WIDTH = 920, HEIGHT = 520, LEFT = 70, RIGHT = 280, TOP = 20, BOTTOM = 50 };
+// Small enough for letters that can be read on a screen of 400 pixels.
+enum { WIDTH = 440, HEIGHT = 360, LEFT = 58, RIGHT = 40, TOP = 16, BOTTOM = 46 };
 
-// Where the list of methods begins, beside the slopes of the guides.
-enum { LIST = WIDTH - RIGHT + 40 };
+// Where the list of methods begins in a file of its own, beside the slopes of the guides, and how wide it is.
+enum { LIST = WIDTH + 4, LIST_WIDTH = 240 };
+
+enum { CURVES_FIRST = 4 }; // that are shown before a reader asks for more
 
 typedef struct Scale {
     double low_x, high_x, low_y, high_y; // decimal logarithms
@@ -17,7 +21,8 @@ typedef struct Scale {
 
 enum { COLOURS = 6 };
 
-// How the methods of a kind are drawn: no two of a study look alike.
+// How the methods of a kind are drawn: no two of a study look alike. Each colour stands out from a white page and from a
+// black one by 3 to 1, as WCAG 2.1 wants it.
 static const struct {
     const char *dash;
     const char *mark; // a path around the point
@@ -25,17 +30,37 @@ static const struct {
 } looks[] = {
     [STUDY_SAMPLER] = {"none",
                        "m-3,0 a3,3 0 1,0 6,0 a3,3 0 1,0 -6,0z",
-                       {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#7f7f7f"}},
+                       {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#a0655a", "#7f7f7f"}},
     [STUDY_REFERENCE] = {"2 2",
                          "m-2.8,-2.8 h5.6 v5.6 h-5.6z",
-                         {"#17becf", "#0b8a8a", "#005f73", "#17becf", "#0b8a8a", "#005f73"}},
+                         {"#0f8f9c", "#0b8a8a", "#3d7f94", "#0f8f9c", "#0b8a8a", "#3d7f94"}},
     [STUDY_FORWARD] = {"10 3 2 3",
                        "m0,-4 l3.8,6.6 h-7.6z",
-                       {"#ff7f0e", "#a34700", "#ff7f0e", "#a34700", "#ff7f0e", "#a34700"}},
+                       {"#d9660a", "#b8560f", "#d9660a", "#b8560f", "#d9660a", "#b8560f"}},
     [STUDY_POVRAY] = {"6 3",
                       "m0,-4 l4,4 l-4,4 l-4,-4z",
-                      {"#e0a800", "#bcbd22", "#6b6b00", "#e377c2", "#b0127b", "#444444"}},
+                      {"#a67c00", "#8a8b00", "#767600", "#cc5aa8", "#c2258d", "#777777"}},
 };
+
+// What a reader looks for, in this order.
+static const char *const first_curves[] = {
+    "rtlang sobol",    "rtlang",          "rtlang adaptive", "rtlang random",  "rtlang forward-connect",
+    "POV-Ray +AM1 -J", "POV-Ray +AM2 -J", "POV-Ray +AM1 +J", "POV-Ray +AM2 +J"};
+
+// Marks the curves that a reader sees first.
+static void curves_choose(const Study *study, bool chosen[STUDY_METHODS])
+{
+    int count = 0;
+
+    for (size_t i = 0; i < sizeof first_curves / sizeof first_curves[0]; i++) {
+        for (int k = 0; k < study->count && count < CURVES_FIRST; k++) {
+            if (study->methods[k].count > 0 && strcmp(study->methods[k].name, first_curves[i]) == 0) {
+                chosen[k] = true;
+                count++;
+            }
+        }
+    }
+}
 
 // By its place among those of its kind.
 static const char *colour_of(const Study *study, int number)
@@ -79,6 +104,9 @@ static Scale scale_of(const Study *study)
                 scale.high_y = fmax(scale.high_y, log10(point->rmse));
             }
         }
+    }
+    if (!(scale.low_x <= scale.high_x)) { // no point at all: axes only
+        return (Scale){-2.0, 0.0, -3.0, 0.0};
     }
     scale.low_x = floor(scale.low_x);
     scale.low_y = floor(scale.low_y);
@@ -128,15 +156,16 @@ static void print_guide(FILE *out, const Study *study, const Scale *scale, doubl
     }
     print_line(out, place_x(scale, first->seconds), place_y(scale, first->rmse), place_x(scale, end),
                place_y(scale, pow(10.0, reach)), "stroke: currentColor; stroke-opacity: 0.5; stroke-dasharray: 3 4");
-    fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" fill-opacity=\"0.7\">%g</text>\n", place_x(scale, end) + 3,
+    fprintf(out, "<text x=\"%.1f\" y=\"%.1f\">%g</text>\n", place_x(scale, end) + 3,
             place_y(scale, pow(10.0, reach)) - 3, slope);
 }
 
-static void print_method(FILE *out, const Study *study, const Scale *scale, int number)
+static void print_method(FILE *out, const Study *study, const Scale *scale, int number, bool is_chosen)
 {
     const StudyMethod *method = &study->methods[number];
     const char *dash = looks[method->kind].dash, *mark = looks[method->kind].mark, *colour = colour_of(study, number);
 
+    fprintf(out, "<g data-curve=\"%d\"%s>\n", number, is_chosen ? "" : " class=\"off\"");
     fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\" stroke-dasharray=\"%s\" points=\"", colour,
             dash);
     for (int i = 0; i < method->count; i++) {
@@ -156,39 +185,97 @@ static void print_method(FILE *out, const Study *study, const Scale *scale, int 
                     point->setting, point->seconds, point->rmse);
         }
     }
-    int y = TOP + 14 + 20 * number;
-    char style[96];
-    snprintf(style, sizeof style, "stroke: %s; stroke-width: 2; stroke-dasharray: %s", colour, dash);
-    print_line(out, LIST, y - 4, LIST + 24, y - 4, style);
-    fprintf(out, "<path d=\"M%d,%d %s\" style=\"fill: %s; stroke: none\"/>\n", LIST + 12, y - 4, mark, colour);
-    fprintf(out, "<text x=\"%d\" y=\"%d\">%s%s</text>\n", LIST + 30, y, method->name,
-            method->is_biased ? " (biased)" : "");
+    fputs("</g>\n", out);
 }
 
-void study_plot(const Study *study, FILE *out, bool is_alone)
+// The line and the mark of a method, with their middle at the given place.
+static void print_key(FILE *out, const Study *study, int number, int x, int y)
+{
+    const StudyMethod *method = &study->methods[number];
+    const char *dash = looks[method->kind].dash, *mark = looks[method->kind].mark, *colour = colour_of(study, number);
+    char style[96];
+
+    snprintf(style, sizeof style, "stroke: %s; stroke-width: 2; stroke-dasharray: %s", colour, dash);
+    print_line(out, x - 12, y, x + 12, y, style);
+    fprintf(out, "<path d=\"M%d,%d %s\" style=\"fill: %s; stroke: none\"/>\n", x, y, mark, colour);
+}
+
+static const char *bias_words(const StudyMethod *method)
+{
+    return method->is_biased ? " (biased)" : "";
+}
+
+// In a file of its own.
+static void print_list(FILE *out, const Study *study)
+{
+    for (int i = 0; i < study->count; i++) {
+        int y = TOP + 14 + 20 * i;
+        print_key(out, study, i, LIST + 12, y - 4);
+        fprintf(out, "<text x=\"%d\" y=\"%d\">%s%s</text>\n", LIST + 30, y, study->methods[i].name,
+                bias_words(&study->methods[i]));
+    }
+}
+
+// On a page: a box to tick for each curve.
+static void print_boxes(FILE *out, const Study *study, const bool chosen[STUDY_METHODS])
+{
+    fputs("<fieldset class=\"curves\"><legend>Curves</legend>\n", out);
+    for (int i = 0; i < study->count; i++) {
+        const StudyMethod *method = &study->methods[i];
+        if (method->count > 0) {
+            fprintf(out,
+                    "<label><input type=\"checkbox\" data-curve=\"%d\"%s><svg class=\"key\" viewBox=\"0 0 26 12\" "
+                    "aria-hidden=\"true\">",
+                    i, chosen[i] ? " checked" : "");
+            print_key(out, study, i, 13, 6);
+            fprintf(out, "</svg>%s%s</label>\n", method->name, bias_words(method));
+        }
+    }
+    fputs("</fieldset>\n", out);
+}
+
+static void print_svg(const Study *study, FILE *out, bool is_alone, const bool chosen[STUDY_METHODS])
 {
     Scale scale = scale_of(study);
 
     fprintf(out,
             "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" font-family=\"sans-serif\" "
-            "font-size=\"12\"%s role=\"img\" aria-label=\"Error against time\">\n",
-            WIDTH, HEIGHT,
+            "font-size=\"12\"%s role=\"img\" aria-label=\"Error against time, both in logarithms\">\n",
+            is_alone ? LIST + LIST_WIDTH : WIDTH, HEIGHT,
             is_alone ? " color=\"black\" fill=\"black\" style=\"background: white\"" : " fill=\"currentColor\"");
     print_axes(out, &scale);
     if (study->floor > 0.0) {
         double y = place_y(&scale, study->floor);
         print_line(out, LEFT, y, WIDTH - RIGHT, y, "stroke: #d62728; stroke-dasharray: 1 3");
-        fprintf(out, "<text x=\"%d\" y=\"%.1f\" fill-opacity=\"0.7\">the reference's own error</text>\n", LEFT + 6,
-                y - 4);
+        fprintf(out, "<text x=\"%d\" y=\"%.1f\">the reference's own error</text>\n", LEFT + 6, y - 4);
     }
     if (study->count > 0 && study->methods[0].count > 0 && is_shown(&study->methods[0].points[0])) {
         print_guide(out, study, &scale, -0.5);
         print_guide(out, study, &scale, -0.75);
     }
     for (int i = 0; i < study->count; i++) {
-        print_method(out, study, &scale, i);
+        print_method(out, study, &scale, i, chosen[i]);
+    }
+    if (is_alone) {
+        print_list(out, study);
     }
     fputs("</svg>\n", out);
+}
+
+void study_plot(const Study *study, FILE *out, bool is_alone)
+{
+    bool chosen[STUDY_METHODS] = {false};
+
+    if (is_alone) {
+        memset(chosen, 1, sizeof chosen);
+        print_svg(study, out, true, chosen);
+        return;
+    }
+    curves_choose(study, chosen);
+    fputs("<div class=\"curves\">\n", out);
+    print_svg(study, out, false, chosen);
+    print_boxes(out, study, chosen);
+    fputs("</div>\n", out);
 }
 
 static StudyMethod *curve_add(Study *plot, const char *name, StudyKind kind)

@@ -7,7 +7,7 @@
 
 #include "check/json.h"
 
-static double efficiency(const StudyPoint *point)
+double study_efficiency(const StudyPoint *point)
 {
     return 1.0 / (point->rmse * point->rmse * point->seconds);
 }
@@ -25,7 +25,7 @@ static const char *bias_cause(const StudyMethod *method)
 }
 
 // The sentences that tell of bias.
-static void print_bias(const Study *study, FILE *out, const char *before, const char *after)
+void study_print_bias(const Study *study, FILE *out, const char *before, const char *after)
 {
     if (study->depth_bias > 3.0 * study->floor) {
         fprintf(out,
@@ -47,7 +47,7 @@ static void print_bias(const Study *study, FILE *out, const char *before, const 
     }
 }
 
-static void print_kinds(const Study *study, FILE *out, const char *before, const char *after)
+void study_print_kinds(const Study *study, FILE *out, const char *before, const char *after)
 {
     fprintf(out, "%ssampling: the ladders below; floor %.3g, that of the reference of %g samples%s\n", before,
             study->floor, study->reference_samples, after);
@@ -65,9 +65,10 @@ static void print_kinds(const Study *study, FILE *out, const char *before, const
 }
 
 // What the lecture says of photons, in numbers: how many arrive, and what equal error takes.
-static void print_forward(const Study *study, FILE *out, const char *before, const char *after)
+void study_print_forward(const Study *study, FILE *out, const char *before, const char *after)
 {
-    const StudyPoint *goal = &study->methods[0].points[2]; // 16 samples
+    const StudyMethod *first = &study->methods[0];
+    const StudyPoint *goal = &first->points[first->count > 2 ? 2 : 0]; // 16 samples
 
     if (study->forward_why[0] != '\0') {
         fprintf(out, "%sforward: not here: %s%s\n", before, study->forward_why, after);
@@ -94,9 +95,9 @@ static void print_forward(const Study *study, FILE *out, const char *before, con
 
 static void methods_print(const Study *study, FILE *out)
 {
-    print_kinds(study, out, "  ", "");
-    print_bias(study, out, "  ", "");
-    print_forward(study, out, "  ", "");
+    study_print_kinds(study, out, "  ", "");
+    study_print_bias(study, out, "  ", "");
+    study_print_forward(study, out, "  ", "");
     fprintf(out, "%-22s %-24s %8s %9s %9s %9s %8s %8s %8s %10s\n", "method", "setting", "samples", "seconds", "rmse",
             "relmse", "max", "99.9 %", "flip", "efficiency");
     for (int i = 0; i < study->count; i++) {
@@ -105,23 +106,46 @@ static void methods_print(const Study *study, FILE *out)
             const StudyPoint *p = &method->points[j];
             fprintf(out, "%-22s %-24s %8.4g %9.4f %9.3g %9.3g %8.3g %8.3g %8.3g %10.3g\n", j == 0 ? method->name : "",
                     p->setting, p->samples, p->seconds, p->rmse, p->relmse, p->greatest, p->p999, p->flip,
-                    efficiency(p));
+                    study_efficiency(p));
         }
         if (!isnan(method->slope)) {
-            fprintf(out, "%22s slope %.2f +- %.2f in time%s\n", "", method->slope, method->slope_spread,
-                    method->is_biased ? "; biased" : "");
+            fprintf(out, "%22s slope %.2f", "", method->slope);
+            if (!isnan(method->slope_spread)) {
+                fprintf(out, " +- %.2f", method->slope_spread);
+            }
+            fprintf(out, " in time%s\n", method->is_biased ? "; biased" : "");
         }
+    }
+}
+
+// What the budget left out, and how long the study took.
+void study_print_budget(const Study *study, FILE *out, const char *before, const char *after)
+{
+    char limit[64] = "";
+
+    if (study->budget.seconds > 0.0) {
+        snprintf(limit, sizeof limit, " of %g that --budget gives", study->budget.seconds);
+    }
+    fprintf(out, "%sthe study took %.0f s%s; left out%s%s\n", before, study->seconds, limit,
+            study->budget.left_out_count > 0 ? ":" : " nothing", after);
+    for (int i = 0; i < study->budget.left_out_count; i++) {
+        fprintf(out, "%s%s%s%s\n", before, *before == ' ' ? "  " : "", study->budget.left_out[i], after);
     }
 }
 
 void study_print_text(const Study *study, FILE *out)
 {
+    char verdict[STUDY_TEXT];
+
+    study_verdict(study, verdict);
     fprintf(out, "%s", study->scene);
     if (study->has_methods) {
-        fprintf(out, ", %d x %d\n", study->width, study->height);
+        fprintf(out, ", %d x %d", study->width, study->height);
+    }
+    fprintf(out, "\n%s\n", verdict);
+    study_print_budget(study, out, "  ", "");
+    if (study->has_methods) {
         methods_print(study, out);
-    } else {
-        fputc('\n', out);
     }
     if (study->has_race) {
         race_print_text(&study->race, out);
@@ -146,7 +170,7 @@ void study_print_csv(const Study *study, FILE *out, bool with_heading)
             }
             fprintf(out, "\",%d,%d,%s,%s,%.9g,%.6g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,", study->width, study->height,
                     method->name, p->setting, p->samples, p->seconds, p->rmse, p->relmse, p->greatest, p->p999, p->flip,
-                    efficiency(p), p->estimate);
+                    study_efficiency(p), p->estimate);
             if (!isnan(method->slope)) {
                 fprintf(out, "%.4f", method->slope);
             }
@@ -170,15 +194,28 @@ static void json_point(FILE *out, const StudyPoint *p)
     json_print_number(out, "max", p->greatest);
     json_print_number(out, "p999", p->p999);
     json_print_number(out, "flip", p->flip);
-    json_print_number(out, "efficiency", efficiency(p));
+    json_print_number(out, "efficiency", study_efficiency(p));
     json_print_number(out, "estimate", p->estimate);
     fputc('}', out);
 }
 
 void study_print_json(const Study *study, FILE *out)
 {
+    char verdict[STUDY_TEXT];
+
+    study_verdict(study, verdict);
     fputs("{\"scene\": ", out);
     json_print_text(out, study->scene);
+    fputs(", \"verdict\": ", out);
+    json_print_text(out, verdict);
+    json_print_number(out, "budget", study->budget.seconds);
+    json_print_number(out, "took", study->seconds);
+    fputs(", \"left_out\": [", out);
+    for (int i = 0; i < study->budget.left_out_count; i++) {
+        fputs(i > 0 ? ", " : "", out);
+        json_print_text(out, study->budget.left_out[i]);
+    }
+    fputs("]", out);
     fprintf(out, ", \"width\": %d, \"height\": %d, \"reference_samples\": %g", study->width, study->height,
             study->reference_samples);
     json_print_number(out, "floor", study->floor);
@@ -213,67 +250,7 @@ void study_print_json(const Study *study, FILE *out)
     fputc('}', out);
 }
 
-static void section_table(const Study *study, FILE *out)
-{
-    fputs("<table "
-          "class=\"sortable\"><thead><tr><th>method</th><th>setting</th><th>samples</th><th>seconds</th><th>rmse</th>"
-          "<th>relMSE</th><th>max</th><th>99.9 "
-          "%</th><th>FLIP</th><th>efficiency</th><th>slope</th></tr></thead><tbody>\n",
-          out);
-    for (int i = 0; i < study->count; i++) {
-        const StudyMethod *method = &study->methods[i];
-        for (int j = 0; j < method->count; j++) {
-            const StudyPoint *p = &method->points[j];
-            const double numbers[] = {p->samples,  p->seconds, p->rmse, p->relmse,
-                                      p->greatest, p->p999,    p->flip, efficiency(p)};
-            fprintf(out, "<tr><td>%s</td><td>%s</td>", method->name, p->setting);
-            for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-                fprintf(out, "<td class=\"number\" data-sort=\"%.9g\">%.4g</td>", numbers[k], numbers[k]);
-            }
-            if (isnan(method->slope)) {
-                fputs("<td></td></tr>\n", out);
-            } else {
-                fprintf(out, "<td class=\"number%s\" data-sort=\"%.4f\">%.2f ± %.2f</td></tr>\n",
-                        method->is_biased ? " bad" : "", method->slope, method->slope, method->slope_spread);
-            }
-        }
-    }
-    fputs("</tbody></table>\n", out);
-}
-
-void study_print_section(const Study *study, ReportPage *page, int number)
-{
-    char id[32], title[STUDY_TEXT];
-
-    snprintf(id, sizeof id, "study-%d", number);
-    snprintf(title, sizeof title, "Error against time: %s", study->scene);
-    FILE *out = report_page_section(page, id, title);
-    if (study->has_methods) {
-        fputs("<ul>\n", out);
-        print_kinds(study, out, "<li>", "</li>");
-        print_bias(study, out, "<li><strong>", "</strong></li>");
-        print_forward(study, out, "<li>", "</li>");
-        fputs("</ul>\n", out);
-        study_plot(study, out, false);
-        section_table(study, out);
-    }
-    if (study->has_race) {
-        race_plot(&study->race, out, false);
-        race_print_html(&study->race, out);
-    }
-}
-
 void study_print_total(const RaceTotal *total, FILE *out)
 {
     race_print_total(total, out, "", "");
-}
-
-void study_print_total_section(const RaceTotal *total, ReportPage *page)
-{
-    if (total->scenes[0] > 1) {
-        FILE *out = report_page_section(page, "study-all", "The race: all scenes");
-        fputs("<ul>\n", out);
-        race_print_total(total, out, "<li>", "</li>");
-        fputs("</ul>\n", out);
-    }
 }

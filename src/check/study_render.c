@@ -12,6 +12,8 @@
 
 #include "base/clock.h"
 
+enum { REFERENCE_TRIAL = 4, REFERENCE_LEAST = 64 };
+
 static void on_diagnostic(void *client, const rt_diagnostic *diagnostic)
 {
     RtlangRun *run = client;
@@ -31,6 +33,19 @@ static bool picture_take(const rt_session *session, Image *image)
     }
     memcpy(image->values, pixels, (size_t)width * (size_t)height * 3 * sizeof *pixels);
     return true;
+}
+
+// An interrupt ends a run at once, and the end of the stage one that may be left out.
+static void on_progress(void *client, double done)
+{
+    const RtlangRun *run = client;
+
+    (void)done;
+    budget_tick(run->settings->budget);
+    bool is_late = run->is_optional && budget_left(run->settings->budget) < 0.0;
+    if (is_late || *run->settings->interrupted != 0) {
+        rt_cancel(run->session);
+    }
 }
 
 static rt_status session_ready(rt_session *session, const char *scene, const StudySettings *settings,
@@ -53,14 +68,16 @@ void rtlang_render(const char *scene, const StudySettings *settings, const rt_sa
     static const rt_output linear = {.depth = RT_DEPTH_16, .file_gamma = 1.0};
 
     *run = (RtlangRun){
-        .status = RT_FAULT_LIMIT, .method = run->method, .photons = run->photons, .output = run->output};
-    rt_callbacks callbacks = {.client = run, .diagnostic = on_diagnostic};
+        .status = RT_FAULT_LIMIT, .method = run->method, .photons = run->photons, .output = run->output,
+        .is_optional = run->is_optional, .settings = settings};
+    rt_callbacks callbacks = {.client = run, .diagnostic = on_diagnostic, .progress = on_progress};
     double begin = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     rt_session *session = rt_session_new(&callbacks);
 
     if (!session) {
         return;
     }
+    run->session = session;
     run->status = session_ready(session, scene, settings, sampling, precision);
     run->status = run->status != RT_OK ? run->status : rt_set_method(session, run->method, run->photons);
     if (run->status == RT_OK) {
@@ -108,11 +125,24 @@ bool povray_render(const char *scene, const StudySettings *settings, PovrayRun *
     return true;
 }
 
-void study_progress(const StudySettings *settings, const char *scene, const char *what, int done, int all)
+int study_reference_samples(const char *scene, const StudySettings *settings, int most, const char *name)
 {
-    if (settings->shows_progress) {
-        fprintf(stderr, "\r\033[K%s: %s, %d of %d%s", scene, what, done, all, done >= all ? "\r\033[K" : "");
+    rt_sampling few = {.sampler = "halton", .samples = REFERENCE_TRIAL, .seed = 1};
+    RtlangRun run = {.method = RT_METHOD_BACKWARD};
+    int samples = most;
+
+    if (!budget_is_limited(settings->budget)) {
+        return most;
     }
+    rtlang_render(scene, settings, &few, RT_PRECISION_DOUBLE, 0, &run);
+    image_fini(&run.image);
+    while (samples > REFERENCE_LEAST && run.wall / REFERENCE_TRIAL * samples > budget_left(settings->budget)) {
+        samples /= 2;
+    }
+    if (samples < most) {
+        budget_leave_out(settings->budget, "%s has %d samples a pixel in place of %d", name, samples, most);
+    }
+    return samples;
 }
 
 static int by_size(const void *a, const void *b)

@@ -14,6 +14,7 @@ typedef struct RtlangRun {
     rt_method method; // of the run to be made, as is …
     uint64_t photons;
     const char *output; // file to write, of 16 bit; NULL: none
+    bool is_optional;   // it ends as RT_CANCELLED when the budget's stage does
     rt_photons counts;
     Image image;
     double seconds; // of the processor, preparing and tracing
@@ -22,6 +23,8 @@ typedef struct RtlangRun {
     rt_error error;
     rt_status status;
     char fault[STUDY_TEXT];
+    const StudySettings *settings; // of the run
+    rt_session *session;           // while it runs
 } RtlangRun;
 
 // One picture by rtlang, of the settings' size; to be released with image_fini. `threads` 0: as many as the machine has.
@@ -39,6 +42,10 @@ typedef struct PovrayRun {
 } PovrayRun;
 
 bool povray_render(const char *scene, const StudySettings *settings, PovrayRun *run);
+
+// How many samples a pixel a reference may have that ends within the stage of the budget, at most `most`; where there is
+// a limit a short run tells. Notes it under that name if those are fewer.
+int study_reference_samples(const char *scene, const StudySettings *settings, int most, const char *name);
 
 // The median of values, which are sorted.
 double study_median(double *values, int count);
