@@ -297,6 +297,7 @@ test_scripts = \
   %D%/povray/check_antialias.py \
   %D%/povray/check_ase.py \
   %D%/povray/check_callers.py \
+  %D%/povray/check_vapory.py \
   %D%/povray/check_cameras.py \
   %D%/povray/check_jitter.py \
   %D%/povray/check_lens.py \
@@ -387,6 +388,7 @@ update-docs: rtlang$(EXEEXT) tests/unit/print_schema$(EXEEXT) tests/unit/print_d
 update-measured: rtlang$(EXEEXT) rtcheck$(EXEEXT)
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_apart.py --update
 	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_antialias.py --update
+	$(AM_TESTS_ENVIRONMENT) $(PYTHON3) $(top_srcdir)/tests/povray/check_callers.py --update
 
 # What takes too long for every day.
 .PHONY: check-long

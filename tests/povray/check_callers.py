@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Programs that run `povray`, with rtlang under that name: what they get is what they get from POV-Ray.
 
-ASE, PyMOL, Jmol and Open Babel are run where they are installed, the others by the words that they pass. Each case runs twice, once with
-a link to rtlang first in PATH and once without. POV-Ray is kept from jitter, which moves samples at random, by a
-povray.ini and one more word. Prints TAP. SPDX-License-Identifier: MIT
+ASE, PyMOL, Jmol and Open Babel are run where they are installed, the others by the words that they pass. Each case runs twice, once
+with rtlang and once with POV-Ray under the name `povray`, first in PATH. POV-Ray is kept from jitter, which moves samples at
+random, by a povray.ini and one more word. With --update all is drawn larger, and the table of docs/povray.md is written.
+Prints TAP. SPDX-License-Identifier: MIT
 """
 import glob
 import os
@@ -12,11 +13,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import check_place  # noqa: E402
+import documents  # noqa: E402
 import pictures  # noqa: E402
 
 SCENE = """#version 3.6;
@@ -36,6 +37,15 @@ INI = {"makehuman.ini": "Input_File_Name=\"scene.pov\"\nOutput_File_Name=\"human
                         "Antialias_Depth=3\nAntialias_Threshold=0.1\nJitter=Off\nDisplay=Off\nPause_When_Done=Off\n"
                         "Verbose=On\nOutput_to_File=On\n"}
 CODE_BAR = 1
+WRITES = "--update" in sys.argv
+DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "povray.md")
+# `povray`: the program under that name, from a folder of its own, and what it took of the processor into a file.
+WRAPPER = """#!/bin/sh
+"$0.d/povray" "$@"
+status=$?
+times >>"$0.times"
+exit $status
+"""
 # name, the words, their picture
 RECORDED = [
     ("vapory", ["scene.pov", "+H120", "+W160", "-D", "Output_File_Type=P", "+O-"], "standard output"),
@@ -84,9 +94,32 @@ JMOL = ("java -Djava.awt.headless=true -Xmx512m -cp /usr/share/java/JmolData.jar
 OPEN_BABEL = "obabel -:c1ccccc1O --gen3d -opov -xm SPF -O babel.pov && povray +Ibabel.pov +W160 +H120 -D +A0.2"
 
 
-def run(words, folder, first):
-    """Runs a caller; `first` is what stands first in PATH."""
-    path = os.pathsep.join(filter(None, [first, "/usr/bin", "/bin", os.environ.get("PATH", "")]))
+def sized(text):
+    """Pictures are small but for the table, which tells of times."""
+    return text.replace("160", "800").replace("120", "600") if WRITES else text
+
+
+def put_povray(place, program):
+    """Puts the wrapper into a new folder `place`."""
+    os.makedirs(os.path.join(place, "povray.d"))
+    os.symlink(program, os.path.join(place, "povray.d", "povray"))
+    with open(os.path.join(place, "povray"), "w", encoding="ascii") as file:
+        file.write(WRAPPER)
+    os.chmod(os.path.join(place, "povray"), 0o755)
+
+
+def seconds_of(place):
+    """Of the processor, of all runs of the wrapper since the last time."""
+    path = os.path.join(place, "povray.times")
+    with open(path, encoding="ascii") as file:
+        found = re.findall(r"(\d+)m([\d.]+)s", "".join(file.readlines()[1::2])) # the shell's own stand before them
+    os.remove(path)
+    return sum(60 * int(minutes) + float(seconds) for minutes, seconds in found)
+
+
+def run(words, folder, place):
+    """Runs a caller; `place` is the folder that stands first in PATH."""
+    path = os.pathsep.join(filter(None, [place, "/usr/bin", "/bin", os.environ.get("PATH", "")]))
     # Some callers want POV-Ray's window. Where there is no terminal either, the library that opens it ends the program.
     environment = dict(os.environ, PATH=path, HOME=folder, POVINI=os.path.join(folder, "usual.ini"),
                        SDL_VIDEODRIVER="dummy")
@@ -104,36 +137,37 @@ def fill(folder):
              "jmol.spt": 'load ethanol.xyz;\nwrite POVRAY "molecule.pov";\n', **INI}
     for name, text in files.items():
         with open(os.path.join(folder, name), "w", encoding="ascii") as file:
-            file.write(text)
+            file.write(sized(text))
 
 
-def both(words, picture, link):
+def both(words, picture, places):
     """[(status, codes of the picture or None, seconds, what was said)] of rtlang and of POV-Ray."""
     results = []
-    for first in (link, ""):
+    for place in places:
         with tempfile.TemporaryDirectory() as folder:
             fill(folder)
-            start = time.monotonic()
-            done = run(words + ["-J"] * (words[0] == "povray" and not first), folder, first)
-            seconds = time.monotonic() - start
+            done = run([sized(word) for word in words] + ["-J"] * (words[0] == "povray" and place == places[1]), folder,
+                       place)
             there = os.path.exists(os.path.join(folder, picture))
             codes = check_place.contents(folder, picture) if there else None
-            results.append((done.returncode, codes, seconds, done.stderr.decode("utf-8", "replace")[-500:]))
+            results.append((done.returncode, codes, seconds_of(place), done.stderr.decode("utf-8", "replace")[-500:]))
     return results
 
 
 def verdict(results):
-    """(passed, words)."""
+    """(passed, words, cells of the table)."""
     (status, own, seconds, said), (other_status, other, other_seconds, _) = results
     if status != other_status or not own or not other or len(own) != 5 or own[:4] != other[:4]:
-        return False, f"status {status} and {other_status}, {own and own[:4]} and {other and other[:4]}: {said}"
+        return False, f"status {status} and {other_status}, {own and own[:4]} and {other and other[:4]}: {said}", ()
     step = own[3]
     apart = [max(abs(a - b) for a, b in zip(own[4][i:i + step], other[4][i:i + step]))
              for i in range(0, len(own[4]), step)]
-    beyond = sum(far > CODE_BAR for far in apart) / len(apart)
-    words = (f"{own[1]} by {own[2]}, {100 * beyond:.1f} % of the pixels differ by more than {CODE_BAR} code; "
+    beyond = sum(far > CODE_BAR for far in apart)
+    words = (f"{own[1]} by {own[2]}, {beyond} of {len(apart)} pixels differ by more than {CODE_BAR} code; "
              f"{seconds:.2f} s, POV-Ray {other_seconds:.2f} s")
-    return beyond <= pictures.TIE_SHARE, words
+    times = f"{other_seconds / seconds:.0f}" if seconds > 0 else ""
+    cells = (f"{own[1]} x {own[2]}", f"{beyond}", f"{seconds:.2f}", f"{other_seconds:.2f}", times)
+    return beyond <= pictures.TIE_SHARE * len(apart), words, cells
 
 
 def lacks(program):
@@ -153,18 +187,29 @@ def cases():
     yield ("PyMOL: ray renderer=1", "pymol", ["pymol", "-cq", "pymol.pml"], "pymol.png")
 
 
+def write_table(rows):
+    head = ("| caller | picture | pixels apart | rtlang, s | POV-Ray, s | ratio |\n|---|---|---|---|---|---|\n")
+    documents.write(DOCUMENT, "callers", head + "".join("| " + " | ".join(row) + " |\n" for row in rows))
+
+
 def main():
     number = failed = 0
-    with tempfile.TemporaryDirectory() as link:
-        os.symlink(check_place.PROGRAM, os.path.join(link, "povray"))
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        places = [os.path.join(folder, name) for name in ("rtlang", "povray")]
+        for place, program in zip(places, (check_place.PROGRAM, pictures.povray() or "none")):
+            put_povray(place, program)
         for number, (name, program, words, picture) in enumerate(cases(), 1):
             if lacks(program):
                 print(f"ok {number} - {name} # SKIP {lacks(program)} is not installed", flush=True)
                 continue
-            passed, told = verdict(both(words, picture, link))
+            passed, told, cells = verdict(both(words, picture, places))
+            rows.append((name, *cells))
             failed += not passed
             print(f"{'ok' if passed else 'not ok'} {number} - {name}: {re.sub('#', '', told)}", flush=True)
     print(f"1..{number}")
+    if WRITES and not failed:
+        write_table(rows)
     return 1 if failed else 0
 
 
