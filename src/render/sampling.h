@@ -240,7 +240,8 @@ enum { LOOK_MOST = 1024 };
 // A pixel that holds such shapes. May be drawn more than once.
 typedef struct LookPick {
     size_t pixel;
-    double weight; // the inverse of the pixel's share of the draw
+    uint32_t number; // of the pixel's picks
+    double weight;   // the inverse of the pixel's share of the draw
     Rgb sums[2];   // how far the shapes' light is from the pixel's, times their shares: by first rays, and by second
 } LookPick;
 

@@ -16,14 +16,17 @@
 #include "render/sampling.h"
 #include "render/sampling_outline.h"
 #include "render/scratch.h"
-#include "scene/opaque.h"
 
 // A pick for so many samples, within limits, so that its rays are few beside those of the picture; no more than so many
 // of each pixel, and where pixels are few more, up to LOOK_LEAST: of one highlight 8 tell its light to a third only.
-enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_EACH = 6, LOOK_EACH_OF_FEW = 32 };
+// Each pixel gets LOOK_EACH as long as that takes no more than a pick for LOOK_SAMPLES_EACH.
+enum { LOOK_LEAST = 96, LOOK_SAMPLES = 96, LOOK_SAMPLES_EACH = 48, LOOK_EACH = 6, LOOK_EACH_OF_FEW = 32 };
 
 // Columns of a shape in a pixel that are drawn for a ray; more where a lens moves it, mostly beside the pixel.
 enum { AIM_COLUMNS = 4, AIM_COLUMNS_LENS = 8 };
+
+// Places of a lamp that are drawn, of which one is taken where it is seen.
+enum { AIM_PLACES = 32 };
 
 // What the squares of areas are known to.
 static const double AREA_ERROR = 0.0125;
@@ -67,6 +70,17 @@ static double open_error(const Small *small, size_t pixel)
     return sum;
 }
 
+// How many looks each pixel gets when nothing is known of their contrasts: as many in a part of the picture as in the
+// whole, so that the errors of parts add up; 0: pixels are too many for that. Where they are few, by steps.
+static int looks_each(double count, double samples)
+{
+    int each = LOOK_EACH_OF_FEW * count <= LOOK_LEAST ? LOOK_EACH_OF_FEW
+               : 2 * LOOK_EACH * count <= LOOK_LEAST  ? 2 * LOOK_EACH
+                                                      : LOOK_EACH;
+    double most = fmax(samples / LOOK_SAMPLES_EACH, LOOK_LEAST);
+    return each * count <= fmin(most, LOOK_MOST) ? each : 0;
+}
+
 int look_draw(Looks *looks, const Round *round, double samples)
 {
     Small *small = round->small;
@@ -79,18 +93,21 @@ int look_draw(Looks *looks, const Round *round, double samples)
     }
     looks->count = 0;
     looks->pass++;
+    int each = sum > 0.0 ? 0 : looks_each(count, samples);
     most = fmin(most, fmax(LOOK_EACH * count, fmin(LOOK_EACH_OF_FEW * count, LOOK_LEAST)));
-    looks->sees_all = 2.0 * count <= floor(most);
+    most = each > 0 ? each * count : floor(most);
+    looks->sees_all = 2.0 * count <= most;
     find_met(small);
-    double even = sum > 0.0 ? 0.5 / count : 1.0 / count, step = 1.0 / floor(most);
-    double next = step * sample_unit(sampler_pixel_seed(~round->sampling->seed, LOOK_SEED, looks->pass));
+    double even = sum > 0.0 ? 0.5 / count : 1.0 / count, step = 1.0 / most;
+    double chance = sample_unit(sampler_pixel_seed(~round->sampling->seed, LOOK_SEED, looks->pass));
+    double next = step * (each > 0 ? 0.5 : chance);
     for (uint32_t k = 0; count > 0.0 && k < small->pixel_count; k++) {
         uint32_t pixel = small->pixels[k];
         if (small->open[pixel] > 0) {
             double error = open_error(small, pixel), share = even + (sum > 0.0 ? 0.5 * error * error / sum : 0.0);
             reached += share;
-            for (; next < reached && looks->count < LOOK_MOST; next += step) {
-                looks->picks[looks->count++] = (LookPick){.pixel = pixel, .weight = 1.0 / share};
+            for (uint32_t number = 0; next < reached && looks->count < LOOK_MOST; next += step, number++) {
+                looks->picks[looks->count++] = (LookPick){.pixel = pixel, .number = number, .weight = 1.0 / share};
             }
         }
     }
@@ -108,6 +125,7 @@ typedef struct LookBatch {
     double clear[KERNEL_RAYS], weights[KERNEL_RAYS];
     LookPick *picks[KERNEL_RAYS];
     SmallEntry *entries[KERNEL_RAYS];
+    bool is_lamp[KERNEL_RAYS];
     int count;
     bool draws;
     RenderScratch *scratch;
@@ -218,39 +236,46 @@ static bool aim_draw(const LookBatch *batch, const Small *small, const Footprint
     return true;
 }
 
-// A ray to a place of what the pixel has of the shape.
+// A ray to a place of what the pixel has of the shape. Of a lamp, to a place where it is seen, of some that are drawn:
+// their share of those is that of the lamp that is seen.
 static void batch_aim(LookBatch *batch, const Small *small, const Footprint *at, size_t pixel, uint32_t seed)
 {
     const Film *film = small->film;
     const PreparedCamera *camera = &small->prepared->camera;
-    int i = batch->count;
-    double middle[2] = {(double)(pixel % (size_t)film->width), (double)(pixel / (size_t)film->width)};
-    Aim aim = {at->x, at->y, 0.0, {0.5, 0.5}};
-    bool is_in = aim_draw(batch, small, at, middle, &seed, &aim), is_crossed = false;
-    if (batch->places.lens) {
-        batch->lens[i] = camera_lens_point(camera, aim.lens);
-    }
-    batch->places.u[i] = film_u(film, 0, aim.x);
-    batch->places.v[i] = film_v(film, 0, aim.y);
-    Ray ray;
-    if (is_in) {
+    bool is_lamp = small_is_lamp(small->prepared, &at->extent);
+    int i = batch->count, places = is_lamp ? AIM_PLACES : 1;
+    double middle[2] = {(double)(pixel % (size_t)film->width), (double)(pixel / (size_t)film->width)}, sum = 0.0;
+    for (int k = 0; k < places; k++) {
+        Aim aim = {at->x, at->y, 0.0, {0.5, 0.5}};
+        Vec3 before = batch->lens[i];
+        double u = batch->places.u[i], v = batch->places.v[i];
+        bool is_in = aim_draw(batch, small, at, middle, &seed, &aim);
+        Ray ray;
+        if (batch->places.lens) {
+            batch->lens[i] = camera_lens_point(camera, aim.lens);
+        }
+        batch->places.u[i] = film_u(film, 0, aim.x);
+        batch->places.v[i] = film_v(film, 0, aim.y);
         (void)camera_place_ray(camera, &batch->places, i, &ray);
-        is_crossed = small_is_crossed(small, at->extent.shape, ray);
+        // Where shapes that were not met lie behind each other, each counts for its part.
+        double own = 0.0;
+        if (is_in && small_is_met(small, at->extent.shape, ray)) {
+            own = aim.area * small->norm * small_weight(small, aim.x - middle[0], aim.y - middle[1]) /
+                  small_count_open(small, pixel, ray);
+        }
+        sum += fabs(own);
+        if (k == 0 || (own != 0.0 && next_number(&seed) * sum < fabs(own))) {
+            batch->weights[i] = own;
+        } else { // the place before stays
+            batch->lens[i] = before;
+            batch->places.u[i] = u;
+            batch->places.v[i] = v;
+        }
     }
-    // Where shapes that were not met lie behind each other, each counts for its part.
-    double weight = small_weight(small, aim.x - middle[0], aim.y - middle[1]);
-    batch->weights[i] = is_crossed ? aim.area * small->norm * weight / small_count_open(small, pixel, ray) : 0.0;
+    batch->weights[i] = copysign(sum / places, batch->weights[i]);
+    batch->is_lamp[i] = is_lamp;
     batch->streams[i] = (SampleStream){.kind = SAMPLER_RANDOM, .seed = seed, .count = 1, .pair = 2};
     batch->count++;
-}
-
-// Whether the ray shows the shape; it may, where what is before it lets light through.
-static bool is_shown(const Small *small, const SmallEntry *entry, Ray ray)
-{
-    const Prepared *p = small->prepared;
-    MaterialIndex before;
-    ExtentSight sight = small_sight(small, entry->shape, ray, &before);
-    return sight == EXTENT_SEEN || (sight == EXTENT_BEHIND && !scene_material_is_opaque(p->scene, before));
 }
 
 // What the pair of rays from `i` on says of their shape.
@@ -271,14 +296,16 @@ static void pair_judge(const Round *round, const LookBatch *batch, int i)
             has_one = true;
             (void)camera_place_ray(&small->prepared->camera, &batch->places, i + k, &ray);
             uint32_t place = place_of(small, entry);
-            if (is_shown(small, entry, ray)) {
+            if (small_is_shown(small, entry->shape, ray)) {
                 __atomic_fetch_or(&small->seen[place / 64], UINT64_C(1) << (place % 64), __ATOMIC_RELAXED);
             }
         }
     }
     Rgb square = rgb_mul(apart[0], apart[1]);
-    float contrast = (float)fmax((square.red + square.green + square.blue) / 3.0, 0.0);
-    if (has_one) {
+    bool has_both = batch->weights[i] != 0.0 && batch->weights[i + 1] != 0.0;
+    double mean = batch->is_lamp[i] && !has_both ? 0.0 : (square.red + square.green + square.blue) / 3.0;
+    float contrast = (float)fmax(mean, 0.0);
+    if (has_one || batch->is_lamp[i]) { // a lamp that is hidden here brings nothing
         entry->contrast = entry->contrast >= 0.0f ? 0.5f * (entry->contrast + contrast) : contrast;
     }
 }
@@ -335,7 +362,7 @@ void look_trace(const Round *round, Looks *looks, Tile tile, RenderScratch *scra
         if (x >= tile.left && x < tile.right && y >= tile.top && y < tile.bottom) {
             uint32_t seed =
                 sampler_pixel_seed(round->sampling->seed, (uint32_t)(film->left + x), (uint32_t)(film->top + y));
-            seed = sample_hash_add(sample_hash_add(seed, looks->pass), (uint32_t)i);
+            seed = sample_hash_add(sample_hash_add(seed, looks->pass), pick->number);
             pick_add(round, &batch, pick, seed, counted);
         }
     }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "render/camera.h"
+#include "scene/opaque.h"
 
 // Up to how many pixels across a shape is small. Of one of 3 pixels, corners that all pass by it leave no more than the
 // cap over a side of a pixel: 1 / (12 r) of a pixel for the radius r, 0.06; and the next pixel's corners see it.
@@ -19,6 +20,10 @@ static const double SMALL_WIDTH = 3.0;
 // The same of highlights, which have no edge: a wider one is met by a corner at least. One that is longer than wide is
 // small if its area is no more than that of a round one, up to a length along which it may bend.
 static const double SPOT_WIDTH = 1.5, SPOT_LENGTH = 4.0;
+
+// The same of lamps, shapes that glow brighter than white: a sliver of one, that something before it leaves, is worth as
+// much as all else.
+static const double LAMP_WIDTH = 6.0;
 
 enum { STRIPS = 16, FILL_ROOT = 4, FILTER_SUM = 512 };
 
@@ -74,6 +79,17 @@ static double ellipse_area(double xx, double xy, double yy)
     return pi * sqrt(fmax(xx * yy - xy * xy, 0.0));
 }
 
+bool small_is_lamp(const Prepared *p, const Extent *extent)
+{
+    if (shape_kind(extent->shape) == SMALL_IS_SPOT || (extent->material & MATERIAL_COMPOUND)) {
+        return false;
+    }
+    const Material *material = &p->materials[extent->material];
+    Rgb glow = rgb_mul(rgb((double)material->red, (double)material->green, (double)material->blue),
+                       p->finishes[material->finish].glow);
+    return rgb_max(glow) > 1.0;
+}
+
 // What the lens adds to the ellipse.
 static void footprint_widen(const View *view, double depth, Footprint *at)
 {
@@ -100,7 +116,8 @@ static bool footprint_make(const View *view, Footprint *at)
     double ahead = vec3_dot(view->ahead, offset), depth = is_flat ? 1.0 : ahead;
     const double pi = 3.14159265358979323846;
     bool is_spot = shape_kind(at->extent.shape) == SMALL_IS_SPOT;
-    double size = is_spot ? SPOT_LENGTH : SMALL_WIDTH, most = 0.5 * size * depth;
+    double wide = small_is_lamp(view->small->prepared, &at->extent) ? LAMP_WIDTH : SMALL_WIDTH;
+    double size = is_spot ? SPOT_LENGTH : wide, most = 0.5 * size * depth;
     bool is_sphere = at->extent.is_ball && shape_kind(at->extent.shape) == SHAPE_SPHERE;
     if (!(ahead > 0.0) || (is_sphere && at->extent.axes[0].x * view->least_slope * film->whole_width > most)) {
         return false; // that most are not small costs little
@@ -142,12 +159,8 @@ static void small_extent(const Small *small, ShapeId shape, Extent *extent)
     }
 }
 
-bool small_is_crossed(const Small *small, ShapeId shape, Ray ray)
+static bool spot_is_crossed(const SmallSpot *spot, Ray ray)
 {
-    if (shape_kind(shape) != SMALL_IS_SPOT) {
-        return extent_is_crossed(small->prepared->geometry, shape, ray);
-    }
-    const SmallSpot *spot = &small->spots[shape_index(shape)];
     Vec3 normal = vec3_cross(spot->axes[0], spot->axes[1]), offset = vec3_sub(spot->centre, ray.origin);
     double way = vec3_dot(offset, normal) / vec3_dot(ray.direction, normal);
     Vec3 aside = vec3_sub(vec3_scale(way, ray.direction), offset);
@@ -156,11 +169,27 @@ bool small_is_crossed(const Small *small, ShapeId shape, Ray ray)
     return way > 0.0 && x * x + y * y <= 1.0;
 }
 
-ExtentSight small_sight(const Small *small, ShapeId shape, Ray ray, MaterialIndex *before)
+bool small_is_shown(const Small *small, ShapeId shape, Ray ray)
 {
+    const Prepared *p = small->prepared;
     bool is_spot = shape_kind(shape) == SMALL_IS_SPOT;
-    return extent_sight(small->prepared->geometry, is_spot ? small->spots[shape_index(shape)].owner : shape, ray,
-                        before);
+    MaterialIndex before;
+    ExtentSight sight =
+        extent_sight(p->geometry, is_spot ? small->spots[shape_index(shape)].owner : shape, ray, &before);
+    return sight == EXTENT_SEEN || (sight == EXTENT_BEHIND && !scene_material_is_opaque(p->scene, before));
+}
+
+bool small_is_met(const Small *small, ShapeId shape, Ray ray)
+{
+    Extent extent;
+    if (shape_kind(shape) == SMALL_IS_SPOT) {
+        return spot_is_crossed(&small->spots[shape_index(shape)], ray);
+    }
+    if (!extent_is_crossed(small->prepared->geometry, shape, ray)) {
+        return false;
+    }
+    small_extent(small, shape, &extent);
+    return !small_is_lamp(small->prepared, &extent) || small_is_shown(small, shape, ray);
 }
 
 uint32_t small_place(const Small *small, ShapeId shape)
@@ -405,7 +434,7 @@ void small_meet(Small *small, size_t pixel, Ray ray)
 {
     SmallEntry *entries = &small->entries[small->first[pixel]];
     for (int i = 0; i < small->open[pixel];) {
-        if (small_is_crossed(small, entries[i].shape, ray)) {
+        if (small_is_met(small, entries[i].shape, ray)) {
             int last = --small->open[pixel];
             SmallEntry met = entries[i];
             entries[i] = entries[last];
@@ -421,7 +450,7 @@ int small_count_open(const Small *small, size_t pixel, Ray ray)
     const SmallEntry *entries = &small->entries[small->first[pixel]];
     int count = 0;
     for (int i = 0; i < small->open[pixel]; i++) {
-        count += small_is_crossed(small, entries[i].shape, ray);
+        count += small_is_met(small, entries[i].shape, ray);
     }
     return count;
 }

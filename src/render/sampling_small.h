@@ -70,7 +70,7 @@ static inline int small_open(const Small *small, size_t pixel)
 // A sample of the pixel is traced along the ray. By one thread at a time for each pixel.
 void small_meet(Small *small, size_t pixel, Ray ray);
 
-// How many of the pixel's shapes that none of its samples has met the ray crosses.
+// How many of the pixel's shapes that none of its samples has met the ray meets.
 int small_count_open(const Small *small, size_t pixel, Ray ray);
 
 // When contrasts have become known: what small_variance says.
@@ -95,9 +95,16 @@ typedef struct Footprint {
     double lens[2][2];    // by how much the two axes of a lens move it
 } Footprint;
 
-// As extent_is_crossed, extent_sight and extent_place, of an entry's shape, which may be a spot.
-bool small_is_crossed(const Small *small, ShapeId shape, Ray ray);
-ExtentSight small_sight(const Small *small, ShapeId shape, Ray ray, MaterialIndex *before);
+// Whether a shape glows brighter than white.
+bool small_is_lamp(const Prepared *prepared, const Extent *extent);
+
+// Whether a ray crosses an entry's shape, which may be a spot; of a lamp, sees it.
+bool small_is_met(const Small *small, ShapeId shape, Ray ray);
+
+// Whether a ray that crosses it shows it: it may, where what is before it lets light through.
+bool small_is_shown(const Small *small, ShapeId shape, Ray ray);
+
+// As extent_place.
 uint32_t small_place(const Small *small, ShapeId shape);
 
 // Whether a spot is narrow enough to be listed.

@@ -316,13 +316,13 @@ def test_crop():
     other = rtlang(BALLS, "--samples=16", "-t5", "--crop=8,8,40,30")[1]
     tap.equal(ERROR.search(one)[0], ERROR.search(other)[0], "a part's error does not depend on threads")
     # Independent halves: there the error of the whole is that of its parts, no more is taken from all pixels together.
-    # Looks at balls that no sample met are aimed at other places in a part.
+    # Looks at balls that no sample met are aimed at the same places in a part.
     whole = float(notes_of(BALLS, "--samples=16", "--sampler=jittered")["rtlang:rmse"])
     squares = 0.0
     for left, top, across, down in parts:
         part = notes_of(BALLS, "--samples=16", "--sampler=jittered", f"--crop={left},{top},{across},{down}")
         squares += float(part["rtlang:rmse"]) ** 2 * across * down / (64 * 48)
-    tap.ok(math.isclose(math.sqrt(squares), whole, rel_tol=2e-3), "errors of parts add up to that of the whole",
+    tap.ok(math.isclose(math.sqrt(squares), whole, rel_tol=1e-5), "errors of parts add up to that of the whole",
            f"{math.sqrt(squares)} {whole}")
     for crop in "60,0,5,5", "0,44,1,5", "64,0,1,1":
         status, said = rtlang(BALLS, "--crop=" + crop)
