@@ -140,11 +140,11 @@ static bool make_spline(SplineReader *reader, Span span, Value *value)
     }
     Spline *spline = arena_alloc(&ev->program, sizeof *spline);
     SplinePoint *points = arena_copy(&ev->program, reader->points.items, count * sizeof *points);
-    double *factors = arena_alloc_array(&ev->scratch, count, sizeof *factors);
-    if (spline == NULL || points == NULL || factors == NULL) {
+    double *pivots = arena_alloc_array(&ev->scratch, count, sizeof *pivots);
+    if (spline == NULL || points == NULL || pivots == NULL) {
         return eval_no_memory(ev, span);
     }
-    spline_bend(points, count, factors);
+    spline_bend(points, count, pivots);
     *spline = (Spline){.type = reader->type, .components = reader->components, .count = count, .points = points};
     *value = (Value){.kind = VALUE_SPLINE, .spline = spline};
     return true;

@@ -34,8 +34,8 @@ struct Spline {
 
 // The type that a word names; false when it names none.
 bool spline_type(Word word, SplineType *type);
-// Fills in the second derivatives of points in rising order; `factors` is room for as many numbers.
-void spline_bend(SplinePoint *points, unsigned count, double *factors);
+// Fills in the second derivatives of points in rising order; `pivots` is room for as many numbers.
+void spline_bend(SplinePoint *points, unsigned count, double *pivots);
 // The point at t, or the nearest valid one outside of the spline's range.
 void spline_at(const Spline *spline, SplineType type, double t, double v[5]);
 

@@ -30,41 +30,47 @@ bool spline_type(Word word, SplineType *type)
     return false;
 }
 
+// The curves are rounded as POV-Ray rounds them, which chaotic scenes show: the order of operations is the one that gives
+// all bits of some 4000 values.
+
 // The second derivatives of the curve of third order that is twice continuously differentiable and straight at its
-// ends: a tridiagonal system for each component, by elimination. Numerical Recipes in C, 2nd edition, 3.3.
-void spline_bend(SplinePoint *points, unsigned count, double *factors)
+// ends: a tridiagonal system for each component, by elimination. `pivots` has room for as many as there are points.
+void spline_bend(SplinePoint *points, unsigned count, double *pivots)
 {
     for (unsigned c = 0; c < 5; c++) {
-        factors[0] = points[0].bend[c] = points[count - 1].bend[c] = 0.0;
+        points[0].bend[c] = points[count - 1].bend[c] = 0.0;
         for (unsigned i = 1; i + 1 < count; i++) {
-            const SplinePoint *p = &points[i];
+            SplinePoint *p = &points[i];
             double before = p->t - p[-1].t, after = p[1].t - p->t;
-            double share = before / (before + after);
-            double pivot = share * factors[i - 1] + 2.0;
-            double change = (p[1].v[c] - p->v[c]) / after - (p->v[c] - p[-1].v[c]) / before;
-            factors[i] = (share - 1.0) / pivot;
-            points[i].bend[c] = (6.0 * change / (before + after) - share * p[-1].bend[c]) / pivot;
+            pivots[i] = 2.0 * (before + after);
+            p->bend[c] = 6.0 * ((p[1].v[c] - p->v[c]) / after - (p->v[c] - p[-1].v[c]) / before);
+            if (i > 1) {
+                pivots[i] -= before * before / pivots[i - 1];
+                p->bend[c] -= before * p[-1].bend[c] / pivots[i - 1];
+            }
         }
         for (unsigned i = count - 1; i-- > 1;) {
-            points[i].bend[c] += factors[i] * points[i + 1].bend[c];
+            SplinePoint *p = &points[i];
+            p->bend[c] = (p->bend[c] - (p[1].t - p->t) * p[1].bend[c]) / pivots[i];
         }
     }
 }
 
 static double linear_at(const SplinePoint *p, unsigned c, double t)
 {
-    return (p[1].v[c] - p[0].v[c]) * (t - p[0].t) / (p[1].t - p[0].t) + p[0].v[c]; // as POV-Ray rounds it
+    return (p[1].v[c] - p[0].v[c]) * (t - p[0].t) / (p[1].t - p[0].t) + p[0].v[c];
 }
 
 // The parabola through three points, its coefficients by Cramer's rule.
 static double parabola_at(const SplinePoint *p, unsigned c, double t)
 {
     double t0 = p[0].t, t1 = p[1].t, t2 = p[2].t, v0 = p[0].v[c], v1 = p[1].v[c], v2 = p[2].v[c];
-    double determinant = (t0 - t1) * (t0 - t2) * (t1 - t2);
-    double square = (t2 * (v1 - v0) + t1 * (v0 - v2) + t0 * (v2 - v1)) / determinant;
-    double slope = (t2 * t2 * (v0 - v1) + t1 * t1 * (v2 - v0) + t0 * t0 * (v1 - v2)) / determinant;
-    double constant = (t1 * t2 * (t1 - t2) * v0 + t2 * t0 * (t2 - t0) * v1 + t0 * t1 * (t0 - t1) * v2) / determinant;
-    return (square * t + slope) * t + constant;
+    double determinant = (t0 - t1) * (t0 - t2) * (t2 - t1);
+    double square = t2 * v0 - t1 * v0 + t0 * v1 - t2 * v1 - t0 * v2 + t1 * v2;
+    double slope = t1 * t1 * v0 - t2 * t2 * v0 - t0 * t0 * v1 + t2 * t2 * v1 + t0 * t0 * v2 - t1 * t1 * v2;
+    double constant = t1 * t2 * t2 * v0 - t1 * t1 * t2 * v0 + t0 * t0 * t2 * v1 - t0 * t2 * t2 * v1 -
+                      t0 * t0 * t1 * v2 + t0 * t1 * t1 * v2;
+    return (square / determinant * t + slope / determinant) * t + constant / determinant;
 }
 
 // Hermite's curve between p[1] and p[2]; at each the slope is the mean of the slopes of the chords on both sides.
@@ -75,16 +81,17 @@ static double cubic_at(const SplinePoint *p, unsigned c, double t)
     double chord = (p[2].v[c] - p[1].v[c]) / length;
     double after = (p[3].v[c] - p[2].v[c]) / (p[3].t - p[2].t);
     double square = share * share, cube = square * share;
-    return (2.0 * cube - 3.0 * square + 1.0) * p[1].v[c] +
-           (cube - 2.0 * square + share) * length * (before + chord) / 2.0 +
-           (3.0 * square - 2.0 * cube) * p[2].v[c] + (cube - square) * length * (chord + after) / 2.0;
+    return (2.0 * share * share * share - 3.0 * share * share + 1.0) * p[1].v[c] +
+           (3.0 * share * share - 2.0 * share * share * share) * p[2].v[c] +
+           (before + chord) / 2.0 * length * (cube - 2.0 * share * share + share) +
+           (chord + after) / 2.0 * length * (cube - square);
 }
 
 static double natural_at(const SplinePoint *p, unsigned c, double t)
 {
-    double length = p[1].t - p[0].t, a = (p[1].t - t) / length, b = (t - p[0].t) / length;
-    return a * p[0].v[c] + b * p[1].v[c] +
-           ((a * a * a - a) * p[0].bend[c] + (b * b * b - b) * p[1].bend[c]) * length * length / 6.0;
+    double length = p[1].t - p[0].t, from = t - p[0].t, here = p[0].bend[c], next = p[1].bend[c];
+    double slope = (p[1].v[c] - p[0].v[c]) / length - length / 6.0 * (next + 2.0 * here);
+    return p[0].v[c] + from * (slope + from * (here / 2.0 + from * (next - here) / (6.0 * length)));
 }
 
 typedef struct Curve {
@@ -101,13 +108,13 @@ static const Curve curves[] = {
     [SPLINE_NATURAL] = {natural_at, 0, 0, 2, false},
 };
 
-// The last point at or before t, of a spline that t lies in.
+// The last point before t, of a spline that t lies in.
 static unsigned find_interval(const Spline *spline, double t)
 {
     unsigned low = 0, high = spline->count - 1;
     while (high - low > 1) {
         unsigned middle = low + (high - low) / 2;
-        if (spline->points[middle].t <= t) {
+        if (spline->points[middle].t < t) {
             low = middle;
         } else {
             high = middle;
