@@ -7,6 +7,7 @@ drawn otherwise, is not written. SPDX-License-Identifier: MIT
 import random
 
 VERSIONS = ["3.7"] * 8 + ["", "", "3.6", "3.6", "3.5", "3.1", "3.1", "3.0", "3.62"]
+LATER_VERSIONS = ["3.7", "3.6", "3.5", "3.1"]
 AXES = ["x", "y", "z", "-x", "-y", "-z"]
 WAVES = ["ramp_wave", "triangle_wave", "sine_wave", "scallop_wave", "cubic_wave", "poly_wave", "poly_wave 2"]
 PATTERNS = ["gradient x", "gradient -y", "gradient <1, 2, -1>", "onion", "radial", "leopard", "spherical", "boxed",
@@ -270,16 +271,19 @@ class Writer:
         if choice < 0.2:
             word = self.dice.choice(["quilted"] * (not self.names["texture"]) + ["bumps", "dents", "wrinkles",
                                                                                  "ripples", "waves"])
-            mapped = [Block("normal_map {", self.entries(lambda: self.normal_items(1)))] * \
-                (word == "quilted" and depth == 0 and self.chance(0.3))
+            mapped = [Block("normal_map {", self.entries(lambda: self.normal_items(depth + 1)))] * \
+                (word == "quilted" and depth < 2 and self.chance(0.3))
             # On whole numbers the last bits of a point tell to which cushion it belongs.
             return [word + amount] + mapped + ["translate 0.123"] * (word == "quilted") + self.shuffled(more)
-        if choice < 0.35 and depth == 0:
-            return self.list_pattern(lambda: Block("normal {", self.normal_items(1)), True)
+        if choice < 0.32 and depth < 2:
+            return self.list_pattern(lambda: Block("normal {", self.normal_items(depth + 1)), True)
+        if choice < 0.36 and depth < 2:
+            weighed = [Block(f"[{self.number(0.5, 2)}", self.normal_items(depth + 1), "]") for _ in self.some(3, 1)]
+            return ["average"] + self.shuffled([Block("normal_map {", weighed)] + more)
         if choice < 0.45:
             return [f"{self.dice.choice(['checker', 'hexagon', 'brick'])} {self.number(0.1, 0.7)}"] + self.shuffled(more)
-        if choice < 0.6 and depth == 0:
-            return self.value_pattern([Block("normal_map {", self.entries(lambda: self.normal_items(1)))])
+        if choice < 0.6 and depth < 2:
+            return self.value_pattern([Block("normal_map {", self.entries(lambda: self.normal_items(depth + 1)))])
         slopes = Block("slope_map {",
                        [f"[{at} <{self.number(0, 1)}, {self.number(-1, 1)}>]" for at in self.positions()])
         pattern = self.dice.choice([pattern for pattern in PATTERNS
@@ -393,7 +397,8 @@ class Writer:
             lambda: f"sphere {{ {v(-0.2, 0.2)}, {n(0.6, 1)}", lambda: "sphere { 0 0.97",
             lambda: f"box {{ {v(-0.9, -0.5)}, {v(0.5, 0.9)}", lambda: f"box {{ {v(0.5, 0.9)} {v(-0.9, -0.5)}", whole,
             lambda: f"cylinder {{ <{n(-0.2, 0.2)}, {n(-0.9, -0.5)}, 0>, <0, {n(0.5, 0.9)}, {n(-0.2, 0.2)}>, {n(0.4, 0.7)}",
-            lambda: f"cone {{ {n(-0.9, -0.6)} * y, {n(0.6, 0.9)}, {n(0.6, 0.9)} * y, {n(0, 0.4)}")
+            lambda: f"cone {{ {n(-0.9, -0.6)} * y, {n(0.6, 0.9)}, {n(0.6, 0.9)} * y, {n(0, 0.4)}",
+            lambda: f"torus {{ {n(0.5, 0.8)}, {n(0.15, 0.4)}")
 
     def sheet(self):
         """The head of a shape that has none."""
@@ -403,6 +408,8 @@ class Writer:
             lambda: f"disc {{ {v(-0.2, 0.2)}, {v(0.2, 1)}, {n(0.7, 1)}",
             lambda: f"disc {{ {v(-0.2, 0.2)}, {v(0.2, 1)}, {n(0.7, 1)}, {n(0.2, 0.5)}",
             lambda: f"triangle {{ <{n(-1, -0.7)}, {n(-0.7, -0.5)}, 0>, <{n(0.7, 1)}, {n(-0.5, -0.2)}, 0.3>, <0, {n(0.7, 1)}, -0.2>",
+            lambda: f"smooth_triangle {{ <{n(-1, -0.7)}, {n(-0.7, -0.5)}, 0>, {v(0.2, 1)}, <{n(0.7, 1)}, {n(-0.5, -0.2)}, 0.3>, {v(0.2, 1)}, "
+                    f"<0, {n(0.7, 1)}, -0.2>, {v(0.2, 1)}",
             lambda: f"cylinder {{ <{n(-0.9, -0.6)}, 0, 0>, <{n(0.6, 0.9)}, 0.1, 0>, {n(0.4, 0.7)}{ends}",
             lambda: f"cone {{ {n(-0.9, -0.6)} * y, {n(0.6, 0.9)}, {n(0.6, 0.9)} * y, {n(0.2, 0.4)}{ends}")
 
@@ -677,6 +684,9 @@ class Writer:
         parts += [lambda: [self.default()]] * self.chance(0.3) + [lambda: [self.declaration()]] * self.dice.randint(0,
                                                                                                                     2)
         for make in self.shuffled(parts):
+            if not self.is_old and self.chance(0.05):
+                self.version = self.dice.choice(LATER_VERSIONS)
+                add(f"#version {self.version};")
             made = make()
             add(*(self.torn(made, 0.1)))
         return Block("", begin + statements, "")
