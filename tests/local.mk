@@ -278,6 +278,7 @@ test_scripts = \
   %D%/system/check_python.py \
   %D%/system/check_strip.py \
   %D%/system/check_supply.py \
+  %D%/system/check_trace.py \
   %D%/system/check_library_path.py \
   %D%/system/check_instructions.py \
   %D%/system/check_rtcheck.sh \

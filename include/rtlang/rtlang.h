@@ -286,7 +286,7 @@ typedef struct rt_word {
 RT_API int rt_get_word(size_t i, rt_word *word);
 /* Whether the file is in the canonical layout: RT_FAULT_SCENE, and a diagnostic at the first place where it is not. */
 RT_API rt_status rt_check_format(rt_session *session, const char *path);
-/* Write what the last rt_dump_* or rt_format_file made; the file appears whole or not at all. "-" is standard
+/* Write what the last rt_dump_*, rt_format_file or rt_trace_pixel made; the file appears whole or not at all. "-" is standard
  * output. */
 RT_API rt_status rt_write_text(rt_session *session, const char *path);
 
@@ -417,6 +417,11 @@ RT_API rt_status rt_render(rt_session *session, int threads);
  * continue. Its colour is the picture's. Text, or with RT_FORMAT_JSON one object on one line. *text is valid until the
  * next call on the session. RT_FAULT_USAGE when the pixel is not in the picture. */
 RT_API rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text);
+/* What rt_trace_pixel makes: the log (the default), or a drawing of it as an <svg> element, in the plane that holds the
+ * camera's ray and the normal where it hits. Numbers of the log have at most so many digits, 1 to 17; 0, the default:
+ * as many as tell them apart. The drawing of a pixel that was asked for can be written by rt_write_text. */
+typedef enum rt_trace_form { RT_TRACE_LOG, RT_TRACE_SVG } rt_trace_form;
+RT_API rt_status rt_set_trace_form(rt_session *session, rt_trace_form form, int digits);
 
 /* Why a sampled run ended. */
 typedef enum rt_end { RT_END_DONE, RT_END_TARGET, RT_END_TIME, RT_END_INTERRUPTED } rt_end;

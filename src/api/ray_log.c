@@ -1,4 +1,4 @@
-// The life of a pixel's ray as text, or as one JSON object on one line.
+// The life of a pixel's ray as text, the tree of its rays first, or as one JSON object on one line.
 //
 // Turns the records of render/ray_log.h into what a reader or a program reads; docs/diagnostics.md lists the members.
 // Works nothing out.
@@ -6,8 +6,11 @@
 // SPDX-License-Identifier: MIT
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "api/ray_log_draw.h"
 #include "api/session.h"
 #include "base/json.h"
 #include "render/ray_log.h"
@@ -18,7 +21,10 @@ typedef struct Printer {
     DiagSink *diags; // for places in the text
     const RayLog *ray_log;
     Vec3 origin; // to be added to places
+    int digits;  // of numbers; 0: as many as tell them apart
 } Printer;
+
+enum { TREE_DIGITS = 4 };
 
 static const char *const kind_words[] = {
     [LOGGED_CAMERA] = "camera",   [LOGGED_MIRRORED] = "mirrored", [LOGGED_TOTAL] = "totally reflected",
@@ -51,9 +57,20 @@ static void put(const Printer *p, const char *text)
     text_append(p->out, text);
 }
 
+static void put_digits(const Printer *p, double x, int digits)
+{
+    char text[40];
+
+    if (digits > 0) {
+        snprintf(text, sizeof text, "%.*e", digits - 1, x);
+        x = strtod(text, NULL); // whose shortest form has no more digits
+    }
+    json_number(p->out, x);
+}
+
 static void put_number(const Printer *p, double x)
 {
-    json_number(p->out, x);
+    put_digits(p, x, p->digits);
 }
 
 static void put_three(const Printer *p, const char *open, const char *close, double a, double b, double c)
@@ -140,8 +157,15 @@ static void tell_sphere(const Printer *p, const LoggedSphere *s)
 
 static void tell_layer(const Printer *p, const LoggedLayer *layer, Vec3 normal)
 {
-    text_printf(p->out, "    pigment rgbft <%.9g, %.9g, %.9g, %.9g, %.9g>", layer->pigment.red, layer->pigment.green,
-                layer->pigment.blue, layer->pigment.filter, layer->pigment.transmit);
+    int digits = p->digits > 0 && p->digits < 9 ? p->digits : 9; // single precision
+    const double pigment[] = {layer->pigment.red, layer->pigment.green, layer->pigment.blue, layer->pigment.filter,
+                             layer->pigment.transmit};
+    put(p, "    pigment rgbft <");
+    for (int i = 0; i < 5; i++) {
+        put(p, i > 0 ? ", " : "");
+        put_digits(p, pigment[i], digits);
+    }
+    put(p, ">");
     if (layer->part != 1.0) {
         tell(p, ", as a part of ", layer->part);
     }
@@ -198,6 +222,36 @@ static void tell_hit(const Printer *p, const LoggedRay *ray)
     }
 }
 
+// How far beside the sphere the line passes, in its radii; h < 0.
+static double gap_of(const LoggedSphere *sphere)
+{
+    return sqrt(1.0 - sphere->h / (4.0 * sphere->a * sphere->radius * sphere->radius)) - 1.0;
+}
+
+// The spheres that the line meets, of the others that which it passes nearest, and how many more there are.
+static void tell_spheres(const Printer *p, const LoggedRay *ray)
+{
+    const LoggedSphere *spheres = p->ray_log->spheres.items + ray->first_sphere;
+    size_t nearest = ray->sphere_count, missed = ray->missed;
+
+    for (size_t i = 0; i < ray->sphere_count; i++) {
+        bool is_missed = spheres[i].h < 0.0 && !(spheres[i].t > 0.0);
+        missed += is_missed;
+        if (is_missed && (nearest == ray->sphere_count || gap_of(&spheres[i]) < gap_of(&spheres[nearest]))) {
+            nearest = i;
+        }
+    }
+    for (size_t i = 0; i < ray->sphere_count; i++) {
+        if (i == nearest || !(spheres[i].h < 0.0) || spheres[i].t > 0.0) {
+            tell_sphere(p, &spheres[i]);
+        }
+    }
+    missed -= nearest < ray->sphere_count;
+    if (missed > 0) {
+        text_printf(p->out, "  and %zu more sphere%s missed\n", missed, missed == 1 ? " is" : "s are");
+    }
+}
+
 static void tell_ray(const Printer *p, size_t number)
 {
     const LoggedRay *ray = &p->ray_log->rays.items[number];
@@ -212,12 +266,7 @@ static void tell_ray(const Printer *p, size_t number)
     }
     tell_vector(p, "\n  d = ", ray->direction);
     put(p, ", of length 1\n");
-    for (size_t i = ray->first_sphere; i < ray->first_sphere + ray->sphere_count; i++) {
-        tell_sphere(p, &p->ray_log->spheres.items[i]);
-    }
-    if (ray->missed > 0) {
-        text_printf(p->out, "  %zu more sphere%s passed\n", ray->missed, ray->missed == 1 ? " is" : "s are");
-    }
+    tell_spheres(p, ray);
     if (ray->is_hit) {
         tell_hit(p, ray);
         tell_colour(p, "  its light: ", ray->light);
@@ -231,9 +280,37 @@ static void tell_ray(const Printer *p, size_t number)
     put(p, "\n");
 }
 
+// One line for each ray, below the one that it comes from and further in.
+static void tell_branch(const Printer *p, size_t number, int depth)
+{
+    const LoggedRay *ray = &p->ray_log->rays.items[number];
+    Printer few = *p;
+
+    few.digits = p->digits > 0 && p->digits < TREE_DIGITS ? p->digits : TREE_DIGITS;
+    text_printf(p->out, "%*s%zu %s: ", 2 + 2 * depth, "", number + 1, kind_words[ray->kind]);
+    if (ray->is_hit) {
+        put(p, ray->shape);
+        tell_place(p, ray->source);
+        tell(&few, " at t = ", ray->t);
+    } else {
+        put(p, "the background");
+    }
+    tell_colour(&few, ", adds ", ray->adds);
+    put(p, "\n");
+    for (size_t i = number + 1; i < p->ray_log->rays.count; i++) {
+        if (p->ray_log->rays.items[i].parent == (int)number) {
+            tell_branch(p, i, depth + 1);
+        }
+    }
+}
+
 static void print_text(const Printer *p, int x, int y, Rgb linear)
 {
     text_printf(p->out, "pixel %d, %d\n", x, y);
+    if (p->ray_log->rays.count > 1) {
+        text_printf(p->out, "the tree of its %zu rays:\n", p->ray_log->rays.count);
+        tell_branch(p, 0, 0);
+    }
     for (size_t i = 0; i < p->ray_log->rays.count; i++) {
         tell_ray(p, i);
     }
@@ -460,18 +537,33 @@ static rt_status trace_pixel(rt_session *session, void *argument)
     prepared_free(prepared);
     scene_move_back(&session->scene, origin);
     if (is_traced) {
-        Printer printer = {&session->dump, &session->diags, &ray_log, origin};
+        Printer printer = {&session->dump, &session->diags, &ray_log, origin, session->trace_digits};
         // As the film has it: in single precision first.
         float values[] = {(float)ray_log.colour.red, (float)ray_log.colour.green, (float)ray_log.colour.blue};
         Film pixel = {.width = 1, .height = 1, .rgb = values};
         session_film_to_linear(&session->scene.settings, &pixel);
-        (session->is_json ? print_json : print_text)(&printer, x, y, rgb(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]));
+        Rgb linear = rgb(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]);
+        if (session->trace_form == RT_TRACE_SVG) {
+            ray_log_draw(&ray_log, x, y, &session->dump);
+        } else {
+            (session->is_json ? print_json : print_text)(&printer, x, y, linear);
+        }
     }
     ray_log_fini(&ray_log);
     if (!is_traced || session->dump.failed) {
         diag_report(&session->diags, DIAG_E0602, SPAN_NONE, "out of memory following a ray");
     }
     return session_status(session, is_traced && !session->dump.failed);
+}
+
+rt_status rt_set_trace_form(rt_session *session, rt_trace_form form, int digits)
+{
+    if ((form != RT_TRACE_LOG && form != RT_TRACE_SVG) || digits < 0 || digits > 17) {
+        return RT_FAULT_USAGE;
+    }
+    session->trace_form = form;
+    session->trace_digits = digits;
+    return RT_OK;
 }
 
 rt_status rt_trace_pixel(rt_session *session, int x, int y, const char **text)

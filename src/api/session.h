@@ -59,6 +59,8 @@ struct rt_session {
     bool has_told_memory;   // that there is none
     bool is_json;           // the form of messages
     bool is_colored; // the text of messages, for a terminal
+    rt_trace_form trace_form;
+    int trace_digits; // of rt_trace_pixel's numbers; 0: as many as tell them apart
     TextBuffer said;        // in JSON: the scene's own line, not ended yet
     ARRAY(char *) include_paths;
     Library library; // searched after them

@@ -552,6 +552,18 @@ static bool apply_trace_pixel(Options *options, const char *argument, OptionRead
            option_parse_integer(argument + length + 1, 0, 65534, &options->pixel_y);
 }
 
+static bool apply_digits(Options *options, const char *argument, OptionReading *reading)
+{
+    return option_take_integer(reading, argument, 1, 17, &options->digits);
+}
+
+static bool apply_trace_svg(Options *options, const char *argument, OptionReading *reading)
+{
+    reading->expected = "a file name";
+    options->trace_svg = argument;
+    return argument[0] != '\0';
+}
+
 // LEFT,TOP,WIDTH,HEIGHT; whether that lies in the picture is known when all options are read.
 static bool apply_crop(Options *options, const char *argument, OptionReading *reading)
 {
@@ -656,6 +668,8 @@ static const OptionRow rows[] = {
     {0, "budget", NULL, apply_budget, "print how much memory rendering the scene takes at most, and stop"},
     {0, "trace-pixel", "X,Y", apply_trace_pixel,
      "print the life of the ray of one pixel, from 0,0 at the top left, and stop; no picture is made"},
+    {0, "digits", "N", apply_digits, "with --trace-pixel: digits of its numbers, 1 to 17 (default: all that there are)"},
+    {0, "trace-svg", "FILE", apply_trace_svg, "with --trace-pixel: draw the rays, too, as SVG, in the plane of the first one"},
     {0, "dump", "tokens|ast|scene", apply_dump, "print what a stage makes of the scene, and stop"},
     {0, "format", NULL, apply_format,
      "print the scene's text in the canonical layout, or write it to -o FILE; "

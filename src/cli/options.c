@@ -151,6 +151,14 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
         return option_complain(&options->reading, "pixel %d,%d is not in a picture of %d x %d pixels", options->pixel_x,
                         options->pixel_y, options->width, options->height);
     }
+    if ((options->digits > 0 || options->trace_svg) && options->action != ACTION_TRACE_PIXEL) {
+        return option_complain(&options->reading, "option `%s` wants `--trace-pixel`",
+                               options->digits > 0 ? "--digits" : "--trace-svg");
+    }
+    if (options->trace_svg && options->scene_count > 1) {
+        return option_complain(&options->reading, "one drawing for more than one scene: `%s` and `%s`",
+                               options->scenes[0], options->scenes[1]);
+    }
     return options->is_untrusted ? settle_untrusted(options) : OPTIONS_GO;
 }
 

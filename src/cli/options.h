@@ -54,6 +54,8 @@ struct Options {
     int width, height;
     rt_precision precision;
     int pixel_x, pixel_y; // ACTION_TRACE_PIXEL
+    int digits;           // of its numbers; 0: as many as tell them apart
+    const char *trace_svg; // where it is drawn; NULL: nowhere
     int threads;     // 0: as many as the machine has
     const char *isa; // NULL: the best that the machine has
     rt_output encoding;

@@ -134,8 +134,15 @@ static rt_status trace_pixel(rt_session *session, const Options *options)
     if (!status && options->isa) {
         status = rt_set_isa(session, options->isa);
     }
+    status = status ? status : rt_set_trace_form(session, RT_TRACE_LOG, options->digits);
     status = status ? status : rt_trace_pixel(session, options->pixel_x, options->pixel_y, &text);
-    return status ? status : run_print(session, text, status);
+    status = status ? status : run_print(session, text, status);
+    if (status || !options->trace_svg) {
+        return status;
+    }
+    status = rt_set_trace_form(session, RT_TRACE_SVG, options->digits);
+    status = status ? status : rt_trace_pixel(session, options->pixel_x, options->pixel_y, &text);
+    return status ? status : rt_write_text(session, options->trace_svg);
 }
 
 static rt_status budget(rt_session *session, const Options *options)
@@ -397,8 +404,8 @@ static rt_status confine_runs(rt_session *session, Options *options)
 {
     const char *path, *writes[] = {options->output ? options->output
                                    : options->action == ACTION_RENDER ? "./output.png" : NULL,
-                                   options->error_map};
-    bool writes_file = options->action == ACTION_RENDER || options->action == ACTION_FORMAT;
+                                   options->error_map, options->trace_svg};
+    bool writes_file = options->action == ACTION_RENDER || options->action == ACTION_FORMAT || options->trace_svg;
     size_t count = 0, folders = 0, scenes = (size_t)options->scene_count;
     while (rt_include_path(session, folders)) {
         folders++;
@@ -420,7 +427,7 @@ static rt_status confine_runs(rt_session *session, Options *options)
         for (size_t i = 0; i < folders && (path = rt_include_path(session, i)); i++) {
             reads[count++] = path;
         }
-        confine(&(Confinement){reads, count, writes, writes_file ? 2 : 0, options->is_untrusted});
+        confine(&(Confinement){reads, count, writes, writes_file ? 3 : 0, options->is_untrusted});
         options->is_unconfined = true; // the kernel holds to these rules: there are none to be added
     }
     rt_status status = is_whole ? RT_OK : rt_report(session, "E0602", "out of memory", NULL);

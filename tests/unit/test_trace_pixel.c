@@ -4,6 +4,7 @@
 // is printed of a sphere is checked against the scene that it was made for.
 //
 // SPDX-License-Identifier: MIT
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -158,6 +159,100 @@ static void check_terms(void)
     rt_session_free(session);
 }
 
+// The middle ray meets one sphere of four, which mirrors it to the background.
+static const char four[] = "light_source { -9 * z, 1 }\n"
+                           "sphere { 9 * x, 2 } sphere { 7 * x, 2 } sphere { 8 * y, 1 }\n"
+                           "sphere { 0.3 * y, 2 finish { reflection 0.5 } } background { rgb 1 / 3 }";
+
+static void check_tree(void)
+{
+    rt_session *session = rt_session_new(NULL);
+    const char *text = follow(session, four);
+    const char *tree = text ? strstr(text, "pixel 1, 1\nthe tree of its 2 rays:\n  1 camera: sphere (f.scn:4:1) at t = 3.023, "
+                                           "adds rgb <") : NULL;
+    const char *child = tree ? strstr(tree, "\n    2 mirrored: the background, adds rgb <0.1667, 0.1667, 0.1667>\nray 1: camera\n")
+                             : NULL;
+    tap_ok(tree == text && child, "the tree of rays comes first, each below the one that it comes from");
+    const char *end = text ? strstr(text, "\nray 2") : NULL, *nine = text ? strstr(text, "centre <9, 0, 0>") : NULL,
+               *eight = text ? strstr(text, "centre <0, 8, 0>") : NULL;
+    tap_ok(end && has(text, "sphere (f.scn:3:21): centre <7, 0, 0>") && !nine && (!eight || eight > end) &&
+               has(text, "and 2 more spheres are missed\n"),
+           "of the spheres that the line misses the nearest is told, and the others are counted");
+    rt_session_free(session);
+    session = rt_session_new(NULL);
+    text = follow(session, "light_source { -9 * z, 1 } sphere { 0, 1 } background { rgb 1 }");
+    tap_ok(text && !strstr(text, "tree") && !strstr(text, "missed"), "one ray has no tree, one sphere no others");
+    rt_session_free(session);
+}
+
+// Every number of a text has so many digits at most.
+static bool has_digits(const char *text, int most)
+{
+    const char *c = strstr(text, "\nray 1");
+    for (; c && *c != '\0'; c++) {
+        int digits = 0;
+        bool is_leading = true;
+        if ((*c < '0' || *c > '9') || (c[-1] >= 'a' && c[-1] <= 'z')) { // t1 is no number
+            continue;
+        }
+        for (; (*c >= '0' && *c <= '9') || *c == '.'; c++) {
+            is_leading = is_leading && (*c == '0' || *c == '.');
+            digits += *c != '.' && !is_leading;
+        }
+        if (digits > most) {
+            printf("# %d digits: %.40s\n", digits, c - digits);
+            return false;
+        }
+        c += *c == 'e' ? 3 : 0;
+        c--;
+    }
+    return c != NULL;
+}
+
+static void check_digits(void)
+{
+    rt_session *session = rt_session_new(NULL);
+    tap_ok(rt_set_trace_form(session, RT_TRACE_LOG, 18) == RT_FAULT_USAGE &&
+               rt_set_trace_form(session, RT_TRACE_LOG, -1) == RT_FAULT_USAGE &&
+               rt_set_trace_form(session, RT_TRACE_LOG, 4) == RT_OK,
+           "digits are 1 to 17, or all");
+    const char *text = follow(session, four);
+    tap_ok(text && has_digits(text, 4) && has(text, "t1 = (-b - √h) / 2a = 3.023, t2"), "no number has more digits");
+    rt_session_free(session);
+    session = rt_session_new(NULL);
+    text = follow(session, four);
+    tap_ok(text && !has_digits(text, 12) && has(text, "2a = 3.0226"), "and all without that");
+    rt_session_free(session);
+}
+
+// By hand: the plane is that of y and z, so the sphere at 0.3 y is cut through its middle; between e, at the left edge, and
+// its far side, and 10 % beyond, lie 568 of 640 units.
+static void check_drawing(void)
+{
+    rt_session *session = rt_session_new(NULL);
+    rt_set_trace_form(session, RT_TRACE_SVG, 0);
+    const char *text = follow(session, four);
+    tap_ok(text && strncmp(text, "<svg class=\"rays\"", 17) == 0 && has(text, "</svg>\n") && has(text, "<title>") &&
+               has(text, "class=\"body\"") && has(text, ">t1</text>") && has(text, ">t2</text>") && has(text, ">N</text>") &&
+               has(text, "<line class=\"camera\" x1=\"36\"") && has(text, "<line class=\"mirrored\"") &&
+               has(text, "<line class=\"light\"") && !strstr(text, "nan") && !strstr(text, "inf"),
+           "the drawing has the ray, both roots, the normal, the mirrored ray and the light");
+    double x, y, radius;
+    const char *circle = text ? strstr(text, "<circle class=\"body\"") : NULL;
+    bool is_read = circle && sscanf(circle, "<circle class=\"body\" cx=\"%lf\" cy=\"%lf\" r=\"%lf\"", &x, &y, &radius) == 3;
+    tap_ok(is_read && fabs(x - 36.0 - 2.5 * radius) < 0.2 && radius > 50.0, "the sphere is cut through its middle, to scale");
+    rt_session_free(session);
+    const char *scenes[] = {"sphere { 50 * x, 1 }", "sphere { 0, 1 }"};
+    for (int i = 0; i < 2; i++) {
+        session = rt_session_new(NULL);
+        rt_set_trace_form(session, RT_TRACE_SVG, 0);
+        text = follow(session, scenes[i]);
+        tap_ok(text && has(text, "<line class=\"camera\"") && !strstr(text, "nan") && !strstr(text, ">t1<") == (i == 0),
+               i == 0 ? "a ray that meets nothing is drawn, too" : "and one that meets a sphere head on");
+        rt_session_free(session);
+    }
+}
+
 // A scene that nothing else is asked of gives the same picture, and is then gone.
 static void check_spent(void)
 {
@@ -194,6 +289,9 @@ int main(void)
     check_touch();
     check_stretched();
     check_terms();
+    check_tree();
+    check_digits();
+    check_drawing();
     check_spent();
     scenes_try("examples/*.scn", check_scene, &every);
     scenes_try("tests/povray/*.scn", check_scene, &one_in_five);
