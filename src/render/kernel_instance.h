@@ -56,12 +56,13 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
     TileView view = {camera->location, camera->direction, camera->right, camera->up};
     RenderStatistics counted = *statistics;
     counted.camera_rays += (uint64_t)__builtin_popcountll(wanted);
-    if (camera->type != CAMERA_PERSPECTIVE || places->lens) {
-        trace_single(p, features, path, places, streams, wanted, light, scratch, &counted);
-    } else if (!shade_tile_may(p, features)) {
+    bool is_view = camera->type == CAMERA_PERSPECTIVE && !places->lens;
+    if (shade_tile_may(p, features)) {
+        shade_tile(p, features, is_view ? &view : NULL, places, streams, wanted, light, &scratch->tile, &counted);
+    } else if (is_view) {
         trace_view(p, features, path, &view, places, streams, wanted, light, scratch, &counted);
     } else {
-        shade_tile(p, features, &view, places, streams, wanted, light, &scratch->tile, &counted);
+        trace_single(p, features, path, places, streams, wanted, light, scratch, &counted);
     }
     *statistics = counted;
 }

@@ -134,18 +134,14 @@ RT_ALWAYS_INLINE bool shade_even_through(const Prepared *p, unsigned features, M
     return true;
 }
 
-// The share of light along a shadow ray where all that it crosses is told at once, and is even; false elsewhere.
-RT_ALWAYS_INLINE bool shade_even_light(const Prepared *p, unsigned features, Ray ray, RayStart start, double t_max,
+// What some shapes on a way leave of light, if all of them are even; false where one is not.
+RT_ALWAYS_INLINE bool shade_even_share(const Prepared *p, unsigned features, const ShapeId *shapes, int count,
                                        Rgb *share)
 {
-    RayCrossings crossings;
-    if (!geometry_ray_crossed(p->geometry, features, ray, start, t_max, &crossings)) {
-        return false;
-    }
     *share = rgb_grey(1.0);
-    for (int i = 0; i < crossings.count; i++) {
+    for (int i = 0; i < count; i++) {
         Rgb through;
-        if (!shade_even_through(p, features, geometry_material(p->geometry, features, crossings.shape[i]), &through)) {
+        if (!shade_even_through(p, features, geometry_material(p->geometry, features, shapes[i]), &through)) {
             return false;
         }
         if (rgb_is_black(through)) {
@@ -155,6 +151,15 @@ RT_ALWAYS_INLINE bool shade_even_light(const Prepared *p, unsigned features, Ray
         *share = rgb_mul(*share, through);
     }
     return true;
+}
+
+// The share of light along a shadow ray where all that it crosses is told at once, and is even; false elsewhere.
+RT_ALWAYS_INLINE bool shade_even_light(const Prepared *p, unsigned features, Ray ray, RayStart start, double t_max,
+                                       Rgb *share)
+{
+    RayCrossings crossings;
+    return geometry_ray_crossed(p->geometry, features, ray, start, t_max, &crossings) &&
+           shade_even_share(p, features, crossings.shape, crossings.count, share);
 }
 
 // The share of light that arrives along a shadow ray, by colour: every surface on the way that lets light through

@@ -10,6 +10,7 @@
 #define RENDER_SHADE_TILE_H
 
 #include "math/extreme.h"
+#include "render/camera.h"
 #include "render/sampler_many.h"
 #include "render/shade.h"
 #include "render/tile_light.h"
@@ -187,21 +188,6 @@ RT_ALWAYS_INLINE bool shade_tile_is_clear(const Prepared *p, unsigned features)
     return (features & RENDER_TRANSPARENCY) && (p->features & RENDER_TRANSPARENCY);
 }
 
-// What clear spheres and planes let through on the way to a surface, in the order of a walk.
-RT_ALWAYS_INLINE Rgb shade_tile_crossed(const Prepared *p, unsigned features, const TileCrossings *crossings, int i)
-{
-    Rgb share = rgb_grey(1.0);
-    for (int k = 0; k < crossings->count[i]; k++) {
-        MaterialIndex material = geometry_material(p->geometry, features, crossings->shape[i][k]);
-        Rgb through = texture_pigment_through(material_pigment(&p->materials[material]));
-        if (rgb_is_black(through)) {
-            return through;
-        }
-        share = rgb_mul(share, through);
-    }
-    return share;
-}
-
 RT_ALWAYS_INLINE void shade_tile_set_share(LightTile *tile, int i, Rgb share)
 {
     lane_set(tile->share, (unsigned)i, vec3(share.red, share.green, share.blue));
@@ -222,9 +208,9 @@ RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned feature
     for (; asked; asked &= asked - 1) {
         int i = __builtin_ctzll(asked);
         Rgb share = rgb_grey(1.0);
-        if (told >> i & 1) {
-            share = shade_tile_crossed(p, features, crossings, i);
-        } else if (!(clear >> i & 1)) {
+        bool is_even = (told >> i & 1) &&
+                       shade_even_share(p, features, crossings->shape[i], crossings->count[i], &share);
+        if (!is_even && !(clear >> i & 1)) {
             ShadingPoint at = shade_tile_lit_point(features, scratch, i);
             Ray ray = {at.point, lane_get(rays->towards, (unsigned)i)};
             RayStart start = {at.shape, vec3_dot(at.outward, ray.direction) < 0.0, HIDDEN_SHADOW};
@@ -407,7 +393,7 @@ RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, Li
     if (rays.count == 0) {
         return;
     }
-    geometry_closest_secondary(p->geometry, features, &rays, &hits);
+    geometry_closest_secondary(p->geometry, features, HIDDEN_MIRROR, &rays, &hits);
     for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
         unsigned ray = own[__builtin_ctzll(missed)];
         light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
@@ -564,7 +550,7 @@ RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, Ligh
     if (rays.count == 0) {
         return false;
     }
-    geometry_closest_secondary(p->geometry, features, &rays, &hits);
+    geometry_closest_secondary(p->geometry, features, HIDDEN_MIRROR, &rays, &hits);
     clear->resting = 0;
     for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
         unsigned ray = own[__builtin_ctzll(missed)];
@@ -625,10 +611,10 @@ RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, Til
     }
 }
 
-// The light of the rays of a view.
-RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
-                                 SampleStream *streams, uint64_t wanted, Rgb *light, TileScratch *scratch,
-                                 RenderStatistics *statistics)
+// What rays of a view meet; false when nothing.
+RT_ALWAYS_INLINE bool shade_tile_view(const Prepared *p, unsigned features, const TileView *view,
+                                      const KernelPlaces *places, uint64_t wanted, Rgb *light, TileScratch *scratch,
+                                      MaterialIndex material[TILE_RAYS])
 {
     SphereTile *rays = &scratch->rays;
     TileHits hits;
@@ -637,15 +623,62 @@ RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const Til
         light[i] = background;
     }
     if (geometry_view_passes(p->geometry, features, view, places->u, places->v)) {
-        return;
+        return false;
     }
     geometry_closest_view(p->geometry, features, view, places->u, places->v, rays, &hits);
     uint64_t met = hits.met & wanted;
     if (!met) {
+        return false;
+    }
+    geometry_tile_surfaces(p->geometry, features, rays, &hits, met, &scratch->tile.surfaces, material);
+    return true;
+}
+
+// What rays of other cameras meet, each of which starts at a place of its own; false when nothing.
+RT_ALWAYS_INLINE bool shade_tile_apart(const Prepared *p, unsigned features, const KernelPlaces *places,
+                                       uint64_t wanted, Rgb *light, TileScratch *scratch,
+                                       MaterialIndex material[TILE_RAYS])
+{
+    TileSurfaces *surfaces = &scratch->tile.surfaces;
+    uint8_t own[TILE_RAYS];
+    SecondaryRays rays;
+    TileHits hits;
+    rays.count = 0;
+    rays.inward = 0;
+    for (; wanted; wanted &= wanted - 1) {
+        int i = __builtin_ctzll(wanted);
+        Ray ray;
+        bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
+        light[i] = is_seen ? rgb_add(rgb_grey(0.0), p->background) : rgb_grey(0.0);
+        if (is_seen) {
+            own[rays.count] = (uint8_t)i;
+            secondary_ray_add(&rays, ray.origin, ray.direction, SHAPE_NONE, false);
+        }
+    }
+    if (rays.count == 0) {
+        return false;
+    }
+    geometry_closest_secondary(p->geometry, features, HIDDEN_CAMERA, &rays, &hits);
+    if (!hits.met) {
+        return false;
+    }
+    geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+    for (int i = 0; i < surfaces->count; i++) {
+        surfaces->ray[i] = own[surfaces->ray[i]];
+    }
+    return true;
+}
+
+// The light of camera rays. `view`: of a perspective camera without a lens; NULL: of another one.
+RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
+                                 SampleStream *streams, uint64_t wanted, Rgb *light, TileScratch *scratch,
+                                 RenderStatistics *statistics)
+{
+    MaterialIndex material[TILE_RAYS];
+    if (view ? !shade_tile_view(p, features, view, places, wanted, light, scratch, material)
+             : !shade_tile_apart(p, features, places, wanted, light, scratch, material)) {
         return;
     }
-    MaterialIndex material[TILE_RAYS];
-    geometry_tile_surfaces(p->geometry, features, rays, &hits, met, &scratch->tile.surfaces, material);
     if (features & RENDER_TRANSPARENCY) {
         shade_tile_clear(p, features, scratch, material, streams, light, statistics);
     } else {

@@ -12,6 +12,12 @@
 
 enum { TRACE_ANY_SPHERES = TRACE_SPHERES | TRACE_SPHERE_BVH };
 
+// Whether there are parts: also where a kernel may have some, a scene without them takes the ways of spheres and planes.
+RT_ALWAYS_INLINE bool query_has_parts(const Geometry *g, unsigned features)
+{
+    return (features & TRACE_PARTS) && (g->features & TRACE_PARTS);
+}
+
 // The sphere of the table that the ray starts on, and whether it goes into it.
 typedef struct StartSphere {
     uint32_t slot; // SLOT_NONE: none
@@ -104,7 +110,7 @@ RT_ALWAYS_INLINE double query_start_error(const Geometry *g, unsigned features, 
         return g->plane_count > 0 ? shapes_start_error(&g->shapes, &own, start) : -1.0;
     }
     bool is_plane = (features & TRACE_PLANES) && start.shape != SHAPE_NONE && shape_kind(start.shape) == SHAPE_PLANE;
-    bool may_coincide = (features & TRACE_PARTS) || g->plane_count > 1;
+    bool may_coincide = query_has_parts(g, features) || g->plane_count > 1;
     return is_plane && may_coincide ? plane_crossing_error(&g->planes[shape_index(start.shape)].shape, own, 0.0) : 0.0;
 }
 
@@ -123,7 +129,7 @@ RT_ALWAYS_INLINE double query_plane_root(const Geometry *g, uint32_t index, cons
 RT_ALWAYS_INLINE double query_plane_error(const Geometry *g, unsigned features, uint32_t index, const SphereRay *ray,
                                           double t)
 {
-    bool may_coincide = (features & TRACE_PARTS) || g->plane_count > 1;
+    bool may_coincide = query_has_parts(g, features) || g->plane_count > 1;
     return may_coincide ? plane_crossing_error(&g->planes[index].shape, (Ray){ray->origin, ray->direction}, t) : 0.0;
 }
 
@@ -156,13 +162,14 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
     if (!(features & (TRACE_PLANES | TRACE_PARTS))) {
         return;
     }
+    bool has_parts = query_has_parts(g, features);
     double start_error = query_start_error(g, features, ray, start);
     Foremost first = foremost_start(hit, order, t_max);
     for (;;) {
         if (features & TRACE_PLANES) {
             query_planes_offer(g, features, ray, start, start_error, t_max, &first);
         }
-        if (features & TRACE_PARTS) {
+        if (has_parts) {
             g->kernels->shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, &first);
         }
         if (RT_LIKELY(!first.is_torn)) {
@@ -193,7 +200,7 @@ RT_ALWAYS_INLINE bool geometry_closest(const Geometry *g, unsigned features, Ray
 // The only other shape is a plane, which nothing coincides with.
 RT_ALWAYS_INLINE bool query_has_one_plane(const Geometry *g, unsigned features)
 {
-    return !(features & TRACE_PARTS) && (features & TRACE_PLANES) && g->plane_count == 1;
+    return !query_has_parts(g, features) && (features & TRACE_PLANES) && g->plane_count == 1;
 }
 
 // Brings the hit of a tile's ray up to date with all shapes but spheres.
@@ -241,8 +248,13 @@ static __attribute__((noinline, unused)) void query_tile_parts(const Geometry *g
         unsigned i = (unsigned)__builtin_ctzll(met);
         first.order[i] = g->spheres.info[shape_index(hits->shape[i])].order;
     }
-    for (unsigned i = 0; g->plane_count > 0 && i < TILE_RAYS; i++) {
-        query_tile_ray_planes(g, tile, i, &first);
+    uint64_t open = g->plane_count > 0 ? UINT64_MAX : 0;
+    if (g->plane_count == 1) {
+        const PlaneEntry *plane = &g->planes[0];
+        open = g->kernels->plane_foremost(&plane->shape, shape_id(SHAPE_PLANE, 0), plane->info.order, tile, &first);
+    }
+    for (; open; open &= open - 1) {
+        query_tile_ray_planes(g, tile, (unsigned)__builtin_ctzll(open), &first);
     }
     g->kernels->shapes_closest_tile(&g->shapes, tile, &first);
     for (uint64_t torn = first.torn; RT_UNLIKELY(torn); torn &= torn - 1) {
@@ -256,7 +268,7 @@ static __attribute__((noinline, unused)) void query_tile_parts(const Geometry *g
 // Brings the hits of a tile up to date with all shapes but spheres.
 RT_ALWAYS_INLINE void query_tile_others(const Geometry *g, unsigned features, const SphereTile *tile, TileHits *hits)
 {
-    if (features & TRACE_PARTS) {
+    if (query_has_parts(g, features)) {
         query_tile_parts(g, tile, hits);
         return;
     }
@@ -293,7 +305,7 @@ RT_ALWAYS_INLINE void query_tile_closest(const Geometry *g, unsigned features, c
 RT_ALWAYS_INLINE bool geometry_view_passes(const Geometry *g, unsigned features, const TileView *view,
                                            const double u[TILE_RAYS], const double v[TILE_RAYS])
 {
-    bool has_others = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 0);
+    bool has_others = query_has_parts(g, features) || ((features & TRACE_PLANES) && g->plane_count > 0);
     return (features & TRACE_SPHERES) && !has_others && g->kernels->view_passes(&g->spheres, view, u, v);
 }
 
@@ -310,13 +322,14 @@ RT_ALWAYS_INLINE void geometry_closest_view(const Geometry *g, unsigned features
 // Whether there are but few spheres, and a plane at most.
 RT_ALWAYS_INLINE bool query_is_few(const Geometry *g, unsigned features)
 {
-    bool has_others = (features & TRACE_PARTS) || ((features & TRACE_PLANES) && g->plane_count > 1);
+    bool has_others = query_has_parts(g, features) || ((features & TRACE_PLANES) && g->plane_count > 1);
     return !has_others && sphere_table_is_few(&g->spheres);
 }
 
-// What rays that continue from surfaces meet, as geometry_closest says of each; there is at least one.
-RT_ALWAYS_INLINE void geometry_closest_secondary(const Geometry *g, unsigned features, SecondaryRays *rays,
-                                                 TileHits *hits)
+// What rays that start apart from each other meet, as geometry_closest says of each; there is at least one. `use`: as of
+// a RayStart, of all.
+RT_ALWAYS_INLINE void geometry_closest_secondary(const Geometry *g, unsigned features, uint8_t use,
+                                                 SecondaryRays *rays, TileHits *hits)
 {
     uint64_t open = ~UINT64_C(0) >> (TILE_RAYS - rays->count);
     hits->met = hits->inside = 0;
@@ -327,7 +340,7 @@ RT_ALWAYS_INLINE void geometry_closest_secondary(const Geometry *g, unsigned fea
     }
     for (; open; open &= open - 1) {
         unsigned i = (unsigned)__builtin_ctzll(open);
-        RayStart start = {rays->start[i], rays->inward >> i & 1, HIDDEN_MIRROR};
+        RayStart start = {rays->start[i], rays->inward >> i & 1, use};
         Hit hit;
         if (!geometry_closest(g, features, secondary_ray(rays, i), start, (double)INFINITY, &hit)) {
             hit = (Hit){(double)INFINITY, SHAPE_NONE, false};
@@ -370,7 +383,7 @@ RT_ALWAYS_INLINE bool query_occluded(const Geometry *g, unsigned features, bool 
     if ((features & TRACE_ANY_SPHERES) && asks_spheres && query_spheres_occluded(g, features, &sphere_ray, start, t_max)) {
         return true;
     }
-    return (features & TRACE_PARTS) && asks_parts &&
+    return query_has_parts(g, features) && asks_parts &&
            g->kernels->shapes_occluded(&g->shapes, &ray, start, start_error, t_max, blocker);
 }
 
@@ -441,6 +454,19 @@ static __attribute__((noinline, unused)) uint64_t query_parts_occluded(const Geo
     return occluded | g->kernels->shapes_occluded_surfaces(&g->shapes, from, rays, start_error, open, left_parts);
 }
 
+// The surfaces, of those asked for, that planes may be before. Beside parts less may be met of a plane than lies between
+// the ends of a way, never more.
+RT_ALWAYS_INLINE uint64_t query_planes_may_occlude(const Geometry *g, unsigned features, const TileSurfaces *from,
+                                                   const SurfaceRays *rays, uint64_t asked)
+{
+    if (!(features & TRACE_PLANES) || g->plane_count == 0 || !asked) {
+        return 0;
+    }
+    return g->plane_count == 1
+               ? asked & g->kernels->plane_occluded(&g->planes[0].shape, shape_id(SHAPE_PLANE, 0), from, rays)
+               : asked;
+}
+
 // The surfaces, of those asked for, that anything is before on their way to a point; `together` when that is the same
 // one. The same as geometry_occluded says of each.
 RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned features, const TileSurfaces *from,
@@ -453,13 +479,14 @@ RT_ALWAYS_INLINE uint64_t geometry_occluded_surfaces(const Geometry *g, unsigned
         occluded = query_plane_before_surfaces(&g->planes[0].shape, from, rays, occluded);
         left &= ~occluded;
     }
-    uint64_t left_parts = features & TRACE_PARTS ? asked : 0;
-    if (together && !(features & TRACE_PARTS)) {
+    bool has_parts = query_has_parts(g, features);
+    uint64_t left_parts = has_parts ? asked : 0;
+    if (together && !has_parts) {
         occluded |= g->kernels->occluded_surfaces(&g->spheres, from, rays, left, &left);
     } else if (together) {
         occluded |= query_parts_occluded(g, from, rays, asked, &left, &left_parts);
     }
-    uint64_t left_planes = (features & TRACE_PLANES) && !has_one_plane && g->plane_count > 0 ? asked : 0;
+    uint64_t left_planes = query_planes_may_occlude(g, features, from, rays, has_one_plane ? 0 : asked);
     uint32_t blocker = NO_BLOCKER;
     for (uint64_t open = (left | left_parts | left_planes) & ~occluded; open; open &= open - 1) {
         int i = __builtin_ctzll(open);
@@ -614,7 +641,7 @@ RT_ALWAYS_INLINE void geometry_tile_surfaces(const Geometry *g, unsigned feature
 {
     query_surfaces_begin(surfaces, hits, wanted);
     uint64_t done = g->kernels->surfaces(&g->spheres, tile, hits, surfaces);
-    if (features & TRACE_PARTS) {
+    if (query_has_parts(g, features)) {
         query_tile_surfaces_parts(g, done, tile, hits, surfaces, material);
     } else {
         query_tile_surfaces_end(g, features, done, tile, hits, surfaces, material);
@@ -628,7 +655,7 @@ RT_ALWAYS_INLINE void geometry_secondary_surfaces(const Geometry *g, unsigned fe
 {
     query_surfaces_begin(surfaces, hits, hits->met);
     uint64_t done = g->kernels->surfaces_secondary(&g->spheres, rays, hits, surfaces);
-    if (features & TRACE_PARTS) {
+    if (query_has_parts(g, features)) {
         query_secondary_surfaces_parts(g, done, rays, hits, surfaces, material);
     } else {
         query_secondary_surfaces_end(g, features, done, rays, hits, surfaces, material);

@@ -288,7 +288,7 @@ static bool tile_tree(ShapesTile *of)
 {
     DirectionRange range;
     of->others.count = of->others.node_count = 0;
-    if (of->table->tree.node_count <= 1) {
+    if (of->table->tree.node_count == 0) {
         return false;
     }
     direction_range(of->tile->direction, TILE_RAYS, &range);

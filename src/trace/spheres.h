@@ -172,6 +172,10 @@ typedef struct SphereKernels {
     // Brings hits up to date with a plane that nothing coincides with. Returns the rays that meet it exactly where they
     // meet something else; these are left as they are.
     uint64_t (*plane_closest)(const PlaneShape *plane, ShapeId shape, const SphereTile *tile, TileHits *hits);
+    // Makes a plane the first of those of a tile's rays that have met nothing so far, as foremost_offer does. Returns the
+    // rays that are left to that, which are as they were.
+    uint64_t (*plane_foremost)(const PlaneShape *plane, ShapeId shape, uint32_t order, const SphereTile *tile,
+                               TileForemost *all);
     // The surfaces with that plane before the ray's end; never those of the plane itself.
     uint64_t (*plane_occluded)(const PlaneShape *plane, ShapeId shape, const TileSurfaces *from,
                                const SurfaceRays *rays);

@@ -238,6 +238,7 @@ const SphereKernels ISA_NAMED(sphere_kernels_) = {
     .crossed = spheres_crossed,
     .ray_crossed = ray_crossed,
     .plane_closest = plane_closest,
+    .plane_foremost = plane_foremost,
     .plane_occluded = plane_occluded,
     .view_tile = view_tile,
     .view_passes = view_passes,

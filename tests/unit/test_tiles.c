@@ -84,7 +84,7 @@ static int secondary_differing(const Geometry *g, unsigned features, SecondaryRa
     TileSurfaces surfaces;
     MaterialIndex material[TILE_RAYS];
     int different = 0;
-    geometry_closest_secondary(g, features, rays, &hits);
+    geometry_closest_secondary(g, features, HIDDEN_MIRROR, rays, &hits);
     for (int i = 0; i < rays->count; i++) {
         RayStart start = {rays->start[i], rays->inward >> i & 1, HIDDEN_MIRROR};
         Hit hit;

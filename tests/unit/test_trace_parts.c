@@ -184,7 +184,7 @@ static void surfaces_try(const Geometry *g, unsigned features, const SphereTile 
     }
     TileHits beyond;
     TileSurfaces there;
-    geometry_closest_secondary(g, features, &secondary, &beyond);
+    geometry_closest_secondary(g, features, HIDDEN_MIRROR, &secondary, &beyond);
     if (beyond.met) {
         geometry_secondary_surfaces(g, features, &secondary, &beyond, &there, material);
         for (int i = 0; i < there.count; i++) {
