@@ -53,6 +53,7 @@ unit_programs = \
   tests/unit/test_study \
   tests/unit/test_trace_pixel \
   tests/unit/test_trace_parts \
+  tests/unit/test_trace_csg \
   tests/unit/test_trace_shapes \
   tests/unit/test_torus \
   tests/unit/test_scene \
@@ -115,6 +116,8 @@ tests/unit/test_trace_certified.$(OBJEXT): src/study/optional.h
 trace_headers = %D%/unit/trace_scenes.h $(unit_headers)
 tests_unit_test_trace_geometry_SOURCES = %D%/unit/test_trace_geometry.c $(trace_headers)
 tests_unit_test_trace_geometry_LDADD = $(UNIT_TRACE)
+tests_unit_test_trace_csg_SOURCES = %D%/unit/test_trace_csg.c $(trace_headers)
+tests_unit_test_trace_csg_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_parts_SOURCES = %D%/unit/test_trace_parts.c $(trace_headers)
 tests_unit_test_trace_parts_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_shapes_SOURCES = %D%/unit/test_trace_shapes.c $(trace_headers)

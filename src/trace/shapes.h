@@ -43,11 +43,14 @@ typedef struct TreeNode {
     uint32_t idle_inside; // children that a line is inside of when it crosses no leaf
 } TreeNode;
 
+enum { CSG_PLAIN_MOST = 8 };
+
 typedef struct CsgTree {
     uint32_t first_node, node_count;
     uint32_t first_solid, solid_count;
     uint32_t crossing_count; // of one ray, at most
     uint8_t hidden;
+    bool is_plain; // all of a few convex solids in one node
     uint32_t order;
     uint32_t seen_count; // its solids from there on only clip others
 } CsgTree;

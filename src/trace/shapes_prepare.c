@@ -136,6 +136,11 @@ static Bounds csg_measure(ShapeTable *table, const CsgTree *csg, const Bounds *s
     return bounds_are_finite(bounds) ? bounds : bounds_meet(bounds, planes_bounds(table, csg));
 }
 
+static bool node_is_all(const TreeNode *node)
+{
+    return node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
+}
+
 static void csg_init(ShapeTable *table, const Composite *composite, uint32_t index)
 {
     CsgTree *csg = &table->csg_trees[index];
@@ -145,17 +150,19 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
                      .solid_count = composite->part_count,
                      .hidden = composite->hidden,
                      .order = composite->order};
+    csg->is_plain = csg->node_count == 1 && csg->solid_count <= CSG_PLAIN_MOST &&
+                    node_is_all(&table->nodes[csg->first_node]) && !table->nodes[csg->first_node].is_inverse;
     for (uint32_t i = composite->first_part; i < composite->first_part + composite->part_count; i++) {
         Solid *solid = &table->solids[i];
         csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
+        csg->is_plain = csg->is_plain && solid_is_convex(solid) && !solid_is_flat(solid);
         csg->crossing_count += solid_is_convex(solid) ? 2 : 2 * INTERVALS_MOST;
         solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid_is_convex(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];
             solid->flips = solid->flips != node->is_inverse;
-            bool is_all = node->op == NODE_INTERSECTION || node->op == NODE_CLIP;
-            solid->decides = solid->decides && is_all && !node->is_inverse;
+            solid->decides = solid->decides && node_is_all(node) && !node->is_inverse;
         }
     }
 }
