@@ -164,6 +164,11 @@ double noise_value(const Noise *noise, NoiseGenerator generator, Vec3 p)
     return noise->kernel->value(noise, generator, p);
 }
 
+void noise_values(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *values)
+{
+    noise->kernel->values(noise, generator, count, points, values);
+}
+
 double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p)
 {
     return noise->kernel->spread(noise, generator, p);
@@ -171,7 +176,7 @@ double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p)
 
 void noise_spreads(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *spreads)
 {
-    noise->kernel->values(noise, generator, count, points, spreads);
+    noise_values(noise, generator, count, points, spreads);
     for (unsigned i = 0; i < count; i++) {
         spreads[i] = noise_spread_of(generator, spreads[i]);
     }

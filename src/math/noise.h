@@ -44,11 +44,13 @@ NoiseGenerator noise_generator(double number);
 
 // From 0 to 1.
 double noise_value(const Noise *noise, NoiseGenerator generator, Vec3 p);
+// Of many points, four at a time.
+void noise_values(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *values);
 
 // The same with its middle half stretched to fill 0 to 1, but for the first generator, which is as it is.
 double noise_spread(const Noise *noise, NoiseGenerator generator, Vec3 p);
 
-// noise_spread of many points, four at a time.
+// Of many points, likewise.
 void noise_spreads(const Noise *noise, NoiseGenerator generator, unsigned count, const Vec3 *points, double *spreads);
 
 // Three independent numbers around 0, the first generator's first.

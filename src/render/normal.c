@@ -35,10 +35,14 @@ static Vec3 lean(const TextureTable *table, uint32_t index, Vec3 point)
         {-0.471404521, -0.333333333, 0.816496581},
         {-0.471404521, -0.333333333, -0.816496581},
     };
-    Vec3 sum = vec3(0.0, 0.0, 0.0);
+    Vec3 sum = vec3(0.0, 0.0, 0.0), places[4];
+    double heights[4];
     for (int i = 0; i < 4; i++) {
-        Vec3 corner = vec3_add(point, vec3_scale(record->accuracy, corners[i]));
-        double height = pattern_value_moved(&record->pattern, &table->source, corner);
+        places[i] = vec3_add(point, vec3_scale(record->accuracy, corners[i]));
+    }
+    pattern_values_moved(&record->pattern, &table->source, 4, places, heights);
+    for (int i = 0; i < 4; i++) {
+        double height = heights[i];
         if (record->slopes != RECORD_NONE) {
             height = slope_height(table->scene->slope_entries.items, &table->slope_lists[index], height);
         }

@@ -275,11 +275,6 @@ const EscapeKernel *escape_kernel_choose(const char *isa)
     return escape_kernels[0];
 }
 
-bool pattern_goes_abreast(const Pattern *pattern)
-{
-    return pattern->type == PATTERN_MANDEL || pattern->type == PATTERN_JULIA;
-}
-
 // The last point stands in for those that are missing.
 static void escapes(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *p, double *shares)
 {
@@ -296,14 +291,43 @@ static void escapes(const Pattern *pattern, const NoiseSource *source, unsigned 
     memcpy(shares, all, count * sizeof *shares);
 }
 
-void pattern_values_moved(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *moved,
-                          double *shares)
+static void many_escapes(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *points,
+                         double *shares)
 {
     for (unsigned from = 0; from < count; from += ESCAPE_ABREAST) {
         unsigned some = count - from < ESCAPE_ABREAST ? count - from : ESCAPE_ABREAST;
-        escapes(pattern, source, some, moved + from, shares + from);
-        for (unsigned i = from; i < from + some; i++) {
-            shares[i] = finished(pattern, shares[i]);
+        escapes(pattern, source, some, points + from, shares + from);
+    }
+}
+
+typedef void (*PatternAbreast)(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *points,
+                               double *values);
+
+// Of those that take less time so.
+static const PatternAbreast many_values[PATTERN_COUNT] = {
+    [PATTERN_BOZO] = pattern_noises,
+    [PATTERN_BUMPS] = pattern_noises,
+    [PATTERN_SPOTTED] = pattern_noises,
+    [PATTERN_MANDEL] = many_escapes,
+    [PATTERN_JULIA] = many_escapes,
+};
+
+bool pattern_goes_abreast(const Pattern *pattern)
+{
+    return many_values[pattern->type];
+}
+
+void pattern_values_moved(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *moved,
+                          double *shares)
+{
+    if (!pattern_goes_abreast(pattern)) {
+        for (unsigned i = 0; i < count; i++) {
+            shares[i] = pattern_value_moved(pattern, source, moved[i]);
         }
+        return;
+    }
+    many_values[pattern->type](pattern, source, count, moved, shares);
+    for (unsigned i = 0; i < count; i++) {
+        shares[i] = finished(pattern, shares[i]);
     }
 }

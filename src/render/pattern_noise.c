@@ -30,6 +30,12 @@ double pattern_noise(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     return noise_value(source->noise, pattern_generator(pattern, source), p);
 }
 
+void pattern_noises(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *points,
+                    double *values)
+{
+    noise_values(source->noise, pattern_generator(pattern, source), count, points, values);
+}
+
 double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     enum { OCTAVES = 6 };

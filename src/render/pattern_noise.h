@@ -19,6 +19,9 @@ static inline Vec3 pattern_nudged(Vec3 p)
 }
 
 double pattern_noise(const Pattern *pattern, const NoiseSource *source, Vec3 p);
+// The same of many points.
+void pattern_noises(const Pattern *pattern, const NoiseSource *source, unsigned count, const Vec3 *points,
+                    double *values);
 double pattern_granite(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_agate(const Pattern *pattern, const NoiseSource *source, Vec3 p);
 double pattern_marble(const Pattern *pattern, const NoiseSource *source, Vec3 p);
