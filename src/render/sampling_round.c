@@ -12,10 +12,10 @@ static const uint32_t CORNER_SEED = UINT32_C(0x9e3779b9);
 
 uint32_t round_samples(const Round *round, size_t pixel)
 {
-    uint32_t count = round->film->records[pixel].count;
     if (!round_has(round, pixel)) {
-        return 0;
+        return 0; // most pixels of most rounds: their records are not read
     }
+    uint32_t count = round->film->records[pixel].count;
     return round->count > 0 ? round->count - count : round_starts(round, count) ? START_SAMPLES : count;
 }
 
