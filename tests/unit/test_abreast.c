@@ -23,7 +23,7 @@ static Vec3 any_point(Random *random)
 
 static int differences(const Pattern *pattern, const NoiseSource *source, unsigned count, Random *random)
 {
-    Vec3 points[MOST];
+    Vec3 points[MOST] = {{0.0, 0.0, 0.0}};
     double values[MOST];
     int different = 0;
     for (unsigned i = 0; i < count; i++) {
@@ -54,13 +54,33 @@ static void test_escapes(PatternType type, const char *name)
     }
 }
 
+static void test_noise(PatternType type, const char *name)
+{
+    static Noise noise;
+    for (size_t isa = 0; geometry_isa(isa); isa++) {
+        Random random = {random_seed(NULL)};
+        noise_init(&noise, geometry_isa(isa));
+        NoiseSource source = {.noise = &noise, .generator = NOISE_CORRECTED};
+        int different = 0;
+        for (int turn = 0; turn < 500; turn++) {
+            Pattern pattern = {.type = (uint8_t)type, .frequency = turn % 3, .generator = turn % 4};
+            different += differences(&pattern, &source, 1 + random_below(&random, MOST), &random);
+        }
+        tap_ok(different == 0, "%s abreast by %s is what it is point by point (%d differ)", name, geometry_isa(isa),
+               different);
+    }
+}
+
 int main(void)
 {
     tap_ok(pattern_goes_abreast(&(Pattern){.type = PATTERN_MANDEL}) &&
                pattern_goes_abreast(&(Pattern){.type = PATTERN_JULIA}) &&
+               pattern_goes_abreast(&(Pattern){.type = PATTERN_BUMPS}) &&
                !pattern_goes_abreast(&(Pattern){.type = PATTERN_GRADIENT}),
-           "patterns of many steps go abreast");
+           "patterns of many steps and of noise go abreast");
     test_escapes(PATTERN_MANDEL, "mandel");
     test_escapes(PATTERN_JULIA, "julia");
+    test_noise(PATTERN_BOZO, "bozo");
+    test_noise(PATTERN_BUMPS, "bumps");
     return tap_done();
 }
