@@ -76,7 +76,8 @@ static rt_status tell_view(rt_session *session, const Model *m)
 
 static void model_make(Model *m, Random *random)
 {
-    *m = (Model){.counts = {9 + random_below(random, SPHERES - 9), 9 + random_below(random, SPHERES - 9)}};
+    *m = (Model){.counts = {9 + random_below(random, SPHERES - 9)}};
+    m->counts[1] = 9 + random_below(random, SPHERES - 9);
     fill(random, m->centers[0][0], GROUPS * SPHERES * 3, -3.0, 3.0);
     fill(random, m->radii[0], GROUPS * SPHERES, 0.05, 0.3);
     fill(random, m->colors[0][0], GROUPS * SPHERES * 3, 0.0, 1.0);
