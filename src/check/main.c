@@ -24,6 +24,7 @@
 #include "check/povray_range.h"
 #include "check/povray_run.h"
 #include "check/report.h"
+#include "check/report_about.h"
 #include "check/report_html.h"
 #include "check/report_scenes.h"
 #include "check/say.h"
@@ -131,22 +132,22 @@ static void range_find(rt_session *session, Outcome *outcome)
     povray_range_describe(&range, outcome->range, sizeof outcome->range);
 }
 
-static bool rtlang_run(const Check *check, const char *output, Outcome *outcome)
+// The session stays, with the scene in it.
+static bool rtlang_run(const Check *check, const char *output, RtlangRun *run)
 {
-    RtlangRun run = {.outcome = outcome};
-    rt_callbacks callbacks = {.client = &run, .diagnostic = on_diagnostic, .progress = on_progress};
+    Outcome *outcome = run->outcome;
+    rt_callbacks callbacks = {.client = run, .diagnostic = on_diagnostic, .progress = on_progress};
     double start = clock_seconds();
     rt_status status = RT_FAULT_LIMIT;
 
-    run.session = rt_session_new(&callbacks);
-    if (run.session) {
-        status = rtlang_steps(run.session, check, outcome->scene, NULL, output);
+    run->session = rt_session_new(&callbacks);
+    if (run->session) {
+        status = rtlang_steps(run->session, check, outcome->scene, NULL, output);
     }
     outcome->rtlang_seconds = clock_seconds() - start;
     if (status == RT_OK) {
-        range_find(run.session, outcome);
+        range_find(run->session, outcome);
     }
-    rt_session_free(run.session);
     if (status != RT_OK && outcome->detail[0] == '\0') {
         snprintf(outcome->detail, sizeof outcome->detail, "rtlang failed with status %d", (int)status);
     }
@@ -298,13 +299,14 @@ static void elsewhere_find(const Check *check, const Image *ours, const Image *t
 static bool scene_check(const Check *check, int number, Outcome *outcome)
 {
     Image ours = {0}, theirs = {0};
+    RtlangRun run = {.outcome = outcome};
     bool fine = true;
     Files files;
 
     *outcome = (Outcome){.scene = check->options->scenes[number]};
     if (!files_init(&files, check, number)) {
         snprintf(outcome->detail, sizeof outcome->detail, "out of memory");
-    } else if (rtlang_run(check, files.rtlang, outcome) && povray_make(check, &files, outcome) &&
+    } else if (rtlang_run(check, files.rtlang, &run) && povray_make(check, &files, outcome) &&
                picture_read(check->options, files.rtlang, &ours, outcome) &&
                picture_read(check->options, files.povray, &theirs, outcome)) {
         pictures_compare(check->options, &ours, &theirs, outcome);
@@ -316,8 +318,9 @@ static bool scene_check(const Check *check, int number, Outcome *outcome)
         }
     }
     if (check->report && interrupted == 0) {
-        fine = scenes_report_add(check->report, outcome, &ours, &theirs);
+        fine = scenes_report_add(check->report, outcome, check->options, run.session, &ours, &theirs);
     }
+    rt_session_free(run.session);
     image_fini(&ours);
     image_fini(&theirs);
     files_fini(&files);
@@ -368,6 +371,7 @@ static bool report_print_page(const Check *check, const char *path)
              "A scene of %d x %d pixels agrees when at most %g %% of them differ by more than %g/65535.",
              options->width, options->height, 100.0 * options->ties, report_steps(options->threshold));
     fine = scenes_report_print(check->report, page, bar);
+    report_about(page, options, check->povray, check->folder);
     return report_page_close(page) && fine;
 }
 
@@ -501,6 +505,7 @@ static bool stability_write(const Check *check, const Stability *stability)
         return false;
     }
     fine = stability_page(stability, page);
+    report_about(page, check->options, check->povray, check->folder);
     fine = report_page_close(page) && fine;
     snprintf(path, sizeof path, "%s/stability.json", folder);
     FILE *out = fine ? fopen(path, "wb") : NULL;

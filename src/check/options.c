@@ -261,7 +261,9 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     OptionReading reading = {.advice = ""};
     const OptionRow *stops;
 
-    *options = (Options){.width = 320,
+    *options = (Options){.words = argv,
+                         .word_count = argc,
+                         .width = 320,
                          .height = 240,
                          .threshold = 2.0 / 65535.0,
                          .ties = 1e-4,

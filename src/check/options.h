@@ -35,6 +35,8 @@ struct Options {
     int race_width, race_height; // 0: as large as it takes
     bool race;  // the race alone
     bool study; // of error against time, instead of a comparison
+    char **words; // of the command line, the program's name first
+    int word_count;
     char **scenes;
     int scene_count;
     ColorChoice color; // of what is said on stderr

@@ -252,6 +252,31 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     return fine;
 }
 
+// `povray --version` prints "POV-Ray 3.7.0.10.unofficial", perhaps below complaints about its configuration.
+bool povray_version(const char *program, const char *log, char *text, size_t size)
+{
+    char *arguments[] = {(char[]){"povray"}, (char[]){"--version"}, NULL};
+    PovrayJob job = {.program = program, .log = log};
+    pid_t process;
+    FILE *file = NULL;
+
+    if (process_start(&job, arguments, ".", &process) == 0 && process_wait(process, NULL) == 0) {
+        file = fopen(log, "rb");
+    }
+    bool is_read = false;
+    while (file && !is_read && size > 0 && fgets(text, (int)size, file)) {
+        is_read = strncmp(text, "POV-Ray ", strlen("POV-Ray ")) == 0;
+    }
+    if (file) {
+        fclose(file);
+    }
+    unlink(log);
+    if (is_read) {
+        text[strcspn(text, "\r\n")] = '\0';
+    }
+    return is_read;
+}
+
 // "Pixels:     1300   Samples:    3852   Smpls/Pxl: 2.96", then "  Trace Time:       0 hours  0 minutes  1 seconds
 // (1.234 seconds)" and below "using 1 thread(s) with 1.200 CPU-seconds total".
 PovrayCost povray_cost(const char *log)

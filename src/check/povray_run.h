@@ -28,6 +28,10 @@ char *povray_find(const char *name);
 // Runs and waits. False when POV-Ray failed or left no picture; `detail` then says why, in a few lines.
 bool povray_run(const PovrayJob *job, char *detail, size_t detail_size);
 
+// The version that POV-Ray tells of itself. `log` is the path of a file that may be written and removed. False when it
+// tells none.
+bool povray_version(const char *program, const char *log, char *text, size_t size);
+
 // What a run took, by its log; 0 where that does not tell.
 typedef struct PovrayCost {
     double seconds; // of the processor, tracing

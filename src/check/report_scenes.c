@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "check/report_scenes.h"
 
+#include "check/report_rays.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -52,8 +54,16 @@ static void heat_print_scale(FILE *out)
         const char *words;
     } marks[] = {{0, "0"}, {2, "2"}, {16, "16"}, {257, "257 = 1/255"}, {4096, "4096"}, {65535, "65535"}};
 
-    fputs("<div class=\"scale\" role=\"img\" aria-label=\"Scale of differences, from 0 to 65535 steps of 1/65535\">"
-          "<div class=\"colours\" style=\"background: linear-gradient(to right",
+    fputs("<p class=\"tools\"><label>Scale of the difference <select class=\"scale-choice\"><option value=\"0\">logarithmic, "
+          "to 65535</option><option value=\"16\">even, to 16</option><option value=\"257\">even, to 257 = 1/255</option>"
+          "<option value=\"4096\">even, to 4096</option><option value=\"65535\">even, to 65535</option></select></label></p>\n"
+          "<div class=\"scale\" role=\"img\" aria-label=\"Scale of differences in steps of 1/65535\" data-stops=\"[",
+          out);
+    for (size_t i = 0; i < COUNT_OF(heat_stops); i++) {
+        const unsigned char *c = heat_stops[i].colour;
+        fprintf(out, "%s[%g,%d,%d,%d]", i > 0 ? "," : "", heat_stops[i].place, c[0], c[1], c[2]);
+    }
+    fputs("]\"><div class=\"colours\" style=\"background: linear-gradient(to right",
           out);
     for (size_t i = 0; i < COUNT_OF(heat_stops); i++) {
         const unsigned char *c = heat_stops[i].colour;
@@ -88,7 +98,7 @@ static void histogram_words(int bin, char words[32])
 }
 
 // Bars whose heights are the logarithms of the counts.
-static void histogram_print(FILE *out, const Histogram *histogram)
+static void histogram_print(FILE *out, const Histogram *histogram, const char *name)
 {
     enum { LEFT = 8, BAR = 36, GAP = 4, HEIGHT = 110, TOP = 16, ALL = 150 };
     uint64_t pixels = 0;
@@ -96,8 +106,10 @@ static void histogram_print(FILE *out, const Histogram *histogram)
     for (int i = 0; i < HISTOGRAM_BINS; i++) {
         pixels += histogram->pixels[i];
     }
-    fprintf(out, "<svg class=\"plot\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"Histogram of differences\">\n",
-            LEFT + HISTOGRAM_BINS * (BAR + GAP), ALL);
+    fprintf(out,
+            "<div class=\"histogram\" tabindex=\"0\" role=\"region\" aria-label=\"Histogram of differences, %s\">"
+            "<svg class=\"plot\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"Histogram of differences\">\n",
+            name, LEFT + HISTOGRAM_BINS * (BAR + GAP), ALL);
     for (int i = 0; i < HISTOGRAM_BINS; i++) {
         double count = (double)histogram->pixels[i];
         double height = pixels > 0 ? HEIGHT * log10(1.0 + count) / log10(1.0 + (double)pixels) : 0.0;
@@ -115,17 +127,18 @@ static void histogram_print(FILE *out, const Histogram *histogram)
         fprintf(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">%ld</text></g>\n", x + BAR / 2, TOP + HEIGHT + 15,
                 histogram_end(i));
     }
-    fprintf(out, "<line x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\"/></svg>\n", LEFT, TOP + HEIGHT,
+    fprintf(out, "<line x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\"/></svg></div>\n", LEFT, TOP + HEIGHT,
             LEFT + HISTOGRAM_BINS * (BAR + GAP) - GAP, TOP + HEIGHT);
 }
 
 // ---- a scene's pictures
 
-static bool figure_print(ScenesReport *report, const Image *image, const ImageEncoding *encoding, const char *words)
+static bool figure_print(ScenesReport *report, const Image *image, const ImageEncoding *encoding, const char *words,
+                         const char *attribute)
 {
     bool fine;
 
-    fputs("<figure><button type=\"button\" aria-pressed=\"false\"><img alt=\"", report->out);
+    fprintf(report->out, "<figure><button type=\"button\" aria-pressed=\"false\"><img%s alt=\"", attribute);
     html_text(report->out, words);
     fprintf(report->out, "\" width=\"%d\" height=\"%d\" src=\"", image->width, image->height);
     fine = html_picture(report->out, image, encoding);
@@ -149,7 +162,7 @@ static bool differences_print(ScenesReport *report, const Image *ours, const Ima
         exact.values[3 * i + 1] = (float)(fmod(steps, 256.0) / 255.0);
         histogram->pixels[histogram_bin(steps)]++;
     }
-    fine = fine && figure_print(report, &heat, &as_codes, "the difference");
+    fine = fine && figure_print(report, &heat, &as_codes, "the difference", " class=\"difference\"");
     if (fine) {
         fputs("<img class=\"steps\" alt=\"\" hidden src=\"", report->out);
         fine = html_picture(report->out, &exact, &as_codes);
@@ -166,10 +179,12 @@ static bool pictures_print(ScenesReport *report, const Image *ours, const Image 
     bool fine;
 
     fputs("<div class=\"pictures\">\n", report->out);
-    fine = figure_print(report, ours, &for_screens, "rtlang") &&
-           figure_print(report, theirs, &for_screens, "POV-Ray") && differences_print(report, ours, theirs, &histogram);
+    fine = figure_print(report, ours, &for_screens, "rtlang", "") &&
+           figure_print(report, theirs, &for_screens, "POV-Ray", "") && differences_print(report, ours, theirs, &histogram);
     fputs("</div>\n<output class=\"probe\"></output>\n", report->out);
-    histogram_print(report->out, &histogram);
+    char name[32];
+    snprintf(name, sizeof name, "scene %d", report->count);
+    histogram_print(report->out, &histogram, name);
     for (int i = 0; i < HISTOGRAM_BINS; i++) {
         report->all.pixels[i] += histogram.pixels[i];
     }
@@ -201,7 +216,8 @@ static void range_print(FILE *out, const Outcome *outcome)
     }
 }
 
-bool scenes_report_add(ScenesReport *report, const Outcome *outcome, const Image *ours, const Image *theirs)
+bool scenes_report_add(ScenesReport *report, const Outcome *outcome, const Options *options, rt_session *session,
+                       const Image *ours, const Image *theirs)
 {
     FILE *out = report->out;
     bool fine = report->count < report->room;
@@ -216,6 +232,7 @@ bool scenes_report_add(ScenesReport *report, const Outcome *outcome, const Image
     range_print(out, outcome);
     if (outcome->compared) {
         fine = pictures_print(report, ours, theirs);
+        report_rays(out, report->count, outcome->scene, options, session, ours, theirs);
     } else {
         fputs("<pre>", out);
         html_text(out, outcome->detail);
@@ -350,7 +367,7 @@ bool scenes_report_print(ScenesReport *report, ReportPage *page, const char *bar
     fputs("<p class=\"faint\">How many pixels of all scenes differ by how many steps of 1/65535. Below each bar stands "
           "the greatest difference in it; the heights are logarithms.</p>\n",
           out);
-    histogram_print(out, &report->all);
+    histogram_print(out, &report->all, "all scenes");
     out = report_page_section(page, "pictures", "Pictures");
     fputs("<p>The difference of a pixel is that of the channel that differs most, on this scale of steps of "
           "1/65535:</p>\n",

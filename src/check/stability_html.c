@@ -8,11 +8,12 @@
 #include "check/stability.h"
 #include "study/oracle.h"
 
-static void head(FILE *out, const char *const *titles)
+static void head(FILE *out, const char *name, const char *const *titles)
 {
-    fputs("<div class=\"scroll\"><table class=\"sortable\"><thead><tr>", out);
+    fprintf(out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table class=\"sortable\"><thead><tr>",
+            name);
     for (; *titles; titles++) {
-        fputs("<th>", out);
+        fputs("<th scope=\"col\">", out);
         html_text(out, *titles);
         fputs("</th>", out);
     }
@@ -30,6 +31,25 @@ static void cell_number(FILE *out, double value, double bar)
     fprintf(out, "<td class=\"number%s\">%.3g</td>", verdict, value);
 }
 
+// The answer that was computed is the exact answer to a question nearby: how near, is the backward error.
+static void put_backward(FILE *out)
+{
+    fputs("<figure class=\"drawn\"><svg class=\"backward\" viewBox=\"0 0 440 230\" role=\"img\" aria-label=\"A ray and a sphere "
+          "as given, and the sphere nearby on which the computed point lies exactly\">\n"
+          "<line class=\"ray\" x1=\"10\" y1=\"104\" x2=\"425\" y2=\"104\"/>"
+          "<circle class=\"given\" cx=\"300\" cy=\"120\" r=\"80\"/><circle class=\"nearby\" cx=\"300\" cy=\"120\" r=\"98\"/>"
+          "<circle class=\"exact\" cx=\"221.6\" cy=\"104\" r=\"4\"/><circle class=\"computed\" cx=\"203.3\" cy=\"104\" r=\"4\"/>"
+          "<line class=\"off\" x1=\"300\" y1=\"200\" x2=\"300\" y2=\"218\"/>"
+          "<text x=\"12\" y=\"96\">the ray, as given</text><text x=\"258\" y=\"150\">the sphere, as given</text>"
+          "<text x=\"60\" y=\"30\">nearby: the computed</text><text x=\"60\" y=\"46\">point is exact here</text>"
+          "<text x=\"228\" y=\"98\">exact point</text><text x=\"88\" y=\"124\">computed point</text></svg>\n"
+          "<figcaption>Every computed point lies exactly on some sphere nearby, here far enough off to be seen. The backward "
+          "error is how far that one is from the sphere that was given, beside what rounding of the input moves it anyway: "
+          "1 u is no more than writing the numbers down, and a great error means that another scene was drawn.</figcaption>"
+          "</figure>\n",
+          out);
+}
+
 static void put_families(const Stability *stability, FILE *out)
 {
     static const char *const titles[] = {"Family",
@@ -44,13 +64,11 @@ static void put_families(const Stability *stability, FILE *out)
                                          "rtlang: no t",
                                          "By double words",
                                          NULL};
-    fputs("<p>A ray against a sphere in families of hard cases, beside exact arithmetic (", out);
+    fputs("<h3>Formulas on hard rays</h3>\n<p>A ray against a sphere in families of hard cases, beside exact arithmetic (", out);
     html_text(out, oracle_name());
-    fputs("). The backward error is how far the point is off the sphere beside what rounding of the input would do, in "
-          "u = 2<sup>-53</sup>; "
-          "the class is miss, near or far root.</p>\n",
-          out);
-    head(out, titles);
+    fputs("), in units of u = 2<sup>-53</sup>. The class is miss, near or far root.</p>\n", out);
+    put_backward(out);
+    head(out, "Formulas", titles);
     for (size_t i = 0; i < stability->family_count; i++) {
         const SphereRow *row = &stability->families[i];
         fputs("<tr><td>", out);
@@ -143,7 +161,7 @@ static void put_secondary(const Stability *stability, FILE *out)
                                          "rtlang: missed contacts",
                                          NULL};
     fputs("<h3>Rays that start on a surface, in %</h3>\n", out);
-    head(out, titles);
+    head(out, "Rays that start on a surface", titles);
     for (int i = 0; i < SCALES; i++) {
         const SecondaryRow *row = &stability->secondary[i];
         fprintf(out, "<tr><td class=\"number\">%.0e</td>", row->scale);
@@ -162,7 +180,7 @@ static void put_mirrors(const Stability *stability, FILE *out)
     static const char *const titles[] = {"Gap",  "Growth a bounce", "float", "theory", "double", "theory",
                                          "quad", "theory",          NULL};
     fputs("<h3>Two unit mirrors: bounces until the path is lost</h3>\n", out);
-    head(out, titles);
+    head(out, "Mirrors", titles);
     for (int i = 0; i < MIRRORS; i++) {
         const MirrorRow *row = &stability->mirrors[i];
         fprintf(out, "<tr><td class=\"number\">%g</td><td class=\"number\">%.2f</td>", row->gap, row->growth);
@@ -180,7 +198,7 @@ static void put_shells(const Stability *stability, FILE *out)
                                          "rtlang: wrong order", "rtlang: same t", NULL};
     const TotalRow *total = &stability->total;
     fputs("<h3>Shells within one another</h3>\n", out);
-    head(out, titles);
+    head(out, "Shells", titles);
     for (int i = 0; i < SHELLS; i++) {
         const ShellRow *row = &stability->shells[i];
         fprintf(out, "<tr><td class=\"number\">%.0e</td><td class=\"number\">%" PRIu64 "</td>", row->gap, row->cases);
@@ -203,7 +221,7 @@ static void put_pictures(const Stability *stability, FILE *out)
 {
     static const char *const titles[] = {"Scene", "Put", "Beside", "Bits", "Values off by 1e-6", "RMSE", NULL};
     fputs("<h3>Pictures put elsewhere</h3>\n", out);
-    head(out, titles);
+    head(out, "Pictures put elsewhere", titles);
     for (size_t i = 0; i < stability->picture_count; i++) {
         const PictureRow *row = &stability->pictures[i];
         fputs("<tr><td>", out);
@@ -226,7 +244,9 @@ static void put_pictures(const Stability *stability, FILE *out)
 static bool put_picture(const Image *image, const char *caption, FILE *out)
 {
     static const ImageEncoding encoding = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_SRGB};
-    fputs("<figure><img alt=\"\" src=\"", out);
+    fputs("<figure><img alt=\"", out);
+    html_text(out, caption);
+    fputs("\" src=\"", out);
     bool fine = html_picture(out, image, &encoding);
     fprintf(out, "\"><figcaption>%s</figcaption></figure>\n", caption);
     return fine;
@@ -253,6 +273,26 @@ static bool put_shown(const Stability *stability, FILE *out)
     return fine;
 }
 
+// Of how many pictures more than one pixel in a thousand is another than that of the scene as it is.
+static void put_breaks_sum(const Stability *stability, FILE *out)
+{
+    size_t ours = 0, theirs = 0;
+
+    if (stability->break_count == 0) {
+        fputs("<p>No scene was given: rtcheck --stability SCENE… draws them.</p>\n", out);
+        return;
+    }
+    for (size_t i = 0; i < stability->break_count; i++) {
+        const BreakRow *row = &stability->breaks[i];
+        ours += row->off * 1000 > row->pixels;
+        theirs += !row->has_povray || row->povray_off * 1000 > row->pixels;
+    }
+    fprintf(out,
+            "<p class=\"verdict\">Of %zu pictures of scenes put elsewhere, POV-Ray draws %zu otherwise or not at all, rtlang "
+            "%zu.</p>\n",
+            stability->break_count, theirs, ours);
+}
+
 static bool put_breaks(const Stability *stability, FILE *out)
 {
     bool fine = true;
@@ -260,6 +300,7 @@ static bool put_breaks(const Stability *stability, FILE *out)
           "differ by more "
           "than 2/255 from the scene as it is. A shift by 1e6 is still within that range.</p>\n",
           out);
+    put_breaks_sum(stability, out);
     for (size_t i = 0; i < stability->break_count; i++) {
         const BreakRow *row = &stability->breaks[i];
         char caption[128];
@@ -286,12 +327,13 @@ bool stability_page(const Stability *stability, ReportPage *page)
     fprintf(out, "<p>%s</p>\n",
             stability_holds(stability) ? "All that docs/numerics.md promises holds."
                                        : "Something that docs/numerics.md promises does not hold.");
+    bool fine = put_breaks(stability, out);
     put_families(stability, out);
     put_plot(stability, out);
     put_secondary(stability, out);
     put_mirrors(stability, out);
     put_shells(stability, out);
-    bool fine = put_shown(stability, out);
+    fine = put_shown(stability, out) && fine;
     put_pictures(stability, out);
-    return put_breaks(stability, out) && fine && !ferror(out);
+    return fine && !ferror(out);
 }

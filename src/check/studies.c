@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include "check/report_about.h"
 #include "check/say.h"
 #include "check/study_print.h"
 
@@ -140,6 +141,7 @@ StudiesResult studies_run(const Options *options, const StudySettings *settings)
     }
     if (fine && files.page) {
         study_print_total_section(&total, files.page);
+        report_about(files.page, options, settings->povray, settings->folder);
     }
     fine = files_close(&files) && fine;
     free(study);

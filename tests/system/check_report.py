@@ -36,13 +36,13 @@ for a; do case $a in +O*) output=${a#+O?}; output=${output%?};; esac; done
 cp "${output%/*}/01-plain.scn.rtlang.png" "$output"
 """
 EXPECTED = {"plain.scn": "agrees", "a<b>&'\"c.scn": "differs", "far.scn": "agrees, out of range", "wrong.scn": "failed"}
-VOID = {"meta", "link", "img", "br", "rect", "line", "path"}
+VOID = {"meta", "link", "img", "br", "rect", "line", "path", "circle", "input"}
 CHROMIUM = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
             "--disable-background-networking", "--disable-component-update", "--enable-logging=stderr"]
 # Appended to a copy of the page: does what a reader does and leaves what was seen in the title.
 READER = """<script>
 "use strict";
-window.addEventListener("load", () => { // all pictures are there
+window.addEventListener("load", async () => { // all pictures are there
 const table = document.querySelector("table.sortable");
 const names = () => Array.from(table.tBodies[0].rows, (row) => row.cells[0].textContent);
 const heading = Array.from(table.tHead.rows[0].cells).findIndex((cell) => cell.textContent === "max");
@@ -62,6 +62,42 @@ picture.dispatchEvent(new PointerEvent("pointermove", { bubbles: true,
   clientY: box.top + (AT_Y + 0.5) * box.height / HIGH }));
 seen.probe = pictures.parentElement.querySelector(".probe").textContent;
 pictures.querySelector("button").click();
+const viewer = pictures.closest("article").querySelector("details.viewer");
+viewer.open = true;
+await new Promise((resolve) => setTimeout(resolve, 300));
+const stage = viewer.querySelector(".stage");
+const visible = () => Array.from(stage.children, (each) => each.style.visibility);
+const choose = (list, value) => { list.value = value; list.dispatchEvent(new Event("change")); };
+seen.shown = [visible()];
+choose(viewer.querySelector(".shown"), "1");
+seen.shown.push(visible());
+choose(viewer.querySelector(".zoom"), "8");
+seen.zoom = stage.children[0].getBoundingClientRect().width;
+const flicker = viewer.querySelector(".flicker");
+flicker.click();
+await new Promise((resolve) => setTimeout(resolve, 600));
+seen.flicker = [flicker.ariaPressed, visible()];
+flicker.click();
+const point = (x, y) => {
+  const place = stage.children[0].getBoundingClientRect();
+  stage.children[0].dispatchEvent(new MouseEvent("click", { bubbles: true,
+    clientX: place.left + (x + 0.5) * 8, clientY: place.top + (y + 0.5) * 8 }));
+};
+point(0, 0);
+seen.command = viewer.querySelector(".command").textContent;
+point(AT_X, AT_Y);
+seen.ray = [viewer.querySelector(".pixel").textContent, pictures.closest("article").querySelector("details.ray[open]").id];
+const heat = pictures.querySelector("img.difference");
+const logarithmic = heat.src;
+choose(document.querySelector(".scale-choice"), "257");
+await heat.decode();
+const canvas = document.createElement("canvas");
+canvas.width = WIDE; canvas.height = HIGH;
+canvas.getContext("2d").drawImage(heat, 0, 0);
+seen.even = Array.from(canvas.getContext("2d").getImageData(0, 0, WIDE, HIGH).data);
+seen.marks = Array.from(document.querySelectorAll(".scale .mark"), (mark) => mark.textContent);
+choose(document.querySelector(".scale-choice"), "0");
+seen.back = heat.src === logarithmic;
 seen.large = [pictures.className, picture.getBoundingClientRect().width > box.width];
 seen.wide = document.documentElement.scrollWidth <= window.innerWidth;
 document.title = JSON.stringify(seen);
@@ -184,6 +220,50 @@ def check_page(tap, text, page, answers, folder):
            f"FLIP: {told['flip']}, computed directly {direct:.9f}")
 
 
+def luminance(colour):
+    """WCAG 2.1's relative luminance of #rgb or #rrggbb."""
+    digits = colour[1:] if len(colour) == 7 else "".join(2 * digit for digit in colour[1:])
+    values = [int(digits[i:i + 2], 16) / 255 for i in (0, 2, 4)]
+    linear = [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in values]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(one, other):
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+def check_access(tap, text):
+    """What a reader who does not see, or not well, needs of the page."""
+    themes = [dict(re.findall(r"--([a-z-]+): (#[0-9a-f]+)", part)) for part in re.findall(r":root \{(.*?)\}", text, re.S)]
+    poor = [(name, ground) for theme in themes for name in ("text", "faint", "link", "good", "bad")
+            for ground in ("page", "card", "bad-card") if contrast(theme[name], theme[ground]) < 4.5]
+    tap.ok(len(themes) == 2 and not poor, "letters stand out from what is behind them, light and dark", poor)
+    levels = [int(level) for level in re.findall(r"<h(\d)", text)]
+    tap.ok(levels[0] == 1 and levels.count(1) == 1 and all(b <= a + 1 for a, b in zip(levels, levels[1:])), "headings go down one by one", levels)
+    tap.ok('<html lang="en">' in text and not re.search(r"<img(?![^>]* alt=)", text), "the page has a language, each picture words")
+    boxes = re.findall(r"<(?:select|input)\b[^>]*>", text)
+    labelled = re.findall(r"<label>[^<]*<(?:select|input)\b", text)
+    tap.ok(len(boxes) == len(labelled), "each field has a label", (len(boxes), len(labelled)))
+    regions = re.findall(r'role="region" aria-label="([^"]*)"', text)
+    tap.ok(len(regions) == len(set(regions)), "regions have names of their own", regions)
+
+
+def check_about(tap, text):
+    about = text[text.index('<section id="about">'):]
+    version = subprocess.run([os.environ["RTCHECK"], "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+    terms = dict(re.findall(r"<dt>([^<]*)</dt><dd>(.*?)</dd>", about))
+    tap.ok(terms.get("rtlang") == version and "stand_in --json" in terms.get("Command", "") and "processor" in terms.get("Machine", "") and
+           terms.get("System", "").startswith("Linux") and terms.get("POV-Ray"), "versions, command, machine and system are told", terms)
+    tap.ok("'a&lt;b&gt;&amp;'\\''&quot;c.scn'" in terms.get("Command", ""), "as a shell reads them", terms.get("Command"))
+    sources = re.findall(r'<details class="source">.*?<pre tabindex="0">(.*?)</pre>', text, re.S)
+    tap.ok(len(sources) == 3 and sources[0].startswith("    1  #version 3.7;") and "    3  sphere { 0, 1 pigment" in sources[0],
+           "each scene's text with the numbers of its lines", sources[:1])
+    rays = re.findall(r'<details class="ray" id="ray-2-(\d+)-(\d+)".*?<pre tabindex="0">(.*?)</pre>', text, re.S)
+    tap.ok(1 < len(rays) <= 6 and all(log.startswith(f"pixel {x}, {y}\n") and "h = b² - 4 a c" in log for x, y, log in rays) and
+           text.count('<svg class="rays"') == len(re.findall('<details class="ray"', text)), "the rays of pixels that differ most, drawn and told", rays[:1])
+
+
 def browse(page, more, folder):
     """(what the browser prints, what it complains of)."""
     with tempfile.TemporaryDirectory() as profile:
@@ -192,6 +272,32 @@ def browse(page, more, folder):
                               timeout=120, check=False)
     messages = done.stderr.decode("utf-8", "replace").splitlines()
     return done.stdout.decode("utf-8", "replace"), [line for line in messages if "CONSOLE" in line]
+
+
+def even_colour(steps, most):
+    """A colour of the scale, told anew."""
+    stops = [(0.0, (10, 10, 20)), (0.06, (44, 22, 92)), (0.25, (118, 28, 118)), (0.5, (212, 62, 78)), (0.7, (245, 140, 40)),
+             (0.88, (252, 216, 96)), (1.0, (255, 255, 240))]
+    place = min(steps / most, 1)
+    (low, a), (high, b) = next(pair for pair in zip(stops, stops[1:]) if place <= pair[1][0])
+    share = (place - low) / (high - low)
+    return [p + share * (q - p) for p, q in zip(a, b)]
+
+
+def check_viewer(tap, seen, steps, at, scene):
+    first, second = ["visible", "hidden", "hidden"], ["hidden", "visible", "hidden"]
+    tap.ok(seen.get("shown") == [first, second], "one picture lies above the other", seen.get("shown"))
+    tap.ok(seen.get("zoom") == 8 * WIDTH, "enlarged as asked for", seen.get("zoom"))
+    tap.ok(seen.get("flicker") == ["true", first], "and they flicker", seen.get("flicker"))
+    tap.ok(seen.get("command") == f"rtlang -W{WIDTH} -H{HEIGHT} --trace-pixel=0,0 '" + scene.replace("'", "'\\''") + "'",
+           "a pixel's ray is told by a command that a shell reads", seen.get("command"))
+    tap.ok(seen.get("ray") == [f"pixel {at % WIDTH}, {at // WIDTH}: {steps[at]}/65535 apart. Its ray is below.",
+                               f"ray-2-{at % WIDTH}-{at // WIDTH}"], "or by the log that is there", seen.get("ray"))
+    even = seen.get("even", [])
+    off = max((abs(even[4 * i + c] - value) for i, step in enumerate(steps) for c, value in enumerate(even_colour(step, 257))), default=999) \
+        if len(even) == 4 * len(steps) else 999
+    tap.ok(off <= 1 and seen.get("marks") == ["0", "64", "129", "193", "257"] and seen.get("back"),
+           "the difference on another scale, and back", (off, seen.get("marks"), seen.get("back")))
 
 
 CHROMIUM_PROGRAM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -205,14 +311,14 @@ def check_browser(tap, text, answers, folder):
     reader = re.sub("|".join(values), lambda match: str(values[match.group()]), READER)
     copy = os.path.join(folder, "read.html")
     write(copy, text.replace("</body>", reader + "</body>"))
-    dump, complaints = browse(copy, ["--dump-dom", "--window-size=900,900"], folder)
+    dump, complaints = browse(copy, ["--dump-dom", "--window-size=900,900", "--virtual-time-budget=5000"], folder)
     tap.ok(not complaints, "a browser has nothing to complain of", "\n".join(complaints))
     seen = json.loads("".join(Page(dump).titles) or "{}")
     names = list(SCENES)
     by_max = sorted((answer for answer in answers if "max" in answer), key=lambda answer: answer["max"])
     rising = [answer["scene"] for answer in by_max]
     falling = [answer["scene"] for answer in sorted(by_max, key=lambda answer: -answer["max"])]
-    tap.ok(seen.get("before") == names and seen.get("links") == 3, "the scenes stand in their order", seen)
+    tap.ok(seen.get("before") == names and seen.get("links") == 4, "the scenes stand in their order", seen)
     tap.ok(seen.get("rising") == [rising + ["wrong.scn"], "ascending"], "one click sorts", seen.get("rising"))
     tap.ok(seen.get("falling") == [falling + ["wrong.scn"], "descending"], "another one turns it", seen.get("falling"))
     tap.ok(seen.get("byName") == [sorted(names), None], "by text, too", seen.get("byName"))
@@ -221,6 +327,9 @@ def check_browser(tap, text, answers, folder):
              "the pointer tells the difference", seen.get("probe"))
     tap.ok(seen.get("large") == ["pictures large", True], "a click on a picture makes it large", seen.get("large"))
     tap.ok(seen.get("wide") is True, "a small screen is wide enough")
+    check_viewer(tap, seen, steps, at, names[1])
+    narrow, _ = browse(copy, ["--dump-dom", "--window-size=500,900", "--virtual-time-budget=5000"], folder)
+    tap.ok(json.loads("".join(Page(narrow).titles) or "{}").get("wide") is True, "and so is a smaller one")
     browse(report, [f"--screenshot={folder}/shot.png", "--window-size=1000,1500"], folder)
     width, height, values = pictures.read_png(os.path.join(folder, "shot.png"))
     colours = {tuple(values[i:i + 3]) for i in range(0, len(values), 3)}
@@ -241,6 +350,8 @@ def main():
         tap.ok("4e+06" in answers[2].get("range", "") and "range" not in answers[0],
                  "a scene out of POV-Ray's range is told", answers[2])
         check_page(tap, text, Page(text), answers, folder)
+        check_about(tap, text)
+        check_access(tap, text)
         if CHROMIUM_PROGRAM:
             check_browser(tap, text, answers, folder)
         else:
