@@ -122,9 +122,10 @@ RT_API void rt_set_format(rt_session *session, rt_format format);
 /* An animation: a scene that is loaded once and rendered at several clocks. Before rt_load_*: */
 RT_API rt_status rt_expect_frames(rt_session *session);
 /* After it, and after rt_render: the clock is another one, and so are numbers that were declared with rt_declare, as NAME=VALUE,
- * always the same names. Where camera, lights and settings alone depend on these, they are read again without the rest of the
- * scene, which stays as it is with its tree, and *is_set turns 1: rt_render draws the frame. Else it turns 0, and the scene is to
- * be loaded in a new session. The picture is the same, byte for byte; messages that do not depend on the frame come once. */
+ * always the same names. What depends on these, camera, lights, settings and shapes, is read again with the shapes behind the
+ * first that does. The rest of the scene stays as it is, with its tree where no shapes depend on them, and *is_set turns 1:
+ * rt_render draws the frame. Else it turns 0, and the scene is to be loaded in a new session. The picture is the same, byte for
+ * byte; messages that do not depend on the frame come once. */
 RT_API rt_status rt_set_frame(rt_session *session, double clock, const char *const *declarations, size_t count, int *is_set);
 /* For study: the scene is put elsewhere, p' = scale p + shift for its camera, lights, shapes and textures, and the
  * lengths of fading scale along, so that the picture would be the same but for rounding. scale > 0. Skies stay. */

@@ -1,8 +1,9 @@
-// Animations: the loaded scene at another clock, by reading again only what its camera and lights depend on.
+// Animations: the loaded scene at another clock, by reading again only what its camera, lights and last shapes depend on.
 //
 // A slice of the text is found after the first frame (eval/slice.h) and tried on that frame itself: only when it gives the
-// same camera, lights and settings and no shapes is it used. Whatever does not fit, the whole scene is to be read again,
-// which is for the client. Owns the slice.
+// same camera, lights, settings and shapes is it used. All else stays: shapes before the first that moves, materials,
+// textures and pictures that were read. Whatever does not fit, the whole scene is to be read again, which is for the
+// client. Owns the slice.
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
@@ -14,6 +15,7 @@
 #include "base/number.h"
 #include "eval/slice.h"
 #include "scene/dump.h"
+#include "scene/tail.h"
 
 enum { TEXT_MOST = 1 << 28 }; // longer texts are not searched
 
@@ -30,8 +32,19 @@ void session_note_statement(void *client, Span span)
 {
     rt_session *session = client;
     SessionFrames *frames = &session->frames;
-    FrameStatement statement = {span.begin, source_map_count(session->sources)};
+    FrameStatement statement = {span.begin, source_map_count(session->sources), session->scene.shape_count};
     frames->is_lost = frames->is_lost || !ARRAY_PUSH(&frames->statements, statement);
+}
+
+// Shapes are to come where they stand in the whole text: behind those that stay.
+void session_note_slice(void *client, Span span)
+{
+    rt_session *session = client;
+    SessionFrames *frames = &session->frames;
+    if (!frames->is_past && span.begin >= frames->reading_base + frames->first_shape) {
+        frames->is_past = true;
+        frames->is_in_order = frames->reading->shape_count == frames->reading_shapes;
+    }
 }
 
 void session_frames_fini(rt_session *session)
@@ -82,14 +95,33 @@ static bool gather(rt_session *session, Texts *texts)
     return fine && frames->statements.count > 0;
 }
 
+// How many shapes there were when each statement began, and in the end; NULL when out of memory.
+static uint32_t *count_shapes(const rt_session *session)
+{
+    const SessionFrames *frames = &session->frames;
+    uint32_t *shapes = malloc((frames->statements.count + 1) * sizeof *shapes);
+    for (size_t i = 0; shapes && i < frames->statements.count; i++) {
+        shapes[i] = frames->statements.items[i].shapes;
+    }
+    if (shapes) {
+        shapes[frames->statements.count] = session->scene.shape_count;
+    }
+    return shapes;
+}
+
+// A slice that makes all shapes again is none.
 static void find_slice(rt_session *session, const char *const *varying)
 {
+    SessionFrames *frames = &session->frames;
     Texts texts = {0};
     TextBuffer slice;
     text_init(&slice);
-    if (gather(session, &texts) &&
-        slice_make(texts.items.items, texts.items.count, varying, &slice) == SLICE_MADE) {
-        session->frames.slice = strdup(text_get(&slice));
+    uint32_t *shapes = count_shapes(session), all = session->scene.shape_count;
+    if (shapes && gather(session, &texts) &&
+        slice_make(texts.items.items, texts.items.count, shapes, varying, &slice, &frames->kept_shapes,
+                   &frames->first_shape) == SLICE_MADE) {
+        frames->moves_shapes = frames->kept_shapes < all;
+        frames->slice = frames->kept_shapes > 0 || all == 0 ? strdup(text_get(&slice)) : NULL;
     }
     text_fini(&slice);
     for (size_t i = 0; i < texts.owned.count; i++) {
@@ -97,19 +129,55 @@ static void find_slice(rt_session *session, const char *const *varying)
     }
     ARRAY_FREE(&texts.owned);
     ARRAY_FREE(&texts.items);
+    free(shapes);
 }
 
 // ---- a frame
 
 typedef struct Frame {
     Source *source;
-    Scene scene;
+    Scene *scene;
 } Frame;
 
 static rt_status read_slice(rt_session *session, void *argument)
 {
     Frame *frame = argument;
-    return session_evaluate(session, frame->source, &frame->scene, 0.0) ? RT_OK : RT_FAULT_SCENE;
+    return session_evaluate(session, frame->source, frame->scene, 0.0) ? RT_OK : RT_FAULT_SCENE;
+}
+
+// ---- what the slice says
+
+typedef struct SaidPart {
+    rt_stream stream;
+    size_t end; // in Said.text
+} SaidPart;
+
+// It is kept until it is known whether the whole scene is read instead, which says it again.
+typedef struct Said {
+    TextBuffer text;
+    ARRAY(SaidPart) parts;
+    bool no_memory;
+} Said;
+
+static void said_keep(void *client, rt_stream stream, const char *text, size_t length)
+{
+    Said *said = client;
+    text_append_n(&said->text, text, length);
+    said->no_memory = !ARRAY_PUSH(&said->parts, (SaidPart){stream, said->text.length}) || said->no_memory;
+}
+
+static void said_deliver(const Said *said, rt_session *session)
+{
+    const char *text = text_get(&said->text);
+    for (size_t i = 0, begin = 0; i < said->parts.count; begin = said->parts.items[i++].end) {
+        session_say(session, said->parts.items[i].stream, text + begin, said->parts.items[i].end - begin);
+    }
+}
+
+static void said_fini(Said *said)
+{
+    text_fini(&said->text);
+    ARRAY_FREE(&said->parts);
 }
 
 static void say_nothing(void *client, const rt_diagnostic *diagnostic)
@@ -117,19 +185,42 @@ static void say_nothing(void *client, const rt_diagnostic *diagnostic)
     (void)client, (void)diagnostic;
 }
 
-// Evaluates the slice, and says nothing of it: what has something to say is read as a whole. False for that, and for what
-// is more than a camera and lights.
-static bool read_frame(rt_session *session, Scene *scene)
+// The session's scene as it is before the slice: its first shapes and whatever they refer to, which it takes over, and
+// neither camera nor lights nor settings but those of the run.
+static Scene begin_scene(rt_session *session, uint32_t shapes)
+{
+    Scene fresh, scene = session->scene;
+    scene_init(&fresh);
+    scene.settings = fresh.settings;
+    scene.settings.sky_light = session->scene.settings.sky_light;
+    scene.background = fresh.background;
+    scene.has_camera = fresh.has_camera;
+    scene.camera = fresh.camera;
+    memset(&scene.lights, 0, sizeof scene.lights);
+    scene_keep_shapes(&scene, shapes);
+    return scene;
+}
+
+// Adds the slice to the scene; what it says with #debug and the like is kept in `said`. False where there is something to
+// report, which is for the whole scene to do, and for what is more than a camera, lights and shapes.
+static bool read_frame(rt_session *session, Scene *scene, Said *said)
 {
     rt_callbacks callbacks = session->callbacks;
     DiagSink diags = session->diags;
+    bool is_json = session->is_json;
+    size_t fogs = scene->fogs.count, layers = scene->sky.count;
     Frame frame = {.source = source_open_text(session->sources, source_map_name(session->sources, session->frames.source),
-                                              session->frames.slice, strlen(session->frames.slice))};
-    scene_init(&frame.scene);
+                                              session->frames.slice, strlen(session->frames.slice)),
+                   .scene = scene};
+    session->frames.reading = scene;
+    session->frames.reading_base = frame.source ? source_base(frame.source) : 0;
+    session->frames.reading_shapes = scene->shape_count;
+    session->frames.is_past = false;
     diag_init(&session->diags, session->sources);
-    session->callbacks.diagnostic = say_nothing;
-    session->callbacks.message = NULL;
-    bool fine = frame.source && session_run_deep(session, read_slice, &frame) == RT_OK && session->diags.count == 0 &&
+    session->callbacks = (rt_callbacks){.client = said, .diagnostic = say_nothing, .message = said_keep};
+    session->is_json = false;
+    bool fine = frame.source && session_run_deep(session, read_slice, &frame) == RT_OK &&
+                session_load_pictures(session, scene) && session->diags.count == 0 &&
                 session->diags.error_count + session->diags.warning_count == 0;
     if (frame.source) {
         source_close(frame.source);
@@ -138,9 +229,11 @@ static bool read_frame(rt_session *session, Scene *scene)
     diag_fini(&session->diags);
     session->diags = diags;
     session->callbacks = callbacks;
-    *scene = frame.scene;
-    return fine && scene->shape_count == 0 && scene->fogs.count == 0 && scene->sky.count == 0 &&
-           scene->pictures.count == 0;
+    session->is_json = is_json;
+    bool is_in_order = session->frames.is_past ? session->frames.is_in_order
+                                               : scene->shape_count == session->frames.reading_shapes;
+    fine = fine && !said->no_memory && !said->text.failed;
+    return fine && is_in_order && scene->fogs.count == fogs && scene->sky.count == layers;
 }
 
 // Camera, lights and settings as text, without the rest of the scene.
@@ -170,43 +263,56 @@ static bool has_same_view(const Scene *one, const Scene *other)
     return is_same;
 }
 
+// The scene with the camera, lights and settings of another, whose lights it takes over.
+static void take_view(Scene *to, const Scene *from)
+{
+    ARRAY_FREE(&to->lights);
+    memcpy(&to->lights, &from->lights, sizeof to->lights);
+    to->camera = from->camera;
+    to->has_camera = from->has_camera;
+    to->settings = from->settings;
+    to->background = from->background;
+}
+
+// Whether the slice gives what the frame that is loaded has. Its shapes are made once more behind the others, and taken
+// away again.
+static bool holds(rt_session *session)
+{
+    uint32_t all = session->scene.shape_count;
+    Scene first = session->scene, scene = begin_scene(session, all);
+    Said said = {.no_memory = false};
+    text_init(&said.text);
+    bool fine = read_frame(session, &scene, &said) && has_same_view(&scene, &first) &&
+                scene_repeats_shapes(&scene, session->frames.kept_shapes, all);
+    scene_keep_shapes(&scene, all);
+    take_view(&scene, &first);
+    session->scene = scene;
+    said_fini(&said);
+    return fine;
+}
+
 // Looks for the slice, and tries it on the frame that is loaded.
 static void begin_frames(rt_session *session, const char *const *varying)
 {
     SessionFrames *frames = &session->frames;
-    Scene scene;
     frames->is_tried = true;
     if (!frames->is_expected || frames->is_lost || session->header) {
         return;
     }
     find_slice(session, varying);
-    if (frames->slice) {
-        bool fine = read_frame(session, &scene) && has_same_view(&scene, &session->scene);
-        scene_fini(&scene);
-        if (!fine) {
-            free(frames->slice);
-            frames->slice = NULL;
-        }
+    if (frames->slice && !holds(session)) {
+        free(frames->slice);
+        frames->slice = NULL;
     }
 }
 
 // Lights say where they stand by the texts of the first frame, whose order is the same.
-static void take_view(Scene *to, Scene *from)
+static void keep_places(Scene *scene, const Scene *first)
 {
-    for (size_t i = 0; i < from->lights.count; i++) {
-        from->lights.items[i].span = i < to->lights.count ? to->lights.items[i].span : SPAN_NONE;
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        scene->lights.items[i].span = i < first->lights.count ? first->lights.items[i].span : SPAN_NONE;
     }
-    from->camera.span = to->camera.span;
-    ARRAY_FREE(&to->lights);
-    to->lights.items = from->lights.items;
-    to->lights.count = from->lights.count;
-    to->lights.capacity = from->lights.capacity;
-    from->lights.items = NULL;
-    from->lights.count = from->lights.capacity = 0;
-    to->camera = from->camera;
-    to->has_camera = from->has_camera;
-    to->settings = from->settings;
-    to->background = from->background;
+    scene->camera.span = first->camera.span;
 }
 
 static bool redeclare(rt_session *session, const char *name_value)
@@ -256,14 +362,23 @@ rt_status rt_set_frame(rt_session *session, double clock, const char *const *dec
             return RT_FAULT_USAGE;
         }
     }
-    Scene scene;
-    bool fine = read_frame(session, &scene);
+    Scene first = session->scene, scene = begin_scene(session, frames->kept_shapes);
+    Said said = {.no_memory = false};
+    text_init(&said.text);
+    bool fine = read_frame(session, &scene, &said);
+    keep_places(&scene, &first);
+    ARRAY_FREE(&first.lights);
+    session->scene = scene;
+    session->loaded = fine;
+    if (fine && frames->moves_shapes) {
+        geometry_kept_fini(&session->kept); // any of its shapes may be another one
+    }
     if (fine) {
-        take_view(&session->scene, &scene);
-        fine = session_check_view(session);
+        said_deliver(&said, session);
+        fine = session_check_frame(session, frames->moves_shapes);
         session->parse_seconds = clock_seconds() - start;
         *is_set = 1;
     }
-    scene_fini(&scene);
+    said_fini(&said);
     return *is_set && !fine ? session_status(session, false) : RT_OK;
 }

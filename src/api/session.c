@@ -237,7 +237,7 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .tracer = &probe_tracer,
         .painter = &painter,
         .load_pictures = load_pictures,
-        .statement = session->frames.is_expected && !session->loaded ? session_note_statement : NULL,
+        .statement = !session->frames.is_expected ? NULL : session->loaded ? session_note_slice : session_note_statement,
         .declared = &session->names_declared,
         .cancel = &session->cancel,
         .message = forward_message,
@@ -259,9 +259,9 @@ static bool check_whole(rt_session *session, bool has_new_shapes)
     return fine && session->diags.error_count == 0;
 }
 
-bool session_check_view(rt_session *session)
+bool session_check_frame(rt_session *session, bool has_new_shapes)
 {
-    bool fine = check_whole(session, false);
+    bool fine = check_whole(session, has_new_shapes);
     diag_finish(&session->diags);
     session_deliver(session);
     return fine;

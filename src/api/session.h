@@ -32,20 +32,28 @@ typedef struct SessionGroup {
     MaterialIndex own; // the first of as many materials, RECORD_NONE: they share
 } SessionGroup;
 
-// A statement of the text: where it begins, and how many sources there were then.
+// A statement of the text: where it begins, and how many sources and shapes there were then.
 typedef struct FrameStatement {
     uint64_t begin;
     size_t sources;
+    uint32_t shapes;
 } FrameStatement;
 
 enum { FRAME_NAMES_MOST = 16 };
 
-// Of an animation: what its camera and lights are read from again, see frames.c.
+// Of an animation: what its camera, its lights and its last shapes are read from again, see frames.c.
 typedef struct SessionFrames {
     bool is_expected, is_tried, is_lost; // lost: there was no memory for the statements
     size_t source, source_count;         // the scene's text, and all that there were in the end
     ARRAY(FrameStatement) statements;
     char *slice; // owned; NULL: the whole text is read again
+    uint32_t kept_shapes; // the scene's first ones, which the slice does not make again
+    bool moves_shapes;    // it makes others
+    size_t first_shape;   // from there on
+    const Scene *reading; // while it is read: what it is added to, and whether …
+    uint64_t reading_base;
+    uint32_t reading_shapes; // … these were there until that place
+    bool is_past, is_in_order;
 } SessionFrames;
 
 struct rt_session {
@@ -228,9 +236,10 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
 bool session_begin(rt_session *session) RT_MUST_CHECK;
 // frames.c
 void session_note_statement(void *client, Span span);
+void session_note_slice(void *client, Span span);
 void session_frames_fini(rt_session *session);
-// Whether a loaded scene may be traced with the camera and lights that it has now.
-bool session_check_view(rt_session *session) RT_MUST_CHECK;
+// Whether a loaded scene may be traced with the camera and lights that it has now, and with shapes that are new, too.
+bool session_check_frame(rt_session *session, bool has_new_shapes) RT_MUST_CHECK;
 // Whether a scene that is built by calls is one that may be traced; looks through it when it has changed.
 bool session_is_whole(rt_session *session) RT_MUST_CHECK;
 

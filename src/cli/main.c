@@ -136,6 +136,8 @@ static rt_status run_frames(Options *options, Voice *voice, bool *wrote)
     options->keeps_scene = frames->last - frames->first >= frames->step;
     for (options->frame = frames->first; !status && options->frame <= frames->last; options->frame += frames->step) {
         bool is_drawn = false;
+        progress_share(&voice->progress, (options->frame - frames->first) / frames->step,
+                       (frames->last - frames->first) / frames->step + 1);
         options->encoding.continues = *wrote;
         if (options->continues && run_has_frame(options)) {
             counts.there++;

@@ -46,6 +46,7 @@ static const PovrayRow rows[] = {
     FLAG("Cyclic_Animation", "KC", is_cyclic, "the last frame is one step before the first again"),
     REFUSED("Field_Render", "UF", POVRAY_BOOL, "rtlang draws whole frames, not fields of every other row",
             "frames are whole"),
+    REFUSED("Clockless_Animation", NULL, POVRAY_BOOL, "frames have the clock that their numbers say", "frames have a clock"),
     NOTHING("Odd_Field", "UO", POVRAY_BOOL, "for Field_Render only"),
     // Size and part
     WHOLE("Height", "H", 1, 65535, height, "height of the picture (default 120; Debian's povray.ini says 600)"),

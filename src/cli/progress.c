@@ -11,7 +11,18 @@
 
 void progress_begin(Progress *progress, bool enabled)
 {
-    *progress = (Progress){.enabled = enabled && isatty(STDERR_FILENO), .start = clock_seconds()};
+    bool continues = progress->parts > 0 && progress->start > 0.0;
+    *progress = (Progress){.enabled = enabled && isatty(STDERR_FILENO),
+                           .start = continues ? progress->start : clock_seconds(),
+                           .part = progress->part,
+                           .parts = progress->parts};
+}
+
+void progress_share(Progress *progress, int part, int parts)
+{
+    progress->start = part > 0 && parts == progress->parts ? progress->start : 0.0;
+    progress->part = part;
+    progress->parts = parts;
 }
 
 void progress_update(Progress *progress, double done, double seconds_left, const char *note)
@@ -23,6 +34,10 @@ void progress_update(Progress *progress, double done, double seconds_left, const
     }
     progress->last = now;
     progress->shown = true;
+    if (progress->parts > 0) {
+        done = (progress->part + done) / progress->parts;
+        seconds_left = -1.0;
+    }
     char bar[WIDTH + 1];
     int filled = (int)(done * WIDTH);
     memset(bar, ' ', WIDTH);

@@ -318,6 +318,32 @@ static void find_needed(Slice *slice)
     }
 }
 
+// The first statement of the slice that makes shapes; their number: none does.
+static size_t first_shape(const Slice *slice, const uint32_t *shapes)
+{
+    size_t first = 0;
+    while (first < slice->statements.count &&
+           (!slice->statements.items[first].is_needed || shapes[first + 1] == shapes[first])) {
+        first++;
+    }
+    return first;
+}
+
+// Adds all that make shapes behind the first in the slice that does, and what these need, which may be an earlier one.
+static size_t find_shapes(Slice *slice, const uint32_t *shapes)
+{
+    find_needed(slice);
+    size_t first = first_shape(slice, shapes);
+    for (bool is_more = true; is_more; first = first_shape(slice, shapes)) {
+        is_more = false;
+        for (size_t i = first; i < slice->statements.count; i++) {
+            is_more = (shapes[i + 1] > shapes[i] && mark(&slice->statements.items[i].is_needed)) || is_more;
+        }
+        find_needed(slice);
+    }
+    return first;
+}
+
 // What the statements that are left out depend on without naming it differs from frame to frame.
 static bool varies_state(const Slice *slice)
 {
@@ -341,9 +367,11 @@ static bool shares_chance(const Slice *slice)
     return in_slice && outside;
 }
 
-SliceResult slice_make(const SliceText *texts, size_t count, const char *const *varying, TextBuffer *out)
+SliceResult slice_make(const SliceText *texts, size_t count, const uint32_t *shapes, const char *const *varying,
+                       TextBuffer *out, uint32_t *kept, size_t *at)
 {
     Slice slice = {.words = intern_new(SIZE_MAX)};
+    size_t first = SIZE_MAX;
     slice.no_memory = !slice.words;
     for (; !slice.no_memory && *varying; varying++) {
         Symbol symbol = take_name(&slice, *varying, strlen(*varying));
@@ -355,17 +383,23 @@ SliceResult slice_make(const SliceText *texts, size_t count, const char *const *
     bool is_made = !slice.no_memory && !slice.reads_files;
     if (is_made) {
         find_varying(&slice);
-        find_needed(&slice);
+        first = find_shapes(&slice, shapes);
+        *kept = shapes[first];
         is_made = !shares_chance(&slice) && !varies_state(&slice) && !slice.no_memory;
     }
     size_t statement = 0;
+    *at = SIZE_MAX;
     for (size_t i = 0; is_made && i < count; i++) {
         bool is_own = i == 0 || texts[i].statement != texts[i - 1].statement;
+        if (is_own && statement == first) {
+            *at = out->length;
+        }
         if (is_own && slice.statements.items[statement++].is_needed) {
             text_append_n(out, texts[i].text, texts[i].length);
             text_append_char(out, '\n');
         }
     }
+    *at = *at < out->length ? *at : out->length;
     bool no_memory = slice.no_memory || out->failed;
     if (slice.words) {
         intern_free(slice.words);

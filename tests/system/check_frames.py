@@ -3,6 +3,7 @@
 
 The expected pictures are those of single runs with the same clock and names. Prints TAP. SPDX-License-Identifier: MIT
 """
+import json
 import os
 import re
 import subprocess
@@ -13,6 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import tap  # noqa: E402
 from picture_bytes import png_without_texts  # noqa: E402
+from terminal import terminal_output  # noqa: E402
 
 PROGRAM = os.path.abspath(os.environ["RTLANG"])
 FRAMES = 4
@@ -21,13 +23,23 @@ CAMERA = "camera { location <3 * sin(clock * 3), 2, -6> look_at 0 }\n"
 STILL = "camera { location <0, 2, -6> look_at 0 }\n"
 LIGHT = "light_source { <5, 5, -5> rgb 1 }\n"
 BALLS = "".join(f"sphere {{ <{i % 5 - 2}, {i // 5 - 2}, 0>, 0.4 pigment {{ rgb <{i / 25}, 0.5, 0.2> }} }}\n" for i in range(25))
+ALL_KINDS = """sphere { <TIME, 1, -2>, 0.3 pigment { rgb <1, 0, 0> } }
+plane { y, TIME - 3 pigment { checker rgb 1 rgb 0 } }
+box { <TIME, -1, -2>, <TIME + 0.5, -0.5, -1> pigment { rgb <0, 1, 0> } }
+sphere { 0, 0.3 scale <1, 2, 1> translate <-2, TIME, -1> pigment { rgb <0, 0, 1> } }
+difference { box { -0.3, 0.3 } sphere { 0, 0.35 } rotate y * 90 * TIME translate <1.5, 0, -2> pigment { rgb <1, 1, 0> } }
+union { sphere { 0, 0.2 pigment { rgbt <1, 1, 1, 0.7> } } sphere { x / 2, 0.2 pigment { rgb 1 } } interior { ior 1.3 } translate -2 * z - TIME * x }
+sphere { <0, TIME, -3>, 0.4 pigment { rgbt <0.9, 1, 1, 0.9> } interior { ior 1.5 } }
+torus { 0.4, 0.1 translate <TIME, -1.5, -2> pigment { rgb <1, 0, 1> } }
+"""
 FILES = {
+    "small.ppm": "P3 2 2 255\n255 0 0 0 255 0\n0 0 255 255 255 0\n",
     "balls.inc": BALLS, "names.inc": "#declare Far = 6;\n#declare Unused = sphere { 0, 1 }\n",
     "moving.inc": "sphere { <clock, 0, 0>, 1 pigment { rgb 1 } }\n", "numbers.txt": "1, 2, 3\n",
     "view.inc": CAMERA + LIGHT, "where.inc": "#declare Where = clock;\n",
 }
 # name -> (text, how often the scene is read, how often its tree is built)
-ONCE, EACH = (1, 1), (FRAMES, FRAMES)
+ONCE, EACH, TAIL = (1, 1), (FRAMES, FRAMES), (1, FRAMES)
 CASES = {
     "the camera moves": (HEAD + CAMERA + LIGHT + BALLS, ONCE),
     "the camera stands at the end": (HEAD + LIGHT + BALLS + CAMERA, ONCE),
@@ -52,9 +64,19 @@ CASES = {
                                      "Set(V)\n#end\n#end\nDo(clock)\nsphere { N, 1 pigment { rgb 1 } }\n" + STILL + LIGHT, EACH),
     "a macro changes what it is given": (HEAD + "#macro Set(A)\n#declare A = clock;\n#end\n#declare Q = 1;\nSet(Q)\nsphere { Q, 1 pigment { rgb 1 } }\n" +
                                          STILL + LIGHT, EACH),
-    "a shape moves": (HEAD + STILL + LIGHT + BALLS + "sphere { <clock, 0, -2>, 0.5 pigment { rgb 1 } }\n", EACH),
-    "a shape moves in a file": (HEAD + STILL + LIGHT + BALLS + '#include "moving.inc"\n', EACH),
-    "a name from a file moves a shape": (HEAD + '#include "where.inc"\n' + STILL + LIGHT + "sphere { Where, 1 pigment { rgb 1 } }\n", EACH),
+    "a shape moves": (HEAD + STILL + LIGHT + BALLS + "sphere { <clock, 0, -2>, 0.5 pigment { rgb 1 } }\n", TAIL),
+    "a shape moves before all others": (HEAD + STILL + LIGHT + "sphere { <clock, 0, -2>, 0.5 pigment { rgb 1 } }\n" + BALLS, EACH),
+    "a shape moves between others": (HEAD + STILL + LIGHT + BALLS + "sphere { <clock, 0, -2>, 0.5 pigment { rgb 1 } }\n" + BALLS, TAIL),
+    "shapes of all kinds move": (HEAD + CAMERA + LIGHT + BALLS + ALL_KINDS.replace("TIME", "0") + ALL_KINDS.replace("TIME", "clock"), TAIL),
+    "what moves changes its colour and number": (HEAD + STILL + LIGHT + BALLS + "#for (I, 0, clock * 9)\nsphere { <I / 4 - 1, 2 * clock, -2>, 0.2 "
+                                                "pigment { rgb <clock, I / 9, 1> } }\n#end\n", TAIL),
+    "a shape comes before others": (HEAD + CAMERA + LIGHT + "#if (clock > 0.5) sphere { <0, 0, -2>, 0.5 pigment { rgb 1 } } #end\n" + BALLS, (3, 3)),
+    "a shape comes between others that move": (HEAD + CAMERA + LIGHT + "#if (clock > 0.5) sphere { <0, 0, -2>, 0.5 pigment { rgb 1 } } #end\n" + BALLS +
+                                               "sphere { <clock, 0, -2>, 0.5 pigment { rgb 1 } }\n", (3, 4)),
+    "a shape moves in a file": (HEAD + STILL + LIGHT + BALLS + '#include "moving.inc"\n', TAIL),
+    "a picture on what moves": (HEAD + STILL + LIGHT + BALLS + "box { <-1, -1, 0>, <1, 1, 0.1> pigment { image_map { ppm \"small.ppm\" } "
+                                "translate -0.5 scale 2 } translate <clock, 0, -2> }\n", TAIL),
+    "a name from a file moves a shape": (HEAD + '#include "where.inc"\n' + STILL + LIGHT + BALLS + "sphere { Where, 1 pigment { rgb 1 } }\n", TAIL),
     "a shape comes": (HEAD + CAMERA + LIGHT + BALLS + "#if (clock > 0.5) sphere { <0, 0, -2>, 0.5 pigment { rgb 1 } } #end\n", (3, 3)),
     "a shape knows the frame": (HEAD + STILL + LIGHT + "sphere { frame_number / 4, 1 pigment { rgb 1 } }\n", EACH),
     "the default changes": (HEAD + "#default { finish { ambient clock } }\n" + STILL + LIGHT + BALLS, EACH),
@@ -104,6 +126,21 @@ def check_case(report, folder, name, text, times, *options):
     report.ok(status == 0 and not differ, f"{name}: the frames have the pixels of single runs", f"{status} {differ}\n{told}")
     found = re.search(r"^animation: (\d+) frames drawn; the scene read (\d+) times?, its tree built (\d+) times?$", told, re.M)
     report.equal(found and tuple(map(int, found.groups())), (FRAMES, *times), f"{name}: read and built so often")
+
+
+def check_said(report, folder):
+    """What names the clock is said by each frame, the rest once, where the scene is read once."""
+    lines = '#debug "always\\n"\n#debug concat("clock ", str(clock, 0, 2), "\\n")\n'
+    put(folder, "s.scn", HEAD + lines + CAMERA + LIGHT + BALLS)
+    words = ["--frames=1..4", "-o", "said.png", "s.scn"]
+    expected = ["always", *(f"clock {frame / 3:.2f}" for frame in range(4))]
+    status, _, told = run(folder, *words)
+    report.ok(status == 0 and "the scene read 1 time," in told, "a scene that says its clock is read once", told)
+    report.equal([line for line in told.splitlines() if line.startswith(("always", "clock"))], expected, "each frame says its clock")
+    status, _, told = run(folder, "--diagnostics=json", *words)
+    said = [json.loads(line) for line in told.splitlines() if line.startswith("{")]
+    report.equal([line["text"] for line in said if line["type"] == "message"], expected,
+                 "and so in JSON")
 
 
 def check_continue(report, folder):
@@ -168,6 +205,16 @@ def check_film(report, folder):
         report.ok(status == 2 and not out and told in said, f"{' '.join(words)} is refused", f"{status} {said}")
 
 
+def check_bar(report, folder):
+    """Each frame takes less than the second after which there is a bar."""
+    put(folder, "s.scn", HEAD + CAMERA + LIGHT + BALLS)
+    words = [PROGRAM, "-W", "80", "-H", "60", "--frames=1..4", "--time-limit=0.8", "-o", "bar.png", "s.scn"]
+    told = terminal_output(lambda slave: subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                                          stderr=slave), 60, rb"animation: 4")
+    shares = [int(share) for share in re.findall(rb"\] +(\d+) %", told)]
+    report.ok(len(shares) > 3 and shares == sorted(shares) and shares[0] >= 25, "one bar for all frames", shares)
+
+
 def main():
     report = tap.Tap()
     with tempfile.TemporaryDirectory() as folder:
@@ -176,11 +223,16 @@ def main():
         for name, (text, times) in CASES.items():
             check_case(report, folder, name, text, times)
         moving = HEAD + CAMERA + LIGHT + BALLS
-        for options in (["--samples=4"], ["--antialias=1"], ["--threads=3"], ["--samples=8", "--adaptive"], ["--no-literals"]):
+        for options in (["--samples=4"], ["--antialias=1"], ["--threads=3"], ["--samples=8", "--adaptive"], ["--no-literals"],
+                        ["--sky-light=0.5"]):
             check_case(report, folder, " ".join(options), moving, ONCE, *options)
+            tail = HEAD + CAMERA + LIGHT + BALLS + ALL_KINDS.replace("TIME", "clock")
+            check_case(report, folder, " ".join(options) + ", shapes move", tail, TAIL, *options)
+        check_said(report, folder)
         check_continue(report, folder)
         check_stream(report, folder)
         check_film(report, folder)
+        check_bar(report, folder)
     report.done()
 
 

@@ -99,9 +99,9 @@ bool plan_keep(void *client, const void *list, size_t count, size_t more)
         sphere[i] = (Sphere){record->centre, record->radius, index, (uint32_t)record->source};
     }
     scene_repeat_material(scene, repeated);
-    scene_commit_spheres(scene, count, records[0].source);
-    if (ev->tells_plan) {
+    if (ev->tells_plan) { // before there are shapes of it, as of any statement
         eval_tell_statement(ev, (Span){records[0].source, records[0].source + 1});
     }
+    scene_commit_spheres(scene, count, records[0].source);
     return true;
 }
