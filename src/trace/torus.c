@@ -45,6 +45,18 @@ static DoubleWord coordinate(double o, double d, DoubleWord t)
     return double_word_add(two_sum(product.hi, product.lo + d * t.lo), (DoubleWord){o, 0.0});
 }
 
+// What p says of the line.
+static void line_set_from(TorusLine *line, Vec3 p)
+{
+    line->p = p;
+    line->along = vec3_dot(p, line->u);
+    double moment = p.x * line->u.z - p.z * line->u.x;
+    bool is_along_axis = !(line->across2 > 0.0);
+    line->s_axis = is_along_axis ? 0.0 : -(p.x * line->u.x + p.z * line->u.z) / line->across2;
+    line->least2 = is_along_axis ? p.x * p.x + p.z * p.z : moment * moment / line->across2;
+}
+
+// All but what p says.
 static void line_set(TorusLine *line, const Ray *ray)
 {
     Vec3 o = ray->origin, d = ray->direction;
@@ -52,17 +64,18 @@ static void line_set(TorusLine *line, const Ray *ray)
     line->ray = ray;
     line->t_near = -vec3_dot(o, d) / square;
     line->step = 1.0 / sqrt(square);
-    DoubleWord t = {line->t_near, 0.0};
-    line->p = vec3(coordinate(o.x, d.x, t).hi, coordinate(o.y, d.y, t).hi, coordinate(o.z, d.z, t).hi);
     line->u = vec3_scale(line->step, d);
     line->square = vec3_length_squared(line->u);
-    line->along = vec3_dot(line->p, line->u);
-    double moment = line->p.x * line->u.z - line->p.z * line->u.x;
-    line->across2 = line->u.x * line->u.x + line->u.z * line->u.z;
-    bool is_along_axis = !(line->across2 > 0x1p-200);
-    line->s_axis = is_along_axis ? 0.0 : -(line->p.x * line->u.x + line->p.z * line->u.z) / line->across2;
-    line->least2 = is_along_axis ? line->p.x * line->p.x + line->p.z * line->p.z : moment * moment / line->across2;
-    line->across2 = is_along_axis ? 0.0 : line->across2;
+    double across2 = line->u.x * line->u.x + line->u.z * line->u.z;
+    line->across2 = across2 > 0x1p-200 ? across2 : 0.0; // 0: it is along the axis
+}
+
+// p to the last bit.
+static void line_place(TorusLine *line)
+{
+    Vec3 o = line->ray->origin, d = line->ray->direction;
+    DoubleWord t = {line->t_near, 0.0};
+    line_set_from(line, vec3(coordinate(o.x, d.x, t).hi, coordinate(o.y, d.y, t).hi, coordinate(o.z, d.z, t).hi));
 }
 
 static double rho_at(const TorusLine *line, double s)
@@ -84,6 +97,20 @@ static double bend_at(const TorusLine *line, double s)
 {
     double rho = rho_at(line, s);
     return line->square - line->major * (line->across2 * line->least2) / (rho * rho * rho);
+}
+
+// Whether a step of Newton's from s, of so great a change, leaves less than `most`: half of h'' / h' times its square,
+// where that is a small part of it and h'' is about the same on its way, and what rounding does to h'. `slope` is
+// slope_at's.
+static bool step_leaves_less(const TorusLine *line, double s, double slope, double change, double most)
+{
+    change = fabs(change);
+    slope = fabs(slope);
+    if (!(change < 0x1p-10 * rho_at(line, s) && 0x1p-48 * change < most * slope)) {
+        return false;
+    }
+    double turn = fabs(bend_at(line, s)) * change;
+    return turn < 0x1p-10 * slope && turn * change < most * slope;
 }
 
 // t, and h as double words.
@@ -145,7 +172,12 @@ static double root_between(const TorusLine *line, double low, double high, bool 
             return s;
         }
         *((height > 0.0) == falls ? &low : &high) = s;
-        bool is_done = fabs(next - s) <= 0x1p-51 * (fabs(s) + 0x1p-30);
+        double change = fabs(next - s);
+        bool is_near = change <= 0x1p-17 && next > low && next < high;
+        if (is_near && step_leaves_less(line, s, 0.5 * slope, change, 0x1p-40)) {
+            return next; // root_refine's first step does what is left
+        }
+        bool is_done = change <= 0x1p-51 * (fabs(s) + 0x1p-30);
         if (is_done) {
             return s;
         }
@@ -215,28 +247,31 @@ static void find_roots(const TorusLine *line, double low, double high, bool has_
 static double root_refine(const TorusLine *line, double s)
 {
     DoubleWord t = t_at(line, s);
+    double slope = slope_at(line, s, true), slope_t = 2.0 * slope / line->step;
     for (int i = 0; i < 2; i++) {
-        double slope = 2.0 * slope_at(line, s, true) / line->step;
-        double change = exact_height(line, t).hi / slope;
+        double change = exact_height(line, t).hi / slope_t;
         if (!(fabs(change) < 0x1p-30 * line->step)) {
             break; // a double root, or nearly one: as good as it was
         }
         t = double_word_add(t, (DoubleWord){-change, 0.0});
+        if (step_leaves_less(line, s, slope, change / line->step, 0x1p-80 * less_of(fabs(t.hi) / line->step, 1.0))) {
+            break;
+        }
     }
     return t.hi;
 }
 
 // Where the line is near enough for the side: within a ball about 0 and, of side 0, between two planes and between two
-// cylinders.
-static bool line_is_near(const TorusLine *line, double minor, double *low, double *high)
+// cylinders. `margin` is how far off p may be.
+static bool line_is_near(const TorusLine *line, double minor, double margin, double *low, double *high)
 {
     bool is_outer = line->major > 0.0;
     double ball2 = is_outer ? (line->major + minor) * (line->major + minor) : minor * minor - line->major * line->major;
-    double half2 = ball2 + MARGIN - vec3_length_squared(line->p);
+    double half2 = ball2 + margin - vec3_length_squared(line->p);
     if (!(half2 > 0.0)) {
         return false;
     }
-    double half = sqrt(half2) + MARGIN, y = line->p.y, v = line->u.y, most = minor + MARGIN;
+    double half = sqrt(half2) + margin, y = line->p.y, v = line->u.y, most = minor + margin;
     *low = -half;
     *high = half;
     if (!is_outer) {
@@ -244,9 +279,9 @@ static bool line_is_near(const TorusLine *line, double minor, double *low, doubl
     }
     if (fabs(v) > 0x1p-60) {
         double first = (-most - y) / v, second = (most - y) / v;
-        *low = greater_of(*low, less_of(first, second) - MARGIN);
-        *high = less_of(*high, greater_of(first, second) + MARGIN);
-    } else if (fabs(y) > most + MARGIN) {
+        *low = greater_of(*low, less_of(first, second) - margin);
+        *high = less_of(*high, greater_of(first, second) + margin);
+    } else if (fabs(y) > most + margin) {
         return false;
     }
     if (!(*low < *high)) {
@@ -254,7 +289,18 @@ static bool line_is_near(const TorusLine *line, double minor, double *low, doubl
     }
     double nearest = less_of(greater_of(line->s_axis, *low), *high);
     double farthest = greater_of(rho_at(line, *low), rho_at(line, *high));
-    return rho_at(line, nearest) <= line->major + minor + MARGIN && farthest >= line->major - minor - MARGIN;
+    return rho_at(line, nearest) <= line->major + minor + margin && farthest >= line->major - minor - margin;
+}
+
+// The same of a line whose p is as doubles give it, for the outer side, which holds the inner one. Most lines that ask
+// are nowhere near.
+static bool line_may_be_near(TorusLine *line, double minor)
+{
+    Vec3 o = line->ray->origin;
+    double low, high;
+    line_set_from(line, vec3_add(o, vec3_scale(line->t_near, line->ray->direction)));
+    bool is_steep = line->across2 < 0x1p-16; // s_axis and least2 may be far off
+    return is_steep || line_is_near(line, minor, MARGIN + 0x1p-38 * (1.0 + vec3_max_abs(o)), &low, &high);
 }
 
 // A ray that starts on the side: the tube is as thick as it is there, so that the start is on it. Whether the ray is
@@ -278,7 +324,7 @@ static unsigned side_intervals(TorusLine *line, double minor, uint8_t side, Side
     if (has_start) { // into the tube is out of side 1
         starts_inside = line_start(line, left.inward == (side == TORUS_OUTER), &start);
     }
-    if (!line_is_near(line, has_start ? sqrt(line->minor2.hi) : minor, &low, &high)) {
+    if (!line_is_near(line, has_start ? sqrt(line->minor2.hi) : minor, MARGIN, &low, &high)) {
         return 0;
     }
     low = has_start ? start : low;
@@ -304,6 +350,10 @@ unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft le
     TorusLine line;
     line_set(&line, ray);
     line.major = major;
+    if (left.side == SIDE_NONE && !line_may_be_near(&line, minor)) {
+        return 0;
+    }
+    line_place(&line);
     unsigned count = side_intervals(&line, minor, TORUS_OUTER, left, intervals);
     if (minor > major && count < INTERVALS_MOST) { // a line that crosses side 0 four times does not cross side 1
         line.major = -major;
