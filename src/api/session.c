@@ -358,8 +358,8 @@ void session_film_to_linear(const Settings *settings, Film *film)
     size_t count = (size_t)film->width * (size_t)film->height * 3;
     float *colours[] = {film->rgb, film->planes[FILM_ALBEDO]};
     for (int k = 0; k < 2 && linear_is_needed(settings); k++) {
-        for (size_t i = 0; i < count && colours[k]; i++) {
-            colours[k][i] = (float)linear_value(settings, colours[k][i]);
+        if (colours[k]) {
+            linear_floats(settings, colours[k], count);
         }
     }
 }

@@ -5,9 +5,11 @@
 #define RENDER_LINEAR_H
 
 #include <math.h>
+#include <stddef.h>
 
 #include "base/attributes.h"
 #include "math/colour.h"
+#include "math/float_power.h"
 #include "scene/scene.h"
 
 // Whether values of the film are not linear light as they stand. Legacy files stay as they are.
@@ -20,6 +22,18 @@ static inline double linear_value(const Settings *settings, double value)
 {
     value = fmax(value, 0.0);
     return settings->gamma_model == GAMMA_SRGB ? rgb_srgb_decode(value) : pow(value, settings->assumed_gamma);
+}
+
+// The same, of many values in place.
+static inline void linear_floats(const Settings *settings, float *values, size_t count)
+{
+    if (settings->gamma_model != GAMMA_SRGB) {
+        float_power_all(settings->assumed_gamma, values, count);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        values[i] = (float)linear_value(settings, values[i]);
+    }
 }
 
 // Back again, for light that is not below 0.

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/attributes.h"
+#include "math/float_power.h"
 #include "math/transform.h"
 #include "math/vec3.h"
 #include "unit/random.h"
@@ -216,8 +217,32 @@ static void test_similarities(void)
     tap_ok(lost == 0, "chains of three rotations about three axes keep spheres (%d lost)", lost);
 }
 
+// What tables and a series give is what pow gives, rounded, for the exponents of scenes and for odd ones; below 0, 0's.
+static void test_float_powers(void)
+{
+    static const double exponents[] = {2.2, 1.0 / 2.2, 1.8, 1.0, 2.0, 0.5, 4.0, 0.0, -1.0, 7.5, 1.3};
+    static const float special[] = {0.0F,          0x1p-149F, 0x1p-25F, 0x1.fffffep-25F, 0x1p-24F,
+                                    0x1.fffffep5F, 0x1p6F,    FLT_MAX,  -1.0F,           1.0F};
+    enum { COUNT = 300000, SPECIAL = RT_COUNT_OF(special) };
+    static float values[COUNT], powers[COUNT];
+    Random random = {11};
+    for (size_t i = 0; i < RT_COUNT_OF(exponents); i++) {
+        int different = 0;
+        for (int k = 0; k < COUNT; k++) {
+            values[k] = k < SPECIAL ? special[k] : (float)ldexp(random_between(&random, 0.5, 1), k % 36 - 27);
+        }
+        memcpy(powers, values, sizeof powers);
+        float_power_all(exponents[i], powers, COUNT);
+        for (int k = 0; k < COUNT; k++) {
+            different += powers[k] != (float)pow(fmax((double)values[k], 0.0), exponents[i]);
+        }
+        tap_ok(different == 0, "powers of %g are those of pow (%d different)", exponents[i], different);
+    }
+}
+
 int main(void)
 {
+    test_float_powers();
     test_rotations();
     test_sines();
     test_composition();
