@@ -100,6 +100,7 @@ static void init(Eval *ev, const EvalOptions *options, Scene *scene)
 static void fini(Eval *ev)
 {
     lint_fini(ev);
+    origins_fini(ev);
     objects_fini(ev);
     data_files_fini(ev);
     files_fini(ev);

@@ -1,7 +1,7 @@
 // Where a name that is not declared may come from: the include files at hand that declare it.
 //
 // Looks through the text of the files in the include folders, then through the list of what POV-Ray's own files
-// declare, when a fault is reported and not before. Owns nothing; knows nothing of scopes.
+// declare, when a fault is reported and not before. Owns the list of what the first declare; knows nothing of scopes.
 //
 // SPDX-License-Identifier: MIT
 #include <dirent.h>
@@ -12,7 +12,10 @@
 
 #include "eval/run/run.h"
 
-enum { BYTES_MOST = 1 << 20 };
+enum {
+    BYTES_MOST = 1 << 20,  // of a file
+    NAMES_MOST = 16 << 20, // bytes of names that are kept
+};
 
 static bool is_name_byte(char c)
 {
@@ -34,25 +37,59 @@ static bool is_in_comment(const char *text, const char *at)
     return is_behind;
 }
 
-// A `#declare` or `#macro` with the name behind it; in a longer comment it counts as well.
-static bool declares(const char *text, const char *name, const char *directive)
+// What the files at hand declare, each looked through once.
+struct Origins {
+    InternTable *names;
+    ARRAY(Symbol) files; // by the symbol of a name: that of the file that declares it first, or SYMBOL_NONE
+};
+
+static bool note_name(Origins *origins, const char *name, size_t length, Symbol file)
 {
-    size_t length = strlen(name);
-    for (const char *next = text, *at; (at = strstr(next, directive)) != NULL;) {
-        next = at + strlen(directive);
-        const char *word = next;
-        while (is_blank(*word)) {
-            word++;
-        }
-        bool is_name = word > next && strncmp(word, name, length) == 0 && !is_name_byte(word[length]);
-        if (is_name && !is_in_comment(text, at)) {
-            return true;
+    Symbol symbol = intern_text(origins->names, name, length);
+    while (symbol != SYMBOL_NONE && origins->files.count <= symbol) {
+        if (!ARRAY_PUSH(&origins->files, SYMBOL_NONE)) {
+            return false;
         }
     }
-    return false;
+    if (symbol != SYMBOL_NONE && origins->files.items[symbol] == SYMBOL_NONE) {
+        origins->files.items[symbol] = file;
+    }
+    return symbol != SYMBOL_NONE;
 }
 
-static bool file_declares(const char *folder, const char *file, const char *name, char *text)
+// Behind the word of a directive that declares, else NULL.
+static const char *behind_directive(const char *hash)
+{
+    static const char *const directives[] = {"#declare", "#macro"};
+    for (size_t i = 0; i < RT_COUNT_OF(directives); i++) {
+        size_t length = strlen(directives[i]);
+        if (strncmp(hash, directives[i], length) == 0) {
+            return hash + length;
+        }
+    }
+    return NULL;
+}
+
+// Each name behind a `#declare` or `#macro`; in a longer comment it counts as well.
+static void note_names(Origins *origins, const char *text, Symbol file)
+{
+    for (const char *at = strchr(text, '#'); at != NULL; at = strchr(at + 1, '#')) {
+        const char *behind = behind_directive(at), *word = behind;
+        while (word != NULL && is_blank(*word)) {
+            word++;
+        }
+        const char *end = word;
+        while (end != NULL && is_name_byte(*end)) {
+            end++;
+        }
+        if (behind != NULL && word > behind && end > word && !is_in_comment(text, at) &&
+            !note_name(origins, word, (size_t)(end - word), file)) {
+            return;
+        }
+    }
+}
+
+static void note_file(Origins *origins, const char *folder, const char *file, char *text)
 {
     TextBuffer path;
     text_init(&path);
@@ -64,26 +101,69 @@ static bool file_declares(const char *folder, const char *file, const char *name
         (void)fclose(stream);
     }
     text_fini(&path);
-    return declares(text, name, "#declare") || declares(text, name, "#macro");
+    Symbol symbol = intern_text(origins->names, file, strlen(file));
+    if (symbol != SYMBOL_NONE) {
+        note_names(origins, text, symbol);
+    }
 }
 
-// The first such file of a folder, in the order of names, whatever the order of the folder.
-static bool look_in(const char *folder, const char *name, char *text, char found[NAME_MAX + 1])
+static int is_include(const struct dirent *entry)
 {
-    DIR *directory = opendir(folder);
-    found[0] = '\0';
-    for (const struct dirent *entry; directory != NULL && (entry = readdir(directory)) != NULL;) {
-        const char *ending = strrchr(entry->d_name, '.');
-        bool is_wanted = ending != NULL && strcmp(ending, ".inc") == 0 && strlen(entry->d_name) <= NAME_MAX &&
-                         (found[0] == '\0' || strcmp(entry->d_name, found) < 0);
-        if (is_wanted && file_declares(folder, entry->d_name, name, text)) {
-            memcpy(found, entry->d_name, strlen(entry->d_name) + 1);
+    const char *ending = strrchr(entry->d_name, '.');
+    return ending != NULL && strcmp(ending, ".inc") == 0 && strlen(entry->d_name) <= NAME_MAX;
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b)
+{
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+// In the order of names, whatever the order of the folder.
+static void note_folder(Origins *origins, const char *folder, char *text)
+{
+    struct dirent **entries = NULL;
+    int count = scandir(folder, &entries, is_include, by_name);
+    for (int i = 0; i < count; i++) {
+        note_file(origins, folder, entries[i]->d_name, text);
+        free(entries[i]);
+    }
+    free(entries);
+}
+
+void origins_fini(Eval *ev)
+{
+    if (ev->origins != NULL) {
+        intern_free(ev->origins->names);
+        ARRAY_FREE(&ev->origins->files);
+        free(ev->origins);
+    }
+}
+
+// NULL when out of memory.
+static const Origins *origins_of(Eval *ev)
+{
+    char *text = ev->origins == NULL ? malloc(BYTES_MOST) : NULL;
+    Origins *origins = text != NULL ? calloc(1, sizeof *origins) : NULL;
+    if (origins != NULL && (origins->names = intern_new(NAMES_MOST)) != NULL) {
+        const char *folder;
+        for (size_t i = 0; (folder = file_folder(ev, i)) != NULL; i++) {
+            note_folder(origins, folder, text);
         }
+        ev->origins = origins;
+    } else {
+        free(origins);
     }
-    if (directory != NULL) {
-        closedir(directory);
-    }
-    return found[0] != '\0';
+    free(text);
+    return ev->origins;
+}
+
+// The first file at hand that declares the name, NULL when there is none.
+static const char *look_at_hand(Eval *ev, const char *name)
+{
+    const Origins *origins = origins_of(ev);
+    Symbol symbol = origins != NULL ? intern_find(origins->names, name, strlen(name)) : SYMBOL_NONE;
+    Symbol file = symbol != SYMBOL_NONE && symbol < origins->files.count ? origins->files.items[symbol] : SYMBOL_NONE;
+    return file != SYMBOL_NONE ? intern_get(origins->names, file) : NULL;
 }
 
 typedef struct Standard {
@@ -124,14 +204,11 @@ static bool look_in_standard(const char *name, char *file)
     return false;
 }
 
-bool name_find_include(const Eval *ev, const char *name, char *file)
+bool name_find_include(Eval *ev, const char *name, char *file)
 {
-    char *text = malloc(BYTES_MOST);
-    bool is_found = false;
-    const char *folder;
-    for (size_t i = 0; text != NULL && !is_found && (folder = file_folder(ev, i)) != NULL; i++) {
-        is_found = look_in(folder, name, text, file);
+    const char *found = look_at_hand(ev, name);
+    if (found != NULL) {
+        memcpy(file, found, strlen(found) + 1);
     }
-    free(text);
-    return is_found || look_in_standard(name, file);
+    return found != NULL || look_in_standard(name, file);
 }

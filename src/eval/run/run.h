@@ -84,7 +84,8 @@ bool scope_undef(Eval *ev, Symbol name); // false when it was not declared
 // Of the names in scope and the reserved words that could stand in the place of a NAME or CALL, the nearest.
 Suggest scope_nearest(const Eval *ev, const AstNode *node);
 // The first file of the include folders that declares a name, of NAME_MAX + 1 bytes; false when none does.
-bool name_find_include(const Eval *ev, const char *name, char *file);
+bool name_find_include(Eval *ev, const char *name, char *file);
+void origins_fini(Eval *ev);
 // The names of the include files that come with POV-Ray; NULL from their number on.
 const char *name_standard_file(size_t i);
 

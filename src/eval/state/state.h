@@ -32,6 +32,7 @@ typedef struct CursorFrame CursorFrame;
 typedef struct FileState FileState;     // run/files.c
 typedef struct DataFile DataFile;       // run/datafile.c
 typedef struct Lint Lint;               // run/lint.c
+typedef struct Origins Origins;         // run/origin.c
 typedef struct ObjectState ObjectState; // build/blocks.h: default texture, scratch of the objects
 typedef struct Painted Painted;         // build/painted.c
 typedef struct GrammarText GrammarText; // grammar/grammar.h
@@ -110,6 +111,7 @@ struct Eval {
     FileState *files;
     DataFile *data_files; // all that were opened
     Lint *lint; // NULL when nobody asked
+    Origins *origins; // NULL before a name was looked for in files that are not included
     const DiagFrame *frame; // also in options.diags->frame
     double version;
     bool version_given;           // a #version was run
