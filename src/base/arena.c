@@ -11,9 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/pages.h"
+
 enum { ALIGNMENT = 16 };
 #define CHUNK_LEAST    ((size_t)64 << 10)
 #define CHUNK_GREATEST ((size_t)64 << 20)
+// What holds that much will hold more, for most of which huge pages save the faults.
+#define HUGE_FROM      ((size_t)512 << 10)
+#define HUGE_PAGE      ((size_t)2 << 20)
 
 struct ArenaChunk {
     ArenaChunk *older;
@@ -70,9 +75,10 @@ static ArenaChunk *chunk_new(Arena *arena, size_t least)
         return NULL;
     }
     size = size < CHUNK_LEAST ? CHUNK_LEAST : size > CHUNK_GREATEST ? CHUNK_GREATEST : size;
+    size = size < HUGE_FROM ? size : (size + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
     size = size > left ? left : size;
     size = size < least ? least : size;
-    ArenaChunk *chunk = malloc(size);
+    ArenaChunk *chunk = pages_grow(NULL, 0, size);
     if (!chunk && size > least) {
         size = least;
         chunk = malloc(size);
