@@ -207,6 +207,10 @@ static OptionsResult read_command_line(int argc, char **argv, Options *options, 
 {
     bool is_povray = povray_is_meant(argc, argv);
     OptionsResult result = is_povray ? OPTIONS_GO : options_parse(argc, argv, options);
+    *status = RT_OK;
+    if (!is_povray && result == OPTIONS_GO && !options->rerun) {
+        return OPTIONS_GO; // nothing to report, as for most runs
+    }
     rt_session *session = open_session(options, voice);
     *status = session ? RT_OK : RT_FAULT_LIMIT;
     if (session && is_povray) {
