@@ -548,7 +548,7 @@ static Sampling *sampling_new(const SamplingOptions *wanted, bool has_progress, 
     film->records = calloc(width * height, sizeof *film->records);
     if (s && wanted->is_adaptive) {
         s->allocation.of_pixel = calloc(width * height, sizeof *s->allocation.of_pixel);
-        s->allocation.memory = calloc(width, NEAR_ROWS * sizeof *s->allocation.memory);
+        s->allocation.memory = calloc(width, ALLOCATION_ROWS * sizeof *s->allocation.memory);
     }
     if (s && has_pilot) {
         s->corners = calloc((width + 1) * (height + 1), 3 * sizeof *s->corners);

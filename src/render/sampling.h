@@ -312,9 +312,11 @@ enum { BUCKETS = 1020, BUCKET_FINE = 4 };
 // A round takes about this share of all samples taken before it: what a run may spend too much.
 static const double ROUND_SHARE = 0.25;
 
+enum { ALLOCATION_ROWS = NEAR_ROWS + 2 };
+
 typedef struct Allocation {
     uint16_t *of_pixel;                         // width * height; owned by the caller
-    double *memory;                             // NEAR_ROWS * width; owned by the caller
+    double *memory;                             // ALLOCATION_ROWS * width; owned by the caller
     double cost[BUCKETS], corner_cost[BUCKETS]; // samples that pixels get next; those that have their corners only
     double corner_priority;                     // of such a pixel, over what it is off by
     double spent;                               // samples of the next round

@@ -117,15 +117,15 @@ static void constants_init(Constants *constants, const Estimate *estimate, doubl
 // The buckets of a row, from the constants around its pixels. A pixel's own counts the more, the more samples it is
 // from.
 static void choose_row(Allocation *allocation, const Constants *constants, const Round *round, int y,
-                       const double *near)
+                       const double *own, const double *near)
 {
     size_t begin = (size_t)y * (size_t)round->film->width;
     for (int x = 0; x < round->film->width; x++) {
         size_t pixel = begin + (size_t)x;
         const PixelRecord *record = &round->film->records[pixel];
         int level = estimate_level(record->count);
-        double count = record->count, own = constant_of(constants, round, pixel);
-        double constant = (NEIGHBOURS_COUNT * near[x] + count * own) / (NEIGHBOURS_COUNT + count);
+        double count = record->count;
+        double constant = (NEIGHBOURS_COUNT * near[x] + count * own[x]) / (NEIGHBOURS_COUNT + count);
         constant = constant > constants->floor ? constant : constants->floor;
         bool is_full = record->count > UINT32_MAX / 4;
         uint16_t bucket = is_full ? 0 : bucket_of(constant * constants->to_priority[level]);
@@ -160,15 +160,17 @@ void allocation_make(Allocation *allocation, const Estimate *estimate, const Rou
         allocation->cost[i] = allocation->corner_cost[i] = 0.0;
     }
     Near near = near_begin(allocation->memory, film->width, film->height);
+    double *rows = allocation->memory + (ptrdiff_t)NEAR_ROWS * film->width; // of pixels' own constants
     for (int y = 0; y <= film->height; y++) {
         size_t begin = (size_t)y * (size_t)film->width;
+        double *own = rows + (ptrdiff_t)(y % 2) * film->width, *above = rows + (ptrdiff_t)((y + 1) % 2) * film->width;
         for (int x = 0; y < film->height && x < film->width; x++) {
-            near.values[x] = constant_of(&constants, round, begin + (size_t)x);
+            near.values[x] = own[x] = constant_of(&constants, round, begin + (size_t)x);
         }
         near_give(&near, y);
         if (y > 0) {
             near_take(&near, y - 1);
-            choose_row(allocation, &constants, round, y - 1, near.values);
+            choose_row(allocation, &constants, round, y - 1, above, near.values);
         }
     }
     int least = BUCKETS;

@@ -82,7 +82,7 @@ static void pixel_start(const Round *round, const ChosenPixel *chosen, SampleSum
 // What goes for all pixels that get so many samples.
 typedef struct Shares {
     uint32_t before, count;
-    bool is_linear;                 // slope_at is NULL
+    bool is_linear, is_adaptive;    // linear: slope_at is NULL
     double of_new, of_old, of_mean; // of a sum of samples, of the old mean and of the new one
     double first, second;           // of the sums of halves
     double fresh, outer;            // apart_factor
@@ -94,6 +94,7 @@ static void shares_set(const Round *round, Shares *shares, uint32_t had, uint32_
     *shares = (Shares){.before = had,
                        .count = count,
                        .is_linear = !linear_is_needed(&round->prepared->scene->settings),
+                       .is_adaptive = round->sampling->is_adaptive,
                        .of_new = 1.0 / count,
                        .of_old = before / now,
                        .of_mean = count / now,
@@ -105,8 +106,8 @@ static void shares_set(const Round *round, Shares *shares, uint32_t had, uint32_
 
 // What the samples of a pixel say of its error; `old` and `mean` are the means of those that it had and of the new. It is
 // the cost of the estimate, so each caller's `slope` makes a copy of its own.
-RT_ALWAYS_INLINE void pixel_judge_by(const Round *round, const Shares *shares, PixelRecord *record, const SampleSums *parts,
-                                     Rgb old, Rgb mean, const Rgb *slope)
+RT_ALWAYS_INLINE void pixel_judge_by(const Shares *shares, PixelRecord *record, const SampleSums *parts, Rgb old, Rgb mean,
+                                     const Rgb *slope)
 {
     Rgb apart = rgb_add_scaled(rgb_scale(shares->first, parts->sum[0]), -shares->second, parts->sum[1]);
     float fresh = square_apart(apart, slope, shares->fresh), outer = fresh, inner = 0.0f;
@@ -114,7 +115,7 @@ RT_ALWAYS_INLINE void pixel_judge_by(const Round *round, const Shares *shares, P
         inner = 0.5f * (record->outer + fresh);
         outer = square_apart(rgb_add_scaled(old, -1.0, mean), slope, shares->outer);
     }
-    if (round->sampling->is_adaptive) {
+    if (shares->is_adaptive) {
         double spread = spread_of(parts, mean, slope, shares->count);
         record->spread = (float)(shares->of_old * record->spread + shares->of_mean * spread) + outer;
     }
@@ -129,9 +130,9 @@ static inline void pixel_judge(const Round *round, const Shares *shares, size_t 
     PixelRecord *record = &round->film->records[pixel];
     Rgb place;
     if (shares->is_linear) {
-        pixel_judge_by(round, shares, record, parts, old, mean, NULL);
+        pixel_judge_by(shares, record, parts, old, mean, NULL);
     } else {
-        pixel_judge_by(round, shares, record, parts, old, mean, slope_at(round, &round->film->rgb[3 * pixel], &place));
+        pixel_judge_by(shares, record, parts, old, mean, slope_at(round, &round->film->rgb[3 * pixel], &place));
     }
 }
 
