@@ -194,8 +194,9 @@ static void test_targets(void)
     }
     tap_ok(met >= 0.95 * all, "--target-error is met in %d of %d runs, at least 95 %%", met, all);
     double median = ratios_quantile(predicted.off, &predicted, 0.5);
-    // The law of a run's first samples does not know how much more is won once strata have samples enough.
-    tap_ok(median <= (is_long ? 0.35 : 0.40),
+    // The law of a run's first samples does not know how much more is won once strata have samples enough, of which the two
+    // scenes of a short run have more than others.
+    tap_ok(median <= (is_long ? 0.35 : 0.45),
            "the samples to the goal are predicted within %.0f %% in the median of %d", 100.0 * median, predicted.count);
 }
 
