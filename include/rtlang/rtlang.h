@@ -492,6 +492,11 @@ RT_API rt_status rt_write(rt_session *session, const char *path, const rt_output
  * before rt_render. */
 RT_API const float *rt_pixels(const rt_session *session, int *width, int *height);
 
+/* The same, handed over without a copy: from now on it is the caller's, until rt_free_pixels, also after the session's
+ * end, and the session has no picture: ask for planes and rt_transparency before. */
+RT_API float *rt_take_pixels(rt_session *session, int *width, int *height);
+RT_API void rt_free_pixels(float *pixels);
+
 /* With rt_set_alpha: width * height numbers, the share of what is behind the scene: 1 - alpha. It is not in the light of
  * rt_pixels, which so is multiplied with alpha. NULL otherwise and before rt_render. */
 RT_API const float *rt_transparency(const rt_session *session);

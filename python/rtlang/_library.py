@@ -109,6 +109,7 @@ _FUNCTIONS = {  # name: (result, arguments after the session)
     "rt_add_include_path": (c_int, [c_char_p]),
     "rt_set_size": (c_int, [c_int, c_int]),
     "rt_set_crop": (c_int, [c_int, c_int, c_int, c_int]),
+    "rt_set_warning": (c_int, [c_char_p]),
     "rt_set_limit": (c_int, [c_int, c_uint64]),
     "rt_set_sampling": (c_int, [POINTER(Sampling)]),
     "rt_set_alpha": (None, [c_int]),
@@ -132,6 +133,7 @@ _FUNCTIONS = {  # name: (result, arguments after the session)
     "rt_get_error": (None, [POINTER(SamplingError)]),
     "rt_get_summary": (None, [POINTER(Summary)]),
     "rt_pixels": (c_void_p, [POINTER(c_int), POINTER(c_int)]),
+    "rt_take_pixels": (c_void_p, [POINTER(c_int), POINTER(c_int)]),
     "rt_transparency": (c_void_p, []),
     "rt_set_pixels": (c_int, [c_int, c_int, c_void_p, c_void_p]),
     "rt_get_pixels": (c_int, [POINTER(Output), c_void_p, c_size_t]),
@@ -171,6 +173,7 @@ def _load():
         function = getattr(library, name)
         function.restype, function.argtypes = result, [_SESSION] + arguments
     library.rt_session_new.restype, library.rt_session_new.argtypes = c_void_p, [POINTER(Callbacks)]
+    library.rt_free_pixels.restype, library.rt_free_pixels.argtypes = None, [c_void_p]
     library.rt_version.restype, library.rt_version.argtypes = c_char_p, []
     return library
 

@@ -7,6 +7,8 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+import warnings
+import weakref
 from typing import Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -99,6 +101,7 @@ class Scene:
         self._look = look_of(look)
         self._session = Session()
         self._session.call("rt_begin_scene")
+        self._session.call("rt_set_warning", b"W0211")  # colors that look like bytes
         for name, value in (("memory", memory), ("objects", objects)):
             if value is not None:
                 self._session.call("rt_set_limit", c.LIMITS[name], value)
@@ -234,6 +237,9 @@ class Scene:
         if not is_fit and (angle is None) == (width is None):
             raise UsageError("a camera needs either angle or width")
         points = None if isinstance(fit, bool) else numbers("fit", fit, (None, 3)).reshape(-1, 3)
+        if angle is not None and not 0 < angle < 180:
+            raise SceneError(f"the angle of a camera must be above 0 and less than 180, not {angle!r}", "E0460",
+                             "camera")
         self._camera = {
             "fit": is_fit, "points": points, "angle": angle, "width": width,
             "location": None if is_fit else _vector("location", location),
@@ -312,6 +318,9 @@ class Scene:
             raise UsageError("no shape of the scene has a size, so there is no box around them")
         return np.array(low), np.array(high)
 
+    def _has_box(self) -> bool:
+        return self._session.ask("rt_get_box", c.Vector(), c.Vector()) == c.OK
+
     def _fitted(self, view: dict, aspect: float) -> c.Camera:
         if view["points"] is None:
             low, high = self.box()
@@ -341,7 +350,7 @@ class Scene:
                         view["right_handed"], view["aperture"])
 
     def _apply_camera(self, aspect: float) -> None:
-        if self._camera is None and not self._has_text and self._shapes:
+        if self._camera is None and not self._has_text and self._has_box():
             self.camera(fit=True)
         view = self._camera
         if view is None:
@@ -406,9 +415,14 @@ class Scene:
         """
         if not all(isinstance(side, (int, np.integer)) for side in (width, height)):
             raise UsageError(f"width and height are whole numbers of pixels, not {width!r} and {height!r}")
+        if not (1 <= width <= 65535 and 1 <= height <= 65535):
+            raise UsageError(f"width and height are 1 to 65535 pixels, not {width!r} and {height!r}")
         session = self._session
         session.call("rt_set_size", int(width), int(height))
         if crop is not None:
+            if len(crop) != 4 or not (0 <= crop[0] < crop[0] + crop[2] <= width and
+                                      0 <= crop[1] < crop[1] + crop[3] <= height):
+                raise UsageError(f"crop is (left, top, width, height) within {width} x {height} pixels, not {crop!r}")
             session.call("rt_set_crop", *crop)
         has_goal = bool(target_error or time_limit or adaptive)
         if self._look is not None and samples is None and not (target_error or time_limit):
@@ -422,7 +436,11 @@ class Scene:
         session.call("rt_set_planes", sum({c.PLANES[name][0] for name in planes}))
         sampling = c.Sampling(_text("sampler", sampler), _text("filter", filter), samples or 0.0, seed, int(adaptive),
                               target_error or 0.0, time_limit or 0.0, 0, 0, max_trace_level)
-        session.call("rt_set_sampling", ctypes.byref(sampling))
+        if session.ask("rt_set_sampling", ctypes.byref(sampling)) != c.OK:
+            raise UsageError(f"no sampling is like this: samples {samples!r}, target_error {target_error!r}, "
+                             f"time_limit {time_limit!r}, adaptive {adaptive!r}, sampler {sampler!r}, "
+                             f"filter {filter!r}, seed {seed!r}, max_trace_level {max_trace_level!r}",
+                             suggestion="docs/sampling.md")
         self._apply_camera(width / height)
         self._apply_look(height, bool(alpha))
         bar = _Bar() if progress is True else None
@@ -439,17 +457,20 @@ class Scene:
 
     def _image(self, planes: Sequence[str]) -> Image:
         width, height, error, summary = ctypes.c_int(), ctypes.c_int(), c.SamplingError(), c.Summary()
-        address = self._session.ask("rt_pixels", ctypes.byref(width), ctypes.byref(height))
+        self._session.ask("rt_pixels", ctypes.byref(width), ctypes.byref(height))
         shape = (height.value, width.value)
-        clear = self._session.ask("rt_transparency")
+        address = self._session.ask("rt_transparency")
+        clear = np.ctypeslib.as_array(ctypes.cast(address, c.FLOATS), shape) if address else None
+        alpha = None if clear is None else 1 - clear
+        told = {name: self._plane(name, shape) for name in planes}
         self._session.ask("rt_get_error", ctypes.byref(error))
         self._session.ask("rt_get_summary", ctypes.byref(summary))
         known = bool(error.known)
-        return Image(_copy(address, shape + (3,)), None if not clear else 1 - _copy(clear, shape),
-                     error.samples or 1.0, error.rmse if known else None, (error.low, error.high) if known else None,
-                     c.ENDS[error.end], {"prepare": summary.prepare_seconds, "trace": summary.trace_seconds},
-                     {name: self._plane(name, shape) for name in planes},
-                     {"trees": summary.trees, "refits": summary.refits})
+        pixels = _own(self._session.ask("rt_take_pixels", ctypes.byref(width), ctypes.byref(height)), shape + (3,))
+        return Image(pixels, alpha, error.samples or 1.0, error.rmse if known else None,
+                     (error.low, error.high) if known else None, c.ENDS[error.end],
+                     {"prepare": summary.prepare_seconds, "trace": summary.trace_seconds},
+                     told, {"trees": summary.trees, "refits": summary.refits})
 
     def dump(self) -> str:
         """The scene as text of the scene language, which gives the same records, bit for bit."""
@@ -458,8 +479,11 @@ class Scene:
         return text.value.decode("utf-8", "replace")
 
 
-def _copy(address: int, shape: Tuple[int, ...]) -> np.ndarray:
-    return np.ctypeslib.as_array(ctypes.cast(address, c.FLOATS), shape).copy()
+def _own(address: int, shape: Tuple[int, ...]) -> np.ndarray:
+    """An array of pixels that the library gave away, which gives their memory back when nobody looks at it any more."""
+    memory = (ctypes.c_float * int(np.prod(shape))).from_address(address)
+    weakref.finalize(memory, c.LIBRARY.rt_free_pixels, address).atexit = False
+    return np.frombuffer(memory, np.float32).reshape(shape)
 
 
 class _Bar:
@@ -468,7 +492,9 @@ class _Bar:
     def __init__(self):
         self._last = 0.0
         try:
-            from tqdm.auto import tqdm  # pylint: disable=import-outside-toplevel
+            with warnings.catch_warnings():  # where a notebook has no widgets, its bar is text, and tqdm says so
+                warnings.simplefilter("ignore")
+                from tqdm.auto import tqdm  # pylint: disable=import-outside-toplevel
             self._tqdm = tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}<{remaining}")
         except ImportError:
             self._tqdm = None

@@ -35,9 +35,9 @@ static bool element_is_fine(const ArrayCheck *check, size_t element)
 
 static bool is_like_bytes(const ArrayCheck *check, size_t element)
 {
-    return check->rule == ARRAY_COLOR && rgb_is_like_bytes(array_number(check->array, element, 0),
-                                                           array_number(check->array, element, 1),
-                                                           array_number(check->array, element, 2));
+    return check->rule == ARRAY_COLOR &&
+           rgb_is_like_bytes(array_number(check->array, element, 0), array_number(check->array, element, 1),
+                             array_number(check->array, element, 2));
 }
 
 static void note_least(atomic_size_t *least, size_t element)
@@ -85,9 +85,8 @@ static bool check_one(rt_session *session, const ArrayCheck *check, size_t count
 {
     Look look = {.check = check, .bad = SIZE_MAX, .bytes = SIZE_MAX};
     bool is_same = check->array->stride == 0;
-    int threads = session->load_threads > 0 ? session->load_threads : render_default_threads();
     if (array_is_given(check->array) && count > 0) {
-        parallel_share(threads, is_same ? 1 : count, SPHERE_RUN, look_work, &look);
+        parallel_share(session_load_threads(session), is_same ? 1 : count, SPHERE_RUN, look_work, &look);
     }
     if (look.bad != SIZE_MAX) {
         report_bad(session, check, look.bad, base);
@@ -107,19 +106,4 @@ bool arrays_are_fine(rt_session *session, const ArrayCheck *checks, int check_co
         is_fine = check_one(session, &checks[i], count, base) && is_fine;
     }
     return is_fine;
-}
-
-Material look_material(const rt_look *look, size_t element, FinishIndex finish)
-{
-    const rt_array *colors = &look->colors;
-    Material material = {1.0F, 1.0F, 1.0F, 0.0F, 0.0F, finish};
-    if (array_is_given(colors)) {
-        material.red = (float)array_number(colors, element, 0);
-        material.green = (float)array_number(colors, element, 1);
-        material.blue = (float)array_number(colors, element, 2);
-        material.filter = look->color_numbers == 5 ? (float)array_number(colors, element, 3) : 0.0F;
-        material.transmit =
-            look->color_numbers >= 4 ? (float)array_number(colors, element, look->color_numbers - 1) : 0.0F;
-    }
-    return material;
 }

@@ -34,7 +34,20 @@ static inline bool array_is_given(const rt_array *array)
 }
 
 // The colour of an element as a material of a finish; white where none is given.
-Material look_material(const rt_look *look, size_t element, FinishIndex finish);
+static inline Material look_material(const rt_look *look, size_t element, FinishIndex finish)
+{
+    const rt_array *colors = &look->colors;
+    Material material = {1.0F, 1.0F, 1.0F, 0.0F, 0.0F, finish};
+    if (array_is_given(colors)) {
+        material.red = (float)array_number(colors, element, 0);
+        material.green = (float)array_number(colors, element, 1);
+        material.blue = (float)array_number(colors, element, 2);
+        material.filter = look->color_numbers == 5 ? (float)array_number(colors, element, 3) : 0.0F;
+        material.transmit =
+            look->color_numbers >= 4 ? (float)array_number(colors, element, look->color_numbers - 1) : 0.0F;
+    }
+    return material;
+}
 
 // What an array must be like.
 typedef enum ArrayRule { ARRAY_FINITE, ARRAY_NOT_NEGATIVE, ARRAY_COLOR } ArrayRule;
@@ -45,10 +58,38 @@ typedef struct ArrayCheck {
     ArrayRule rule;
 } ArrayCheck;
 
-// Whether all arrays are as they must be; reports the first element that is not, at base + its number. Colours that look
-// like bytes are warned of.
+// Whether all arrays are as they must be; reports the first element that is not, at base + its number. Colours that
+// look like bytes are warned of.
 bool arrays_are_fine(rt_session *session, const ArrayCheck *checks, int check_count, size_t count,
                      uint64_t base) RT_MUST_CHECK;
+
+// A list of elements that a call adds.
+typedef struct ShapeList {
+    rt_session *session;
+    Source *source;
+    uint64_t base; // of the source
+    FinishIndex finish;
+} ShapeList;
+
+bool look_is_known(const rt_look *look);
+ArrayCheck look_check(const rt_look *look);
+Span shape_list_span(const ShapeList *list, size_t element);
+
+// Numbers the elements, and reads the finish; `open` looks at all of them, too. False after a fault, with nothing
+// taken.
+bool shape_list_begin(ShapeList *list, rt_session *session, const char *name, size_t count, const ArrayCheck *checks,
+                      int check_count, const rt_look *look) RT_MUST_CHECK;
+bool shape_list_open(ShapeList *list, rt_session *session, const char *name, size_t count, const ArrayCheck *checks,
+                     int check_count, const rt_look *look) RT_MUST_CHECK;
+// Whether so many more records may be taken; reports when not.
+bool shape_list_has_room(const ShapeList *list, size_t count, size_t bytes_each) RT_MUST_CHECK;
+// Warns that an element is not drawn.
+void shape_list_warn(const ShapeList *list, size_t element, const char *why);
+
+// Reports that memory is exhausted; false.
+bool session_no_room(rt_session *session, Span span);
+// The status of a call, all of whose messages are handed over.
+rt_status session_finish_call(rt_session *session, bool fine);
 
 // Reports a call that was made out of order, or with an argument that it does not take.
 rt_status session_misuse(rt_session *session, const char *message, const char *suggestion);

@@ -247,6 +247,24 @@ const float *rt_transparency(const rt_session *session)
     return session->rendered ? film_background(&session->film) : NULL;
 }
 
+float *rt_take_pixels(rt_session *session, int *width, int *height)
+{
+    float *pixels = session->rendered ? session->film.rgb : NULL;
+    if (pixels) {
+        *width = session->film.width;
+        *height = session->film.height;
+        session->film.rgb = NULL;
+        film_fini(&session->film);
+        session->rendered = false;
+    }
+    return pixels;
+}
+
+void rt_free_pixels(float *pixels)
+{
+    free(pixels);
+}
+
 const float *rt_pixels(const rt_session *session, int *width, int *height)
 {
     if (!session->rendered) {

@@ -205,3 +205,12 @@ bool session_make_notes(const rt_session *session, SessionNotes *notes)
     }
     return is_whole;
 }
+
+double session_camera_rays(const rt_session *session)
+{
+    enum { GOAL_RAYS = 16 }; // a pixel, at least
+    SamplingOptions sampling = session_sampling(session);
+    double each = sampling.samples > 1.0 ? sampling.samples : 1.0;
+    each = sampling.is_adaptive && each < GOAL_RAYS ? GOAL_RAYS : each;
+    return each * session_film_width(session) * session_film_height(session);
+}

@@ -23,6 +23,7 @@
 #include "base/stack.h"
 #include "render/linear.h"
 #include "render/study.h"
+#include "scene/range.h"
 #include "scene/recentre.h"
 #include "scene/scene_extent.h"
 
@@ -204,7 +205,7 @@ static bool load_pictures(void *client, Scene *scene)
     return session_load_pictures(client, scene);
 }
 
-static int load_threads(const rt_session *session)
+int session_load_threads(const rt_session *session)
 {
     return session->load_threads > 0 ? session->load_threads : render_default_threads();
 }
@@ -233,7 +234,7 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
         .is_lenient = session->is_lenient,
         .left_out = &session->left_out,
         .version = version,
-        .threads = load_threads(session),
+        .threads = session_load_threads(session),
         .tracer = &probe_tracer,
         .painter = &painter,
         .load_pictures = load_pictures,
@@ -250,8 +251,9 @@ bool session_evaluate(rt_session *session, Source *source, Scene *scene, double 
 static bool check_whole(rt_session *session, bool has_new_shapes)
 {
     const Scene *scene = &session->scene;
-    bool fine = (has_new_shapes ? scene_validate(scene, &session->diags, load_threads(session))
-                                : scene_validate_view(scene, &session->diags, load_threads(session))) &&
+    scene_keep_survey(&session->scene, session_load_threads(session));
+    bool fine = (has_new_shapes ? scene_validate(scene, &session->diags, session_load_threads(session))
+                                : scene_validate_view(scene, &session->diags, session_load_threads(session))) &&
                 session->diags.error_count == 0;
     if (fine) {
         scene_hint_of_view(scene, session->width, session->height, &session->diags);
@@ -453,7 +455,7 @@ static rt_status render_scene(rt_session *session, void *argument)
     bool is_spent = session->is_last && session->method == RT_METHOD_BACKWARD &&
                     session->precision == RT_PRECISION_DOUBLE;
     GeometryOptions geometry = {.threads = threads, .isa = session->isa, .spent = is_spent ? &session->scene : NULL,
-                                .kept = is_spent ? NULL : &session->kept};
+                                .rays = session_camera_rays(session), .kept = is_spent ? NULL : &session->kept};
     OverlayOptions overlay = session->overlay;
     overlay_find_reach(&overlay, &session->scene);
     Prepared *prepared = prepared_new(&session->scene, &geometry);

@@ -215,6 +215,9 @@ static inline bool session_is_sampled(const rt_session *session)
     return sampling_is_wanted(&sampling);
 }
 
+// About how many rays go through the pixels of the next picture.
+double session_camera_rays(const rt_session *session);
+
 // The size of what is traced.
 static inline int session_film_width(const rt_session *session)
 {
@@ -248,6 +251,9 @@ bool session_open(rt_session *session, const char *path, Source **source);
 
 // Whether the picture, and what the loaded scene needs beside it, fit the memory that may be taken; reports when not.
 bool session_memory_suffices(rt_session *session);
+
+// How many threads look at what is loaded.
+int session_load_threads(const rt_session *session);
 
 // What the scene may take, by the limits: more for more text, and more for more numbers in arrays.
 size_t session_memory_granted(const rt_session *session);

@@ -40,16 +40,6 @@ typedef struct Surveying {
     pthread_mutex_t lock; // of the survey
 } Surveying;
 
-static void survey_add(SphereSurvey *survey, const SphereSurvey *more)
-{
-    survey->least_radius = fmin(survey->least_radius, more->least_radius);
-    survey->greatest_radius = fmax(survey->greatest_radius, more->greatest_radius);
-    survey->greatest_place = fmax(survey->greatest_place, more->greatest_place);
-    survey->is_valid = survey->is_valid && more->is_valid;
-}
-
-static const SphereSurvey nothing_surveyed = {INFINITY, 0.0, 0.0, true};
-
 static void survey_some(void *client, size_t begin, size_t end)
 {
     Surveying *surveying = client;
@@ -57,7 +47,7 @@ static void survey_some(void *client, size_t begin, size_t end)
     double least = INFINITY, greatest = 0.0, place = 0.0;
     bool has_materials = true;
     double nothing = 0.0; // as long as all is finite
-    for (size_t i = begin; i < end; i++) {
+    for (size_t i = scene->surveyed + begin; i < scene->surveyed + end; i++) {
         const Sphere *sphere = &scene->spheres.items[i];
         Vec3 centre = sphere->centre;
         double radius = sphere->radius, at = max_abs(centre);
@@ -74,16 +64,24 @@ static void survey_some(void *client, size_t begin, size_t end)
         .is_valid = nothing == 0.0 && least > 0.0 && has_materials,
     };
     pthread_mutex_lock(&surveying->lock);
-    survey_add(surveying->survey, &some);
+    sphere_survey_add(surveying->survey, &some);
     pthread_mutex_unlock(&surveying->lock);
 }
 
 void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey)
 {
     Surveying surveying = {scene, survey, PTHREAD_MUTEX_INITIALIZER};
-    *survey = nothing_surveyed;
-    parallel_share(threads, scene->spheres.count, SPHERE_RUN, survey_some, &surveying);
+    *survey = scene->survey;
+    parallel_share(threads, scene->spheres.count - scene->surveyed, SPHERE_RUN, survey_some, &surveying);
     pthread_mutex_destroy(&surveying.lock);
+}
+
+void scene_keep_survey(Scene *scene, int threads)
+{
+    SphereSurvey survey;
+    scene_survey_spheres(scene, threads, &survey);
+    scene->survey = survey;
+    scene->surveyed = scene->spheres.count;
 }
 
 // ---- the exact scale

@@ -20,13 +20,10 @@ enum { RANGE_LEAST = -480, RANGE_END = 511 };
 // u, rounded down to a power of two.
 #define RANGE_RADII 0x1p46
 
-// What is asked of all spheres, by one look at each.
-typedef struct SphereSurvey {
-    double least_radius, greatest_radius, greatest_place;
-    bool is_valid; // all numbers are finite, all radii > 0, all materials there; else the rest means nothing
-} SphereSurvey;
-
+// What is asked of all spheres, by one look at each that has not been looked at yet.
 void scene_survey_spheres(const Scene *scene, int threads, SphereSurvey *survey);
+// The same, and the scene keeps it, until spheres are changed.
+void scene_keep_survey(Scene *scene, int threads);
 bool scene_has_material(const Scene *scene, MaterialIndex index);
 
 // What a scene is scaled by, and the size of its least shape, which is INFINITY where none has a size.

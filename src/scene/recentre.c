@@ -86,6 +86,7 @@ static void move(Scene *scene, Vec3 by)
             light->point_at = vec3_add(light->point_at, by);
         }
     }
+    scene_spheres_change(scene);
     for (size_t i = 0; i < scene->spheres.count; i++) {
         scene->spheres.items[i].centre = vec3_add(scene->spheres.items[i].centre, by);
     }

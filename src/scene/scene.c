@@ -33,6 +33,7 @@ void scene_init(Scene *scene)
                 .right = {1.33, 0.0, 0.0},
                 .up = {0.0, 1.0, 0.0},
             },
+        .survey = SURVEY_OF_NOTHING,
         .settings =
             {
                 .gamma_model = GAMMA_NONE,
@@ -341,6 +342,18 @@ void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source)
     (void)add_run(scene, source); // there is room for it
     scene->spheres.count += spheres;
     scene->shape_count += (uint32_t)spheres;
+}
+
+void scene_commit_materials(Scene *scene, size_t materials)
+{
+    scene->materials.count += materials;
+    scene->material_index.last = materials > 0 ? (uint32_t)scene->materials.count - 1 : scene->material_index.last;
+}
+
+void scene_spheres_change(Scene *scene)
+{
+    scene->surveyed = 0;
+    scene->survey = SURVEY_OF_NOTHING;
 }
 
 bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first)

@@ -8,6 +8,7 @@
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -367,6 +368,22 @@ typedef struct Settings {
     double version; // the language version in force at the end, SCENE_VERSION_UNSAID if none was given
 } Settings;
 
+// What is asked of all spheres.
+typedef struct SphereSurvey {
+    double least_radius, greatest_radius, greatest_place;
+    bool is_valid; // all numbers are finite, all radii > 0, all materials there; else the rest means nothing
+} SphereSurvey;
+
+#define SURVEY_OF_NOTHING ((SphereSurvey){INFINITY, 0.0, 0.0, true})
+
+static inline void sphere_survey_add(SphereSurvey *survey, const SphereSurvey *more)
+{
+    survey->least_radius = fmin(survey->least_radius, more->least_radius);
+    survey->greatest_radius = fmax(survey->greatest_radius, more->greatest_radius);
+    survey->greatest_place = fmax(survey->greatest_place, more->greatest_place);
+    survey->is_valid = survey->is_valid && more->is_valid;
+}
+
 typedef struct Scene {
     Span whole; // the text it was made from, for messages about the scene as a whole
     Settings settings;
@@ -394,6 +411,8 @@ typedef struct Scene {
     ARRAY(Interior) interiors;
     ARRAY(Compound) compounds;
     ARRAY(Sphere) spheres;
+    size_t surveyed;     // of them, the first so many are in the survey; who changes one says scene_spheres_change
+    SphereSurvey survey;
     ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
@@ -490,6 +509,10 @@ uint32_t scene_sphere_at(const Scene *scene, uint32_t order);
 bool scene_materials_add_up(const Scene *scene);
 bool scene_reserve_spheres(Scene *scene, size_t spheres, size_t materials) RT_MUST_CHECK;
 void scene_commit_spheres(Scene *scene, size_t spheres, uint64_t source);
+// So many materials are there behind the list's end, each unlike the one before, once materials add up.
+void scene_commit_materials(Scene *scene, size_t materials);
+// Numbers of some spheres have changed.
+void scene_spheres_change(Scene *scene);
 // Room for materials of one's own, one after the other, from *first on: they may change later, so no other shape shares
 // them, and from now on equal materials are looked for next to each other only. False when out of memory.
 bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first) RT_MUST_CHECK;

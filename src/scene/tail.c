@@ -64,6 +64,7 @@ void scene_keep_shapes(Scene *scene, uint32_t count)
 {
     Places places = places_before(scene, count);
     scene->spheres.count = places.spheres;
+    scene_spheres_change(scene);
     scene->sphere_runs.count = places.runs;
     scene->planes.count = places.planes;
     scene->parts.count = places.parts;

@@ -163,6 +163,7 @@ void geometry_kept_change(GeometryKept *kept, size_t begin, size_t end)
 typedef struct Follow {
     const Scene *scene;
     int exponent, threads;
+    double rays;
     bool is_elsewhere;         // all places and lengths are others
     bool is_built, is_changed; // a tree is a new one; any shape is
 } Follow;
@@ -178,12 +179,14 @@ static bool kept_take_spheres(GeometryKept *kept, Follow *follow)
         return true;
     }
     follow->is_changed = true;
-    if (!has_more && sphere_table_refit(spheres, &kept->refit, follow->scene, follow->exponent, changed, follow->threads)) {
+    if (!has_more && sphere_table_refit(spheres, &kept->refit, follow->scene, follow->exponent, changed, follow->rays,
+                                        follow->threads)) {
         kept->refits++;
         return true;
     }
     follow->is_built = true;
     kept->refit.in_root = 0.0;
+    kept->refit.fits = 0;
     sphere_table_fini(spheres);
     return sphere_table_init(spheres, follow->scene, follow->exponent, follow->threads, NULL);
 }
@@ -213,6 +216,7 @@ static bool kept_follow(GeometryKept *kept, const Scene *scene, int exponent, co
     Follow follow = {.scene = scene,
                      .exponent = exponent,
                      .threads = options->threads,
+                     .rays = options->rays,
                      .is_elsewhere = kept->is_elsewhere || kept->exponent != exponent};
     bool is_done = kept_take_spheres(kept, &follow) && kept_take_others(kept, &follow) &&
                    (!follow.is_changed || coincident_init(kept->geometry));

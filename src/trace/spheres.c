@@ -362,6 +362,7 @@ static bool maker_number_slots(Maker *maker, int threads)
     parallel_share(threads, table->bvh.node_count, NODES_CHUNK, slots_work, maker);
     if (maker->spent) {
         ARRAY_FREE(&maker->spent->spheres);
+        scene_spheres_change(maker->spent);
     } else {
         pages_give(&maker->ref_pages);
         maker->refs = NULL;

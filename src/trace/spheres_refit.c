@@ -1,7 +1,7 @@
 // Spheres into their slots, boxes of leaves, then boxes of nodes from the leaves up.
 //
-// Leaves are brought up to date by all threads, a run of nodes each; the rest is a thirtieth of the work. Sums are added in
-// the order of nodes, so that whether a tree stays does not depend on the threads.
+// Leaves are brought up to date by all threads, a run of nodes each; the rest is a thirtieth of the work. Sums are
+// added in the order of nodes, so that whether a tree stays does not depend on the threads.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/spheres_refit.h"
@@ -19,10 +19,16 @@ enum {
     THINGS_SAMPLED = 1024,
     PATIENCE_MOST = 16,
 };
+#define GROWTH_MOST 0.3
 
-// A tree whose boxes have grown by so much, beside the spheres in them or beside the whole, is built again: rays then take
-// about a tenth longer, which a million of them pay back.
-static const double growth_most = 1.3;
+// A tree is built again when its boxes have grown by so much, beside the spheres in them or beside the whole. Rays then
+// take about as much longer; a new tree costs a sphere about what a ray costs, three times what it costs to be made to
+// fit.
+static double growth_most(size_t spheres, double rays)
+{
+    double share = rays > 0.0 ? 0.6 * (double)spheres / rays : GROWTH_MOST;
+    return 1.0 + (share < GROWTH_MOST ? share : GROWTH_MOST);
+}
 
 typedef struct Refit {
     SphereTable *table;
@@ -320,16 +326,16 @@ static bool measure_areas(const SphereTable *table, int threads, SphereRefit *ou
     return true;
 }
 
-// Whether the boxes of a tree are still about as small as those of a new one would be: beside the spheres, and beside the
-// whole, one of which follows when everything goes apart or together.
-static bool is_good(const SphereRefit *refit, const SphereRefit *now)
+// Whether the boxes of a tree are still about as small as those of a new one would be: beside the spheres, and beside
+// the whole, one of which follows when everything goes apart or together.
+static bool is_good(const SphereRefit *built, const SphereRefit *now, double growth)
 {
-    return now->in_things <= growth_most * refit->in_things && now->in_root <= growth_most * refit->in_root;
+    return now->in_things <= growth * built->in_things && now->in_root <= growth * built->in_root;
 }
 
 // ---- the whole
 
-static bool refit_tree(Refit *refit, SphereRefit *state, int threads)
+static bool refit_tree(Refit *refit, SphereRefit *state, double growth, int threads)
 {
     const Bvh *bvh = &refit->table->bvh;
     SphereRefit now;
@@ -346,11 +352,11 @@ static bool refit_tree(Refit *refit, SphereRefit *state, int threads)
     }
     bool is_done = refit->has_changed != NULL && !atomic_load(&refit->has_failed);
     free(refit->has_changed);
-    return is_done && measure_areas(refit->table, threads, &now) && is_good(state, &now);
+    return is_done && measure_areas(refit->table, threads, &now) && is_good(state, &now, growth);
 }
 
 bool sphere_table_refit(SphereTable *table, SphereRefit *state, const Scene *scene, int exponent, SphereRange moved,
-                        int threads)
+                        double rays, int threads)
 {
     Refit refit = {.table = table, .records = sphere_records(scene, exponent), .moved = moved};
     if (table->count != scene->spheres.count || table->bvh.node_count == 0) {
@@ -360,11 +366,15 @@ bool sphere_table_refit(SphereTable *table, SphereRefit *state, const Scene *sce
         state->skip--;
         return false;
     }
-    bool is_done = refit_tree(&refit, state, threads);
+    bool is_done = refit_tree(&refit, state, growth_most(table->count, rays), threads);
     if (is_done) {
         sphere_table_measure(table);
+        state->fits++;
         state->patience = 0;
         return true;
+    }
+    if (state->fits > 0) {
+        return false; // it was worth it
     }
     state->patience = state->patience == 0 ? 1 : state->patience < PATIENCE_MOST ? 2 * state->patience : PATIENCE_MOST;
     state->skip = state->patience;

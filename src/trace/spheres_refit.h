@@ -14,7 +14,8 @@
 typedef struct SphereRefit {
     double in_things, in_root; // sum of the areas of all boxes of the tree as it was built, in that of the spheres, and
                                // in that of the root; 0: not known yet
-    unsigned skip, patience;   // so many new trees before a refit is tried again; and after the next one that fails
+    unsigned fits;             // since then
+    unsigned skip, patience; // so many new trees before a refit is tried again; and after the next one that is in vain
 } SphereRefit;
 
 // Scene spheres begin <= i < end, the only ones whose records may be others than the table's.
@@ -22,10 +23,11 @@ typedef struct SphereRange {
     size_t begin, end;
 } SphereRange;
 
-// Brings the table up to date; `exponent` is that of the scene now, and when it, or the place of everything, is another one
-// than the table's, all spheres are in the range. False when it must be made anew: after one that cannot be met any more,
-// when the tree would cost rays too much, or out of memory; it is then of no use.
+// Brings the table up to date for a picture of so many rays, 0: unknown; `exponent` is that of the scene now, and when
+// it, or the place of everything, is another one than the table's, all spheres are in the range. False when it must be
+// made anew: after one that cannot be met any more, when the tree would cost rays too much, or out of memory; it is
+// then of no use.
 bool sphere_table_refit(SphereTable *table, SphereRefit *refit, const Scene *scene, int exponent, SphereRange moved,
-                        int threads) RT_MUST_CHECK;
+                        double rays, int threads) RT_MUST_CHECK;
 
 #endif

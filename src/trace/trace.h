@@ -100,6 +100,7 @@ typedef struct GeometryOptions {
     const char *isa; // name of the instruction set to use; NULL for the best that this processor has
     Scene *spent;    // the scene itself, when nobody asks for its spheres later: they are freed as soon as the geometry
                      // has what it needs, and their list is empty then; NULL: they stay
+    double rays;     // that it is made for, about, if it is kept
     GeometryKept *kept; // for prepared_new: what is taken from there, or put there and lives on; NULL: nothing
 } GeometryOptions;
 

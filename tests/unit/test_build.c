@@ -305,12 +305,119 @@ static void check_pixels(void)
     rt_status cancelled = rt_render(session, 1);
     rt_resume(session);
     tap_ok(cancelled == RT_CANCELLED && rt_render(session, 1) == RT_OK, "cancelled, and on again");
+    rt_set_alpha(session, 0);
+    (void)rt_render(session, 1);
+    float *taken = rt_take_pixels(session, &width, &height);
+    tap_ok(taken && width == WIDTH && height == HEIGHT && memcmp(taken, floats, sizeof floats) == 0 &&
+               !rt_take_pixels(session, &width, &height) && !rt_pixels(session, &width, &height) &&
+               rt_get_pixels(session, &wide, floats, sizeof floats) == RT_FAULT_USAGE,
+           "pixels that are taken are gone");
+    tap_ok(rt_render(session, 1) == RT_OK && memcmp(taken, rt_pixels(session, &width, &height), sizeof floats) == 0,
+           "and a next picture is another one");
     rt_session_free(session);
 }
 
 // ---- any order of calls
 
 // What changes how the same scene looks; the numbers may be wrong.
+// ---- more than a thread takes on end
+
+enum { MANY = 4 * 16384 + 77, PIECE = 999 };
+
+static double many_centers[MANY][3], many_radii[MANY];
+static float many_colors[MANY][3];
+
+// At first a few colours, then others, of which some equal the one before, and some spheres of no size.
+static void many_make(Random *random, bool has_pairs, bool has_points)
+{
+    for (int i = 0; i < MANY; i++) {
+        bool is_again = i > 0 && (i < 20000 ? i % 5 != 0 : has_pairs && random_below(random, 2));
+        fill(random, many_centers[i], 3, -3.0, 3.0, false);
+        many_radii[i] = has_points && random_below(random, 9000) == 0 ? 0.0 : random_between(random, 0.01, 0.04);
+        for (int k = 0; k < 3; k++) {
+            many_colors[i][k] = is_again ? many_colors[i - 1][k] : (float)random_between(random, 0.0, 1.0);
+        }
+    }
+}
+
+static rt_spheres many_from(int first, int count)
+{
+    return (rt_spheres){
+        .count = (size_t)count,
+        .centers = {many_centers[first], RT_FLOAT64, sizeof many_centers[0], sizeof(double)},
+        .radii = {&many_radii[first], RT_FLOAT64, sizeof(double), 0},
+        .look = {{many_colors[first], RT_FLOAT32, sizeof many_colors[0], sizeof(float)}, 3, NULL},
+    };
+}
+
+static rt_session *many_draw(int piece, int threads)
+{
+    rt_session *session = session_open(NULL);
+    rt_camera camera = {.location = {1, 2, -9}, .angle = 40};
+    rt_light light = {.position = {5, 9, -5}, .color = {1, 1, 1}};
+    bool is_made = rt_set_load_threads(session, threads) == RT_OK && rt_begin_scene(session) == RT_OK &&
+                   rt_set_camera(session, &camera) == RT_OK && rt_add_light(session, &light) == RT_OK;
+    for (int first = 0; is_made && first < MANY; first += piece) {
+        rt_spheres spheres = many_from(first, MANY - first < piece ? MANY - first : piece);
+        is_made = rt_add_spheres(session, &spheres, NULL) == RT_OK;
+    }
+    if (!is_made || rt_render(session, threads)) {
+        printf("# spheres in pieces of %d are not drawn\n", piece);
+    }
+    return session;
+}
+
+static void check_many(Random *random)
+{
+    for (int i = 0; i < 4; i++) {
+        bool has_pairs = i & 1, has_points = i & 2;
+        many_make(random, has_pairs, has_points);
+        rt_session *one = many_draw(MANY, 1), *three = many_draw(MANY, 3), *pieces = many_draw(PIECE, 2);
+        tap_ok(pictures_equal(one, three) && pictures_equal(one, pieces),
+               "many spheres%s%s: on one thread, on three, and in pieces", has_pairs ? ", some alike in turn" : "",
+               has_points ? ", some of no size" : "");
+        rt_session_free(one);
+        rt_session_free(three);
+        rt_session_free(pieces);
+    }
+}
+
+// Of each array the first fault is told, and nothing is taken.
+static void check_many_faults(Random *random)
+{
+    Told told;
+    many_make(random, false, false);
+    rt_session *session = session_open(&told);
+    rt_camera camera = {.location = {1, 2, -9}, .angle = 40};
+    rt_light light = {.position = {5, 9, -5}, .color = {1, 1, 1}};
+    rt_spheres all = many_from(0, MANY);
+    (void)rt_begin_scene(session);
+    (void)rt_set_warning(session, "W0211");
+    double kept = many_centers[50000][2];
+    float color = many_colors[40000][0];
+    many_centers[50000][2] = (double)INFINITY;
+    many_radii[65000] = -0.5;
+    many_colors[40000][0] = NAN;
+    tap_ok(rt_add_spheres(session, &all, NULL) == RT_FAULT_SCENE &&
+               says(&told, "spheres[50000]: error[E0460]: number 2 of the center must be finite, not inf\n"
+                           "spheres[65000]: error[E0460]: the radius must be 0 or more, and finite, not -0.5\n"
+                           "spheres[40000]: error[E0460]: number 0 of the color must be finite, not nan\n"),
+           "faults in three arrays of many");
+    many_centers[50000][2] = kept;
+    many_radii[65000] = 0.02;
+    many_colors[40000][0] = color;
+    many_colors[60000][0] = many_colors[60000][1] = 0.0F;
+    many_colors[60000][2] = 200.0F;
+    tap_ok(rt_set_camera(session, &camera) == RT_OK && rt_add_light(session, &light) == RT_OK &&
+               rt_add_spheres(session, &all, NULL) == RT_OK && strstr(told.texts, "spheres[60000]: warning[W0211]"),
+           "a colour like bytes among many");
+    rt_session *after = many_draw(MANY, 2);
+    tap_ok(rt_render(session, 2) == RT_OK && pictures_equal(session, after),
+           "after faults many are drawn as in a new scene");
+    rt_session_free(session);
+    rt_session_free(after);
+}
+
 static void call_look(rt_session *session, Random *random)
 {
     static const double numbers[] = {0, 0.5, 1, 4, -1, 17, (double)NAN, (double)INFINITY};
@@ -359,7 +466,8 @@ static void call_one(rt_session *session, Random *random, Numbers *n)
     b = random_below(random, 3);
     rt_sampling sampling = {.samples = random_below(random, 3)};
     double box[3];
-    switch (random_below(random, 22)) {
+    int width, height;
+    switch (random_below(random, 23)) {
     case 0: (void)rt_begin_scene(session); break;
     case 1: (void)rt_load_text(session, "part", text, strlen(text)); break;
     case 2: (void)add_view(session, n); break;
@@ -381,6 +489,7 @@ static void call_one(rt_session *session, Random *random, Numbers *n)
     case 18:
     case 19:
     case 20: call_look(session, random); break;
+    case 21: rt_free_pixels(rt_take_pixels(session, &width, &height)); break;
     default:
         random_below(random, 20) ? rt_resume(session) : rt_discard_scene(session);
         break;
@@ -420,6 +529,8 @@ int main(int argc, char **argv)
     check_faults();
     check_places();
     check_pixels();
+    check_many(&random);
+    check_many_faults(&random);
     check_orders(&random);
     return tap_done();
 }

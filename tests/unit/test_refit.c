@@ -122,7 +122,8 @@ static rt_status move(rt_session *session, Model *m, Random *random, double by, 
 static rt_status resize_or_color(rt_session *session, Model *m, Random *random, bool has_colors)
 {
     size_t group = random_below(random, (unsigned)m->group_count), count = m->counts[group];
-    size_t first = random_below(random, (unsigned)count), some = random_below(random, (unsigned)(count - first)) + 1;
+    size_t first = random_below(random, (unsigned)count);
+    size_t some = random_below(random, (unsigned)(count - first)) + 1;
     for (size_t i = first; i < first + some; i++) {
         m->radii[group][i] *= has_colors ? 1.0 : random_between(random, 0.8, 1.2);
         fill(random, m->colors[group][i], has_colors ? 3 : 0, 0.0, 1.0);
@@ -154,18 +155,21 @@ static rt_status add(rt_session *session, Model *m, Random *random)
 
 static rt_status change(rt_session *session, Model *m, Random *random)
 {
+    bool is_all = random_below(random, 2);
+    double scale = random_between(random, 0.3, 2.0);
     switch (random_below(random, 10)) {
     case 0: return move(session, m, random, 0.02, 1.0, true);
     case 1: return move(session, m, random, 0.02, 1.0, false);
-    case 2: return move(session, m, random, 4.0, 1.0, random_below(random, 2));
-    case 3: return move(session, m, random, 0.0, random_between(random, 0.3, 2.0), true);
+    case 2: return move(session, m, random, 4.0, 1.0, is_all);
+    case 3: return move(session, m, random, 0.0, scale, true);
     case 4: return resize_or_color(session, m, random, false);
     case 5:
     case 6: return resize_or_color(session, m, random, true);
     case 7: return add(session, m, random);
     case 8: m->samples = m->samples ? 0 : 3; break;
     default:
-        m->camera.location[2] = random_below(random, 4) ? random_between(random, -12.0, -7.0) : -0x1p30;
+        m->camera.location[2] = random_between(random, -12.0, -7.0);
+        m->camera.location[2] = random_below(random, 4) ? m->camera.location[2] : -0x1p30;
         m->light.position[0] = random_between(random, -9.0, 9.0);
         break;
     }
