@@ -292,6 +292,7 @@ test_scripts = \
   %D%/system/check_aarch64.py \
   %D%/system/check_disable_study.py \
   %D%/system/check_report.py \
+  %D%/system/check_watch.py \
   %D%/povray/check_pictures.py \
   %D%/povray/check_place.py \
   %D%/povray/check_apart.py \

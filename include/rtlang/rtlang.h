@@ -143,6 +143,10 @@ RT_API rt_status rt_set_crop(rt_session *session, int left, int top, int width, 
 RT_API rt_status rt_load_file(rt_session *session, const char *path);
 RT_API rt_status rt_load_text(rt_session *session, const char *name, const char *text, size_t length);
 
+/* Number `i`, from 0, of the files that the scene was read from, as far as it came: its text, what that included and
+ * opened, and pictures. A file may come more than once. NULL past the end. Valid until the session's end. */
+RT_API const char *rt_scene_file(const rt_session *session, size_t i);
+
 /* ---- a scene without text: arrays of numbers become its shapes
  *
  *     rt_begin_scene(session);

@@ -68,3 +68,11 @@ bool session_memory_suffices(rt_session *session)
     }
     return false;
 }
+
+const char *rt_scene_file(const rt_session *session, size_t i)
+{
+    size_t texts = source_map_count(session->sources), pictures = session->scene.picture_sources.count;
+    return i < texts              ? source_map_name(session->sources, i)
+           : i - texts < pictures ? session->scene.picture_sources.items[i - texts].path
+                                  : NULL;
+}

@@ -15,7 +15,7 @@
 
 #include "check/camera_text.h"
 #include "check/load.h"
-#include "check/povray_run.h"
+#include "peer/povray_run.h"
 
 // How much larger it is, and how far beside its place.
 typedef struct Place {

@@ -22,7 +22,7 @@
 #include "check/load.h"
 #include "check/options.h"
 #include "check/povray_range.h"
-#include "check/povray_run.h"
+#include "peer/povray_run.h"
 #include "check/report.h"
 #include "check/report_about.h"
 #include "check/report_html.h"
@@ -550,7 +550,7 @@ static int run(const Options *options)
     Check check = {.options = options};
     int exit_code = EXIT_USAGE;
 
-    check.povray = povray_find(options->povray);
+    check.povray = povray_find_program(options->povray);
     if (!check.povray && !options->is_stability && !options->study) {
         say(options, "no program `%s` found (Debian: apt-get install povray)", options->povray);
         return EXIT_NO_TOOL;

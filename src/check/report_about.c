@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "check/povray_run.h"
+#include "peer/povray_run.h"
 #include "rtlang/rtlang.h"
 
 enum { ABOUT_TEXT = 256 };

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "check/povray_run.h"
+#include "peer/povray_run.h"
 
 // NULL when the scene cannot be read.
 static rt_session *motion_open(const Options *options, const StudyScene *scene, const Motion *motion, int width,

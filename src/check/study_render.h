@@ -6,7 +6,7 @@
 #ifndef CHECK_STUDY_RENDER_H
 #define CHECK_STUDY_RENDER_H
 
-#include "check/povray_run.h"
+#include "peer/povray_run.h"
 #include "check/study.h"
 #include "rtlang/rtlang.h"
 

@@ -227,5 +227,5 @@ void confine(const Confinement *confinement)
         return;
     }
     confine_files(confinement);
-    confine_filter(confinement->is_strict);
+    confine_filter(confinement->is_strict, confinement->serves);
 }

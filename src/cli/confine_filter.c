@@ -40,8 +40,7 @@ static const uint16_t refused[] = {
     __NR_pidfd_open, __NR_pidfd_getfd, __NR_pidfd_send_signal,
 #endif
     // sockets
-    __NR_socket, __NR_socketpair, __NR_connect, __NR_bind, __NR_listen, __NR_accept, __NR_accept4, __NR_sendto,
-    __NR_sendmsg, __NR_sendmmsg, __NR_recvfrom, __NR_recvmsg, __NR_recvmmsg,
+    __NR_socket, __NR_socketpair, __NR_connect, __NR_bind, __NR_listen,
     // the system and other users
     __NR_mount, __NR_umount2, __NR_pivot_root, __NR_chroot, __NR_reboot, __NR_swapon, __NR_swapoff, __NR_init_module,
     __NR_finit_module, __NR_delete_module, __NR_kexec_load, __NR_acct, __NR_syslog, __NR_sethostname,
@@ -61,7 +60,17 @@ static const uint16_t refused[] = {
 #endif
 };
 
-enum { REFUSED = sizeof refused / sizeof *refused, STEPS_MOST = 2 * REFUSED + 48, X32_CALLS = 0x40000000 };
+// What is done with sockets that are there: refused but to a run that serves.
+static const uint16_t refused_connections[] = {
+    __NR_accept, __NR_accept4, __NR_sendto, __NR_sendmsg, __NR_sendmmsg, __NR_recvfrom, __NR_recvmsg, __NR_recvmmsg,
+};
+
+enum {
+    REFUSED = sizeof refused / sizeof *refused,
+    REFUSED_CONNECTIONS = sizeof refused_connections / sizeof *refused_connections,
+    STEPS_MOST = 2 * (REFUSED + REFUSED_CONNECTIONS) + 48,
+    X32_CALLS = 0x40000000
+};
 
 typedef struct Filter {
     struct sock_filter steps[STEPS_MOST];
@@ -111,7 +120,15 @@ static void put_value(Filter *filter, uint32_t call, unsigned i, uint32_t value,
     put_end(filter, SECCOMP_RET_ALLOW);
 }
 
-static void make(Filter *filter, bool is_strict)
+static void put_refused(Filter *filter, const uint16_t *calls, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        put(filter, BPF_JMP | BPF_JEQ | BPF_K, calls[i], 0, 1);
+        put_end(filter, REFUSE);
+    }
+}
+
+static void make(Filter *filter, bool is_strict, bool serves)
 {
     put_load(filter, offsetof(struct seccomp_data, arch));
     put(filter, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0);
@@ -119,10 +136,8 @@ static void make(Filter *filter, bool is_strict)
     put_load(filter, offsetof(struct seccomp_data, nr));
     put(filter, BPF_JMP | BPF_JGE | BPF_K, X32_CALLS, 0, 1);
     put_end(filter, REFUSE);
-    for (size_t i = 0; i < REFUSED; i++) {
-        put(filter, BPF_JMP | BPF_JEQ | BPF_K, refused[i], 0, 1);
-        put_end(filter, REFUSE);
-    }
+    put_refused(filter, refused, REFUSED);
+    put_refused(filter, refused_connections, serves ? 0 : REFUSED_CONNECTIONS);
     // The C library starts threads by clone where there is no clone3, whose flags a filter cannot see.
     put(filter, BPF_JMP | BPF_JEQ | BPF_K, __NR_clone3, 0, 1);
     put_end(filter, SECCOMP_RET_ERRNO | ENOSYS);
@@ -143,10 +158,10 @@ bool confine_filter_exists(void)
 }
 
 // SPEC_ALLOW: the program keeps no secrets from its scene, and the kernel would slow its loads down for them.
-void confine_filter(bool is_strict)
+void confine_filter(bool is_strict, bool serves)
 {
     Filter filter = {.count = 0};
-    make(&filter, is_strict);
+    make(&filter, is_strict, serves);
     struct sock_fprog program = {filter.count, filter.steps};
     (void)syscall(__NR_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_SPEC_ALLOW, &program);
 }
@@ -156,8 +171,8 @@ bool confine_filter_exists(void)
     return false;
 }
 
-void confine_filter(bool is_strict)
+void confine_filter(bool is_strict, bool serves)
 {
-    (void)is_strict;
+    (void)is_strict, (void)serves;
 }
 #endif

@@ -10,7 +10,8 @@
 bool confine_filter_exists(void);
 
 // From now on calls for other programs, processes and sockets fail with EPERM; `is_strict`: and so does making memory
-// that can be run, which loading a library needs.
-void confine_filter(bool is_strict);
+// that can be run, which loading a library needs; `serves`: connections of a socket that listens may be taken and
+// answered.
+void confine_filter(bool is_strict, bool serves);
 
 #endif

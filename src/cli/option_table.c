@@ -100,6 +100,13 @@ static bool apply_lsp(Options *options, const char *argument, OptionReading *rea
     return true;
 }
 
+static bool apply_watch(Options *options, const char *argument, OptionReading *reading)
+{
+    (void)argument, (void)reading;
+    options->action = ACTION_WATCH;
+    return true;
+}
+
 static bool apply_include_path(Options *options, const char *argument, OptionReading *reading)
 {
     reading->expected = "a folder";
@@ -662,6 +669,9 @@ static const OptionRow rows[] = {
     {0, "max-messages", "BYTES", apply_max_messages, "text of #debug and its like (default 16M)"},
     {0, "no-confinement", NULL, apply_no_confinement,
      "do not let the kernel forbid what the program has no use for, to trace its system calls"},
+    {0, "watch", NULL, apply_watch,
+     "print the address of a page that shows the scene and draws it again at each save, and serve it, on this machine "
+     "only, until interrupted; drawing ends at --target-error (default 0.002) or --time-limit (default 60)"},
     {0, "explain", "[CODE]", apply_explain,
      "print what the code of a message means; with a SCENE instead of a code what the scene "
      "takes and what it costs, and what is left out and why"},
@@ -709,7 +719,7 @@ static const OptionGroup groups[] = {
     {"Animations, and pictures again", "frames"},
     {"The scene's files and names", "include-path"},
     {"Limits, and scenes of strangers", "untrusted"},
-    {"Looking into a scene", "explain"},
+    {"Looking into a scene", "watch"},
     {"For study", "precision"},
     {"Messages and the machine", "threads"},
 };

@@ -90,6 +90,28 @@ static void find_format(int argc, char **argv, Options *options)
     }
 }
 
+// What is drawn goes to the page, from the eye, and gets better by sequences of samples.
+static OptionsResult settle_watch(Options *options)
+{
+    const char *sampler = options->sampling.sampler;
+    bool is_grid = sampler && (strcmp(sampler, "jittered") == 0 || strcmp(sampler, "grid") == 0);
+    if (options->scene_count > 1 || options->frames.step || strcmp(options->scenes[0], "-") == 0) {
+        return option_complain(&options->reading, "`--watch` wants one scene, in a file, and no frames");
+    }
+    if (options->output || options->error_map || options->rerun || options->encoding.planes || options->crop[2] > 0) {
+        return option_complain(&options->reading,
+                               "`--watch` shows the whole picture in its page and writes none: leave out `--output`, "
+                               "`--error-map`, `--planes`, `--crop` and `--rerun`");
+    }
+    if (options->method != RT_METHOD_BACKWARD || options->precision != RT_PRECISION_DOUBLE ||
+        options->antialias.method || options->sampling.no_estimate || is_grid) {
+        return option_complain(&options->reading,
+                               "`--watch` samples to a goal: leave out `--method`, `--precision`, `--antialias`, "
+                               "`--no-estimate`, and `--sampler=jittered` and `grid`");
+    }
+    return OPTIONS_GO;
+}
+
 OptionsResult options_read(int argc, char **argv, Options *options)
 {
     *options = (Options){.width = 320,
@@ -142,6 +164,9 @@ OptionsResult options_parse(int argc, char **argv, Options *options)
     if (options->scene_count > 1 && (options->output || options->error_map)) {
         return option_complain(&options->reading, "one file for the pictures of more than one scene: `%s` and `%s`", options->scenes[0],
                         options->scenes[1]);
+    }
+    if (options->action == ACTION_WATCH && settle_watch(options) != OPTIONS_GO) {
+        return OPTIONS_WRONG;
     }
     if (options->rerun && (options->scene_count > 1 || options->frames.step || options->action != ACTION_RENDER)) {
         return option_complain(&options->reading, "`--rerun` wants one scene, and draws one picture");

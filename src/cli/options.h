@@ -25,6 +25,7 @@ typedef enum Action {
     ACTION_BUDGET,
     ACTION_EXPLAIN_SCENE,
     ACTION_SERVE,
+    ACTION_WATCH,
 } Action;
 
 typedef struct WarningOption {

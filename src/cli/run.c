@@ -15,6 +15,7 @@
 #include "cli/lsp.h"
 #include "cli/provenance.h"
 #include "cli/summary.h"
+#include "watch/watch.h"
 
 enum { OUTPUT_NAME = PATH_MAX + 16 };
 
@@ -427,7 +428,12 @@ static rt_status confine_runs(rt_session *session, Options *options)
         for (size_t i = 0; i < folders && (path = rt_include_path(session, i)); i++) {
             reads[count++] = path;
         }
-        confine(&(Confinement){reads, count, writes, writes_file ? 3 : 0, options->is_untrusted});
+        confine(&(Confinement){.reads = reads,
+                               .read_count = count,
+                               .writes = writes,
+                               .write_count = writes_file ? 3 : 0,
+                               .serves = options->action == ACTION_WATCH,
+                               .is_strict = options->is_untrusted});
         options->is_unconfined = true; // the kernel holds to these rules: there are none to be added
     }
     rt_status status = is_whole ? RT_OK : rt_report(session, "E0602", "out of memory", NULL);
@@ -436,6 +442,45 @@ static rt_status confine_runs(rt_session *session, Options *options)
     }
     free(own);
     free(reads);
+    return status;
+}
+
+static rt_status configure_watched(rt_session *session, const void *options)
+{
+    return run_configure(session, options);
+}
+
+// What the page needs of the system is opened before the kernel forbids it; scenes are read after.
+static rt_status watch(rt_session *session, Options *options, const Voice *voice)
+{
+    const char **include_paths = options->include_paths;
+    WatchJob job = {.scene = options->scene,
+                    .width = options->width,
+                    .height = options->height,
+                    .threads = options->threads,
+                    .sampling = options->sampling,
+                    .configure = configure_watched,
+                    .client = options,
+                    .interrupted_by = voice->interrupted_by,
+                    .has_no_peer = options->is_untrusted,
+                    .include_paths = include_paths,
+                    .include_path_count = options->include_path_count,
+                    .declarations = options->declarations,
+                    .declaration_count = options->declaration_count,
+                    .clock = options->clock_given ? &options->clock : NULL};
+    char why[PATH_MAX], message[COMPLAINT_SIZE];
+    Watch *watch = watch_open(&job, why, sizeof why);
+    rt_status status = RT_OK;
+    if (watch && !options->is_unconfined) {
+        status = confine_runs(session, options);
+    }
+    snprintf(message, sizeof message, "%s\n", watch ? watch_address(watch) : "");
+    status = watch && !status ? run_print(session, message, status) : status;
+    if (!watch || (!status && !watch_run(watch))) {
+        snprintf(message, sizeof message, "`--watch` cannot serve its page: %.400s", watch ? "no thread" : why);
+        status = rt_report(session, "E0514", message, NULL);
+    }
+    watch_close(watch);
     return status;
 }
 
@@ -454,6 +499,9 @@ rt_status run(rt_session *session, Options *options, Voice *voice)
         [ACTION_BUDGET] = budget,
     };
     rt_status status = run_configure(session, options);
+    if (!status && options->action == ACTION_WATCH) {
+        return watch(session, options, voice);
+    }
     if (!status && !options->is_unconfined && options->action != ACTION_EXPLAIN &&
         options->action != ACTION_SERVE) {
         status = confine_runs(session, options);

@@ -63,6 +63,20 @@ def test_intruder(has_landlock, has_seccomp):
         if has_seccomp:
             tap.equal([line for line in said if line.startswith("code")], ["code: EPERM" if options else "code: done"],
                       "%s: memory that can be run" % name)
+    test_serving_intruder(planted, has_landlock, has_seccomp)
+
+
+def test_serving_intruder(planted, has_landlock, has_seccomp):
+    """A program that answers connections makes none, and starts nothing."""
+    done = rtlang("--watch", "--max-time=1", "good.scn", **planted)
+    if b"E0514" in done.stderr:
+        tap.skip("planted calls in a program that serves", "built without libmicrohttpd")
+        return
+    said = done.stderr.decode().splitlines()
+    wanted = OFTEN * has_landlock + ["symlink: EPERM", *ALWAYS, "fork: EPERM", "execute: EPERM"] * has_seccomp
+    tap.ok(done.returncode == 0 and all(line in said for line in wanted), "planted calls in a program that serves are stopped",
+           "%s\n%s" % (wanted, said))
+    tap.equal(sorted(os.listdir("../elsewhere")), ["secret"], "and leave nothing elsewhere")
 
 
 def test_swapped():

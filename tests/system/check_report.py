@@ -10,13 +10,13 @@ import html.parser
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "povray"))
 sys.dont_write_bytecode = True  # the folder is distributed as it is
+import chromium  # noqa: E402
 import flip  # noqa: E402
 import pictures  # noqa: E402
 from tap import Tap  # noqa: E402
@@ -37,8 +37,6 @@ cp "${output%/*}/01-plain.scn.rtlang.png" "$output"
 """
 EXPECTED = {"plain.scn": "agrees", "a<b>&'\"c.scn": "differs", "far.scn": "agrees, out of range", "wrong.scn": "failed"}
 VOID = {"meta", "link", "img", "br", "rect", "line", "path", "circle", "input"}
-CHROMIUM = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
-            "--disable-background-networking", "--disable-component-update", "--enable-logging=stderr"]
 # Appended to a copy of the page: does what a reader does and leaves what was seen in the title.
 READER = """<script>
 "use strict";
@@ -267,9 +265,9 @@ def check_about(tap, text):
 def browse(page, more, folder):
     """(what the browser prints, what it complains of)."""
     with tempfile.TemporaryDirectory() as profile:
-        done = subprocess.run([CHROMIUM_PROGRAM, *CHROMIUM, f"--user-data-dir={profile}", *more, "file://" + page],
-                              cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              timeout=120, check=False)
+        command = [chromium.PROGRAM, *chromium.OPTIONS, "--enable-logging=stderr", f"--user-data-dir={profile}"]
+        done = subprocess.run([*command, *more, "file://" + page], cwd=folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120, check=False)
     messages = done.stderr.decode("utf-8", "replace").splitlines()
     return done.stdout.decode("utf-8", "replace"), [line for line in messages if "CONSOLE" in line]
 
@@ -298,9 +296,6 @@ def check_viewer(tap, seen, steps, at, scene):
         if len(even) == 4 * len(steps) else 999
     tap.ok(off <= 1 and seen.get("marks") == ["0", "64", "129", "193", "257"] and seen.get("back"),
            "the difference on another scale, and back", (off, seen.get("marks"), seen.get("back")))
-
-
-CHROMIUM_PROGRAM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
 def check_browser(tap, text, answers, folder):
@@ -352,7 +347,7 @@ def main():
         check_page(tap, text, Page(text), answers, folder)
         check_about(tap, text)
         check_access(tap, text)
-        if CHROMIUM_PROGRAM:
+        if chromium.PROGRAM:
             check_browser(tap, text, answers, folder)
         else:
             tap.skip("the page in a browser", "chromium is not installed")

@@ -68,6 +68,8 @@ def test_parts():
     wanted = {"libpng": "libpng", "zlib": "zlib", "libjpeg": "libjpeg"}
     if os.path.exists(os.path.join(BUILD, "rtlang_oiio.la")):
         wanted["OpenImageIO"] = "OpenImageIO"
+    if os.path.exists(os.path.join(BUILD, "rtlang_http.la")):
+        wanted["libmicrohttpd"] = "libmicrohttpd"
     tap.equal(set(parts), set(wanted), "the parts are the libraries that it links and loads")
     tap.ok(all(re.fullmatch(r"[0-9][\w.+-]*", number) for number in parts.values()), "with their versions", parts)
     references = {own["bom-ref"]} | {part["bom-ref"] for part in listed["components"]}
@@ -82,7 +84,8 @@ def main():
     if not shutil.which("readelf"):
         tap.skip("how it is built", "no readelf here")
     else:
-        names = ["rtlang", "rtcheck", ".libs/librtlang.so", ".libs/rtlang_jpeg.so", ".libs/rtlang_oiio.so"]
+        names = ["rtlang", "rtcheck", ".libs/librtlang.so", ".libs/rtlang_jpeg.so", ".libs/rtlang_oiio.so",
+                 ".libs/rtlang_http.so"]
         files = [os.path.join(BUILD, name) for name in names if os.path.exists(os.path.join(BUILD, name))]
         test_hardening(files)
         test_reproducible(files)

@@ -4,10 +4,12 @@
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
-#include "check/povray_run.h"
+#include "peer/povray_run.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -20,7 +22,7 @@
 
 extern char **environ;
 
-enum { FIXED_ARGUMENTS = 12, SWITCHES_MOST = 8, TAIL_BYTES = 400, START_TRIES = 5 };
+enum { FIXED_ARGUMENTS = 12, TAIL_BYTES = 400, START_TRIES = 5, STOP_MILLISECONDS = 20 };
 
 typedef struct ArgumentList {
     char **items; // ends with NULL
@@ -35,7 +37,7 @@ static bool is_program(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode) && access(path, X_OK) == 0;
 }
 
-char *povray_find(const char *name)
+char *povray_find_program(const char *name)
 {
     const char *search = getenv("PATH");
     char *found = NULL;
@@ -83,9 +85,13 @@ static void arguments_fini(ArgumentList *list)
 static bool arguments_make(ArgumentList *list, const PovrayJob *job)
 {
     const char *slash = strrchr(job->scene, '/');
+    size_t switches = 0;
 
+    while (job->switches && job->switches[switches]) {
+        switches++;
+    }
     *list = (ArgumentList){0};
-    list->items = calloc((size_t)job->include_path_count + FIXED_ARGUMENTS + SWITCHES_MOST + 1, sizeof *list->items);
+    list->items = calloc((size_t)job->include_path_count + FIXED_ARGUMENTS + switches + 1, sizeof *list->items);
     if (!list->items) {
         return false;
     }
@@ -95,7 +101,7 @@ static bool arguments_make(ArgumentList *list, const PovrayJob *job)
     argument_add(list, "+FN16");
     argument_add(list, "File_Gamma=1.0");
     argument_add(list, "-D");
-    for (int i = 0; job->switches && job->switches[i] && i < SWITCHES_MOST; i++) {
+    for (size_t i = 0; i < switches; i++) {
         argument_add(list, "%s", job->switches[i]);
     }
     if (!job->switches) {
@@ -155,12 +161,28 @@ static double seconds_of(struct timeval time)
     return (double)time.tv_sec + 1e-6 * (double)time.tv_usec;
 }
 
+// Ends a process when its job is to be stopped. Whether it has ended, its status is there to be fetched.
+static bool process_watch(pid_t process, const int *stop)
+{
+    struct pollfd word = {.fd = *stop, .events = POLLIN};
+    siginfo_t end = {.si_pid = 0};
+
+    if (poll(&word, 1, STOP_MILLISECONDS) > 0) {
+        kill(process, SIGKILL);
+        return true;
+    }
+    return waitid(P_PID, (id_t)process, &end, WEXITED | WNOHANG | WNOWAIT) != 0 || end.si_pid == process;
+}
+
 // Waits for the end; 0, or the exit status, or 128 and the signal's number, or -1 when that cannot be known.
-static int process_wait(pid_t process, double *seconds)
+static int process_wait(pid_t process, const int *stop, double *seconds)
 {
     int status;
     struct rusage usage;
 
+    while (stop && !process_watch(process, stop)) {
+        continue;
+    }
     while (wait4(process, &status, 0, &usage) < 0) {
         if (errno != EINTR) {
             return -1;
@@ -236,7 +258,7 @@ bool povray_run(const PovrayJob *job, char *detail, size_t detail_size)
     if (arguments_make(&arguments, job) && folder) {
         for (int i = 0; i < START_TRIES; i++) {
             code = process_start(job, arguments.items, folder, &process);
-            status = code == 0 ? process_wait(process, job->process_seconds) : -1;
+            status = code == 0 ? process_wait(process, job->stop, job->process_seconds) : -1;
             if (code != 0 || !has_not_begun(job, status)) {
                 break;
             }
@@ -260,7 +282,7 @@ bool povray_version(const char *program, const char *log, char *text, size_t siz
     pid_t process;
     FILE *file = NULL;
 
-    if (process_start(&job, arguments, ".", &process) == 0 && process_wait(process, NULL) == 0) {
+    if (process_start(&job, arguments, ".", &process) == 0 && process_wait(process, NULL, NULL) == 0) {
         file = fopen(log, "rb");
     }
     bool is_read = false;

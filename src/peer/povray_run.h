@@ -1,8 +1,8 @@
-// Finding POV-Ray and running it on one scene: linear 16 bit, no shell, no window.
+// Finding POV-Ray and running it on one scene: linear 16 bit unless switches say otherwise, no shell, no window.
 //
 // SPDX-License-Identifier: MIT
-#ifndef CHECK_POVRAY_RUN_H
-#define CHECK_POVRAY_RUN_H
+#ifndef PEER_POVRAY_RUN_H
+#define PEER_POVRAY_RUN_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,10 +20,11 @@ typedef struct PovrayJob {
     int threads; // 0: as many as the machine has
     const char *const *switches; // more of them, ends with NULL; NULL: no anti-aliasing
     double *process_seconds;     // of the processor, the whole process; NULL: not asked for
+    const int *stop; // a file: when there is something to be read, or its writer has gone, the run is ended; NULL: none
 } PovrayJob;
 
 // The absolute path of a program as a shell would find it, to be freed; NULL: there is none.
-char *povray_find(const char *name);
+char *povray_find_program(const char *name);
 
 // Runs and waits. False when POV-Ray failed or left no picture; `detail` then says why, in a few lines.
 bool povray_run(const PovrayJob *job, char *detail, size_t detail_size);
