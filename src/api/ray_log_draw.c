@@ -126,10 +126,32 @@ static void include(Drawing *d, Place at, double radius)
     d->top = fmax(d->top, at.y + radius);
 }
 
+// Whether a sphere lies ahead and the line passes its centre within two radii: h = 4 a (radius² - distance²).
+static bool is_passed(const LoggedSphere *sphere)
+{
+    return sphere->h < 0.0 && sphere->b < 0.0 && -sphere->h < 12.0 * sphere->a * sphere->radius * sphere->radius;
+}
+
+// How far a ray that meets nothing is followed: to the nearest sphere that it passes.
+static double passed_reach(const Drawing *d)
+{
+    const LoggedRay *first = &d->log->rays.items[0];
+    double reach = INFINITY;
+
+    for (size_t i = 0; i < first->sphere_count; i++) {
+        const LoggedSphere *sphere = &d->log->spheres.items[first->first_sphere + i];
+        if (!sphere->is_stretched && is_passed(sphere)) {
+            reach = fmin(reach, lay(d, sphere->centre).x);
+        }
+    }
+    return reach < INFINITY ? reach : 1.0;
+}
+
 // Whether a sphere is worth drawing beside rays that reach so far.
 static bool is_drawn(const LoggedSphere *sphere, double reach)
 {
-    return !sphere->is_stretched && sphere->radius < FAR * reach && (sphere->h >= 0.0 || sphere->t > 0.0);
+    return !sphere->is_stretched && sphere->radius < FAR * reach &&
+           (sphere->h >= 0.0 || sphere->t > 0.0 || is_passed(sphere));
 }
 
 static void shown_find(Drawing *d)
@@ -144,11 +166,11 @@ static void shown_find(Drawing *d)
         }
     }
     double reach = fmax(d->right - d->left, d->top - d->bottom);
-    reach = reach > 0.0 ? reach : 1.0;
+    reach = reach > 0.0 ? reach : passed_reach(d);
     for (size_t i = 0; i < log->rays.items[0].sphere_count; i++) {
         const LoggedSphere *sphere = &log->spheres.items[log->rays.items[0].first_sphere + i];
         Place at = lay(d, sphere->centre);
-        if (is_drawn(sphere, reach) && fabs(at.x) < FAR * reach && at.x > 0.0) {
+        if (is_drawn(sphere, reach) && fabs(at.x) < FAR * reach && at.x + sphere->radius > 0.0) {
             include(d, at, sphere->radius);
         }
     }
@@ -258,8 +280,13 @@ static void draw_labels(const Drawing *d)
     label(d, (Place){0.0, 0.0}, -4.0, 20.0, "e");
     for (int root = 0; shown && root < 2; root++) {
         Place at = {root == 0 ? shown->t1 : shown->t2, 0.0};
+        bool is_near = (shown->t2 - shown->t1) * d->scale < 24.0; // the labels would lie on each other
         circle(d, "point", at, 3.0);
-        label(d, at, 6.0, 18.0, root == 0 ? "t1" : "t2");
+        if (!is_near) {
+            label(d, at, 6.0, 18.0, root == 0 ? "t1" : "t2");
+        } else if (root == 0) {
+            label(d, at, 6.0, 18.0, shown->t1 < shown->t2 ? "t1, t2" : "t1 = t2");
+        }
     }
     if (first->is_hit) {
         label(d, lay(d, vec3_add_scaled(first->point, 34.0 / d->scale, first->normal)), 4.0, -4.0, "N");

@@ -21,6 +21,10 @@ SCENE = """#version 3.7; global_settings { assumed_gamma 1 } camera { location -
 light_source { <4, 5, -6> rgb 1 } sphere { 0.3*y, 1 finish { reflection 0.5 } } plane { y, -1 }
 """
 tap = Tap()
+TOUCH = """#version 3.7; global_settings { assumed_gamma 1 }
+camera { orthographic location -5*z direction z right x up y } light_source { <-5, 8, -5> rgb 1 }
+sphere { x, 1 pigment { rgb 0.5 } }
+"""
 
 
 def trace(*options):
@@ -41,6 +45,17 @@ def main():
         kinds = [line.get("class") for line in root.iter(SVG + "line")]
         tap.ok(root.tag == SVG + "svg" and root.get("role") == "img" and root.find(SVG + "title").text and
                {"camera", "mirrored", "light", "normal"} <= set(kinds), "it is SVG with a title and its lines", kinds)
+        code, text, said = trace("--trace-pixel=4,0", "--trace-svg=ray.svg")
+        root = xml.etree.ElementTree.parse("ray.svg").getroot()
+        bodies = [each for each in root.iter(SVG + "circle") if each.get("class") == "body"]
+        names = {each.text for each in root.iter(SVG + "text")}
+        tap.ok("meets nothing" in text and bodies and float(bodies[0].get("cx")) < 640 and names == {"e"},
+               "a sphere that the ray passes near by is drawn", text + str(names))
+        with open("touch.scn", "w", encoding="ascii") as out:
+            out.write(TOUCH)
+        done = subprocess.run([RTLANG, "-W1", "-H1", "--trace-pixel=0,0", "--trace-svg=ray.svg", "touch.scn"], capture_output=True, check=False)
+        names = {each.text for each in xml.etree.ElementTree.parse("ray.svg").getroot().iter(SVG + "text")}
+        tap.ok(done.returncode == 0 and names == {"e", "t1 = t2", "N"}, "two roots at one point have one label", names)
         code, text, said = trace("--trace-pixel=4,4", "--digits=3", "--trace-svg=-")
         tap.ok(code == 0 and len(text.partition("<svg ")[0]) < len(plain) and text.endswith("</svg>\n"), "short numbers; `-` is standard output", said)
         code, text, said = trace("--trace-pixel=4,4", "--trace-svg=nowhere/ray.svg")
