@@ -3,8 +3,9 @@
 
 Whole processes from the scene file to the picture, wall time and peak memory, and the phases as each program prints them;
 medians of several turns. Prints Markdown tables, writes JSON to --json FILE, and with --docs FILE puts the tables between
-that file's `<!-- bench -->` marks. A peer that is not installed is left out with a word. Never part of `make check`: the
-machines are shared.
+that file's `<!-- bench -->` marks. With --update it measures nothing but the few scenes of the README's table and puts that
+there: processor seconds of one thread, the whole process, the least of three turns, which other work on the machine
+disturbs little. A peer that is not installed is left out with a word. Never part of `make check`: the machines are shared.
 SPDX-License-Identifier: MIT
 """
 import argparse
@@ -21,6 +22,16 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 SMALL, LARGE = (800, 600), (1920, 1080)
 TURNS = {1000000: 3, 10000000: 1}  # fewer where a turn takes long
+README = os.path.join(os.path.dirname(HERE), "README.md")
+README_SIZE, README_TURNS = (640, 480), 3
+README_SCENES = [  # what of generate.py, or a file that only rtlang and POV-Ray read
+    ("20 000 atoms", ("molecule", 20000)),
+    ("a million particles", ("cube", 1000000)),
+    ("[a crystal, by ASE](examples/gallery/crystal.pov)", "examples/gallery/crystal.pov"),
+    ("[a protein in soft light](examples/gallery/protein.scn)", "examples/gallery/protein.scn"),
+    ("[a cup cut from shapes](examples/gallery/cup.scn)", "examples/gallery/cup.scn"),
+    ("POV-Ray's `advanced/woodbox`", "/usr/share/doc/povray/examples/advanced/woodbox.pov"),
+]
 PEERS = {"povray": "POV-Ray", "tachyon": "Tachyon"}
 MARKS = "<!-- bench -->\n", "<!-- /bench -->\n"
 
@@ -73,13 +84,13 @@ def installed():
 # ---- one process, and turns of many
 
 def run_once(name, scene, folder, size, threads):
-    """Wall seconds, peak megabytes and phases of one process."""
+    """Wall and processor seconds, peak megabytes and phases of one process; it runs where its scene is."""
     command, phases, _ = PROGRAMS[name]
     words = command(scene, os.path.join(folder, name + ".png"), size, threads)
     log = os.path.join(folder, "log")
     with open(log, "w+b") as file:
         start = time.perf_counter()
-        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, cwd=folder)
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, cwd=os.path.dirname(scene))
         _, status, usage = os.wait4(process.pid, 0)
         seconds = time.perf_counter() - start
     process.returncode = os.waitstatus_to_exitcode(status)
@@ -87,7 +98,7 @@ def run_once(name, scene, folder, size, threads):
         text = file.read()
     if process.returncode:
         sys.exit(f"bench: {' '.join(words)} ended with {process.returncode}:\n{text[-400:]}")
-    return {"seconds": seconds, "megabytes": usage.ru_maxrss / 1000, **phases(text)}
+    return {"seconds": seconds, "processor": usage.ru_utime + usage.ru_stime, "megabytes": usage.ru_maxrss / 1000, **phases(text)}
 
 
 def write_scene(folder, kind, count, language):
@@ -167,6 +178,28 @@ def threads(options, folder, results):
     return table(["1 thread / 2 threads", "trace", "build"], rows)
 
 
+def readme(names, folder):
+    """The least processor seconds of each program, one ray through the middle of each pixel."""
+    rows = []
+    for words, scene in README_SCENES:
+        paths = {"povray": os.path.join(os.path.dirname(HERE), scene)} if isinstance(scene, str) else \
+            {language: write_scene(folder, *scene, language) for language in ("povray", "tachyon")}
+        if not os.path.exists(paths["povray"]):
+            print(f"{paths['povray']} is not there (apt-get install povray-examples): left out", file=sys.stderr)
+            continue
+        own = [name for name in names if PROGRAMS[name][2] in paths]
+        taken = {name: [] for name in own}
+        for _ in range(README_TURNS):
+            for name in own:
+                taken[name].append(run_once(name, paths[PROGRAMS[name][2]], folder, README_SIZE, 1)["processor"])
+        found = {name: {"seconds": min(taken[name])} for name in own}
+        rows.append([words, of_program(found, "rtlang", "seconds", "{:.2f}")])
+        for peer in PEERS:
+            rows[-1].append(f"{found[peer]['seconds']:.2f} ({ratio(found, peer)})" if peer in found else "-")
+        print(" | ".join(rows[-1]), flush=True)
+    return table(["processor seconds", "rtlang", "POV-Ray (times as long)", "Tachyon (times as long)"], rows)
+
+
 def put_into(path, text):
     with open(path, encoding="utf-8") as file:
         whole = file.read()
@@ -181,10 +214,14 @@ def main():
     parser.add_argument("--turns", type=int, default=5)
     parser.add_argument("--json", default="bench.json")
     parser.add_argument("--docs")
+    parser.add_argument("--update", action="store_true", help="the README's table, and nothing else")
     parser.add_argument("counts", type=int, nargs="*", default=[1, 1000, 100000, 1000000])
     options = parser.parse_args()
     results, names, text = {}, installed(), ""
     with tempfile.TemporaryDirectory(prefix="rtlang-bench-") as folder:
+        if options.update:
+            put_into(README, readme(names, folder).rstrip("\n") + "\n")
+            return
         for part in (lambda: end_to_end(options, names, folder, results), lambda: phases(options, names, folder, results),
                      lambda: threads(options, folder, results)):
             rows = part()
