@@ -256,6 +256,7 @@ test_scripts = \
   %D%/check-diagnostics.py \
   %D%/check-docs.py \
   %D%/check-tour.py \
+  %D%/check-readme.py \
   %D%/check-editors.py \
   %D%/format/check_format.py \
   %D%/golden/check_golden.py \

@@ -1,6 +1,7 @@
 """The shared library by ctypes: the structures and functions of rtlang/rtlang.h that the package uses.
 
-It is looked for where RTLANG_LIBRARY says, inside of the package (a wheel), and where the system has its libraries.
+It is looked for where RTLANG_LIBRARY says, inside of the package (a wheel), in the checkout that the package is part of, and
+where the system has its libraries.
 SPDX-License-Identifier: MIT
 """
 import ctypes
@@ -151,10 +152,17 @@ def _own_libraries():
     return found[0] if found else None, sorted(glob.glob(os.path.join(glob.escape(here), "needed", "*")))
 
 
+def _built_library():
+    """The library of the checkout that the package is imported from, once it is built."""
+    top = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    path = os.path.join(top, ".libs", "librtlang.so")
+    return path if os.path.exists(path) and os.path.exists(os.path.join(top, "python", "make_wheel.py")) else None
+
+
 def _open():
     wanted = os.environ.get("RTLANG_LIBRARY")
     own, needed = _own_libraries()
-    path = wanted or own or ctypes.util.find_library("rtlang")
+    path = wanted or own or _built_library() or ctypes.util.find_library("rtlang")
     if not path:
         raise ImportError("rtlang: no librtlang.so in the package or the system; RTLANG_LIBRARY may say where it is")
     if path == own:
