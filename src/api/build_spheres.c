@@ -37,20 +37,28 @@ typedef struct Filling {
     bool is_told; // what is odd
 } Filling;
 
-// Not finite, or like bytes; nearly all colours are told by their size.
+// Not finite, or like bytes.
 static inline bool color_is_odd(const Material *m)
 {
-    const float usual = (float)COLOUR_USUAL;
-    bool is_usual = (fabsf(m->red) <= usual) & (fabsf(m->green) <= usual) & (fabsf(m->blue) <= usual) &
-                    (fabsf(m->filter) <= usual) & (fabsf(m->transmit) <= usual);
-    return !is_usual &&
-           !(isfinite(m->red) && isfinite(m->green) && isfinite(m->blue) && isfinite(m->filter) &&
-             isfinite(m->transmit) && !rgb_is_like_bytes((double)m->red, (double)m->green, (double)m->blue));
+    return !(isfinite(m->red) && isfinite(m->green) && isfinite(m->blue) && isfinite(m->filter) &&
+             isfinite(m->transmit)) ||
+           rgb_is_like_bytes((double)m->red, (double)m->green, (double)m->blue);
 }
 
+static inline uint32_t bits_that_differ(float a, float b)
+{
+    uint32_t one, other;
+    memcpy(&one, &a, sizeof one);
+    memcpy(&other, &b, sizeof other);
+    return one ^ other;
+}
+
+// Of materials of one finish.
 static inline bool colors_differ(const Material *a, const Material *b)
 {
-    return memcmp(a, b, sizeof *a) != 0;
+    return (bits_that_differ(a->red, b->red) | bits_that_differ(a->green, b->green) |
+            bits_that_differ(a->blue, b->blue) | bits_that_differ(a->filter, b->filter) |
+            bits_that_differ(a->transmit, b->transmit)) != 0;
 }
 
 static size_t filled_runs(const Filling *filling)
@@ -58,13 +66,17 @@ static size_t filled_runs(const Filling *filling)
     return (filling->spheres->count + SPHERE_RUN - 1) / SPHERE_RUN;
 }
 
-// Places and radii of a run.
-static void fill_places(const Filling *filling, size_t begin, size_t end, FilledRun *run)
+// Places and radii of a run, of arrays whose kinds of numbers are known where it is compiled. What is not finite is seen
+// by a sum of all, which is not finite then; where numbers are so large that it is not either, all is looked at again.
+RT_ALWAYS_INLINE void fill_places_of(const Filling *filling, size_t begin, size_t end, FilledRun *run,
+                                     rt_number center_number, rt_number radius_number)
 {
-    const rt_array centers = filling->spheres->centers, radii = filling->spheres->radii; // nothing else may change them
+    rt_array centers = filling->spheres->centers, radii = filling->spheres->radii;
+    centers.number = center_number;
+    radii.number = radius_number;
     SphereSurvey survey = SURVEY_OF_NOTHING;
     uint32_t source = (uint32_t)filling->list->base;
-    double nothing = 0.0; // as long as all is finite
+    double sum = 0.0;
     for (size_t i = begin; i < end; i++) {
         Sphere *record = &filling->records[i];
         Vec3 centre = array_vector(&centers, i, 0);
@@ -72,29 +84,74 @@ static void fill_places(const Filling *filling, size_t begin, size_t end, Filled
         record->centre = centre;
         record->radius = radius;
         record->source = source + (uint32_t)i;
-        nothing += (centre.x - centre.x) + (centre.y - centre.y) + (centre.z - centre.z) + (radius - radius);
+        sum += (centre.x + centre.y) + (centre.z + radius);
         survey.least_radius = radius < survey.least_radius ? radius : survey.least_radius;
         survey.greatest_radius = radius > survey.greatest_radius ? radius : survey.greatest_radius;
         survey.greatest_place = place > survey.greatest_place ? place : survey.greatest_place;
     }
     run->survey = survey;
     run->has_points = survey.least_radius <= 0.0;
-    run->is_odd = nothing != 0.0 || !(survey.least_radius >= 0.0);
+    run->is_odd = !isfinite(sum) || !(survey.least_radius >= 0.0);
 }
 
-// A material for each of a run, and how many are unlike the one before.
-static void fill_colors(const Filling *filling, size_t begin, size_t end, FilledRun *run)
+static void fill_places(const Filling *filling, size_t begin, size_t end, FilledRun *run)
 {
-    const rt_look look = filling->spheres->look;
+    bool has_narrow_radii = filling->spheres->radii.number == RT_FLOAT32;
+    if (filling->spheres->centers.number == RT_FLOAT32) {
+        has_narrow_radii ? fill_places_of(filling, begin, end, run, RT_FLOAT32, RT_FLOAT32)
+                         : fill_places_of(filling, begin, end, run, RT_FLOAT32, RT_FLOAT64);
+    } else {
+        has_narrow_radii ? fill_places_of(filling, begin, end, run, RT_FLOAT64, RT_FLOAT32)
+                         : fill_places_of(filling, begin, end, run, RT_FLOAT64, RT_FLOAT64);
+    }
+}
+
+// Whether one of a run's materials is odd, of which some number is not usual.
+static bool has_odd_color(const Material *materials, size_t count)
+{
+    bool is_odd = false;
+    for (size_t i = 0; !is_odd && i < count; i++) {
+        is_odd = color_is_odd(&materials[i]);
+    }
+    return is_odd;
+}
+
+// A material for each of a run, and how many are unlike the one before; likewise. Nearly all colours are told by their
+// size.
+RT_ALWAYS_INLINE void fill_colors_of(const Filling *filling, size_t begin, size_t end, FilledRun *run, rt_number number,
+                                     int color_numbers)
+{
+    rt_look look = filling->spheres->look;
+    look.colors.number = number;
+    look.color_numbers = color_numbers;
+    const float usual = (float)COLOUR_USUAL;
     FinishIndex finish = filling->list->finish;
-    Material last = look_material(&look, begin - 1, finish);
+    size_t before = begin - filling->colored; // materials of runs that come first
+    Material last = look_material(&look, begin - 1, finish), *materials = &filling->materials[before];
+    bool is_usual = true;
+    size_t colors = 0;
     for (size_t i = begin; i < end; i++) {
         Material material = look_material(&look, i, finish);
-        size_t at = i - filling->colored;
-        run->colors += colors_differ(&material, &last);
-        run->is_odd = run->is_odd || color_is_odd(&material);
-        filling->materials[at] = last = material;
-        filling->records[i].material = (MaterialIndex)(filling->first + at);
+        colors += colors_differ(&material, &last);
+        is_usual = is_usual & (fabsf(material.red) <= usual) & (fabsf(material.green) <= usual) &
+                   (fabsf(material.blue) <= usual) & (fabsf(material.filter) <= usual) &
+                   (fabsf(material.transmit) <= usual);
+        materials[i - begin] = last = material;
+        filling->records[i].material = (MaterialIndex)(filling->first + before + (i - begin));
+    }
+    run->colors = colors;
+    run->is_odd = run->is_odd || (!is_usual && has_odd_color(materials, end - begin));
+}
+
+static void fill_colors(const Filling *filling, size_t begin, size_t end, FilledRun *run)
+{
+    const rt_look *look = &filling->spheres->look;
+    if (look->color_numbers != 3) {
+        fill_colors_of(filling, begin, end, run, look->colors.number, look->color_numbers);
+    } else if (look->colors.number == RT_FLOAT32) {
+        fill_colors_of(filling, begin, end, run, RT_FLOAT32, 3);
+    } else {
+        fill_colors_of(filling, begin, end, run, RT_FLOAT64, 3);
     }
 }
 

@@ -19,6 +19,8 @@
 
 enum { AHEAD = 32, KEY_NUMBERS = 18, KIND_SPHERE_KEY = PART_KINDS };
 
+__extension__ typedef unsigned __int128 Wide;
+
 // What makes a surface, -0 and 0 being one number.
 typedef struct Key {
     uint32_t kind, count; // numbers that count
@@ -142,17 +144,40 @@ static bool item_is_alone(const Coincidences *search, size_t item)
     return item < search->parts || search->scene->parts.items[item - search->parts].node == NODE_NONE;
 }
 
-// As in scene/unique.c, eight bytes at a time.
-static inline uint64_t hash_add(uint64_t hash, double number)
+static inline uint64_t word_of(double number)
 {
     uint64_t word;
     memcpy(&word, &number, sizeof word);
-    hash = (hash ^ word) * UINT64_C(0xff51afd7ed558ccd);
+    return word;
+}
+
+// As in scene/unique.c.
+static inline uint64_t hash_add(uint64_t hash, double number)
+{
+    hash = (hash ^ word_of(number)) * UINT64_C(0xff51afd7ed558ccd);
     return hash ^ hash >> 33;
+}
+
+// Both halves of the product, one upon the other, as wyhash has it (W. Yi, public domain).
+static inline uint64_t folded(uint64_t a, uint64_t b)
+{
+    Wide product = (Wide)a * b;
+    return (uint64_t)product ^ (uint64_t)(product >> 64);
+}
+
+// Of a sphere's key, which is what nearly all keys are. All bits count, for numbers of grids differ in few.
+static inline uint32_t sphere_hash(Vec3 centre, double radius)
+{
+    uint64_t hash = folded(word_of(centre.x + 0.0) ^ UINT64_C(0xa0761d6478bd642f),
+                           word_of(centre.y + 0.0) ^ UINT64_C(0xe7037ed1a0b428db));
+    return (uint32_t)folded(hash ^ word_of(centre.z + 0.0), word_of(radius) ^ UINT64_C(0x8ebc6af09c88c6e3));
 }
 
 static uint32_t key_hash(const Key *key)
 {
+    if (key->kind == KIND_SPHERE_KEY) {
+        return sphere_hash(vec3(key->numbers[0], key->numbers[1], key->numbers[2]), key->numbers[3]);
+    }
     uint64_t hash = key->kind;
     for (uint32_t i = 0; i < key->count; i++) {
         hash = hash_add(hash, key->numbers[i]);
@@ -160,19 +185,11 @@ static uint32_t key_hash(const Key *key)
     return (uint32_t)hash;
 }
 
-// The same of a sphere's key, which is what nearly all keys are.
-static inline uint32_t sphere_hash(const Sphere *sphere)
-{
-    uint64_t hash = hash_add(KIND_SPHERE_KEY, sphere->centre.x + 0.0);
-    hash = hash_add(hash, sphere->centre.y + 0.0);
-    hash = hash_add(hash, sphere->centre.z + 0.0);
-    return (uint32_t)hash_add(hash, sphere->radius);
-}
-
 static uint32_t item_hash(const Coincidences *search, size_t item)
 {
     if (item < search->planes) {
-        return sphere_hash(&search->scene->spheres.items[item]);
+        const Sphere *sphere = &search->scene->spheres.items[item];
+        return sphere_hash(sphere->centre, sphere->radius);
     }
     Key key = item_key(search, item);
     return key_hash(&key);
@@ -366,23 +383,26 @@ static void visit(const Coincidences *search, size_t item, uint32_t hash, DiagSi
 
 // ---- many spheres: most have a hash of their own, which a map of bits tells, and are not looked up
 
-enum { BITS_PER_SPHERE = 16 }; // at least: one sphere in 16 is looked up in vain
+enum {
+    BITS_PER_SPHERE = 16, // at least: one sphere in 16 is looked up in vain
+    BLOOM_AHEAD = 64,     // spheres whose bits memory is asked for at once
+};
 
 typedef struct BloomFilter {
     const Coincidences *search;
-    uint32_t *hashes;        // of all spheres; then, run by run, the numbers of those that are to be looked up
-    uint32_t *counts;        // of these, for each run
-    uint64_t *once, *twice;  // bits of hashes that were met, and met again
-    Pages pages;             // that hashes and bits are in: malloc would keep them while the tree is built
-    uint32_t mask;           // of hashes
-    bool is_shared;          // by threads
+    uint32_t *places;       // of the bits of all spheres; then, run by run, the numbers of those that are to be looked up
+    uint32_t *counts;       // of these, for each run
+    uint64_t *once, *twice; // bits of hashes that were met, and met again
+    Pages pages;            // that places and bits are in: malloc would keep them while the tree is built
+    uint32_t mask;          // what of a hash is its place
+    bool is_shared;         // by threads
 } BloomFilter;
 
-// Whether it was set.
-static inline bool bit_set(const BloomFilter *bloom, uint64_t *bits, uint32_t hash)
+// Whether it was set. Places are below the number of bits.
+static inline bool bit_set(uint64_t *bits, uint32_t place, bool is_shared)
 {
-    uint64_t *word = &bits[(hash & bloom->mask) / 64], bit = UINT64_C(1) << hash % 64;
-    if (bloom->is_shared) {
+    uint64_t *word = &bits[place / 64], bit = UINT64_C(1) << place % 64;
+    if (is_shared) {
         return __atomic_fetch_or(word, bit, __ATOMIC_RELAXED) & bit;
     }
     uint64_t before = *word;
@@ -390,22 +410,30 @@ static inline bool bit_set(const BloomFilter *bloom, uint64_t *bits, uint32_t ha
     return before & bit;
 }
 
-static inline bool bit_get(const BloomFilter *bloom, const uint64_t *bits, uint32_t hash)
+static inline bool bit_get(const uint64_t *bits, uint32_t place)
 {
-    return bits[(hash & bloom->mask) / 64] >> hash % 64 & 1;
+    return bits[place / 64] >> place % 64 & 1;
 }
 
+// Places are computed, and memory is asked for them, some spheres ahead.
 static void bloom_run(void *client, size_t begin, size_t end)
 {
     const BloomFilter *bloom = client;
-    const Sphere *spheres = bloom->search->scene->spheres.items;
-    for (size_t i = begin; i < end + AHEAD; i++) {
-        if (i < end) {
-            bloom->hashes[i] = sphere_hash(&spheres[i]);
-            __builtin_prefetch(&bloom->once[(bloom->hashes[i] & bloom->mask) / 64], 1);
+    uint64_t *once = bloom->once;
+    uint32_t mask = bloom->mask;
+    for (size_t some = begin, stop; some < end; some = stop) {
+        const Sphere *spheres = bloom->search->scene->spheres.items;
+        uint32_t *places = bloom->places;
+        stop = end - some < BLOOM_AHEAD ? end : some + BLOOM_AHEAD;
+        for (size_t i = some; i < stop; i++) {
+            uint32_t place = sphere_hash(spheres[i].centre, spheres[i].radius) & mask;
+            places[i] = place;
+            __builtin_prefetch(&once[place / 64], 1);
         }
-        if (i >= begin + AHEAD && bit_set(bloom, bloom->once, bloom->hashes[i - AHEAD])) {
-            bit_set(bloom, bloom->twice, bloom->hashes[i - AHEAD]);
+        for (size_t i = some; i < stop; i++) {
+            if (bit_set(once, places[i], bloom->is_shared)) {
+                bit_set(bloom->twice, places[i], bloom->is_shared);
+            }
         }
     }
 }
@@ -413,16 +441,20 @@ static void bloom_run(void *client, size_t begin, size_t end)
 static void gather_run(void *client, size_t begin, size_t end)
 {
     const BloomFilter *bloom = client;
-    uint32_t *kept = &bloom->hashes[begin];
-    for (size_t i = begin; i < end; i++) {
-        if (i + AHEAD < end) {
-            __builtin_prefetch(&bloom->twice[(bloom->hashes[i + AHEAD] & bloom->mask) / 64]);
+    const uint64_t *twice = bloom->twice;
+    uint32_t *places = bloom->places, *kept = &places[begin];
+    for (size_t some = begin, stop; some < end; some = stop) {
+        stop = end - some < BLOOM_AHEAD ? end : some + BLOOM_AHEAD;
+        for (size_t i = some; i < stop; i++) {
+            __builtin_prefetch(&twice[places[i] / 64]);
         }
-        bool is_kept = bit_get(bloom, bloom->twice, bloom->hashes[i]);
-        *kept = is_kept ? (uint32_t)i : *kept;
-        kept += is_kept;
+        for (size_t i = some; i < stop; i++) {
+            bool is_kept = bit_get(twice, places[i]);
+            *kept = (uint32_t)i; // whose place is not needed again
+            kept += is_kept;
+        }
     }
-    bloom->counts[begin / SPHERE_RUN] = (uint32_t)(kept - &bloom->hashes[begin]);
+    bloom->counts[begin / SPHERE_RUN] = (uint32_t)(kept - &places[begin]);
 }
 
 static size_t bloom_runs(const Coincidences *search)
@@ -437,7 +469,7 @@ static void bloom_others(const BloomFilter *bloom)
     for (size_t item = search->planes; item < search->end; item++) {
         Key key = item_key(search, item);
         if (key.kind == KIND_SPHERE_KEY) {
-            bit_set(bloom, bloom->twice, key_hash(&key));
+            bit_set(bloom->twice, key_hash(&key) & bloom->mask, false);
         }
     }
 }
@@ -457,12 +489,12 @@ static bool bloom_init(BloomFilter *bloom, const Coincidences *search, int threa
     }
     *bloom = (BloomFilter){.search = search, .mask = (uint32_t)(bits - 1), .is_shared = threads > 1};
     bloom->counts = malloc(bloom_runs(search) * sizeof *bloom->counts);
-    if (!bloom->counts || !pages_take(&bloom->pages, bits / 4 + spheres * sizeof *bloom->hashes)) {
+    if (!bloom->counts || !pages_take(&bloom->pages, bits / 4 + spheres * sizeof *bloom->places)) {
         return false;
     }
     bloom->once = bloom->pages.memory;
     bloom->twice = bloom->once + bits / 64;
-    bloom->hashes = (uint32_t *)(bloom->twice + bits / 64);
+    bloom->places = (uint32_t *)(bloom->twice + bits / 64);
     memset(bloom->once, 0, bits / 4);
     parallel_share(threads, spheres, SPHERE_RUN, bloom_run, bloom);
     bloom_others(bloom);
@@ -514,7 +546,7 @@ static bool visit_many_spheres(Coincidences *search, DiagSink *diags, int thread
     size_t count, others = search->end - search->planes + search->scene->composites.count;
     bool done = bloom_init(&bloom, search, threads, &count) && table_init(search, count + others);
     for (size_t run = 0; done && run < bloom_runs(search); run++) {
-        visit_some(search, &bloom.hashes[run * SPHERE_RUN], 0, bloom.counts[run], diags);
+        visit_some(search, &bloom.places[run * SPHERE_RUN], 0, bloom.counts[run], diags);
     }
     bloom_fini(&bloom);
     return done;

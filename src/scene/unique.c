@@ -13,17 +13,28 @@ enum {
     FOUND_SHARE = 8,       // one of so many must have had an equal; a slot costs less than what it spares then
 };
 
-// Four bytes at a time, each step a multiplication by an odd constant and a shift that carries high bits down, as in
-// the finalizer of MurmurHash3 (A. Appleby, public domain).
+// A multiplication by an odd constant and a shift that carries high bits down, as in the finalizer of MurmurHash3
+// (A. Appleby, public domain).
+static inline uint64_t hash_word(uint64_t hash, uint64_t word)
+{
+    hash = (hash ^ word) * UINT64_C(0xff51afd7ed558ccd);
+    return hash ^ hash >> 33;
+}
+
+// Eight bytes at a time, and four that are left.
 static uint64_t hash_bytes(const void *record, size_t size)
 {
     const unsigned char *bytes = record;
-    uint64_t hash = 0;
-    for (size_t i = 0; i + sizeof(uint32_t) <= size; i += sizeof(uint32_t)) {
-        uint32_t word;
+    uint64_t hash = 0, wide;
+    uint32_t word;
+    size_t i = 0;
+    for (; i + sizeof wide <= size; i += sizeof wide) {
+        memcpy(&wide, bytes + i, sizeof wide);
+        hash = hash_word(hash, wide);
+    }
+    if (i + sizeof word <= size) {
         memcpy(&word, bytes + i, sizeof word);
-        hash = (hash ^ word) * UINT64_C(0xff51afd7ed558ccd);
-        hash ^= hash >> 33;
+        hash = hash_word(hash, word);
     }
     return hash;
 }
