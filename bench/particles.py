@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""What a million particles cost from numpy arrays to a picture, beside the tree and the frame alone, and as text.
+"""What millions of particles cost from numpy arrays to a picture, beside the tree and the frame alone, and as text.
 
-    PYTHONPATH=python RTLANG_LIBRARY=.libs/librtlang.so RTLANG=./rtlang bench/particles.py [SPHERES] [RUNS] [all]
+    PYTHONPATH=python RTLANG_LIBRARY=.libs/librtlang.so RTLANG=./rtlang bench/particles.py [SPHERES,...] [RUNS] [all]
 
-Prints seconds and processor seconds, the least of some runs. Only ratios of one run mean anything: `ratio` is that of
-all seconds to those of tree and frame. With "all", also what programs take that read text, which Python writes: rtlang,
-Tachyon and POV-Ray (as vapory calls it), where they are installed; and POV-Ray only up to a million spheres.
+Without numbers a million spheres and ten million, and a hundred frames in which the million move. Prints seconds and
+processor seconds, the least of some runs. Only ratios of one run mean anything: `ratio` is that of all seconds to those
+of tree and frame. With "all", also what programs take that read text, which Python writes: rtlang, Tachyon and POV-Ray
+(as vapory calls it), where they are installed; and POV-Ray only up to a million spheres.
 SPDX-License-Identifier: MIT
 """
 import os
@@ -139,9 +140,8 @@ def programs(particles):
             yield name, call
 
 
-def main():
-    count = int(float(sys.argv[1])) if len(sys.argv) > 1 else 10**6
-    runs = int(sys.argv[2]) if len(sys.argv) > 2 else 5
+def report(count, runs):
+    """One table, and the peak of memory so far, which is that of the most spheres where their numbers rise."""
     particles = Particles(count)
     rows = []
 
@@ -170,7 +170,13 @@ def main():
     print(f"{'':38} {'seconds':>8} {'processor':>9} {'tree':>7} {'frame':>7} {'ratio':>6}")
     for name, wall, cpu, tree, frame in rows:
         ratio = f"{wall / (tree + frame):6.2f}" if frame else ""
-        print(f"{name:38} {wall:8.3f} {cpu:9.3f} {tree:7.3f} {frame:7.3f} {ratio}")
+        print(f"{name:38} {wall:8.3f} {cpu:9.3f} {tree:7.3f} {frame:7.3f} {ratio}", flush=True)
+
+
+def main():
+    counts = sys.argv[1].split(",") if len(sys.argv) > 1 else ("1e6", "1e7")
+    for count in counts:
+        report(int(float(count)), int(sys.argv[2]) if len(sys.argv) > 2 else 5)
 
 
 if __name__ == "__main__":

@@ -66,8 +66,14 @@ static size_t filled_runs(const Filling *filling)
     return (filling->spheres->count + SPHERE_RUN - 1) / SPHERE_RUN;
 }
 
-// Places and radii of a run, of arrays whose kinds of numbers are known where it is compiled. What is not finite is seen
-// by a sum of all, which is not finite then; where numbers are so large that it is not either, all is looked at again.
+// Without a branch, which no one could predict; the known one beside what is no number.
+static inline double greater(double number, double known)
+{
+    return number > known ? number : known;
+}
+
+// Places and radii of a run, of arrays whose kinds of numbers are known where it is compiled. What is not finite makes
+// the sum of all not finite; where numbers are so large that they do so, too, all is looked at again.
 RT_ALWAYS_INLINE void fill_places_of(const Filling *filling, size_t begin, size_t end, FilledRun *run,
                                      rt_number center_number, rt_number radius_number)
 {
@@ -80,14 +86,16 @@ RT_ALWAYS_INLINE void fill_places_of(const Filling *filling, size_t begin, size_
     for (size_t i = begin; i < end; i++) {
         Sphere *record = &filling->records[i];
         Vec3 centre = array_vector(&centers, i, 0);
-        double radius = array_number(&radii, i, 0), place = vec3_max_abs(centre);
+        double radius = array_number(&radii, i, 0);
         record->centre = centre;
         record->radius = radius;
         record->source = source + (uint32_t)i;
         sum += (centre.x + centre.y) + (centre.z + radius);
         survey.least_radius = radius < survey.least_radius ? radius : survey.least_radius;
-        survey.greatest_radius = radius > survey.greatest_radius ? radius : survey.greatest_radius;
-        survey.greatest_place = place > survey.greatest_place ? place : survey.greatest_place;
+        survey.greatest_radius = greater(radius, survey.greatest_radius);
+        survey.greatest_place = greater(fabs(centre.x), survey.greatest_place);
+        survey.greatest_place = greater(fabs(centre.y), survey.greatest_place);
+        survey.greatest_place = greater(fabs(centre.z), survey.greatest_place);
     }
     run->survey = survey;
     run->has_points = survey.least_radius <= 0.0;

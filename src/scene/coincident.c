@@ -161,8 +161,7 @@ static inline uint64_t hash_add(uint64_t hash, double number)
 // Both halves of the product, one upon the other, as wyhash has it (W. Yi, public domain).
 static inline uint64_t folded(uint64_t a, uint64_t b)
 {
-    Wide product = (Wide)a * b;
-    return (uint64_t)product ^ (uint64_t)(product >> 64);
+    return a * b ^ (uint64_t)((Wide)a * b >> 64);
 }
 
 // Of a sphere's key, which is what nearly all keys are. All bits count, for numbers of grids differ in few.
@@ -390,7 +389,7 @@ enum {
 
 typedef struct BloomFilter {
     const Coincidences *search;
-    uint32_t *places;       // of the bits of all spheres; then, run by run, the numbers of those that are to be looked up
+    uint32_t *places;       // of bits, of all spheres; then, run by run, the numbers of those to be looked up
     uint32_t *counts;       // of these, for each run
     uint64_t *once, *twice; // bits of hashes that were met, and met again
     Pages pages;            // that places and bits are in: malloc would keep them while the tree is built
@@ -416,24 +415,32 @@ static inline bool bit_get(const uint64_t *bits, uint32_t place)
 }
 
 // Places are computed, and memory is asked for them, some spheres ahead.
+RT_ALWAYS_INLINE void bloom_some(const BloomFilter *bloom, size_t begin, size_t end, bool is_shared)
+{
+    const Sphere *spheres = bloom->search->scene->spheres.items;
+    uint64_t *once = bloom->once;
+    uint32_t *places = bloom->places, mask = bloom->mask;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t place = sphere_hash(spheres[i].centre, spheres[i].radius) & mask;
+        places[i] = place;
+        __builtin_prefetch(&once[place / 64], 1);
+    }
+    for (size_t i = begin; i < end; i++) {
+        if (bit_set(once, places[i], is_shared)) {
+            bit_set(bloom->twice, places[i], is_shared);
+        }
+    }
+}
+
 static void bloom_run(void *client, size_t begin, size_t end)
 {
     const BloomFilter *bloom = client;
-    uint64_t *once = bloom->once;
-    uint32_t mask = bloom->mask;
     for (size_t some = begin, stop; some < end; some = stop) {
-        const Sphere *spheres = bloom->search->scene->spheres.items;
-        uint32_t *places = bloom->places;
         stop = end - some < BLOOM_AHEAD ? end : some + BLOOM_AHEAD;
-        for (size_t i = some; i < stop; i++) {
-            uint32_t place = sphere_hash(spheres[i].centre, spheres[i].radius) & mask;
-            places[i] = place;
-            __builtin_prefetch(&once[place / 64], 1);
-        }
-        for (size_t i = some; i < stop; i++) {
-            if (bit_set(once, places[i], bloom->is_shared)) {
-                bit_set(bloom->twice, places[i], bloom->is_shared);
-            }
+        if (bloom->is_shared) {
+            bloom_some(bloom, some, stop, true);
+        } else {
+            bloom_some(bloom, some, stop, false);
         }
     }
 }
