@@ -213,16 +213,12 @@ static void ball_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         return;
     }
     double passed = passed_error(q, solid);
-    bool is_first = !is_passed(t, bound, passed) && ball_is_first(q, index, t, bound, leaves, enter, first);
-    if (is_first && q->is_any) {
+    double root = q->is_any ? t : sphere_refine(&ray, &unit, t); // near the ends of the range the bound is not that of t
+    if (!is_passed(root, bound, passed) && ball_is_first(q, index, root, bound, leaves, enter, first)) {
         return;
     }
-    t = sphere_refine(&ray, &unit, t);
-    if (is_first) {
-        first->hit.t = t;
-    } else {
-        ball_offer(q, index, &object, &ray, t, leaves, passed, first);
-    }
+    root = q->is_any ? sphere_refine(&ray, &unit, t) : root;
+    ball_offer(q, index, &object, &ray, root, leaves, passed, first);
 }
 
 // A ball that the ray goes into where it starts.
