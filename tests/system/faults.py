@@ -148,7 +148,7 @@ COMMANDS = {
     "limit_depth_great": ["--max-depth=1001", "good.scn"],
     "clock_not_a_number": ["--clock=noon", "good.scn"],
     "option_ambiguous": ["--d", "good.scn"],
-    "unknown_option": ["--wat", "good.scn"],
+    "unknown_option": ["--what", "good.scn"],
     "unknown_letter": ["-x", "good.scn"],
     "argument_missing": ["good.scn", "-W"],
     "argument_missing_long": ["good.scn", "--output"],
