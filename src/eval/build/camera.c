@@ -29,6 +29,7 @@ static bool read_vertical_angle(Block *block)
                                           .at = offsetof(CameraDesc, angle_vertical_deg),
                                           .range = {RANGE_FAULT, false, 0.0, (double)INFINITY}};
     CameraDesc *camera = &block->record->camera;
+    cursor_take_comma(&block->cursor);
     const AstNode *value = cursor_peek(&block->cursor);
     camera->angle_vertical_deg = camera->angle_deg / 2.0;
     return !value || value->kind == AST_WORD || !cursor_at_value(&block->cursor) ||

@@ -176,6 +176,7 @@ static bool shade_action(Block *block, const SchemaProperty *property, Span word
     } else {
         shade.place = (uint32_t)place;
     }
+    cursor_take_comma(&block->cursor);
     if (!cursor_number(&block->cursor, &shade.amount, &span) ||
         !block_finite(block, shade.amount, span, property->word)) {
         return false;

@@ -83,6 +83,9 @@ bool light_area_action(Block *block, const SchemaProperty *property, const AstNo
         if (!block_value(block, &values[i], item->span)) {
             return false;
         }
+        if (i + 1 < RT_COUNT_OF(values)) {
+            cursor_take_comma(&block->cursor);
+        }
     }
     return true;
 }

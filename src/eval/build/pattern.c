@@ -525,6 +525,9 @@ bool pattern_action(Block *block, const SchemaProperty *property, const AstNode 
     if (info->has_direction && !block_value(block, &direction, item->span)) {
         return false;
     }
+    if (info->has_direction && info->has_count) {
+        cursor_take_comma(&block->cursor);
+    }
     if (type == PATTERN_GRADIENT && vec3_length_squared(pattern->vector) == 0.0) {
         return block_fault(block, DIAG_E0342, item->span, "the direction of a gradient cannot be <0, 0, 0>");
     }

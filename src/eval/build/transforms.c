@@ -87,7 +87,8 @@ static bool read_matrix(Block *block, Span word, Transform *matrix)
         return block_fault(block, DIAG_E0344, item ? item->span : word,
                            "`matrix` needs twelve numbers after it, as in <1,0,0, 0,1,0, 0,0,1, 0,0,0>");
     }
-    if (!read_matrix_numbers(block, item, matrix)) {
+    if (!cursor_lacks_comma(&block->cursor, "front of the numbers") ||
+        !read_matrix_numbers(block, item, matrix)) {
         return false;
     }
     for (int column = 0; column < 3; column++) {

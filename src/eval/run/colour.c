@@ -174,8 +174,7 @@ static bool read_parts(Cursor *cursor, double v[COMPONENTS], Span *span)
 static bool is_no_colour(Cursor *cursor, const AstNode *item)
 {
     bool is_word = item != NULL && item->kind == AST_WORD && component_of(word_of(item)) == COMPONENTS;
-    bool is_next = item != NULL && (item->flags & AST_AFTER_COMMA);
-    return item == NULL || is_next || is_word || !cursor_at_value(cursor);
+    return item == NULL || cursor->has_comma || is_word || !cursor_at_value(cursor);
 }
 
 bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span)
@@ -183,11 +182,14 @@ bool cursor_colour(Cursor *cursor, Rgbft *colour, Span *span)
     double v[COMPONENTS] = {0};
     const AstNode *item = cursor_peek(cursor), *first = item;
     *span = item != NULL ? item->span : cursor->span;
+    if (item != NULL && !cursor_lacks_comma(cursor, "front of this value")) {
+        return false;
+    }
     if (word_of(item) == W_color || word_of(item) == W_colour) {
         cursor_skip(cursor);
         item = cursor_peek(cursor);
     }
-    const ColourModel *model = model_of(word_of(item));
+    const ColourModel *model = cursor->has_comma ? NULL : model_of(word_of(item));
     bool is_alone = model == NULL && item != first && is_no_colour(cursor, item);
     if (is_alone) { // `color` and nothing else is black
         *colour = (Rgbft){0};

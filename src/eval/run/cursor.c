@@ -236,6 +236,15 @@ static void take_semicolon(Cursor *cursor, const AstNode *item)
     }
 }
 
+// The comma before an item. Where directives and calls stand between two of them, the second is one too many.
+static void take_comma(Cursor *cursor, Span span)
+{
+    if (cursor->has_comma) {
+        eval_fault(cursor->ev, DIAG_E0259, span, "a comma stands here already");
+    }
+    cursor->has_comma = true;
+}
+
 const AstNode *cursor_advance(Cursor *cursor)
 {
     Eval *ev = cursor->ev;
@@ -245,12 +254,16 @@ const AstNode *cursor_advance(Cursor *cursor)
         const AstNode *item = take_next(cursor);
         if (item == NULL) {
             bool is_text = cursor->frame->kind == FRAME_MACRO || cursor->frame->kind == FRAME_INCLUDE;
-            cursor->has_comma = cursor->has_comma || cursor->frame->ends_in_comma;
+            if (RT_UNLIKELY(cursor->frame->ends_in_comma)) {
+                take_comma(cursor, cursor_end(cursor));
+            }
             cursor->is_cut = cursor->is_cut || (cursor->frame->outer != NULL && !is_text);
             end_of_frame(cursor);
             continue;
         }
-        cursor->has_comma = cursor->has_comma || (item->flags & AST_AFTER_COMMA);
+        if (RT_UNLIKELY(item->flags & AST_AFTER_COMMA)) {
+            take_comma(cursor, item->span);
+        }
         if (RT_UNLIKELY(item->flags & AST_BEFORE_SEMICOLON)) {
             take_semicolon(cursor, item);
         }
@@ -307,7 +320,7 @@ bool cursor_lacks_comma(Cursor *cursor, const char *where)
 bool cursor_at_word(Cursor *cursor, Word word)
 {
     const AstNode *item = cursor_peek(cursor);
-    return item != NULL && item->kind == AST_WORD && item->symbol == (Symbol)word;
+    return item != NULL && item->kind == AST_WORD && item->symbol == (Symbol)word && !cursor->has_comma;
 }
 
 bool cursor_at_value(Cursor *cursor)
@@ -317,14 +330,15 @@ bool cursor_at_value(Cursor *cursor)
                             (item->kind == AST_WORD && word_class(item->symbol) == WORD_COLOUR));
 }
 
-// The next item; NULL where there is none, which is reported.
+// The next item; NULL where there is none, or a comma before it that does not belong there, which is reported.
 static const AstNode *take_item(Cursor *cursor, Span *span)
 {
     const AstNode *item = cursor_peek(cursor);
     if (item != NULL) {
         *span = item->span;
+        bool is_next = cursor_lacks_comma(cursor, "front of this value");
         cursor->item = NULL;
-        return item;
+        return is_next ? item : NULL;
     }
     *span = cursor_end(cursor);
     if (!cursor->ev->stop && !cursor->is_lossy && !eval_follows_syntax(cursor->ev, cursor->span)) {

@@ -174,6 +174,9 @@ static bool take_components(Eval *ev, const AstNode *part, Value *value, unsigne
     ev->initialiser = 0;
     cursor_open(&cursor, ev, part->a, part->span);
     while (cursor_peek(&cursor) != NULL) {
+        if (*count > 0) { // none before the first of all
+            cursor_take_comma(&cursor);
+        }
         fine = cursor_number(&cursor, &number, &span) && fine;
         value->v[*count < 5 ? *count : 4] = number;
         ++*count;

@@ -201,9 +201,9 @@ Span cursor_end(const Cursor *cursor);
 void cursor_take_comma(Cursor *cursor);
 bool cursor_lacks_comma(Cursor *cursor, const char *where);
 
-bool cursor_at_word(Cursor *cursor, Word word);  // peeks
+bool cursor_at_word(Cursor *cursor, Word word);  // peeks; not where a comma stands before it
 bool cursor_at_value(Cursor *cursor);            // an expression or a colour word stands next
-// Consume and evaluate. `owner` is what the value belongs to, for "expected a number after `radius`".
+// Consume and evaluate; a comma before it is a fault, but where cursor_take_comma took it. `owner` is what the value belongs to, for "expected a number after `radius`".
 bool cursor_value(Cursor *cursor, Value *value) RT_MUST_CHECK; // one expression
 bool cursor_number(Cursor *cursor, double *number, Span *span) RT_MUST_CHECK;
 bool cursor_vector3(Cursor *cursor, Vec3 *vector, Span *span) RT_MUST_CHECK;

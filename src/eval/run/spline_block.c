@@ -17,7 +17,6 @@ typedef struct SplineReader {
     SplineType type;
     unsigned components;
     double carry[5]; // of the point that was read last
-    bool has_head; // a name or a type stood first: no comma may follow
 } SplineReader;
 
 // Keeps the points in rising order. As in POV-Ray one at a place that is taken replaces what is there, unless that is the
@@ -52,7 +51,6 @@ static bool copy_spline(SplineReader *reader, const Spline *from)
     }
     reader->type = from->type;
     reader->components = from->components;
-    reader->has_head = true;
     return true;
 }
 
@@ -75,10 +73,9 @@ static bool read_head(SplineReader *reader)
     }
     if (item != NULL && item->kind == AST_WORD && spline_type((Word)item->symbol, &reader->type)) {
         cursor_skip(&reader->cursor);
-        reader->has_head = true;
         item = cursor_peek(&reader->cursor);
     }
-    return item == NULL || !reader->has_head || !(item->flags & AST_AFTER_COMMA) ||
+    return item == NULL || !reader->cursor.has_comma ||
            eval_fault(reader->ev, DIAG_E0259, item->span, "no comma may stand before the first point of a spline");
 }
 
@@ -90,6 +87,7 @@ static bool read_point(SplineReader *reader)
     SplinePoint point = {0};
     Span span;
     Value value;
+    cursor_take_comma(&reader->cursor);
     if (!cursor_number(&reader->cursor, &point.t, &span)) {
         return false;
     }
@@ -101,6 +99,7 @@ static bool read_point(SplineReader *reader)
         return !ev->stop && eval_fault(ev, DIAG_E0263, span, "this number needs a point of the spline after it");
     }
     span = item->span;
+    cursor_take_comma(&reader->cursor);
     if (!cursor_value(&reader->cursor, &value)) {
         return false;
     }
