@@ -136,19 +136,20 @@ static double checker(const Pattern *pattern, const NoiseSource *source, Vec3 p)
     return remainder_of(floor(p.x) + floor(p.y) + floor(p.z), 2.0);
 }
 
-// The middles are at q <3/2, 0, sqrt(3)/2> + r <0, 0, sqrt(3)>. A point belongs to the one that its fractional q, r and
-// s = -q - r round to, the coordinate that was rounded furthest being made the sum of the others.
+// The middles are at q <3/2, 0, h> + r <0, 0, 2 h>, where h is POV-Ray's sqrt(3)/2, rounded to nine digits, as measured.
+// A point belongs to the one that its fractional q, r and s = -q - r round to, the coordinate that was rounded furthest
+// being made the sum of the others. What lies on a seam along x is of the upper one.
 static double hexagon(const Pattern *pattern, const NoiseSource *source, Vec3 p)
 {
     (void)pattern;
     (void)source;
-    double q = p.x / 1.5, r = p.z / sqrt(3.0) - q / 2.0, s = -q - r;
+    double q = p.x / 1.5, row = p.z / (2.0 * 0.866025404), r = row - q / 2.0, s = -q - r;
     double q_whole = floor(q + 0.5), r_whole = floor(r + 0.5), s_whole = floor(s + 0.5);
-    double q_off = fabs(q_whole - q), r_off = fabs(r_whole - r), s_off = fabs(s_whole - s);
-    if (q_off > r_off && q_off > s_off) {
+    double q_off = fabs(q_whole - q);
+    if (q_off > fabs(r_whole - r) && q_off > fabs(s_whole - s)) {
         q_whole = -r_whole - s_whole;
-    } else if (r_off > s_off) {
-        r_whole = -q_whole - s_whole;
+    } else {
+        r_whole = floor(row - q_whole / 2.0 + 0.5);
     }
     double colour = fmod(2.0 * q_whole + r_whole, 3.0);
     return colour < 0.0 ? colour + 3.0 : fabs(colour); // -0 becomes 0
