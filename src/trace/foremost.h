@@ -15,6 +15,8 @@
 #ifndef TRACE_FOREMOST_H
 #define TRACE_FOREMOST_H
 
+#include <math.h>
+
 #include "base/attributes.h"
 #include "trace/trace.h"
 
@@ -59,11 +61,13 @@ RT_ALWAYS_INLINE Foremost foremost_start(const Hit *known, uint32_t order, doubl
                       .end = end};
 }
 
-// Begins once more, with the same, after all was offered.
+// Begins once more, with the same, after all was offered. It is not torn again, whatever is offered, for `beaten` is no
+// number: the limit is the least already, and no error of a span can make this endless.
 RT_ALWAYS_INLINE Foremost foremost_restart(const Hit *known, uint32_t order, double t_max, double limit)
 {
     Foremost first = foremost_start(known, order, t_max);
     first.limit = limit;
+    first.beaten = (double)NAN;
     return first;
 }
 

@@ -165,18 +165,17 @@ RT_ALWAYS_INLINE void query_others_closest(const Geometry *g, unsigned features,
     bool has_parts = query_has_parts(g, features);
     double start_error = query_start_error(g, features, ray, start);
     Foremost first = foremost_start(hit, order, t_max);
-    // A second time is enough: its limit is the least already. Nothing asks whether it was torn, so that no error of a
-    // bound can make this endless.
-    for (int pass = 0; pass < 2 && (pass == 0 || RT_UNLIKELY(first.is_torn)); pass++) {
-        if (pass > 0) {
-            first = foremost_restart(hit, order, t_max, first.limit);
-        }
+    for (;;) {
         if (features & TRACE_PLANES) {
             query_planes_offer(g, features, ray, start, start_error, t_max, &first);
         }
         if (has_parts) {
             g->kernels->shapes_closest(&g->shapes, &(Ray){ray->origin, ray->direction}, start, start_error, &first);
         }
+        if (RT_LIKELY(!first.is_torn)) {
+            break;
+        }
+        first = foremost_restart(hit, order, t_max, first.limit);
     }
     *hit = first.hit;
 }

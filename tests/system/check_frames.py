@@ -212,7 +212,8 @@ def check_bar(report, folder):
     told = terminal_output(lambda slave: subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                                           stderr=slave), 60, rb"animation: 4")
     shares = [int(share) for share in re.findall(rb"\] +(\d+) %", told)]
-    report.ok(len(shares) > 3 and shares == sorted(shares) and shares[0] >= 25, "one bar for all frames", shares)
+    # A prediction may fall by a little; a bar of each frame's own would fall from its end to its beginning.
+    report.ok(len(shares) > 3 and shares[0] >= 20 and all(b >= a - 10 for a, b in zip(shares, shares[1:])), "one bar for all frames", shares)
 
 
 def main():
