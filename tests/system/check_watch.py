@@ -243,7 +243,8 @@ def test_end(watched):
     code, said, _ = Watched("--max-time=0.5", "-W80", "-H60", "slow.scn").end(0)
     tap.ok(code == 0 and said == "", "the end of --max-time, too", (code, said))
     left = Watched("-W80", "-H60", "slow.scn")
-    children = subprocess.run(["pgrep", "-P", str(left.process.pid)], stdout=subprocess.PIPE, text=True, check=False).stdout.split()
+    with open(f"/proc/{left.process.pid}/task/{left.process.pid}/children", encoding="ascii") as file:
+        children = file.read().split()
     left.end(signal.SIGKILL)
     end = time.monotonic() + 10
     while any(os.path.exists(f"/proc/{child}") for child in children) and time.monotonic() < end:
