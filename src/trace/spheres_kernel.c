@@ -4,12 +4,6 @@
 // so that verdicts and roots are the same bits in vectors of any width.
 //
 // SPDX-License-Identifier: MIT
-#if defined(__x86_64__) && defined(__has_include)
-#if __has_include(<sys/platform/x86.h>)
-#include <sys/platform/x86.h> // of the C library of GNU, from 2.33 on
-#endif
-#endif
-
 #include "base/isa.h"
 #include "trace/bvh_walk.h"
 #include "trace/plane_tile.h"
@@ -207,31 +201,23 @@ static bool spheres_occluded(const SphereTable *table, const SphereRay *ray, uin
     return false;
 }
 
-// The C library, where it says so, has asked the processor before the program starts; the compiler's support asks it
-// once more at each start, which a virtual machine answers slowly.
-#ifdef CPU_FEATURE_ACTIVE
-#define HAS(name, text) CPU_FEATURE_ACTIVE(name)
-#else
-#define HAS(name, text) __builtin_cpu_supports(text)
-#endif
-
 // Whether this processor has what the compiler was allowed to use in this file. Asked feature by feature: clang before 17
 // does not know the levels by their names. Processors with these have the rest of their level, too.
 static bool is_supported(void)
 {
 #ifdef __SSE4_2__
-    if (!HAS(SSE4_2, "sse4.2") || !HAS(POPCNT, "popcnt")) {
+    if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) {
         return false;
     }
 #endif
 #ifdef __AVX2__
-    if (!HAS(AVX2, "avx2") || !HAS(BMI2, "bmi2") || !HAS(FMA, "fma")) {
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("bmi2") || !__builtin_cpu_supports("fma")) {
         return false;
     }
 #endif
 #ifdef __AVX512VL__
-    if (!HAS(AVX512BW, "avx512bw") || !HAS(AVX512CD, "avx512cd") || !HAS(AVX512DQ, "avx512dq") ||
-        !HAS(AVX512VL, "avx512vl")) {
+    if (!__builtin_cpu_supports("avx512bw") || !__builtin_cpu_supports("avx512cd") ||
+        !__builtin_cpu_supports("avx512dq") || !__builtin_cpu_supports("avx512vl")) {
         return false;
     }
 #endif
