@@ -101,6 +101,7 @@ static void fini(Eval *ev)
 {
     lint_fini(ev);
     origins_fini(ev);
+    plans_fini(ev);
     objects_fini(ev);
     data_files_fini(ev);
     files_fini(ev);

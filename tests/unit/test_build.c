@@ -314,6 +314,7 @@ static void check_pixels(void)
            "pixels that are taken are gone");
     tap_ok(rt_render(session, 1) == RT_OK && memcmp(taken, rt_pixels(session, &width, &height), sizeof floats) == 0,
            "and a next picture is another one");
+    rt_free_pixels(taken);
     rt_session_free(session);
 }
 

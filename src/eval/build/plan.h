@@ -145,6 +145,7 @@ typedef struct PlanTrial {
 bool plan_begin(Eval *ev, const AstNode *item, SchemaKind kind, PlanTrial *trial, bool *is_fine) RT_MUST_CHECK;
 void plan_note(Eval *ev, PlanTrial *trial, SchemaKind kind, const Desc *record);      // what it was read to
 void plan_try(Eval *ev, const PlanTrial *trial, const AstNode *item);                 // it was placed
+void plans_fini(Eval *ev); // frees what a statement that did not come to its end was to be
 
 // loop_plan.c: where a loop's or macro's statement has its plan.
 PlanPlace *plan_place_of(Eval *ev, const AstNode *item);

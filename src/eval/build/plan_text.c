@@ -258,6 +258,12 @@ static GrammarTaken run_call(Eval *ev, PlanCall *plan, const GrammarStatement *s
 
 // ---- what the grammar asks
 
+void plans_fini(Eval *ev)
+{
+    drop(ev->watch.plan); // of a statement that did not come to its end
+    ev->watch.plan = NULL;
+}
+
 static bool is_for(void *client, Symbol word)
 {
     const Eval *ev = eval_of(client);
