@@ -66,11 +66,11 @@ typedef struct SolidClass {
 
 extern const SolidClass solid_classes[PART_KINDS];
 
+// SIDE_NONE, where an interval has no end, is none.
 static inline bool solid_is_film(const Solid *solid, uint8_t side)
 {
-    return solid->films >> side & 1;
+    return solid->films >> (side & 31) & 1;
 }
-
 
 static inline bool solid_is_convex(const Solid *solid)
 {
