@@ -11,6 +11,7 @@
 #include "scene/form.h"
 #include "scene/primitive.h"
 #include "scene/room.h"
+#include "scene/tail.h"
 
 bool session_begin(rt_session *session)
 {
@@ -130,10 +131,9 @@ static bool part_make(const ShapeList *list, MakePart make, const void *shapes, 
 static bool parts_add(const ShapeList *list, MakePart make, const void *shapes, size_t count, const rt_look *look)
 {
     Scene *scene = &list->session->scene;
-    size_t before = scene->parts.count;
     uint32_t shape_count = scene->shape_count;
     bool fine = shape_list_has_room(list, count, sizeof(Part));
-    if (fine && !ARRAY_RESERVE(&scene->parts, before + count)) {
+    if (fine && !ARRAY_RESERVE(&scene->parts, scene->parts.count + count)) {
         return session_no_room(list->session, shape_list_span(list, 0));
     }
     for (size_t i = 0; fine && i < count; i++) {
@@ -148,8 +148,7 @@ static bool parts_add(const ShapeList *list, MakePart make, const void *shapes, 
     fine = fine && (scene_memory_has(scene, 0, 0, session_memory_granted(list->session)) ||
                     session_no_room(list->session, shape_list_span(list, 0)));
     if (!fine) {
-        scene->parts.count = before;
-        scene->shape_count = shape_count;
+        scene_keep_shapes(scene, shape_count);
     }
     return fine;
 }

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "scene/range.h"
 #include "scene/room.h"
+#include "scene/tail.h"
 
 // ---- elements become records
 
@@ -281,14 +282,6 @@ static void note_survey(const Filling *filling, size_t before)
     }
 }
 
-// A scene as it was before.
-static void spheres_take_back(Scene *scene, size_t spheres, size_t runs, uint32_t shapes)
-{
-    scene->spheres.count = spheres;
-    scene->sphere_runs.count = runs;
-    scene->shape_count = shapes;
-}
-
 // Elements go behind the end of the scene's lists. False when out of memory.
 static bool fill_all(Filling *filling, bool *is_odd, bool *has_points)
 {
@@ -355,10 +348,9 @@ static bool spheres_add(const ShapeList *list, const rt_spheres *spheres, const 
 {
     rt_session *session = list->session;
     Scene *scene = &session->scene;
-    size_t before = scene->spheres.count, runs = scene->sphere_runs.count;
     uint32_t shapes = scene->shape_count;
     Filling filling = {.list = list, .spheres = spheres, .is_alike = spheres->look.colors.stride == 0};
-    *group = (SessionGroup){source_name(list->source), before, spheres->count, list->base, false, RECORD_NONE};
+    *group = (SessionGroup){source_name(list->source), scene->spheres.count, spheres->count, list->base, false, RECORD_NONE};
     if (spheres->count == 0) {
         return ARRAY_RESERVE(&session->groups, session->groups.count + 1) ||
                session_no_room(session, shape_list_span(list, 0));
@@ -370,7 +362,7 @@ static bool spheres_add(const ShapeList *list, const rt_spheres *spheres, const 
     has_memory = has_memory && (!is_fine || commit_all(&filling, group->has_gaps));
     free(filling.runs);
     if (!has_memory) {
-        spheres_take_back(scene, before, runs, shapes);
+        scene_keep_shapes(scene, shapes);
         return session_no_room(session, shape_list_span(list, 0));
     }
     return is_fine;

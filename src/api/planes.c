@@ -28,7 +28,7 @@ static const PlaneRow rows[] = {
     {RT_PLANE_OBJECT, FILM_OBJECT, true, 1, {"object"}},
     {RT_PLANE_ALBEDO, FILM_ALBEDO, false, 3, {"albedo.R", "albedo.G", "albedo.B"}},
 };
-enum { PLANE_ROWS = sizeof rows / sizeof rows[0] };
+enum { PLANE_ROWS = RT_COUNT_OF(rows) };
 
 rt_status rt_set_planes(rt_session *session, unsigned planes)
 {

@@ -454,17 +454,14 @@ static int scenes_study(const Check *check)
 
 static bool folder_make(Check *check)
 {
-    const char *base = getenv("TMPDIR");
     const char *keep = check->options->keep;
-    char *path = NULL;
-    bool fine = false;
+    bool fine;
 
     check->keeps_folder = keep != NULL;
     if (keep) {
         fine = (mkdir(keep, 0777) == 0 || errno == EEXIST) && realpath(keep, check->folder);
-    } else if (asprintf(&path, "%s/rtcheck-XXXXXX", base && base[0] != '\0' ? base : "/tmp") >= 0) {
-        fine = mkdtemp(path) && realpath(path, check->folder);
-        free(path);
+    } else {
+        fine = povray_make_folder(check->folder);
     }
     if (!fine) {
         say(check->options, "cannot make a folder for the pictures: %s", strerror(errno));

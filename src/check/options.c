@@ -11,10 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "check/say.h"
 #include "rtlang/rtlang.h"
-
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
 // A number or a quotient of two, such as 2/65535; not below zero.
 static bool parse_ratio(const char *text, double *value)
@@ -234,8 +233,8 @@ static const OptionGroup groups[] = {
     {"What it writes", "report"},
     {"The machine", "threads"},
 };
-static const OptionTable option_table = {rows, COUNT_OF(rows), groups, COUNT_OF(groups)};
-_Static_assert(COUNT_OF(rows) <= OPTIONS_MOST, "enlarge OPTIONS_MOST");
+static const OptionTable option_table = {rows, RT_COUNT_OF(rows), groups, RT_COUNT_OF(groups)};
+_Static_assert(RT_COUNT_OF(rows) <= OPTIONS_MOST, "enlarge OPTIONS_MOST");
 
 static void print_help(void)
 {

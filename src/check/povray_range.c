@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+#include "base/attributes.h"
 
 void povray_range_describe(const rt_range *range, char *words, size_t size)
 {
@@ -22,7 +22,7 @@ void povray_range_describe(const rt_range *range, char *words, size_t size)
     };
 
     words[0] = '\0';
-    for (size_t i = 0; i < COUNT_OF(limits); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(limits); i++) {
         if (limits[i].value < limits[i].low || limits[i].value > limits[i].high) {
             snprintf(words, size, "outside POV-Ray's range: %s %.3g", limits[i].what, limits[i].value);
             return;

@@ -24,7 +24,7 @@ static const Told told[] = {
     {RACE_CPU, RACE_BY_POVRAY, "cpu_by_povray", "processor, against POV-Ray's reference"},
     {RACE_CPU, RACE_BY_OTHER, "cpu_by_other", "processor, each against the other's reference"},
 };
-#define TOLD ((int)(sizeof told / sizeof told[0]))
+#define TOLD ((int)RT_COUNT_OF(told))
 
 static void print_ratio(const RaceRatio *ratio, FILE *out)
 {
@@ -185,7 +185,7 @@ static void html_row(const Race *race, const RaceEntry *entry, FILE *out)
                               entry->seconds[RACE_CPU] / to};
 
     fprintf(out, "<tr><td>%s</td>", entry->setting);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(numbers); i++) {
         if (isnan(numbers[i])) {
             fputs("<td></td>", out);
         } else {
@@ -217,7 +217,7 @@ void race_print_html(const Race *race, FILE *out)
     print_head(race, out, "<li>", "</li>");
     print_ratios(race, out, "<li>", "</li>");
     fputs("</ul>\n", out);
-    report_table_open(out, "All runs of the race", columns, sizeof columns / sizeof columns[0]);
+    report_table_open(out, "All runs of the race", columns, RT_COUNT_OF(columns));
     for (int i = 0; i < race->rtlang_count; i++) {
         html_row(race, &race->rtlang[i], out);
     }

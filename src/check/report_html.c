@@ -15,7 +15,7 @@ static const char *const template_lines[] = {
 #include "check/report_page.inc"
 };
 
-enum { TEMPLATE_LINES = sizeof template_lines / sizeof template_lines[0] };
+enum { TEMPLATE_LINES = RT_COUNT_OF(template_lines) };
 
 // The line of the template where the sections stand.
 static const char *const sections_line = "<!-- sections -->\n";
@@ -112,9 +112,8 @@ void report_table_open(FILE *out, const char *name, const ReportColumn *columns,
         html_text(out, columns[i].meaning);
         fputs("</dd>\n", out);
     }
-    fputs("</dl></details>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"", out);
-    html_text(out, name);
-    fputs("\"><table class=\"sortable\"><thead><tr>", out);
+    fputs("</dl></details>\n", out);
+    report_table_heading(out, name);
     for (size_t i = 0; i < count; i++) {
         fputs("<th scope=\"col\" title=\"", out);
         html_text(out, columns[i].meaning);
@@ -122,6 +121,18 @@ void report_table_open(FILE *out, const char *name, const ReportColumn *columns,
         html_text(out, columns[i].heading);
         fputs("</th>", out);
     }
+    report_table_rows(out);
+}
+
+void report_table_heading(FILE *out, const char *name)
+{
+    fputs("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"", out);
+    html_text(out, name);
+    fputs("\"><table class=\"sortable\"><thead><tr>", out);
+}
+
+void report_table_rows(FILE *out)
+{
     fputs("</tr></thead><tbody>\n", out);
 }
 

@@ -36,6 +36,10 @@ typedef struct ReportColumn {
     const char *heading, *meaning; // plain text
 } ReportColumn;
 void report_table_open(FILE *out, const char *name, const ReportColumn *columns, size_t count);
+
+// The same without the meanings: up to the cells of its heading, which the caller writes before report_table_rows.
+void report_table_heading(FILE *out, const char *name);
+void report_table_rows(FILE *out);
 void report_table_close(FILE *out);
 
 // Text as HTML, also within a quoted attribute.

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
-
 static const ImageEncoding for_screens = {.depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_SRGB};
 static const ImageEncoding as_codes = {
     .depth = IMAGE_DEPTH_8, .transfer = IMAGE_TRANSFER_SRGB, .already_encoded = true};
@@ -37,7 +35,7 @@ static void heat_colour(double place, float colour[3])
     size_t i = 1;
     double share;
 
-    while (i < COUNT_OF(heat_stops) - 1 && heat_stops[i].place < place) {
+    while (i < RT_COUNT_OF(heat_stops) - 1 && heat_stops[i].place < place) {
         i++;
     }
     share = (place - heat_stops[i - 1].place) / (heat_stops[i].place - heat_stops[i - 1].place);
@@ -59,18 +57,18 @@ static void heat_print_scale(FILE *out)
           "<option value=\"4096\">even, to 4096</option><option value=\"65535\">even, to 65535</option></select></label></p>\n"
           "<div class=\"scale\" role=\"img\" aria-label=\"Scale of differences in steps of 1/65535\" data-stops=\"[",
           out);
-    for (size_t i = 0; i < COUNT_OF(heat_stops); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(heat_stops); i++) {
         const unsigned char *c = heat_stops[i].colour;
         fprintf(out, "%s[%g,%d,%d,%d]", i > 0 ? "," : "", heat_stops[i].place, c[0], c[1], c[2]);
     }
     fputs("]\"><div class=\"colours\" style=\"background: linear-gradient(to right",
           out);
-    for (size_t i = 0; i < COUNT_OF(heat_stops); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(heat_stops); i++) {
         const unsigned char *c = heat_stops[i].colour;
         fprintf(out, ", rgb(%d %d %d) %g%%", c[0], c[1], c[2], 100.0 * heat_stops[i].place);
     }
     fputs(")\"></div>", out);
-    for (size_t i = 0; i < COUNT_OF(marks); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(marks); i++) {
         fprintf(out, "<span class=\"mark\" style=\"left: %.2f%%\">%s</span>", 100.0 * heat_place(marks[i].steps),
                 marks[i].words);
     }
@@ -323,17 +321,16 @@ static void table_print(FILE *out, const ScenesReport *report)
         "beyond 1/255", "rtlang s", "POV-Ray s", "ratio",
     };
 
-    fputs("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Scenes\"><table class=\"sortable\">\n"
-          "<thead><tr><th scope=\"col\">scene</th><th scope=\"col\">verdict</th>",
-          out);
-    for (size_t i = 0; i < COUNT_OF(headings); i++) {
+    report_table_heading(out, "Scenes");
+    fputs("<th scope=\"col\">scene</th><th scope=\"col\">verdict</th>", out);
+    for (size_t i = 0; i < RT_COUNT_OF(headings); i++) {
         fprintf(out, "<th scope=\"col\" class=\"number\">%s</th>", headings[i]);
     }
-    fputs("</tr></thead>\n<tbody>\n", out);
+    report_table_rows(out);
     for (int i = 0; i < report->count; i++) {
         row_print(out, &report->outcomes[i], i + 1, common_folder(report));
     }
-    fputs("</tbody></table></div>\n", out);
+    report_table_close(out);
 }
 
 static bool stream_copy(FILE *from, FILE *to)

@@ -10,19 +10,13 @@
 
 static void head(FILE *out, const char *name, const char *const *titles)
 {
-    fprintf(out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table class=\"sortable\"><thead><tr>",
-            name);
+    report_table_heading(out, name);
     for (; *titles; titles++) {
         fputs("<th scope=\"col\">", out);
         html_text(out, *titles);
         fputs("</th>", out);
     }
-    fputs("</tr></thead><tbody>\n", out);
-}
-
-static void tail(FILE *out)
-{
-    fputs("</tbody></table></div>\n", out);
+    report_table_rows(out);
 }
 
 static void cell_number(FILE *out, double value, double bar)
@@ -84,7 +78,7 @@ static void put_families(const Stability *stability, FILE *out)
         }
         fprintf(out, "<td class=\"number\">%" PRIu64 "</td></tr>\n", row->doubtful);
     }
-    tail(out);
+    report_table_close(out);
 }
 
 // ---- the plot: decades of error over decades of distance
@@ -172,7 +166,7 @@ static void put_secondary(const Stability *stability, FILE *out)
         }
         fputs("</tr>\n", out);
     }
-    tail(out);
+    report_table_close(out);
 }
 
 static void put_mirrors(const Stability *stability, FILE *out)
@@ -189,7 +183,7 @@ static void put_mirrors(const Stability *stability, FILE *out)
         }
         fputs("</tr>\n", out);
     }
-    tail(out);
+    report_table_close(out);
 }
 
 static void put_shells(const Stability *stability, FILE *out)
@@ -208,7 +202,7 @@ static void put_shells(const Stability *stability, FILE *out)
         }
         fputs("</tr>\n", out);
     }
-    tail(out);
+    report_table_close(out);
     fprintf(out,
             "<h3>Total reflection near its threshold</h3>\n<p>Of %" PRIu64 " cases %" PRIu64
             " of the wrong class, all with |k| &le; %.2g u of 4.3 u; the bent ray's cosine is off by at most %.2g u of "
@@ -238,7 +232,7 @@ static void put_pictures(const Stability *stability, FILE *out)
             fputs("<td>not possible</td><td></td><td></td></tr>\n", out);
         }
     }
-    tail(out);
+    report_table_close(out);
 }
 
 static bool put_picture(const Image *image, const char *caption, FILE *out)

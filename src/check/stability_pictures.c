@@ -95,13 +95,13 @@ static bool compare_scales(Stability *stability, const Options *options, const S
     static const int twos[] = {-400, -61, 1, 400}, tens[] = {-100, -7, 3, 100};
     bool fine = true;
     char what[48];
-    for (size_t i = 0; fine && i < sizeof twos / sizeof twos[0]; i++) {
+    for (size_t i = 0; fine && i < RT_COUNT_OF(twos); i++) {
         Motion scaled = motion_none;
         scaled.scale = ldexp(1.0, twos[i]);
         snprintf(what, sizeof what, "times 2^%d", twos[i]);
         fine = compare(stability, options, scene, &scaled, what, &motion_none, "unscaled");
     }
-    for (size_t i = 0; fine && i < sizeof tens / sizeof tens[0]; i++) {
+    for (size_t i = 0; fine && i < RT_COUNT_OF(tens); i++) {
         Motion scaled = motion_none;
         scaled.scale = pow(10.0, tens[i]);
         snprintf(what, sizeof what, "times 10^%d", tens[i]);
@@ -126,7 +126,7 @@ static bool compare_precisions(Stability *stability, const Options *options, con
         {"camera at a tenth", {1.0, {0.0, 0.0, 0.0}, 0.1, RT_PRECISION_DOUBLE}},
     };
     bool fine = true;
-    for (size_t i = 0; fine && i < sizeof places / sizeof places[0]; i++) {
+    for (size_t i = 0; fine && i < RT_COUNT_OF(places); i++) {
         Motion exact = places[i].motion;
         exact.precision = RT_PRECISION_QUAD;
         fine = compare(stability, options, scene, &places[i].motion, places[i].what, &exact, "quad");
@@ -154,7 +154,7 @@ static void show(Stability *stability, const Options *options, const StudyScene 
 bool stability_pictures(Stability *stability, const Options *options, const char *povray, const char *folder)
 {
     bool fine = true;
-    for (size_t i = 0; fine && i < sizeof stiff / sizeof stiff[0]; i++) {
+    for (size_t i = 0; fine && i < RT_COUNT_OF(stiff); i++) {
         fine = compare_scales(stability, options, &stiff[i]) && compare_precisions(stability, options, &stiff[i]);
         show(stability, options, &stiff[i], povray, folder);
     }

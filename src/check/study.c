@@ -13,8 +13,6 @@
 #include "base/clock.h"
 #include "check/study_render.h"
 
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
-
 enum {
     RUNS_MOST = 9,
     REFERENCE_TIMES = 16, // the greatest number of samples of a ladder
@@ -150,14 +148,14 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
                         {.name = "rtlang jittered", .sampling = {.sampler = "jittered"}, .least = 4, .factor = 4},
                         {.name = "rtlang grid", .sampling = {.sampler = "grid"}, .least = 4, .factor = 4},
                         {.name = "rtlang random", .sampling = {.sampler = "random"}, .least = 4, .factor = 4}};
-    int next[COUNT_OF(ladders)]; // samples
+    int next[RT_COUNT_OF(ladders)]; // samples
 
-    for (size_t i = 0; i < COUNT_OF(ladders); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(ladders); i++) {
         ladders[i].method = method_begin(study, ladders[i].name, STUDY_SAMPLER);
         next[i] = ladders[i].least;
     }
     for (int samples = 1; samples <= study->ladder_top; samples *= 2) {
-        for (size_t i = 0; i < COUNT_OF(ladders); i++) {
+        for (size_t i = 0; i < RT_COUNT_OF(ladders); i++) {
             if (next[i] != samples || ladders[i].ends_before > 0) {
                 continue;
             }
@@ -170,8 +168,8 @@ static bool rtlang_methods(Study *study, const StudySettings *settings, const Im
             next[i] *= ladders[i].factor;
         }
     }
-    ladders_note(study, settings, ladders, COUNT_OF(ladders));
-    for (size_t i = 0; i < COUNT_OF(ladders); i++) {
+    ladders_note(study, settings, ladders, RT_COUNT_OF(ladders));
+    for (size_t i = 0; i < RT_COUNT_OF(ladders); i++) {
         study_fit(ladders[i].method, study->floor);
     }
     return true;
@@ -193,14 +191,14 @@ static bool reference_methods(Study *study, const StudySettings *settings, const
     StudySettings once = *settings;
 
     once.repeats = 1;
-    for (size_t i = 0; i < COUNT_OF(methods) && !isnan(study->arithmetic); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(methods) && !isnan(study->arithmetic); i++) {
         StudyMethod *method = method_begin(study, methods[i].name, STUDY_REFERENCE);
         double seconds = 0.0, one = 0.0;
         if (methods[i].precision == RT_PRECISION_QUAD && 4.0 * quad_seconds > budget_left(settings->budget)) {
             budget_leave_out(settings->budget, "all runs: %s", methods[i].name);
             break;
         }
-        budget_say(settings->budget, study->scene, methods[i].name, (int)i + 1, (int)COUNT_OF(methods));
+        budget_say(settings->budget, study->scene, methods[i].name, (int)i + 1, (int)RT_COUNT_OF(methods));
         for (int samples = 4; samples <= study->ladder_top && 4.0 * seconds < REFERENCE_SECONDS; samples *= 4) {
             rt_sampling sampling = {.samples = samples};
             StudyPoint *point = &method->points[method->count];

@@ -5,8 +5,6 @@
 
 #include "check/study_print.h"
 
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
-
 enum { PICTURE_WIDTH = 480 };
 
 static const ReportColumn columns[] = {
@@ -29,7 +27,7 @@ static const ReportColumn columns[] = {
 
 static void print_table(const Study *study, FILE *out)
 {
-    report_table_open(out, "All runs of the study", columns, COUNT_OF(columns));
+    report_table_open(out, "All runs of the study", columns, RT_COUNT_OF(columns));
     for (int i = 0; i < study->count; i++) {
         const StudyMethod *method = &study->methods[i];
         for (int j = 0; j < method->count; j++) {
@@ -37,7 +35,7 @@ static void print_table(const Study *study, FILE *out)
             const double numbers[] = {p->samples,  p->seconds, p->rmse, p->relmse,
                                       p->greatest, p->p999,    p->flip, study_efficiency(p)};
             fprintf(out, "<tr><td>%s</td><td>%s</td>", method->name, p->setting);
-            for (size_t k = 0; k < COUNT_OF(numbers); k++) {
+            for (size_t k = 0; k < RT_COUNT_OF(numbers); k++) {
                 fprintf(out, "<td class=\"number\" data-sort=\"%.9g\">%.4g</td>", numbers[k], numbers[k]);
             }
             if (isnan(method->slope)) {

@@ -52,7 +52,7 @@ static void curves_choose(const Study *study, bool chosen[STUDY_METHODS])
 {
     int count = 0;
 
-    for (size_t i = 0; i < sizeof first_curves / sizeof first_curves[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(first_curves); i++) {
         for (int k = 0; k < study->count && count < CURVES_FIRST; k++) {
             if (study->methods[k].count > 0 && strcmp(study->methods[k].name, first_curves[i]) == 0) {
                 chosen[k] = true;

@@ -21,6 +21,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/attributes.h"
 #include "cli/confine_filter.h"
 
 // Of <linux/landlock.h>, whose newer parts older systems lack. The numbers are the kernel's and never change.
@@ -147,7 +148,7 @@ static void allow_povray_ini(const Ruleset *ruleset)
     allow(ruleset, getenv("POVINI"), FS_READ_FILE);
     allow(ruleset, "/etc/povray", FS_READ_FILE | FS_READ_DIR);
     allow(ruleset, "/etc/povray.ini", FS_READ_FILE);
-    for (size_t i = 0; home && i < sizeof at_home / sizeof *at_home; i++) {
+    for (size_t i = 0; home && i < RT_COUNT_OF(at_home); i++) {
         snprintf(path, sizeof path, "%s/%s", home, at_home[i]);
         allow(ruleset, path, FS_READ_FILE | FS_READ_DIR);
     }
@@ -160,13 +161,13 @@ static void allow_system(const Ruleset *ruleset, bool is_strict)
     static const char *const libraries[] = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/proc/cpuinfo",
                                             "/proc/meminfo"};
     char self[PATH_MAX];
-    for (size_t i = 0; i < sizeof always / sizeof *always; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(always); i++) {
         allow(ruleset, always[i], FS_READ_FILE | FS_READ_DIR);
     }
     if (is_strict) {
         return;
     }
-    for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(libraries); i++) {
         allow(ruleset, libraries[i], FS_READ_FILE | FS_READ_DIR);
     }
     allow_povray_ini(ruleset);

@@ -22,6 +22,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/attributes.h"
+
 #if defined __x86_64__ && !defined __ILP32__
 #define ARCHITECTURE AUDIT_ARCH_X86_64
 #elif defined __aarch64__
@@ -66,8 +68,8 @@ static const uint16_t refused_connections[] = {
 };
 
 enum {
-    REFUSED = sizeof refused / sizeof *refused,
-    REFUSED_CONNECTIONS = sizeof refused_connections / sizeof *refused_connections,
+    REFUSED = RT_COUNT_OF(refused),
+    REFUSED_CONNECTIONS = RT_COUNT_OF(refused_connections),
     STEPS_MOST = 2 * (REFUSED + REFUSED_CONNECTIONS) + 48,
     X32_CALLS = 0x40000000
 };

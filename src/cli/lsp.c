@@ -267,8 +267,8 @@ static void find_value(const Server *server, Evaluation *evaluation, Word name, 
         const char *before, *behind;
     } forms[] = {{"str(", ", 0, -1)"}, {"\"<\", vstr(3, ", ", \", \", 0, -1), \">\""}, {"\"\\\"\", ", ", \"\\\"\""}};
     const char *text = evaluation->document->text, *places[] = {line_end, text + strlen(text)};
-    for (size_t i = 0; i < sizeof places / sizeof places[0] && !evaluation->value[0]; i++) {
-        for (size_t k = 0; k < sizeof forms / sizeof forms[0] && !evaluation->value[0]; k++) {
+    for (size_t i = 0; i < RT_COUNT_OF(places) && !evaluation->value[0]; i++) {
+        for (size_t k = 0; k < RT_COUNT_OF(forms) && !evaluation->value[0]; k++) {
             Message probe;
             if (!message_begin(&probe, (Json){NULL, NULL})) {
                 return;
@@ -519,12 +519,12 @@ static void dispatch(Server *server, Json whole)
     char *method = json_take_text(json_at(whole, "method"));
     Json id = json_at(whole, "id"), params = json_at(whole, "params");
     bool is_known = !method; // an answer to nothing that was asked
-    for (size_t i = 0; method && !id.begin && i < sizeof notifications / sizeof notifications[0]; i++) {
+    for (size_t i = 0; method && !id.begin && i < RT_COUNT_OF(notifications); i++) {
         if (strcmp(method, notifications[i].method) == 0) {
             notifications[i].run(server, params);
         }
     }
-    for (size_t i = 0; method && id.begin && !is_known && i < sizeof requests / sizeof requests[0]; i++) {
+    for (size_t i = 0; method && id.begin && !is_known && i < RT_COUNT_OF(requests); i++) {
         is_known = strcmp(method, requests[i].method) == 0;
         if (is_known) {
             requests[i].run(server, id, params);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "cli/lsp_json.h"
 
 // Bytes of a character of UTF-8 by its first one; a stray byte is one.
@@ -96,7 +97,7 @@ Word text_next_declared(const char *from)
 {
     static const char *const directives[] = {"declare", "local", "macro"};
     for (const char *at = strchr(from, '#'); at; at = strchr(at + 1, '#')) {
-        for (size_t i = 0; i < sizeof directives / sizeof directives[0]; i++) {
+        for (size_t i = 0; i < RT_COUNT_OF(directives); i++) {
             const char *name = behind_directive(at, directives[i]);
             Word word = name ? text_word(name, name) : (Word){at, 0};
             if (word.length > 0) {

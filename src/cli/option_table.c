@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+#include "base/attributes.h"
 
 static bool apply_output(Options *options, const char *argument, OptionReading *reading)
 {
@@ -246,7 +246,7 @@ static bool apply_depth(Options *options, const char *argument, OptionReading *r
         rt_depth depth;
     } depths[] = {{"8", RT_DEPTH_8}, {"16", RT_DEPTH_16}, {"float", RT_DEPTH_FLOAT}};
     reading->expected = "8, 16 or float";
-    for (size_t i = 0; i < COUNT_OF(depths); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(depths); i++) {
         if (strcmp(argument, depths[i].name) == 0) {
             options->encoding.depth = depths[i].depth;
             return true;
@@ -412,7 +412,7 @@ static bool apply_error_map(Options *options, const char *argument, OptionReadin
 
 const OptionPlane option_planes[] = {{"error", RT_PLANE_ERROR},   {"samples", RT_PLANE_SAMPLES}, {"depth", RT_PLANE_DEPTH},
                                      {"normal", RT_PLANE_NORMAL}, {"object", RT_PLANE_OBJECT},   {"albedo", RT_PLANE_ALBEDO}};
-const size_t option_plane_count = COUNT_OF(option_planes);
+const size_t option_plane_count = RT_COUNT_OF(option_planes);
 
 static bool apply_planes(Options *options, const char *argument, OptionReading *reading)
 {
@@ -709,7 +709,7 @@ static const OptionRow rows[] = {
     {'h', "help", "[povray]", NULL,
      "print this and stop, or with `=povray` POV-Ray's options and what becomes of each"},
 };
-_Static_assert(COUNT_OF(rows) <= OPTIONS_MOST, "enlarge OPTIONS_MOST");
+_Static_assert(RT_COUNT_OF(rows) <= OPTIONS_MOST, "enlarge OPTIONS_MOST");
 
 static const OptionGroup groups[] = {
     {"What most runs need", "output"},
@@ -724,4 +724,4 @@ static const OptionGroup groups[] = {
     {"Messages and the machine", "threads"},
 };
 
-const OptionTable option_table = {rows, COUNT_OF(rows), groups, COUNT_OF(groups)};
+const OptionTable option_table = {rows, RT_COUNT_OF(rows), groups, RT_COUNT_OF(groups)};

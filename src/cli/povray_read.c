@@ -14,6 +14,7 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "base/attributes.h"
 #include "cli/povray_text.h"
 #include "cli/terminal.h"
 
@@ -373,7 +374,7 @@ static bool find_povray_ini(char *path, size_t size, bool *is_unnamed)
     }
     *is_unnamed = is_there(path, size, ".", "/povray.ini");
     bool is_found = *is_unnamed;
-    for (size_t i = 0; !is_found && i < sizeof places / sizeof places[0]; i++) {
+    for (size_t i = 0; !is_found && i < RT_COUNT_OF(places); i++) {
         is_found = is_there(path, size, places[i].folder, places[i].name);
     }
     return is_found;

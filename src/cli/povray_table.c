@@ -7,7 +7,8 @@
 #include <string.h>
 #include <strings.h>
 
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+#include "base/attributes.h"
+
 #define FIELD(name) offsetof(PovraySettings, name)
 
 // Rows of options that are followed; ones that change no picture; and ones that would.
@@ -164,16 +165,16 @@ static const PovrayRow rows[] = {
     NOTHING("Radiosity_To_File", "RFO", POVRAY_BOOL, radiosity),
     NOTHING("Radiosity_Vain_Pretrace", "RVP", POVRAY_BOOL, radiosity),
 };
-_Static_assert(COUNT_OF(rows) < POVRAY_ROWS_MOST, "enlarge POVRAY_ROWS_MOST");
+_Static_assert(RT_COUNT_OF(rows) < POVRAY_ROWS_MOST, "enlarge POVRAY_ROWS_MOST");
 
 const PovrayRow *povray_row(size_t i)
 {
-    return i < COUNT_OF(rows) ? &rows[i] : NULL;
+    return i < RT_COUNT_OF(rows) ? &rows[i] : NULL;
 }
 
 const PovrayRow *povray_row_of_key(const char *key, size_t length)
 {
-    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(rows); i++) {
         if (strncasecmp(rows[i].key, key, length) == 0 && rows[i].key[length] == '\0') {
             return &rows[i];
         }

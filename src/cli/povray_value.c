@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/attributes.h"
 #include "cli/povray_text.h"
 
 rt_status povray_fault(const PovrayText *text, const char *code, PovraySpan span, const char *advice,
@@ -148,7 +149,7 @@ static const char *usual_file(const PovrayRow *row)
         const char *key, *name;
     } names[] = {{"Debug_File", "debug.out"},     {"Fatal_File", "fatal.out"},     {"Render_File", "render.out"},
                  {"Statistic_File", "stats.out"}, {"Warning_File", "warning.out"}, {"All_File", "alltext.out"}};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(names); i++) {
         if (strcmp(row->key, names[i].key) == 0) {
             return names[i].name;
         }

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "cli/option_table.h"
 
 static const char options_note[] = "rtlang:options";
@@ -91,7 +92,7 @@ static void put_sampling(FILE *out, const Options *options)
                    {"antialias-threshold", antialias->method ? antialias->threshold : 0.0},
                    {"antialias-gamma", antialias->method ? antialias->gamma : 0.0},
                    {"photons", options->method != RT_METHOD_BACKWARD ? (double)options->photons : 0.0}};
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(numbers); i++) {
         if (numbers[i].value > 0.0) {
             put(out, "--%s=%.17g", numbers[i].name, numbers[i].value);
         }
@@ -292,7 +293,7 @@ rt_status provenance_compare(rt_session *session, const char *picture, const cha
     if (is_same) {
         return RT_OK;
     }
-    for (size_t i = 0; i < sizeof reasons / sizeof reasons[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(reasons); i++) {
         if (!is_note_same(session, picture, again, reasons[i].note)) {
             return fail(session, "E0711", reasons[i].advice, "`%s` drawn again has other bytes%s", picture,
                         reasons[i].reason);

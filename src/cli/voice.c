@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/voice.h"
 
+#include "base/attributes.h"
+
 void voice_say(Voice *voice, VoiceStream stream, const char *text, size_t length)
 {
     if (stream == VOICE_WARNING && voice->has_no_warnings) {
@@ -13,7 +15,7 @@ void voice_say(Voice *voice, VoiceStream stream, const char *text, size_t length
         fwrite(text, 1, length, stderr);
     }
     FILE *const files[] = {voice->files[stream], voice->files[VOICE_ALL]};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(files); i++) {
         if (files[i]) {
             fwrite(text, 1, length, files[i]);
         }

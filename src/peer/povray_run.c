@@ -59,6 +59,16 @@ char *povray_find_program(const char *name)
     return found;
 }
 
+bool povray_make_folder(char *path)
+{
+    const char *base = getenv("TMPDIR");
+    char *made = NULL;
+    bool fine = asprintf(&made, "%s/rtlang-XXXXXX", base && base[0] != '\0' ? base : "/tmp") >= 0 && mkdtemp(made) &&
+                realpath(made, path);
+    free(made);
+    return fine;
+}
+
 __attribute__((format(printf, 2, 3))) static void argument_add(ArgumentList *list, const char *format, ...)
 {
     va_list arguments;

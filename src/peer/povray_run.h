@@ -26,6 +26,10 @@ typedef struct PovrayJob {
 // The absolute path of a program as a shell would find it, to be freed; NULL: there is none.
 char *povray_find_program(const char *name);
 
+// Makes a folder of the caller's own for pictures and logs, where temporary files belong. `path` receives its absolute
+// path, of up to PATH_MAX bytes. False when it could not be made; errno says why.
+bool povray_make_folder(char *path);
+
 // Runs and waits. False when POV-Ray failed or left no picture; `detail` then says why, in a few lines.
 bool povray_run(const PovrayJob *job, char *detail, size_t detail_size);
 

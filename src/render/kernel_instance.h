@@ -94,6 +94,6 @@ RT_ALWAYS_INLINE void trace_places(const Prepared *p, unsigned features, ShadePa
 #define DEFINE_KERNELS(list, KERNELS)                                                                                  \
     KERNELS(DEFINE_KERNEL)                                                                                             \
     static const Kernel rows[] = {KERNELS(LIST_KERNEL)};                                                               \
-    const KernelList list = {rows, sizeof rows / sizeof rows[0]};
+    const KernelList list = {rows, RT_COUNT_OF(rows)};
 
 #endif

@@ -10,6 +10,8 @@
 
 #include <microhttpd.h>
 
+#include "base/attributes.h"
+
 enum { CONNECTIONS_MOST = 32, IDLE_SECONDS = 60 };
 
 typedef struct Server {
@@ -34,7 +36,7 @@ static void add_headers(struct MHD_Response *response, const HttpAnswer *answer)
         {"Cross-Origin-Resource-Policy", "same-origin"},
     };
     (void)MHD_add_response_header(response, "Content-Type", answer->type);
-    for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(headers); i++) {
         (void)MHD_add_response_header(response, headers[i][0], headers[i][1]);
     }
 }

@@ -124,15 +124,13 @@ static const char **make_switches(const PainterJob *job, char ***owned)
 static void paint(const PainterJob *job, const char *program, int asked, int answers)
 {
     Paint work = {.asked = asked, .answers = answers};
-    const char *temporary = getenv("TMPDIR");
     char output[PATH_MAX + 16], log[PATH_MAX + 16], **owned;
     const char **switches = make_switches(job, &owned);
     // An interrupt from the terminal is the program's to hear, which then goes away.
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
-    snprintf(work.folder, sizeof work.folder, "%.2000s/rtlang-XXXXXX", temporary && *temporary ? temporary : "/tmp");
-    if (!switches || !mkdtemp(work.folder)) {
+    if (!switches || !povray_make_folder(work.folder)) {
         return;
     }
     snprintf(output, sizeof output, "%s/p.png", work.folder);

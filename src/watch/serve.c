@@ -63,7 +63,7 @@ static HttpAnswer answer_page(Service *service, const HttpRequest *request)
     TextBuffer page;
     (void)service, (void)request;
     text_init(&page);
-    for (size_t i = 0; i < sizeof page_lines / sizeof page_lines[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(page_lines); i++) {
         text_append(&page, page_lines[i]);
     }
     return answer_text("text/html; charset=utf-8", &page);
@@ -178,7 +178,7 @@ HttpAnswer serve(void *client, const HttpRequest *request)
     };
     Service *service = client;
     const char *name = name_of(service, request->path);
-    for (size_t i = 0; name && i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; name && i < RT_COUNT_OF(rows); i++) {
         if (strcmp(name, rows[i].name) == 0 && (rows[i].takes_post || !request->is_post)) {
             return rows[i].answer(service, request);
         }

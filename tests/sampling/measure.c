@@ -85,7 +85,7 @@ static void measure_goals(void)
         double targets[2];
     } rows[] = {{&scene_balls, {0.02, 0.006}}, {&scene_soft, {0.012, 0.004}},   {&scene_mirrors, {0.02, 0.008}},
                 {&scene_glass, {0.02, 0.006}}, {&scene_checker, {0.05, 0.018}}, {&scene_lens, {0.02, 0.007}}};
-    enum { ROWS = sizeof rows / sizeof rows[0], ALL = 2 * ROWS * GOAL_SEEDS };
+    enum { ROWS = RT_COUNT_OF(rows), ALL = 2 * ROWS * GOAL_SEEDS };
     static double times[ALL];
     int count = 0;
     for (int i = 0; i < ROWS; i++) {
@@ -145,7 +145,7 @@ static void measure_edges(const char *name)
 {
     static const SamplingScene *const scenes[] = {&scene_balls, &scene_many, &scene_mirrors};
     static const double samples[] = {16.0, 64.0};
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(scenes); i++) {
         if (name && strcmp(name, scenes[i]->name) != 0) {
             continue;
         }

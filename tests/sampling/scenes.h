@@ -11,6 +11,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/attributes.h"
 #include "rtlang/rtlang.h"
 
 #define SCENE_HEAD   "#version 3.7; global_settings { assumed_gamma 1 }\n"
@@ -184,7 +185,7 @@ __attribute__((unused)) static const SamplingScene *const error_scenes[] = {
     &scene_balls, &scene_soft,   &scene_mirrors, &scene_checker, &scene_glass, &scene_lens, &scene_noise, &scene_rods,
     &scene_even,  &scene_marble, &scene_cut,     &scene_lamp,    &scene_glints, &scene_lens_balls, &scene_dust,
     &scene_lines, &scene_crumbs, &scene_glint,   &scene_floor_glint, &scene_blurred_dust, &scene_flat_dust};
-enum { ERROR_SCENES = sizeof error_scenes / sizeof error_scenes[0] };
+enum { ERROR_SCENES = RT_COUNT_OF(error_scenes) };
 
 typedef struct Picture {
     int width, height;

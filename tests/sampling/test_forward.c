@@ -96,7 +96,7 @@ static void test_threads(void)
 int main(int argc, char **argv)
 {
     bool is_long = argc > 1 && strcmp(argv[1], "long") == 0;
-    for (size_t i = 0; i < sizeof forward_scenes / sizeof forward_scenes[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(forward_scenes); i++) {
         test_means(&forward_scenes[i], RT_METHOD_FORWARD_CONNECT, 400000, 0.01);
     }
     // Photons that must hit the lens by themselves are few.

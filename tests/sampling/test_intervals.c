@@ -45,7 +45,7 @@ static SamplingScene scene_drawn(unsigned seed, char name[64], char text[2048])
         {"a lamp", "sphere { P(), 0.02+0.4*R() pigment { rgb 1 } finish { ambient 3+30*R() } } sphere { P(), 1 T() }"},
         {"bumps", "#for (I, 1, 5) sphere { P(), 0.6+R() pigment { rgb R() } finish { phong 3*R() phong_size 3000*R() } "
                   "normal { bumps R() scale 0.05+0.2*R() } } #end"}};
-    enum { THINGS = sizeof things / sizeof things[0] };
+    enum { THINGS = RT_COUNT_OF(things) };
     unsigned thing = seed / 60 % THINGS;
     const char *lens = lenses[seed % 3], *lamp = lamps[seed / 3 % 4], *floor = floors[seed / 12 % 5];
     snprintf(name, 64, "%s%s%s, %.*s", things[thing].name, *lens ? ", lens" : "", *lamp ? ", area" : "",
@@ -71,10 +71,10 @@ typedef struct Setting {
 
 static const Setting settings[] = {{4, false}, {16, false}, {64, false}, {256, false},
                                    {4, true},  {16, true},  {64, true},  {256, true}};
-enum { SETTINGS = sizeof settings / sizeof settings[0], TARGETS = 2 };
+enum { SETTINGS = RT_COUNT_OF(settings), TARGETS = 2 };
 
 static const char *const filters[] = {"box", "gaussian"};
-enum { FILTERS = sizeof filters / sizeof filters[0] };
+enum { FILTERS = RT_COUNT_OF(filters) };
 
 typedef struct Count {
     int runs, held, above; // of those: in the interval; above it

@@ -72,7 +72,7 @@ static void test_slopes(void)
     slope = slope_of(&scene_soft, NULL, most, seeds, soft);
     tap_ok(slope <= -0.55, "area light: slope %.3f, at most -0.55", slope);
     static const char *const others[] = {"halton", "jittered", "random"};
-    for (size_t i = 0; is_long && i < sizeof others / sizeof others[0]; i++) {
+    for (size_t i = 0; is_long && i < RT_COUNT_OF(others); i++) {
         double other = slope_of(&scene_soft, others[i], most, seeds, soft);
         tap_ok(other <= -0.40, "area light, %s: slope %.3f", others[i], other);
     }
@@ -212,7 +212,7 @@ static void test_prediction(void)
                 {&scene_noise, {0.02, 0.005}}, {&scene_rods, {0.02, 0.006}}};
     static Ratios ratios[2];
     enum { SEEDS = 20 };
-    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(runs); i++) {
         for (int j = 0; j < 2; j++) {
             double samples = 0.0, predicted = 0.0;
             for (int seed = 0; seed < SEEDS; seed++) {
@@ -293,7 +293,7 @@ static void test_same(void)
                                        {.target_error = 0.01},
                                        {.samples = 9, .sampler = "jittered"},
                                        {.samples = 8, .filter = "mitchell"}};
-    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(runs); i++) {
         Picture *one = picture_make(&scene_mirrors, 100, 70, &runs[i], 1);
         Picture *other = picture_make(&scene_mirrors, 100, 70, &runs[i], 5);
         tap_ok(same_pictures(one, other) && same_errors(&one->error, &other->error),

@@ -95,7 +95,7 @@ static void test_gain(unsigned seed)
         double bar;
     } rows[] = {{16, 0.85}, {64, 0.75}};
     Many *with = malloc(sizeof *with), *without = malloc(sizeof *without);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(rows); i++) {
         many_make(with, &scene_balls, rows[i].samples, 8, seed);
         many_make(without, &lens, rows[i].samples, 8, seed);
         double ratio = sqrt(with->variance / without->variance);
@@ -111,7 +111,7 @@ int main(int argc, char **argv)
     Random drawn_by = {random_seed(NULL)};
     bool is_long = argc > 1 && strcmp(argv[1], "long") == 0;
     Many *plain = malloc(sizeof *plain);
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(scenes); i++) {
         unsigned seed = random_below(&drawn_by, 1u << 29);
         many_make(plain, &scenes[i], PLAIN, is_long ? 2000 : 800, seed);
         test_mean(&scenes[i], 8, is_long ? 400 : 40, plain, seed + (1u << 29));

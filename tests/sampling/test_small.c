@@ -195,9 +195,9 @@ static void test_others(void)
                                        {.samples = 16, .adaptive = 1},
                                        {.samples = 16, .adaptive = 1, .filter = "gaussian"}};
     int seeds = is_long ? 100 : 8;
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(scenes); i++) {
         int held = 0, all = 0;
-        for (size_t j = 0; j < sizeof runs / sizeof runs[0]; j++) {
+        for (size_t j = 0; j < RT_COUNT_OF(runs); j++) {
             rt_sampling halton = {.sampler = "halton",
                                   .samples = is_long ? 16384 : 2048,
                                   .seed = 9,
@@ -238,7 +238,7 @@ static void test_highlight_areas(void)
          "light_source { <-8,4,1> rgb 1 } sphere { 0, 1 scale <2,1.5,1> finish { phong 1 phong_size 3000 } %s }"},
         {"specular of a bumpy floor", "light_source { <-2,5,9> rgb 1 } plane { y, -1 finish { specular 1 roughness 4e-6 } "
                                       "normal { gradient x 0.2 sine_wave scale 40 translate -0.1 } %s }"}};
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(scenes); i++) {
         char text[1024], body[512];
         snprintf(body, sizeof body, scenes[i][1], "pigment { rgb 0 }");
         snprintf(text, sizeof text, SCENE_HEAD SCENE_CAMERA "#default { finish { ambient 0 diffuse 0 } } %s\n", body);
@@ -269,7 +269,7 @@ static void test_highlight_areas(void)
 static void test_same(void)
 {
     static const SamplingScene *const scenes[] = {&scene_dust, &scene_glint, &scene_glints, &scene_blurred_dust};
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(scenes); i++) {
         for (int is_adaptive = 0; is_adaptive < 2; is_adaptive++) {
             rt_sampling sampling = {.samples = 5, .adaptive = is_adaptive, .seed = 3};
             Picture *one = picture_make(scenes[i], 130, 70, &sampling, 1);

@@ -18,7 +18,7 @@ static Vec3 any_point(Random *random)
     double x = random_between(random, -2.1, 0.8);
     double y = random_between(random, -1.3, 1.3);
     unsigned which = random_below(random, 64);
-    return which < sizeof odd / sizeof odd[0] ? vec3(odd[which], y, 0.0) : vec3(x, y, 3.0);
+    return which < RT_COUNT_OF(odd) ? vec3(odd[which], y, 0.0) : vec3(x, y, 3.0);
 }
 
 static int differences(const Pattern *pattern, const NoiseSource *source, unsigned count, Random *random)

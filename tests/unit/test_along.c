@@ -91,7 +91,7 @@ static void test_rests(void)
 {
     Random random = {random_seed(NULL)};
     static const double odd[] = {0.0, -0.0, 1.0, -1.0, 2.0, -2.0, 1.00001, 2.00002, 0x1p52, -0x1p53, 1e300, INFINITY};
-    int different = 0, count = 100000 + (int)(sizeof odd / sizeof odd[0]);
+    int different = 0, count = 100000 + (int)(RT_COUNT_OF(odd));
     for (int turn = 0; turn < count; turn++) {
         double scale = exp2((double)random_below(&random, 60) - 4.0);
         double usual = scale * random_between(&random, -4.0, 4.0);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "rtlang/rtlang.h"
 #include "unit/build_scenes.h"
 #include "unit/tap.h"
@@ -133,7 +134,7 @@ static void check_cameras_apart(double far)
     const double places[][3] = {
         {far + 3.0, 1.0, -9.0}, {far + 0.3, 1.1, -9.0}, {far - 2.0, 3.0, -8.0}, {far, 0.0, -0x1p48},
         {far + 1.0, 0.7, -7.0}};
-    enum { PLACES = sizeof places / sizeof places[0] };
+    enum { PLACES = RT_COUNT_OF(places) };
     double centers[5][3], radius = 0.7, colors[5][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}};
     rt_light light = {.position = {far - 4.0, 8.0, -9.0}, .color = {1, 1, 1}};
     rt_spheres spheres = {.count = 5,

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "rtlang/rtlang.h"
 #include "unit/random.h"
 #include "unit/tap.h"
@@ -188,13 +189,13 @@ int main(int argc, char **argv)
         snprintf(places[i], sizeof places[i], "rotate <%.17g, %.17g, %.17g> translate <%.17g, %.17g, %.17g>", turn.x,
                  turn.y, turn.z, move.x, move.y, move.z);
     }
-    for (size_t i = 0; i < sizeof families / sizeof families[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(families); i++) {
         const Family *family = &families[i];
         for (size_t k = 0; k < SHAPES_MOST && family->shapes[k] && (family->firsts == 0 || k < family->firsts); k++) {
             test_first(family, family->shapes[k], (const char(*)[PLACE_MOST])places);
         }
     }
-    for (size_t i = 0; i < sizeof below / sizeof below[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(below); i++) {
         test_lit(below[i], "pigment { rgb 1 }", (const char(*)[PLACE_MOST])places);
         test_lit(below[i], "pigment { rgbt 0.5 }", (const char(*)[PLACE_MOST])places);
     }

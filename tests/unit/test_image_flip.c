@@ -51,7 +51,7 @@ static void test_plain(void)
         {"white and more than white", {1, 1, 1}, {7, 1, INFINITY}, 0.0},
         {"black and less than black", {0, 0, 0}, {-1, NAN, -INFINITY}, 0.0},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(cases); i++) {
         Image a = {0}, b = {0};
         bool made = picture_plain(&a, WIDTH, HEIGHT, cases[i].a) && picture_plain(&b, WIDTH, HEIGHT, cases[i].b);
         double found = made ? flip_of(&a, &b) : NAN;

@@ -15,14 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "rtlang/rtlang.h"
 #include "unit/random.h"
 #include "unit/scenes.h"
 #include "unit/tap.h"
 
 enum { WIDTH = 22, HEIGHT = 14, VALUES = 3 * WIDTH * HEIGHT, SAMPLE = 17 };
-
-#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
 enum { TWOS_MOST = 400, TENS_MOST = 100 }; // greatest exponents
 
@@ -177,14 +176,14 @@ static void check_scene(void *client, const char *folder, const char *path, size
 {
     Extent *extent = client;
     bool is_whole = extent->is_whole;
-    bool has_steps = is_among(path, steps, COUNT_OF(steps));
-    if (is_among(path, exceptions, COUNT_OF(exceptions))) {
+    bool has_steps = is_among(path, steps, RT_COUNT_OF(steps));
+    if (is_among(path, exceptions, RT_COUNT_OF(exceptions))) {
         check_differs(folder, path);
     } else {
         check_twos(folder, path, number, is_whole ? 10 : 2, &extent->random);
         figures.scenes++;
     }
-    if (!has_steps && !is_among(path, exceptions, COUNT_OF(exceptions))) {
+    if (!has_steps && !is_among(path, exceptions, RT_COUNT_OF(exceptions))) {
         check_tens(folder, path, number, is_whole ? 8 : 2, &extent->random);
     }
     for (int at = 0; !has_steps && at < 9; at++) {

@@ -142,7 +142,7 @@ int main(int argc, char **argv)
     }
     report("grids up to 18 by 18", small);
     static const int sizes[][2] = {{1024, 1024}, {1024, 1}, {1, 1024}, {1024, 2}, {1000, 777}, {3, 1023}, {100, 100}};
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(sizes); i++) {
         for (int adaptive = -1; adaptive < 7; adaptive += 2) {
             try_grid(&lights, &random, sizes[i][0], sizes[i][1], adaptive, &large);
         }

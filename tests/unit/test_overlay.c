@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "rtlang/rtlang.h"
 #include "unit/tap.h"
 
@@ -221,7 +222,7 @@ static void test_refused(void)
                                  {.near = -1, .far = 1},
                                  {.near = 1, .far = (double)INFINITY},
                                  {.strength = 1, .has_color = 1, .color = {-1, 0, 0}}};
-    for (size_t i = 0; i < sizeof cues / sizeof cues[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(cues); i++) {
         refused += rt_set_depth_cue(session, &cues[i]) == RT_FAULT_USAGE;
     }
     tap_ok(refused == 12, "%d of 12 wrong numbers are refused", refused);

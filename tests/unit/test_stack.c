@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/attributes.h"
 #include "rtlang/rtlang.h"
 #include "unit/tap.h"
 
@@ -119,7 +120,7 @@ static void test_deep(void)
 {
     static const int levels[] = {300, 900, 5000};
     const char *sphere = "sphere { 0, 1 pigment { rgb 1 } }";
-    for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(levels); i++) {
         test_nested("unions", levels[i], "", "union { ", sphere, " }", "");
         test_nested("intersections", levels[i], "", "intersection { sphere { 0, 2 } ", sphere, " }", "");
         test_nested("maps", levels[i], "sphere { 0, 1 texture { ",
@@ -139,7 +140,7 @@ static void test_deep(void)
 static void test_mirrors(void)
 {
     static const rt_precision precisions[] = {RT_PRECISION_DOUBLE, RT_PRECISION_QUAD, RT_PRECISION_REFERENCE};
-    for (size_t i = 0; i < sizeof precisions / sizeof precisions[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(precisions); i++) {
         char name[40];
         snprintf(name, sizeof name, "256 levels of mirrors, precision %d", (int)precisions[i]);
         test_alike(name, (Job){.text = "global_settings { max_trace_level 256 adc_bailout 0 } camera { location <0, 0, -5> }"

@@ -347,7 +347,7 @@ static void test_from_surface(double major, double minor)
 
 int main(void)
 {
-    for (size_t i = 0; i < sizeof families / sizeof families[0]; i++) {
+    for (size_t i = 0; i < RT_COUNT_OF(families); i++) {
         test_family(&families[i]);
     }
     test_from_surface(0.6, 0.3);
