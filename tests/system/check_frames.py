@@ -33,7 +33,6 @@ sphere { <0, TIME, -3>, 0.4 pigment { rgbt <0.9, 1, 1, 0.9> } interior { ior 1.5
 torus { 0.4, 0.1 translate <TIME, -1.5, -2> pigment { rgb <1, 0, 1> } }
 """
 FILES = {
-    "small.ppm": "P3 2 2 255\n255 0 0 0 255 0\n0 0 255 255 255 0\n",
     "balls.inc": BALLS, "names.inc": "#declare Far = 6;\n#declare Unused = sphere { 0, 1 }\n",
     "moving.inc": "sphere { <clock, 0, 0>, 1 pigment { rgb 1 } }\n", "numbers.txt": "1, 2, 3\n",
     "view.inc": CAMERA + LIGHT, "where.inc": "#declare Where = clock;\n",
@@ -74,7 +73,7 @@ CASES = {
     "a shape comes between others that move": (HEAD + CAMERA + LIGHT + "#if (clock > 0.5) sphere { <0, 0, -2>, 0.5 pigment { rgb 1 } } #end\n" + BALLS +
                                                "sphere { <clock, 0, -2>, 0.5 pigment { rgb 1 } }\n", (3, 4)),
     "a shape moves in a file": (HEAD + STILL + LIGHT + BALLS + '#include "moving.inc"\n', TAIL),
-    "a picture on what moves": (HEAD + STILL + LIGHT + BALLS + "box { <-1, -1, 0>, <1, 1, 0.1> pigment { image_map { ppm \"small.ppm\" } "
+    "a picture on what moves": (HEAD + STILL + LIGHT + BALLS + "box { <-1, -1, 0>, <1, 1, 0.1> pigment { image_map { png \"small.png\" } "
                                 "translate -0.5 scale 2 } translate <clock, 0, -2> }\n", TAIL),
     "a name from a file moves a shape": (HEAD + '#include "where.inc"\n' + STILL + LIGHT + BALLS + "sphere { Where, 1 pigment { rgb 1 } }\n", TAIL),
     "a shape comes": (HEAD + CAMERA + LIGHT + BALLS + "#if (clock > 0.5) sphere { <0, 0, -2>, 0.5 pigment { rgb 1 } } #end\n", (3, 3)),
@@ -221,6 +220,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for name, text in FILES.items():
             put(folder, name, text)
+        put(folder, "s.scn", HEAD + STILL + LIGHT + BALLS)
+        run(folder, "-q", "-W", "8", "-H", "8", "-o", "small.png", "s.scn") # PNG is read without OpenImageIO
         for name, (text, times) in CASES.items():
             check_case(report, folder, name, text, times)
         moving = HEAD + CAMERA + LIGHT + BALLS
