@@ -97,7 +97,8 @@ def compare(report, name, scene, places, how):
     own, other = pictures_made[0], pictures_made[-1]
     report.equal(own[:2], (60, 80), f"{name}: an array of 60 x 80 x 3")
     if not places[1]:
-        report.skip(f"{name}: POV-Ray's picture", "no povray")
+        report.skip(f"{name}: POV-Ray's picture", "povray is not installed")
+        return
     # With anti-aliasing POV-Ray moves its samples at random: where it takes more, colours are means of a few.
     bar, share = (1, pictures.TIE_SHARE) if not how else (16, 0.02)
     beyond = sum(abs(a - b) > bar for a, b in zip(own[2], other[2]))
@@ -114,6 +115,9 @@ def main():
                 os.symlink(program, os.path.join(top, name, "povray"))
             places.append(os.path.join(top, name) if program else None)
         for name, scene in SCENES.items():
+            if not places[1] and "textures.inc" in scene.text:
+                report.skip(name, "POV-Ray's include files are not installed")
+                continue
             for words, how in RUNS.items():
                 compare(report, name + words, scene, places, how)
         os.environ["PATH"] = places[0] + os.pathsep + PATH
