@@ -15,7 +15,7 @@ MODULE_FOLDERS = {"grammar": "grammar"}  # all others: src/NAME
 
 
 def read_table(path):
-    """Module -> set of modules it may include, from the rows between the marks."""
+    """Module -> set of modules it may include, from the rows between the marks. Rows of one module add up."""
     text = open(path, encoding="utf-8").read()
     body = text.split("<!-- layers:begin -->")[1].split("<!-- layers:end -->")[0]
     table = {}
@@ -23,7 +23,7 @@ def read_table(path):
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
         if len(cells) == 2 and cells[0] and not re.fullmatch(r"-+|module", cells[0]):
             for module in cells[0].split(","):
-                table[module.strip()] = set(re.findall(r"[a-z/]+", cells[1]))
+                table.setdefault(module.strip(), set()).update(re.findall(r"[a-z/]+", cells[1]))
     return table
 
 

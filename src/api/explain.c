@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "render/kernel.h"
+#include "render/records/kernel.h"
 #include "scene/recentre.h"
 
 // Runs of one scene whose times are compared with those of others.

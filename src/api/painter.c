@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "render/texture.h"
+#include "render/surface/texture.h"
 
 static void *painter_open(const Scene *pigments, const Noise *noise)
 {

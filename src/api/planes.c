@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "api/session.h"
-#include "render/linear.h"
+#include "render/records/linear.h"
 
 enum { PLANE_CHANNELS_MOST = 3 };
 

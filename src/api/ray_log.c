@@ -1,7 +1,7 @@
 // The life of a pixel's ray as text, the tree of its rays first, or as one JSON object on one line.
 //
-// Turns the records of render/ray_log.h into what a reader or a program reads; docs/diagnostics.md lists the members.
-// Works nothing out.
+// Turns the records of render/inspect/ray_log.h into what a reader or a program reads; docs/diagnostics.md lists the
+// members. Works nothing out.
 //
 // SPDX-License-Identifier: MIT
 #include <inttypes.h>
@@ -13,7 +13,7 @@
 #include "api/ray_log_draw.h"
 #include "api/session.h"
 #include "base/json.h"
-#include "render/ray_log.h"
+#include "render/inspect/ray_log.h"
 #include "scene/recentre.h"
 
 typedef struct Printer {

@@ -5,7 +5,7 @@
 #define API_RAY_LOG_DRAW_H
 
 #include "base/text.h"
-#include "render/ray_log.h"
+#include "render/inspect/ray_log.h"
 
 // The plane holds the first ray and the normal where it hits, or the nearest sphere's centre: there mirrored and bent
 // rays stay in it, and a sphere that is hit is cut through its middle. What leaves it is seen straight from above.

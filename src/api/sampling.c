@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "api/session.h"
-#include "render/linear.h"
+#include "render/records/linear.h"
 
 void rt_get_error(const rt_session *session, rt_error *error)
 {

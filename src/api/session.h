@@ -17,7 +17,7 @@
 #include "eval/eval.h"
 #include "forward/forward.h"
 #include "image/image.h"
-#include "render/overlay.h"
+#include "render/inspect/overlay.h"
 #include "render/render.h"
 #include "rtlang/rtlang.h"
 #include "scene/scene.h"

@@ -9,8 +9,8 @@
 
 #include "base/parallel.h"
 #include "forward/photon.h"
-#include "render/linear.h"
-#include "render/prepared.h"
+#include "render/records/linear.h"
+#include "render/records/prepared.h"
 
 enum { CHUNK = 1 << 14 };
 
@@ -135,7 +135,7 @@ static void film_finish(const Forward *forward, Film *film, SamplingError *error
         sum += square;
         squares += square * square;
     }
-    // Squares of normal errors: see render/sampling_estimate.c.
+    // Squares of normal errors: see render/sample/sampling_estimate.c.
     double spread = sum > 0.0 ? exp(0.5 * normal * sqrt(4.0 / 3.0 * squares) / sum) : 1.0;
     double rmse = sqrt(sum / (double)pixels);
     *error = (SamplingError){.is_known = halves[1] > 0.0,

@@ -15,8 +15,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "render/camera.h"
-#include "render/shade.h"
+#include "render/records/camera.h"
+#include "render/shade/shade.h"
 
 static const double pi = 3.14159265358979323846;
 

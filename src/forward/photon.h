@@ -9,7 +9,8 @@
 #include <stdint.h>
 
 #include "math/colour.h"
-#include "render/prepared.h"
+#include "render/records/film.h"
+#include "render/records/prepared.h"
 
 // Where photons arrive: the two halves' sums in whole units, and what a place on the lens and a direction mean.
 typedef struct PhotonFilm {

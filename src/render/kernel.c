@@ -1,10 +1,9 @@
 // The choice among the kernels that kernel_*.c hold.
 //
 // SPDX-License-Identifier: MIT
-#include "render/kernel.h"
+#include "render/kernels.h"
 
 #include "base/attributes.h"
-#include "render/kernels.h"
 
 const Kernel *kernel_choose(unsigned features)
 {

@@ -5,10 +5,10 @@
 #ifndef RENDER_KERNEL_INSTANCE_H
 #define RENDER_KERNEL_INSTANCE_H
 
-#include "render/camera.h"
 #include "render/kernels.h"
-#include "render/prepared.h"
-#include "render/scratch.h"
+#include "render/records/camera.h"
+#include "render/records/prepared.h"
+#include "render/sample/scratch.h"
 #include "render/tile_first.h"
 
 _Static_assert((int)KERNEL_RAYS == (int)TILE_RAYS && (int)KERNEL_ROW == (int)TILE_ROW, "a call is a tile of rays");

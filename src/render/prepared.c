@@ -2,14 +2,17 @@
 // kernel.
 //
 // SPDX-License-Identifier: MIT
-#include "render/prepared.h"
+#include "render/records/prepared.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
 
 #include "base/parallel.h"
-#include "render/sampler_many.h"
-#include "render/tile_light.h"
+#include "render/kernels.h"
+#include "render/points/sampler_many.h"
+#include "render/render.h"
+#include "render/shade/inside.h"
+#include "render/shade/tile_light.h"
 #include "scene/range.h"
 #include "trace/kept.h"
 

@@ -1,11 +1,12 @@
 // One ray through the middle of each pixel, and the choice between that, anti-aliasing and sampling.
 //
 // SPDX-License-Identifier: MIT
-#include "render/alpha.h"
-#include "render/antialias.h"
-#include "render/prepared.h"
-#include "render/sampling.h"
-#include "render/tiles.h"
+#include "render/records/prepared.h"
+#include "render/render.h"
+#include "render/sample/alpha.h"
+#include "render/sample/antialias.h"
+#include "render/sample/sampling.h"
+#include "render/sample/tiles.h"
 
 typedef struct Single {
     const Prepared *prepared;

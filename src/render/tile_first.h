@@ -5,8 +5,8 @@
 #ifndef RENDER_TILE_FIRST_H
 #define RENDER_TILE_FIRST_H
 
-#include "render/prepared.h"
-#include "render/scratch.h"
+#include "render/records/prepared.h"
+#include "render/sample/scratch.h"
 
 // The light of those of `wanted` that meet nothing, or one opaque layer without bumps that mirrors nothing, whatever
 // else the scene holds: bit for bit that of shade_ray. `scratch->tile.rays` are the rays that have met `hits`. Returns

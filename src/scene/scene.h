@@ -36,7 +36,7 @@ typedef enum CameraType {
 // A pixel at (u, v), each from -1/2 (left, top) to 1/2 (right, bottom), looks
 //   perspective:   from location along direction + u right - v up
 //   orthographic:  from location + u right - v up along direction
-//   else:          from location, as render/camera.h has it
+//   else:          from location, as render/records/camera.h has it
 typedef struct Camera {
     CameraType type;
     Vec3 location, direction, right, up;

@@ -1,6 +1,6 @@
 // How far single shapes reach, whether a line crosses one, and which shape a camera ray meets first.
 //
-// Serves those who look at shapes from outside (render/sampling_small.c). Knows nothing of pixels.
+// Serves those who look at shapes from outside (render/sample/sampling_small.c). Knows nothing of pixels.
 //
 // SPDX-License-Identifier: MIT
 #include "trace/extent.h"

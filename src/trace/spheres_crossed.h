@@ -1,8 +1,9 @@
 // All crossings of rays to a light with few spheres and a plane, found from the rays' starts: part of spheres_kernel.c.
 //
-// A walk from one crossing to the next, each found from the one before (render/shade_light.h), meets the same surfaces
-// in the same order wherever that is certain: every crossing of a line, and the place of its end, is distinguished from
-// the next by more than all that rounding does on a walk's way. What is not so certain is left to be walked.
+// A walk from one crossing to the next, each found from the one before (render/shade/shade_light.h), meets the same
+// surfaces in the same order wherever that is certain: every crossing of a line, and the place of its end, is
+// distinguished from the next by more than all that rounding does on a walk's way. What is not so certain is left to be
+// walked.
 //
 // Each start of the walk's rays is off the line by less than 2^-50 W, where no coordinate is beyond W, and there are
 // fewer than 2^7 of them: by less than 2^-43 W in all. That, and rounding here, change r² - |l|² and |f|² - r² by less

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "render/kernel_instance.h"
+#include "render/render.h"
 
 enum { WIDTH = 64, HEIGHT = 48, FEW = 5, MANY = 400 };
 

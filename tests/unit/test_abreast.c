@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/pattern.h"
+#include "render/surface/pattern.h"
 #include "trace/trace.h"
 #include "unit/random.h"
 #include "unit/tap.h"

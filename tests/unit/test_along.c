@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "math/rest.h"
-#include "render/along.h"
+#include "render/surface/along.h"
 #include "scene/scene.h"
 #include "unit/random.h"
 #include "unit/tap.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "render/pattern_noise.h"
+#include "render/surface/pattern_noise.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 

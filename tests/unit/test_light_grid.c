@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/light_grid.h"
+#include "render/shade/light_grid.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
-#include "render/scratch.h"
+#include "render/sample/scratch.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 

@@ -4,8 +4,8 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
-#include "render/camera.h"
-#include "render/sampling_outline.h"
+#include "render/records/camera.h"
+#include "render/sample/sampling_outline.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 

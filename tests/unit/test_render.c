@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/kernel.h"
+#include "render/kernels.h"
 #include "render/render.h"
 #include "unit/tap.h"
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/filter.h"
-#include "render/light.h"
-#include "render/sampler_many.h"
+#include "render/points/filter.h"
+#include "render/points/sampler_many.h"
+#include "render/shade/light.h"
 #include "trace/geometry.h"
 #include "unit/tap.h"
 

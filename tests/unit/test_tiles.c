@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/prepared.h"
-#include "render/tile_light.h"
+#include "render/kernels.h"
+#include "render/records/prepared.h"
+#include "render/render.h"
+#include "render/shade/tile_light.h"
 #include "unit/random.h"
 #include "unit/tap.h"
 #include "unit/trace_scenes.h"
@@ -41,8 +43,8 @@ typedef struct Shadows {
     int different, dark, lit, together;
 } Shadows;
 
-// `near`: rays longer than this whose light is nearer to the middle than they are start at the light (render/far_light.c),
-// since next to it they are off by more than what may stand there.
+// `near`: rays longer than this whose light is nearer to the middle than they are start at the light
+// (render/shade/far_light.c), since next to it they are off by more than what may stand there.
 static void shadows_try(const Geometry *g, unsigned features, const TileSurfaces *from, Vec3 light, double aside,
                         double near, uint64_t asked, Random *random, Shadows *found)
 {

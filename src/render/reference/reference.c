@@ -1,0 +1,155 @@
+// The reference path: what it covers, and its kernels in the form that pictures are traced by.
+//
+// SPDX-License-Identifier: MIT
+#include "render/reference/reference.h"
+
+#include "render/records/prepared.h"
+#include "render/reference/reference_kernels.h"
+
+// What the kernel has; a feature that is added later is refused until it is put here.
+enum {
+    COVERED = TRACE_SPHERES | TRACE_SPHERE_BVH | TRACE_PLANES | RENDER_SHADOWS | RENDER_HIGHLIGHTS |
+              RENDER_BRILLIANCE | RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_EXPONENT | RENDER_PIGMENTS | RENDER_TEXTURES |
+              RENDER_INTERIORS,
+    REFUSED_WITH_PLACE = TRACE_PARTS | RENDER_LIGHTS | RENDER_SKY | RENDER_FOG | RENDER_NORMALS,
+};
+
+static const StudyKernel colours[STUDY_PRECISIONS] = {
+    [STUDY_FLOAT] = study_colour_float,
+    [STUDY_DOUBLE] = study_colour_double,
+    [STUDY_QUAD] = study_colour_quad,
+};
+
+// ---- what is covered
+
+static bool refuse(DiagSink *diags, Span span, const char *what)
+{
+    if (diag_report(diags, DIAG_E0446, span, "%s is not in the reference path", what)) {
+        diag_suggest(
+            diags,
+            "leave out `--precision`, or use spheres and planes with plain textures, point lights and parallel ones");
+    }
+    return false;
+}
+
+static bool lights_are_covered(const Scene *scene, const Prepared *p, DiagSink *diags)
+{
+    if (p->has_dome) {
+        return refuse(diags, scene->whole, "light from all sides");
+    }
+    for (size_t i = 0; i < p->light_count; i++) {
+        if (!p->lights[i].is_plain) {
+            return refuse(diags, scene->lights.items[p->lights[i].number].span,
+                          "a light that is not of one point or direction");
+        }
+    }
+    return true;
+}
+
+static bool compound_is_plain(const Scene *scene, const Compound *compound)
+{
+    const Texture *texture = &scene->textures.items[compound->texture];
+    return texture->pattern.type == PATTERN_NONE && texture->below == RECORD_NONE &&
+           texture->pigment.pattern == RECORD_NONE && texture->normal == RECORD_NONE;
+}
+
+// Where the first shape of a compound material stands.
+static uint64_t compound_source(const Scene *scene, size_t compound)
+{
+    MaterialIndex material = (MaterialIndex)compound | MATERIAL_COMPOUND;
+    for (size_t i = 0; i < scene->spheres.count; i++) {
+        if (scene->spheres.items[i].material == material) {
+            return scene_sphere_source(scene, i);
+        }
+    }
+    for (size_t i = 0; i < scene->planes.count; i++) {
+        if (scene->planes.items[i].material == material) {
+            return scene->planes.items[i].source;
+        }
+    }
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        if (scene->parts.items[i].material == material) {
+            return scene->parts.items[i].source;
+        }
+    }
+    return 0;
+}
+
+bool study_covers(const Prepared *p, DiagSink *diags)
+{
+    const Scene *scene = p->scene;
+    bool covers = lights_are_covered(scene, p, diags);
+    for (size_t i = 0; i < scene->parts.count; i++) {
+        const Part *part = &scene->parts.items[i];
+        if (part->kind != PART_SPHERE || part->node != NODE_NONE || part->hidden || part->flags) {
+            covers = refuse(diags, scene_source_span(part->source), "a shape other than spheres and planes");
+            break;
+        }
+    }
+    if (scene->camera.type > CAMERA_ORTHOGRAPHIC) {
+        covers = refuse(diags, scene->camera.span, "a camera that is neither perspective nor orthographic");
+    }
+    if (p->camera.lens_radius > 0.0) {
+        covers = refuse(diags, scene->camera.span, "a camera with an `aperture`");
+    }
+    if (scene->sky.count > 0) {
+        covers = refuse(diags, scene->sky_span, "a sky_sphere");
+    }
+    if (scene->fogs.count > 0) {
+        covers = refuse(diags, scene->fogs.items[0].span, "fog");
+    }
+    for (size_t i = 0; i < scene->compounds.count; i++) {
+        if (!compound_is_plain(scene, &scene->compounds.items[i])) {
+            covers =
+                refuse(diags, scene_source_span(compound_source(scene, i)), "a texture of patterns, layers or bumps");
+            break;
+        }
+    }
+    if (p->features & ~(unsigned)(COVERED | REFUSED_WITH_PLACE)) {
+        covers = refuse(diags, scene->whole, "something that this scene needs");
+    }
+    return covers;
+}
+
+// ---- pictures
+
+static void trace_wanted(const Prepared *p, StudyPrecision precision, const KernelPlaces *places, uint64_t wanted,
+                         Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+{
+    for (; wanted; wanted &= wanted - 1) {
+        int i = __builtin_ctzll(wanted);
+        light[i] = colours[precision](p, places->u[i], places->v[i], scratch, statistics);
+    }
+}
+
+// Nothing that is covered draws numbers.
+static void trace_float(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
+                        Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+{
+    (void)streams;
+    trace_wanted(p, STUDY_FLOAT, places, wanted, light, scratch, statistics);
+}
+
+static void trace_double(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
+                         Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+{
+    (void)streams;
+    trace_wanted(p, STUDY_DOUBLE, places, wanted, light, scratch, statistics);
+}
+
+static void trace_quad(const Prepared *p, const KernelPlaces *places, SampleStream *streams, uint64_t wanted,
+                       Rgb *light, RenderScratch *scratch, RenderStatistics *statistics)
+{
+    (void)streams;
+    trace_wanted(p, STUDY_QUAD, places, wanted, light, scratch, statistics);
+}
+
+void study_take(Prepared *prepared, StudyPrecision precision)
+{
+    static const Kernel kernels[STUDY_PRECISIONS] = {
+        [STUDY_FLOAT] = {"float", COVERED, trace_float},
+        [STUDY_DOUBLE] = {"double", COVERED, trace_double},
+        [STUDY_QUAD] = {"quad", COVERED, trace_quad},
+    };
+    prepared->kernel = &kernels[precision];
+}

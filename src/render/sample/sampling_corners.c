@@ -1,0 +1,251 @@
+// What a picture of one ray a pixel is worth, where, from a few pixels that get more.
+//
+// Turns the light at the corners of pixels into pixels: by parabolas through the corners, which are off by little where
+// light is even, and by much where an edge goes through. Pixels are sorted by how much more their corners differ than
+// those around. In each square of pixels one, chosen by chance, starts with samples of its own; how far those are from
+// what the corners gave tells what each sort is off by in the mean, without regard to why. docs/sampling.md, "Adaptive
+// sampling".
+//
+// SPDX-License-Identifier: MIT
+#include <math.h>
+
+#include "render/sample/sampling.h"
+
+enum {
+    PROBE_SQUARE = 4,  // a pixel of each square of so many by so many
+    SORT_MIDDLE = 24,  // the sort of a square of 1
+    PROBES_LEAST = 12, // of a sort, or of sorts that are taken together
+};
+
+// Four places in a row, of which the two in the middle are corners of a pixel; where the first or the last is beyond
+// the picture, it is NULL.
+typedef struct PixelEdge {
+    float bend; // what the mean along it is over that of its ends, where light is even: by a parabola
+    float jump; // by how much its ends differ more than those of the sides before and after
+} PixelEdge;
+
+static inline float least(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static inline float most(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static inline PixelEdge side_make(const float *before, const float *first, const float *second, const float *after)
+{
+    float own = *second - *first;
+    float next = after ? *after - *second : 0.0f, last = before ? *first - *before : next;
+    next = after ? next : last;
+    float a = last - own, b = own - next;
+    float bend = a > 0.0f ? most(least(a, b), 0.0f) : least(most(a, b), 0.0f);
+    float middle = most(least(last, own), least(most(last, own), next));
+    return (PixelEdge){bend / 12.0f, own - middle};
+}
+
+// A pixel from its corners, and the square of its jumps.
+static inline float pixel_make(const Film *film, const float *corner, int x, int y, float value[3])
+{
+    const ptrdiff_t across = 3, down = 3 * ((ptrdiff_t)film->width + 1);
+    bool left = x > 0, right = x<film->width - 1, above = y> 0, below = y < film->height - 1;
+    float jumps = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        const float *a = corner + i, *b = a + across, *c = a + down, *d = c + across;
+        PixelEdge sides[4] = {side_make(left ? a - across : NULL, a, b, right ? b + across : NULL),
+                              side_make(left ? c - across : NULL, c, d, right ? d + across : NULL),
+                              side_make(above ? a - down : NULL, a, c, below ? c + down : NULL),
+                              side_make(above ? b - down : NULL, b, d, below ? d + down : NULL)};
+        value[i] = 0.25f * (*a + *b + *c + *d);
+        for (int j = 0; j < 4; j++) {
+            value[i] += 0.5f * sides[j].bend;
+            jumps += sides[j].jump * sides[j].jump;
+        }
+    }
+    return jumps;
+}
+
+static void row_make(const Round *round, int y)
+{
+    const Film *film = round->film;
+    size_t begin = (size_t)y * (size_t)film->width;
+    for (int x = 0; x < film->width; x++) {
+        const float *corner = &round->corners[3 * (begin + (size_t)y + (size_t)x)];
+        float jumps = pixel_make(film, corner, x, y, &film->rgb[3 * (begin + (size_t)x)]);
+        film->records[begin + (size_t)x] = (PixelRecord){.count = 1, .inner = jumps};
+    }
+}
+
+// By its exponent.
+static inline uint16_t sort_of(float square)
+{
+    union {
+        float value;
+        uint32_t bits;
+    } number = {.value = square};
+    int sort = ((int)(number.bits >> 23) - 127) / 2 + SORT_MIDDLE;
+    return (uint16_t)(sort < 0 ? 0 : sort >= PILOT_SORTS ? PILOT_SORTS - 1 : sort);
+}
+
+// Marks them, and counts them.
+static uint32_t probes_choose(const Film *film, uint64_t seed, uint16_t *buckets)
+{
+    uint32_t count = 0;
+    int first_x = film->left - film->left % PROBE_SQUARE, first_y = film->top - film->top % PROBE_SQUARE;
+    for (int top = first_y - film->top; top < film->height; top += PROBE_SQUARE) {
+        for (int left = first_x - film->left; left < film->width; left += PROBE_SQUARE) {
+            uint32_t chosen = sampler_pixel_seed(~seed, (uint32_t)(film->left + left), (uint32_t)(film->top + top));
+            int x = left + (int)(chosen % PROBE_SQUARE), y = top + (int)(chosen / PROBE_SQUARE % PROBE_SQUARE);
+            if (x >= 0 && x < film->width && y >= 0 && y < film->height) {
+                buckets[(size_t)y * (size_t)film->width + (size_t)x] |= PILOT_PROBE;
+                count++;
+            }
+        }
+    }
+    return count;
+}
+
+// Few pixels may be much more uneven than all others, as around a bright lamp, and by chance none of them chosen: then
+// those that are less uneven would say what they are off by. So the most uneven sorts get more probes, chosen by chance
+// within each, as far as the pixels chosen so far are not doubled. Marks them, and counts them.
+static uint32_t sorts_fill(const Film *film, uint64_t seed, uint16_t *buckets, uint32_t chosen)
+{
+    double pixels[PILOT_SORTS] = {0.0}, probes[PILOT_SORTS] = {0.0}, part[PILOT_SORTS], left = chosen;
+    size_t count = (size_t)film->width * (size_t)film->height;
+    for (size_t i = 0; i < count; i++) {
+        pixels[buckets[i] & ~PILOT_PROBE]++;
+        probes[buckets[i] & ~PILOT_PROBE] += (buckets[i] & PILOT_PROBE) != 0;
+    }
+    for (int sort = PILOT_SORTS - 1; sort >= 0; sort--) {
+        double others = pixels[sort] - probes[sort];
+        double more = fmin(fmin(fmax(PROBES_LEAST - probes[sort], 0.0), others), left);
+        part[sort] = others > 0.0 ? more / others : 0.0;
+        left -= more;
+    }
+    uint32_t added = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t x = (uint32_t)(film->left + (int)(i % (size_t)film->width)),
+                 y = (uint32_t)(film->top + (int)(i / (size_t)film->width));
+        if (!(buckets[i] & PILOT_PROBE) && part[buckets[i]] > 0.0 &&
+            sample_unit(sample_hash_add(sampler_pixel_seed(~seed, x, y), PILOT_PROBE)) < part[buckets[i]]) {
+            buckets[i] |= PILOT_PROBE;
+            added++;
+        }
+    }
+    return added;
+}
+
+// Pixels that hold small shapes are not left to their corners. Marks them, and counts those that were not chosen yet.
+static uint32_t small_choose(const Round *round, uint16_t *buckets)
+{
+    size_t pixels = (size_t)round->film->width * (size_t)round->film->height;
+    uint32_t count = 0;
+    for (size_t i = 0; round->small && i < pixels; i++) {
+        if (small_has(round->small, i)) {
+            count += !(buckets[i] & PILOT_PROBE);
+            buckets[i] |= PILOT_PROBE | PILOT_SMALL;
+        }
+    }
+    return count;
+}
+
+uint32_t pilot_sort(const Round *round, uint16_t *buckets, double *memory)
+{
+    const double of_near = 1.0 / 64.0;
+    const Film *film = round->film;
+    Near near = near_begin(memory, film->width, film->height);
+    for (int y = 0; y <= film->height; y++) {
+        size_t begin = (size_t)y * (size_t)film->width;
+        if (y < film->height) {
+            row_make(round, y);
+        }
+        for (int x = 0; y < film->height && x < film->width; x++) {
+            near.values[x] = (double)film->records[begin + (size_t)x].inner;
+        }
+        near_give(&near, y);
+        if (y > 0) {
+            near_take(&near, y - 1);
+            begin -= (size_t)film->width;
+            for (int x = 0; x < film->width; x++) {
+                size_t pixel = begin + (size_t)x;
+                buckets[pixel] = sort_of(film->records[pixel].inner + (float)(of_near * near.values[x]));
+            }
+        }
+    }
+    uint32_t probes = probes_choose(film, round->sampling->seed, buckets);
+    probes += sorts_fill(film, round->sampling->seed, buckets, probes);
+    return probes + small_choose(round, buckets);
+}
+
+// What the probes of a sort were off by: the square of the distance of what the corners gave from the mean of the
+// samples, less what the latter are off by themselves, at the most.
+typedef struct Sort {
+    double count, sum, squares;
+} Sort;
+
+static void sort_add(Sort *sort, const Sort *more)
+{
+    sort->count += more->count;
+    sort->sum += more->sum;
+    sort->squares += more->squares;
+}
+
+static void sorts_gather(const Film *film, const uint16_t *buckets, Sort sorts[PILOT_SORTS])
+{
+    const double own = 1.0 / 7.0; // of `outer`: RATIO_MOST less one
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    for (size_t i = 0; i < pixels; i++) {
+        if ((buckets[i] & PILOT_PROBE) && !(buckets[i] & PILOT_SMALL)) {
+            const PixelRecord *record = &film->records[i];
+            double off = record->fresh - own * record->outer;
+            sort_add(&sorts[buckets[i] & ~PILOT_PROBE], &(Sort){1.0, off, off * off});
+        }
+    }
+}
+
+// Sorts of few probes go with their neighbours, from the most uneven down; before a sort of many probes, which may have
+// most of the pixels, they go with those above, and do not spoil it.
+static void sorts_judge(const Sort sorts[PILOT_SORTS], double mean[PILOT_SORTS], double variance[PILOT_SORTS])
+{
+    Sort last = {0.0, 0.0, 0.0};
+    for (int end = PILOT_SORTS; end > 0;) {
+        Sort sum = sorts[end - 1];
+        int begin = end - 1;
+        while (begin > 0 && sum.count < PROBES_LEAST && sorts[begin - 1].count < PROBES_LEAST) {
+            sort_add(&sum, &sorts[--begin]);
+        }
+        if (sum.count < PROBES_LEAST) {
+            sort_add(&sum, &last);
+        }
+        last = sum;
+        double value = sum.count > 0.0 ? fmax(sum.sum / sum.count, 0.0) : 0.0;
+        double spread = sum.count > 1.0 ? (sum.squares / sum.count - value * value) / (sum.count - 1.0) : 0.0;
+        for (int i = begin; i < end; i++) {
+            mean[i] = value;
+            variance[i] = value > 0.0 ? spread / (value * value) : 0.0;
+        }
+        end = begin;
+    }
+}
+
+void pilot_judge(Estimate *estimate, Film *film, const uint16_t *buckets)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    Sort sorts[PILOT_SORTS] = {{0.0, 0.0, 0.0}};
+    double mean[PILOT_SORTS];
+    LevelSums *started = &estimate->levels[estimate_level(START_SAMPLES)];
+    sorts_gather(film, buckets, sorts);
+    sorts_judge(sorts, mean, estimate->sort_variance);
+    for (size_t i = 0; i < pixels; i++) {
+        PixelRecord *record = &film->records[i];
+        if (buckets[i] & PILOT_PROBE) {
+            started->outer += record->outer;
+            started->inner += record->inner;
+            started->squares += (double)record->outer * record->outer;
+        } else {
+            record->outer = record->inner = (float)mean[buckets[i]];
+            record->fresh = buckets[i];
+        }
+    }
+}

@@ -1,0 +1,537 @@
+// Strata of pixels that outlines of spheres cross: see sampling_share.h.
+//
+// First each outline is put into the pixels that it crosses, and hides what is farther in those that it covers; then
+// each pixel takes what is nearest of what it has seen. Which stratum is too small to be weighted by its share goes by
+// that share and the number of samples, never by where these fell, which would bend the mean.
+//
+// SPDX-License-Identifier: MIT
+#include "render/sample/sampling_share.h"
+
+#include <stdlib.h>
+
+#include "render/sample/sampling_batch.h"
+#include "trace/extent.h"
+
+// A stratum is weighted by its share where so many samples are expected in it; with 2 none falls into it once in
+// thousands of times.
+static const double EXPECTED_LEAST = 2.0;
+
+// Less of a pixel is no stratum: shares are known to so much.
+static const double AREA_LEAST = 0x1p-13;
+
+typedef struct Candidate {
+    float distance;
+    uint32_t place; // of extent_get
+} Candidate;
+
+typedef struct Builder {
+    const Prepared *prepared;
+    const Film *film;
+    OutlineView view;
+    float *cover;          // of each pixel: the least distance of what covers it all
+    uint8_t *counts;       // of each pixel's candidates
+    Candidate *candidates; // OUTLINES_ROUGH a pixel
+    Share *share;
+    uint32_t used; // strata
+} Builder;
+
+// ---- which outlines cross a pixel
+
+static bool is_nearer(Candidate a, Candidate b)
+{
+    return a.distance < b.distance || (a.distance == b.distance && a.place < b.place);
+}
+
+// Keeps the nearest ones.
+static void candidate_add(Builder *builder, size_t pixel, Candidate candidate)
+{
+    Candidate *list = &builder->candidates[pixel * OUTLINES_ROUGH];
+    int i = builder->counts[pixel];
+    if (i == OUTLINES_ROUGH) {
+        if (!is_nearer(candidate, list[--i])) {
+            return;
+        }
+    } else {
+        builder->counts[pixel]++;
+    }
+    for (; i > 0 && is_nearer(candidate, list[i - 1]); i--) {
+        list[i] = list[i - 1];
+    }
+    list[i] = candidate;
+}
+
+static void outline_put(Builder *builder, const Outline *outline, Candidate candidate)
+{
+    const Film *film = builder->film;
+    double height = outline_half_height(outline);
+    double top = fmax(ceil(outline->y - height - 0.5) - film->top, 0.0);
+    double bottom = fmin(floor(outline->y + height + 0.5) - film->top, film->height - 1.0);
+    for (double row = top; row <= bottom; row++) {
+        double y = row + film->top;
+        OutlineColumns columns = outline_columns(outline, y - 0.5, y + 0.5);
+        double left = fmax(ceil(columns.left - 0.5) - film->left, 0.0);
+        double right = fmin(floor(columns.right + 0.5) - film->left, film->width - 1.0);
+        for (double column = left; column <= right; column++) {
+            size_t pixel = (size_t)row * (size_t)film->width + (size_t)column;
+            double x = column + film->left;
+            if (x - 0.5 >= columns.inner_left && x + 0.5 <= columns.inner_right) {
+                builder->cover[pixel] = fminf(builder->cover[pixel], candidate.distance);
+            } else {
+                candidate_add(builder, pixel, candidate);
+            }
+        }
+    }
+}
+
+static bool builder_begin(Builder *builder)
+{
+    size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
+    builder->cover = malloc(pixels * sizeof *builder->cover);
+    builder->counts = calloc(pixels, sizeof *builder->counts);
+    builder->candidates = malloc(pixels * OUTLINES_ROUGH * sizeof *builder->candidates);
+    if (!builder->cover || !builder->counts || !builder->candidates) {
+        return false;
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        builder->cover[i] = HUGE_VALF;
+    }
+    return true;
+}
+
+static bool sphere_outline(const Builder *builder, uint32_t place, Outline *outline, double *distance)
+{
+    Extent extent;
+    return extent_get(builder->prepared->geometry, place, &extent) && extent.is_ball &&
+           shape_kind(extent.shape) == SHAPE_SPHERE &&
+           outline_of(&builder->view, extent.centre, extent.axes[0].x * extent.axes[0].x, outline, distance);
+}
+
+// False when out of memory; leaves counts as NULL where there are no outlines.
+static bool builder_put_all(Builder *builder)
+{
+    uint32_t places = extent_count(builder->prepared->geometry);
+    for (uint32_t place = 0; place < places; place++) {
+        Outline outline;
+        double distance;
+        if (sphere_outline(builder, place, &outline, &distance)) {
+            if (!builder->counts && !builder_begin(builder)) {
+                return false;
+            }
+            outline_put(builder, &outline, (Candidate){(float)distance, place});
+        }
+    }
+    return true;
+}
+
+// ---- strata
+
+// Leaves out outlines of which nearly nothing is seen in the pixel, and of more than can be held those with the least.
+// Returns how many are left.
+static int outlines_choose(Outline *outlines, int count)
+{
+    double areas[OUTLINES_ROUGH + 1];
+    if (count > 1) {
+        outline_areas_roughly(outlines, count, areas);
+    }
+    for (bool is_done = count < 2; !is_done;) {
+        int least = 0;
+        for (int i = 1; i < count; i++) {
+            least = areas[i] < areas[least] ? i : least;
+        }
+        is_done = count < 2 || (count <= OUTLINES_MOST && areas[least] >= AREA_LEAST);
+        for (int i = least; !is_done && i + 1 < count; i++) {
+            outlines[i] = outlines[i + 1];
+            areas[i] = areas[i + 1];
+        }
+        count -= !is_done;
+    }
+    return count;
+}
+
+static bool strata_add(Builder *builder, const Outline *outlines, int count, const double *areas)
+{
+    Share *share = builder->share;
+    if (builder->used + (size_t)STRATA_MOST > share->capacity) {
+        size_t capacity = 2 * share->capacity + 64 * STRATA_MOST;
+        ShareStratum *strata = realloc(share->strata, capacity * sizeof *strata);
+        if (!strata) {
+            return false;
+        }
+        share->strata = strata;
+        share->capacity = capacity;
+    }
+    for (int i = 0; i <= count; i++) {
+        share->strata[builder->used++] =
+            (ShareStratum){.outline = i < count ? outlines[i] : (Outline){0}, .area = areas[i]};
+    }
+    return true;
+}
+
+static bool pixel_take(Builder *builder, size_t pixel)
+{
+    const Film *film = builder->film;
+    double x = film->left + (double)(pixel % (size_t)film->width),
+           y = film->top + (double)(pixel / (size_t)film->width);
+    double areas[OUTLINES_MOST + 1], distance;
+    Outline outlines[OUTLINES_ROUGH];
+    int count = 0;
+    for (int i = 0; i < builder->counts[pixel]; i++) {
+        Candidate candidate = builder->candidates[pixel * OUTLINES_ROUGH + (size_t)i];
+        if (candidate.distance < builder->cover[pixel] &&
+            sphere_outline(builder, candidate.place, &outlines[count], &distance)) {
+            outlines[count].x -= x;
+            outlines[count++].y -= y;
+        }
+    }
+    count = outlines_choose(outlines, count);
+    outline_areas(outlines, count, areas);
+    bool is_whole = count == 0 || (count == 1 && (areas[0] < AREA_LEAST || areas[1] < AREA_LEAST));
+    return is_whole || strata_add(builder, outlines, count, areas);
+}
+
+static bool builder_take_all(Builder *builder)
+{
+    size_t pixels = (size_t)builder->film->width * (size_t)builder->film->height;
+    builder->share->first = malloc((pixels + 1) * sizeof *builder->share->first);
+    builder->share->contrasts = calloc(pixels, sizeof *builder->share->contrasts);
+    bool has_memory = builder->share->first && builder->share->contrasts;
+    for (size_t pixel = 0; has_memory && pixel < pixels; pixel++) {
+        builder->share->first[pixel] = builder->used;
+        has_memory = builder->counts[pixel] == 0 || pixel_take(builder, pixel);
+    }
+    if (has_memory) {
+        builder->share->first[pixels] = builder->used;
+    }
+    return has_memory;
+}
+
+void share_free(Share *share)
+{
+    if (share) {
+        free(share->first);
+        free(share->contrasts);
+        free(share->strata);
+        free(share);
+    }
+}
+
+Share *share_new(const Prepared *prepared, const Film *film, bool *has_memory)
+{
+    Builder builder = {.prepared = prepared, .film = film};
+    bool is_known = !prepared->has_alpha &&
+                    outline_view_init(&builder.view, &prepared->camera, film->whole_width, film->whole_height) &&
+                    (uint64_t)film->width * (uint64_t)film->height < UINT32_MAX / STRATA_MOST;
+    *has_memory = !is_known || builder_put_all(&builder);
+    if (is_known && *has_memory && builder.counts) {
+        builder.share = calloc(1, sizeof *builder.share);
+        *has_memory = builder.share && builder_take_all(&builder);
+    }
+    free(builder.cover);
+    free(builder.counts);
+    free(builder.candidates);
+    if (!*has_memory || builder.used == 0) {
+        share_free(builder.share);
+        return NULL;
+    }
+    return builder.share;
+}
+
+uint64_t share_bytes(int width, int height, uint64_t shapes)
+{
+    enum { STRATA_EACH = 2 }; // of a pixel, more than most have
+    uint64_t pixels = (uint64_t)width * (uint64_t)height, most = 4 * shapes * ((uint64_t)width + (uint64_t)height);
+    uint64_t pixel = sizeof(float) + sizeof(uint8_t) + OUTLINES_ROUGH * sizeof(Candidate) + sizeof(uint32_t) +
+                     sizeof(ShareContrast);
+    return pixels * pixel + (most < pixels ? most : pixels) * STRATA_EACH * sizeof(ShareStratum);
+}
+
+// ---- sums
+
+void share_add(ShareSums *sums, uint32_t part, const double *x, const double *y, const Rgb *light, int count)
+{
+    uint32_t half = sums->starts ? part / 2 : part;
+    for (int i = 0; i < count; i++) {
+        int stratum = 0;
+        while (stratum + 1 < sums->count && !outline_has(&sums->strata[stratum].outline, x[i] - 0.5, y[i] - 0.5)) {
+            stratum++;
+        }
+        sums->taken[half][stratum]++;
+        sums->sum[half][stratum] = rgb_add(sums->sum[half][stratum], light[i]);
+    }
+}
+
+enum { PART_FIRST, PART_SECOND, PART_BEFORE, PARTS };
+
+// Strata of a pixel, some of which are taken as one.
+typedef struct Group {
+    double area;
+    uint32_t strata; // a bit for each
+} Group;
+
+static void group_add(Group *group, const Group *more)
+{
+    group->area += more->area;
+    group->strata |= more->strata;
+}
+
+// Puts strata in which too few samples are expected into one, and that with the least of the others, if it must be.
+static int groups_join(Group *groups, int count, double samples)
+{
+    Group rest = {0.0, 0};
+    for (int i = 0; i < count;) {
+        if (groups[i].area * samples < EXPECTED_LEAST) {
+            group_add(&rest, &groups[i]);
+            groups[i] = groups[--count];
+        } else {
+            i++;
+        }
+    }
+    while (rest.area > 0.0 && rest.area * samples < EXPECTED_LEAST && count > 0) {
+        int least = 0;
+        for (int i = 1; i < count; i++) {
+            least = groups[i].area < groups[least].area ? i : least;
+        }
+        group_add(&rest, &groups[least]);
+        groups[least] = groups[--count];
+    }
+    if (rest.area > 0.0) {
+        groups[count++] = rest;
+    }
+    return count;
+}
+
+// The samples of a pixel by group, of each part of them.
+typedef struct GroupSums {
+    int count;
+    Group groups[STRATA_MOST];
+    double taken[PARTS][STRATA_MOST];
+    Rgb sums[PARTS][STRATA_MOST];
+} GroupSums;
+
+static void stratum_add(const ShareSums *sums, int stratum, int group, bool has_before, GroupSums *by_group)
+{
+    for (int half = 0; half < 2; half++) {
+        by_group->taken[half][group] += sums->taken[half][stratum];
+        by_group->sums[half][group] = rgb_add(by_group->sums[half][group], sums->sum[half][stratum]);
+    }
+    if (has_before) {
+        const ShareStratum *own = &sums->strata[stratum];
+        Rgb mean = rgb(own->mean[0], own->mean[1], own->mean[2]);
+        by_group->taken[PART_BEFORE][group] += own->taken;
+        by_group->sums[PART_BEFORE][group] = rgb_add_scaled(by_group->sums[PART_BEFORE][group], own->taken, mean);
+    }
+}
+
+// Strata are joined as for all samples of the pixel, so that halves differ as those of the picture's value do.
+static void group_sums(const ShareSums *sums, bool has_before, GroupSums *by_group)
+{
+    double samples = 0.0;
+    for (int i = 0; i < sums->count; i++) {
+        samples += (has_before ? sums->strata[i].taken : 0) + sums->taken[0][i] + sums->taken[1][i];
+        by_group->groups[i] = (Group){sums->strata[i].area, 1u << i};
+    }
+    by_group->count = groups_join(by_group->groups, sums->count, samples);
+    for (int group = 0; group < by_group->count; group++) {
+        for (int part = 0; part < PARTS; part++) {
+            by_group->taken[part][group] = 0.0;
+            by_group->sums[part][group] = rgb_grey(0.0);
+        }
+        for (uint32_t left = by_group->groups[group].strata; left; left &= left - 1) {
+            stratum_add(sums, __builtin_ctz(left), group, has_before, by_group);
+        }
+    }
+}
+
+// The mean of some parts of a pixel's samples, of which there is one at least, from `first` to `last`. Where a group
+// has none all are one. `between`: NULL, or where the mean square of the groups' means goes.
+static Rgb mean_of(const GroupSums *by_group, int first, int last, Rgb *between)
+{
+    double all = 0.0, taken[STRATA_MOST];
+    Rgb sums[STRATA_MOST], mean = rgb_grey(0.0);
+    bool has_all = true;
+    for (int i = 0; i < by_group->count; i++) {
+        taken[i] = 0.0;
+        sums[i] = rgb_grey(0.0);
+        for (int part = first; part <= last; part++) {
+            taken[i] += by_group->taken[part][i];
+            sums[i] = rgb_add(sums[i], by_group->sums[part][i]);
+        }
+        all += taken[i];
+        has_all = has_all && taken[i] > 0.0;
+    }
+    for (int i = 0; !has_all && i < by_group->count; i++) {
+        mean = rgb_add(mean, sums[i]);
+    }
+    if (!has_all) {
+        mean = rgb_scale(1.0 / all, mean);
+        if (between) {
+            *between = rgb_mul(mean, mean);
+        }
+        return mean;
+    }
+    Rgb squares = rgb_grey(0.0);
+    for (int i = 0; i < by_group->count; i++) {
+        Rgb own = rgb_scale(1.0 / taken[i], sums[i]);
+        mean = rgb_add_scaled(mean, by_group->groups[i].area, own);
+        if (between) {
+            squares = rgb_add_scaled(squares, taken[i] / all, rgb_mul(own, own));
+        }
+    }
+    if (between) {
+        *between = squares;
+    }
+    return mean;
+}
+
+Rgb share_mean(const ShareSums *sums)
+{
+    GroupSums by_group;
+    group_sums(sums, false, &by_group);
+    return mean_of(&by_group, PART_FIRST, PART_SECOND, NULL);
+}
+
+void share_close(ShareSums *sums, bool has_before, bool is_judged, ShareMeans *means)
+{
+    GroupSums by_group;
+    uint32_t second = 0;
+    for (int i = 0; i < sums->count; i++) {
+        second += sums->taken[1][i];
+    }
+    group_sums(sums, has_before, &by_group);
+    *means = (ShareMeans){.before = rgb_grey(0.0)};
+    means->all = mean_of(&by_group, PART_FIRST, has_before ? PART_BEFORE : PART_SECOND, &means->between);
+    if (is_judged) {
+        means->before = has_before ? mean_of(&by_group, PART_BEFORE, PART_BEFORE, NULL) : means->before;
+        means->fresh = has_before ? mean_of(&by_group, PART_FIRST, PART_SECOND, &means->between) : means->all;
+        means->halves[0] = mean_of(&by_group, PART_FIRST, PART_FIRST, NULL);
+        means->halves[1] = second > 0 ? mean_of(&by_group, PART_SECOND, PART_SECOND, NULL) : rgb_grey(0.0);
+    }
+    for (int i = 0; i < sums->count; i++) {
+        ShareStratum *stratum = &sums->strata[i];
+        double before = has_before ? stratum->taken : 0.0, now = before + sums->taken[0][i] + sums->taken[1][i];
+        Rgb sum = rgb_add(sums->sum[0][i], sums->sum[1][i]);
+        if (now > before) {
+            sum = rgb_add_scaled(sum, before, rgb(stratum->mean[0], stratum->mean[1], stratum->mean[2]));
+            stratum->mean[0] = (float)(sum.red / now);
+            stratum->mean[1] = (float)(sum.green / now);
+            stratum->mean[2] = (float)(sum.blue / now);
+            stratum->taken = (uint32_t)now;
+        }
+    }
+}
+
+// ---- what is known of errors
+
+// What slivers have of a pixel: strata that are too small for so many samples.
+static double sliver_area(const Share *share, size_t pixel, double count)
+{
+    double sum = 0.0;
+    for (uint32_t i = share->first[pixel]; i < share->first[pixel + 1]; i++) {
+        double area = share->strata[i].area;
+        sum += area * count < EXPECTED_LEAST ? area : 0.0;
+    }
+    return sum;
+}
+
+double share_variance(const Share *share, size_t pixel, double count)
+{
+    double around = (double)share->contrasts[pixel].around;
+    return around > 0.0 ? around * sliver_area(share, pixel, count) / count : 0.0;
+}
+
+// Of the strata that have samples: the mean square of how far they are from their common mean, in linear light, and
+// what that would be were all of them off by 1 from each other.
+static double pixel_contrast(const Round *round, size_t pixel, double *weight)
+{
+    const Share *share = round->share;
+    double area = 0.0, areas = 0.0;
+    Rgb sum = rgb_grey(0.0), squares = rgb_grey(0.0), place;
+    for (uint32_t i = share->first[pixel]; i < share->first[pixel + 1]; i++) {
+        const ShareStratum *stratum = &share->strata[i];
+        if (stratum->taken > 0) {
+            Rgb mean = rgb(stratum->mean[0], stratum->mean[1], stratum->mean[2]);
+            sum = rgb_add_scaled(sum, stratum->area, mean);
+            squares = rgb_add_scaled(squares, stratum->area, rgb_mul(mean, mean));
+            area += stratum->area;
+            areas += stratum->area * stratum->area;
+        }
+    }
+    *weight = area > 0.0 ? area - areas / area : 0.0;
+    Rgb spread = area > 0.0 ? rgb_add_scaled(squares, -1.0 / area, rgb_mul(sum, sum)) : sum;
+    const Rgb *slope = slope_at(round, &round->film->rgb[3 * pixel], &place);
+    spread = slope ? rgb_mul(spread, rgb_mul(*slope, *slope)) : spread;
+    return fmax(spread.red + spread.green + spread.blue, 0.0) / 3.0;
+}
+
+// The contrast of a pixel is that of the strata in it and around it: edges of one picture differ in theirs by powers of
+// ten, and one's own samples may have met one stratum only. Where none has met two, that of all of the picture's.
+static double contrast_around(const Round *round, int x, int y, double of_all)
+{
+    const Film *film = round->film;
+    int left = x > 0 ? x - 1 : x, right = x + 1 < film->width ? x + 1 : x;
+    double square = 0.0, weight = 0.0;
+    for (int row = y > 0 ? y - 1 : y; row <= y + 1 && row < film->height; row++) {
+        const ShareContrast *contrasts = &round->share->contrasts[(size_t)row * (size_t)film->width];
+        for (int column = left; column <= right; column++) {
+            square += (double)contrasts[column].square;
+            weight += (double)contrasts[column].weight;
+        }
+    }
+    return weight > 0.0 ? square / weight : of_all;
+}
+
+typedef struct ContrastSums {
+    double square, weight;
+} ContrastSums;
+
+static void contrasts_add(const Round *round, Tile block, ContrastSums *sums)
+{
+    for (int y = block.top; y < block.bottom; y++) {
+        for (int x = block.left; x < block.right; x++) {
+            size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
+            if (share_has(round->share, pixel)) {
+                double weight, square = pixel_contrast(round, pixel, &weight);
+                round->share->contrasts[pixel] = (ShareContrast){.square = (float)square, .weight = (float)weight};
+                sums->square += square;
+                sums->weight += weight;
+            }
+        }
+    }
+}
+
+static void contrasts_spread(const Round *round, Tile block, ContrastSums *sums)
+{
+    double of_all = sums->weight > 0.0 ? sums->square / sums->weight : 0.0;
+    for (int y = block.top; y < block.bottom; y++) {
+        for (int x = block.left; x < block.right; x++) {
+            size_t pixel = (size_t)y * (size_t)round->film->width + (size_t)x;
+            if (share_has(round->share, pixel) &&
+                sliver_area(round->share, pixel, round->film->records[pixel].count) > 0.0) {
+                round->share->contrasts[pixel].around = (float)contrast_around(round, x, y, of_all);
+            }
+        }
+    }
+}
+
+// Of the pixels that tell of the error.
+static void contrasts_each(const Round *round, ContrastSums *sums,
+                           void (*block)(const Round *round, Tile block, ContrastSums *sums))
+{
+    const Film *film = round->film;
+    for (int top = 0, bottom; top < film->height; top = bottom) {
+        bottom = round_block_end(top, film->top, film->height);
+        for (int left = 0, right; left < film->width; left = right) {
+            right = round_block_end(left, film->left, film->width);
+            if (round_judges(round, left, top)) {
+                block(round, (Tile){left, top, right, bottom}, sums);
+            }
+        }
+    }
+}
+
+void share_set_contrasts(const Round *round)
+{
+    ContrastSums sums = {0.0, 0.0};
+    contrasts_each(round, &sums, contrasts_add);
+    contrasts_each(round, &sums, contrasts_spread);
+}

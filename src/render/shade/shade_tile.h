@@ -1,0 +1,689 @@
+// Light along the camera rays of a tile: the same as render/shade/shade.h gives ray by ray, bit for bit, with the
+// arithmetic of the first surface done for some rays at once.
+//
+// For surfaces of one layer, and no interiors. What the rays that continue from them meet is the tile's next surfaces:
+// a ray is mirrored first, and what went through waits. Everything is always-inline and takes the kernel's features as
+// a constant.
+//
+// SPDX-License-Identifier: MIT
+#ifndef RENDER_SHADE_SHADE_TILE_H
+#define RENDER_SHADE_SHADE_TILE_H
+
+#include "math/extreme.h"
+#include "render/points/sampler_many.h"
+#include "render/records/camera.h"
+#include "render/shade/shade.h"
+#include "render/shade/tile_light.h"
+#include "render/shade/tile_pigments.h"
+
+// What a kernel may have for its tiles to be shaded so.
+enum {
+    SHADE_TILE_FEATURES = TRACE_ALL_FEATURES | RENDER_SHADOWS | RENDER_HIGHLIGHTS | RENDER_BRILLIANCE |
+                          RENDER_REFLECTION | RENDER_TRANSPARENCY | RENDER_LIGHTS | RENDER_PIGMENTS
+};
+
+// Rays of a tile that may wait while what is mirrored is followed; each is on a level of its own.
+enum { SHADE_WAITING_MOST = 12 };
+
+// Whether rays of a scene are shaded by tiles.
+RT_ALWAYS_INLINE bool shade_tile_may(const Prepared *p, unsigned features)
+{
+    unsigned both = RENDER_TRANSPARENCY | RENDER_REFLECTION;
+    bool may_wait = (features & both) == both && (p->features & both) == both;
+    return !(features & ~(unsigned)SHADE_TILE_FEATURES) && (!may_wait || p->max_trace_level <= SHADE_WAITING_MOST);
+}
+
+// Rays of a tile on their way: as in StackedRay.
+typedef struct TilePaths {
+    Rgb share[TILE_RAYS];
+    double weight[TILE_RAYS];
+} TilePaths;
+
+// A ray through a surface, which waits.
+typedef struct TileWaiting {
+    Ray ray;
+    ShapeId start;
+    bool inward;
+    Rgb share;
+    double weight;
+    int level;
+    uint64_t passed;
+} TileWaiting;
+
+// The same rays where surfaces let light through.
+typedef struct TileClear {
+    Rgb through[TILE_RAYS]; // by the tile's surfaces: what is multiplied with what goes through
+    int level[TILE_RAYS];
+    uint64_t passed[TILE_RAYS];
+    uint64_t resting; // a bit for each ray: it continues with what waits
+    int count[TILE_RAYS];
+    TileWaiting waiting[SHADE_WAITING_MOST][TILE_RAYS];
+} TileClear;
+
+// What is too large for a stack.
+typedef struct TileScratch {
+    SphereTile rays;
+    LightTile tile;
+    TilePaths paths;
+    TileClear clear;
+    TileCrossings crossings;
+    // What a shadow ray is inside of at its start, where there are interiors: as of ShadingPoint.
+    MediumTable *media;
+    MediumStack before;
+} TileScratch;
+
+// Materials, glow, and normals towards the viewer. `through` is set where something may be let through.
+RT_ALWAYS_INLINE void shade_tile_begin(const Prepared *p, unsigned features, LightTile *tile,
+                                       const MaterialIndex material[TILE_RAYS], Rgb through[TILE_RAYS])
+{
+    const TileSurfaces *surfaces = &tile->surfaces;
+    tile->diffuse = features & RENDER_TRANSPARENCY ? tile->opaque : tile->pigment;
+    tile->is_shared = false;
+    tile->takes_light = 0;
+    TilePigments pigments;
+    pigments.known = 0;
+    if ((features & (RENDER_TEXTURES | RENDER_PIGMENTS)) && RT_UNLIKELY(p->textures.goes_abreast)) {
+        tile_pigments(p, surfaces, material, &pigments);
+    }
+    for (int i = 0; i < surfaces->count; i++) {
+        ShadeLayer layer;
+        if (RT_UNLIKELY(pigments.known >> i & 1)) {
+            uint32_t texture = p->compounds[material[i] & ~MATERIAL_COMPOUND].texture;
+            layer = (ShadeLayer){pigments.colour[i], p->scene->textures.items[texture].finish, false};
+        } else {
+            shade_one_layer(p, features, material[i], tile_surface_point(surfaces, i), &layer);
+        }
+        const PreparedFinish *finish = &p->finishes[layer.finish];
+        Rgb pigment = rgbft_rgb(layer.pigment), opaque = pigment;
+        if (features & RENDER_TRANSPARENCY) {
+            opaque = rgb_scale(texture_pigment_opaque(p->is_old, layer.pigment), pigment);
+            lane_set(tile->opaque, (unsigned)i, vec3(opaque.red, opaque.green, opaque.blue));
+            through[i] = texture_pigment_through(layer.pigment);
+        }
+        Rgb glow = rgb_mul(opaque, finish->glow);
+        tile->takes_light |= (uint64_t)shade_takes_light(finish, opaque) << i;
+        const double colour[3] = {pigment.red, pigment.green, pigment.blue};
+        const double light[3] = {glow.red, glow.green, glow.blue};
+        double sign = surfaces->inside >> i & 1 ? -1.0 : 1.0;
+        tile->finish[i] = finish;
+        for (int k = 0; k < 3; k++) {
+            tile->pigment[k][i] = colour[k];
+            tile->light[k][i] = light[k];
+            tile->normal[k][i] = sign * surfaces->outward[k][i];
+        }
+    }
+}
+
+// A surface as the functions for single rays want it.
+RT_ALWAYS_INLINE ShadingPoint shade_tile_point(const LightTile *tile, int i, MaterialIndex material,
+                                               SampleStream *stream)
+{
+    const TileSurfaces *from = &tile->surfaces;
+    return (ShadingPoint){.point = tile_surface_point(from, i),
+                          .normal = vec3(tile->normal[0][i], tile->normal[1][i], tile->normal[2][i]),
+                          .outward = tile_surface_outward(from, i),
+                          .direction = vec3(from->direction[0][i], from->direction[1][i], from->direction[2][i]),
+                          .shape = from->shape[i],
+                          .material = material,
+                          .interior = RECORD_NONE,
+                          .ior_ratio = 1.0,
+                          .inside = from->inside >> i & 1,
+                          .stream = stream};
+}
+
+// A surface that light is asked for.
+RT_ALWAYS_INLINE ShadingPoint shade_tile_lit_point(unsigned features, const TileScratch *scratch, int i)
+{
+    ShadingPoint at = shade_tile_point(&scratch->tile, i, 0, NULL);
+    if (features & RENDER_INTERIORS) {
+        at.media = scratch->media;
+        at.before = scratch->before;
+    }
+    return at;
+}
+
+// How strong a light is that is not plain, for those of `lit`; returns those where it is anything.
+RT_ALWAYS_INLINE uint64_t shade_tile_strengths(LightTile *tile, const PreparedLight *light, uint64_t lit)
+{
+    uint64_t left = 0;
+    for (; lit; lit &= lit - 1) {
+        int i = __builtin_ctzll(lit);
+        Vec3 offset = vec3_sub(light->position, tile_surface_point(&tile->surfaces, i));
+        tile->strength[i] = light_strength(light, offset, tile->rays.distance[i]);
+        left |= (uint64_t)(tile->strength[i] > 0.0) << i;
+    }
+    return left;
+}
+
+// One place of an area for each surface of `asked`, by its stream: `end`.
+RT_ALWAYS_INLINE void shade_tile_places(const Prepared *p, const LightTile *tile, const PreparedLight *light, uint64_t asked,
+                                        SampleStream *streams, SurfaceRays *rays, double end[3][TILE_RAYS])
+{
+    uint8_t surface[TILE_RAYS], ray[TILE_RAYS];
+    double x[TILE_RAYS], y[TILE_RAYS];
+    uint32_t count = 0;
+    rays->end = light->position;
+    rays->aside = light->area_radius;
+    rays->farthest = 0.0;
+    for (; asked; asked &= asked - 1, count++) {
+        surface[count] = (uint8_t)__builtin_ctzll(asked);
+        ray[count] = tile->surfaces.ray[surface[count]];
+    }
+    sample_next_of(p->points, streams, ray, count, x, y);
+    for (uint32_t k = 0; k < count; k++) {
+        int i = surface[k];
+        Vec3 point = tile_surface_point(&tile->surfaces, i);
+        Vec3 aside = light_area_sample(light, point, (SamplePoint){x[k], y[k]});
+        Vec3 place = vec3_add(light->position, aside), offset = vec3_sub(place, point);
+        lane_set(end, (unsigned)i, place);
+        rays->distance[i] = vec3_length(offset);
+        rays->farthest = greater_of(rays->farthest, rays->distance[i]);
+        lane_set(rays->towards, (unsigned)i, vec3_scale(1.0 / rays->distance[i], offset));
+    }
+}
+
+// Whether light may come through something.
+RT_ALWAYS_INLINE bool shade_tile_is_clear(const Prepared *p, unsigned features)
+{
+    return (features & RENDER_TRANSPARENCY) && (p->features & RENDER_TRANSPARENCY);
+}
+
+RT_ALWAYS_INLINE void shade_tile_set_share(LightTile *tile, int i, Rgb share)
+{
+    lane_set(tile->share, (unsigned)i, vec3(share.red, share.green, share.blue));
+}
+
+// Notes what of the light gets to the surfaces `asked` for; returns those that nothing reaches. Those that nothing is
+// before need no walk, nor those of few spheres.
+RT_ALWAYS_INLINE uint64_t shade_tile_through(const Prepared *p, unsigned features, TileScratch *scratch,
+                                             const SurfaceRays *rays, bool together, uint64_t asked)
+{
+    LightTile *tile = &scratch->tile;
+    TileCrossings *crossings = &scratch->crossings;
+    const TileSurfaces *from = &tile->surfaces;
+    uint64_t dark = 0, told = geometry_crossed(p->geometry, features, from, rays, asked, crossings), clear = 0;
+    if ((features & TRACE_SPHERE_BVH) && !told) {
+        clear = asked & ~geometry_occluded_surfaces(p->geometry, features, from, rays, together, asked);
+    }
+    for (; asked; asked &= asked - 1) {
+        int i = __builtin_ctzll(asked);
+        Rgb share = rgb_grey(1.0);
+        bool is_even = (told >> i & 1) &&
+                       shade_even_share(p, features, crossings->shape[i], crossings->count[i], &share);
+        if (!is_even && !(clear >> i & 1)) {
+            ShadingPoint at = shade_tile_lit_point(features, scratch, i);
+            Ray ray = {at.point, lane_get(rays->towards, (unsigned)i)};
+            RayStart start = {at.shape, vec3_dot(at.outward, ray.direction) < 0.0, HIDDEN_SHADOW};
+            share = shade_light_through(p, features, &at, ray, start, rays->distance[i]);
+        }
+        shade_tile_set_share(tile, i, share);
+        dark |= (uint64_t)rgb_is_black(share) << i;
+    }
+    return dark;
+}
+
+// The surfaces of `asked` that nothing of an area light's grid reaches; what reaches the others is noted.
+RT_ALWAYS_INLINE uint64_t shade_tile_grid(const Prepared *p, unsigned features, TileScratch *scratch,
+                                          const PreparedLight *light, uint64_t asked, RenderStatistics *statistics)
+{
+    LightTile *tile = &scratch->tile;
+    uint64_t dark = 0;
+    for (; asked; asked &= asked - 1) {
+        int i = __builtin_ctzll(asked);
+        ShadingPoint at = shade_tile_lit_point(features, scratch, i);
+        Rgb arriving = light->is_plain ? light->colour : rgb_scale(tile->strength[i], light->colour);
+        Rgb share = shade_area_grid(p, features, &at, light, arriving, statistics);
+        shade_tile_set_share(tile, i, share);
+        dark |= (uint64_t)rgb_is_black(share) << i;
+    }
+    return dark;
+}
+
+// Takes the surfaces out of `asked` that are too far from their light to be asked from where they are; returns those
+// that nothing reaches. `end`: where each one's light is, NULL if that is the end of all.
+RT_SELDOM uint64_t shade_tile_far(const Prepared *p, unsigned features, TileScratch *scratch, const SurfaceRays *rays,
+                                  double end[3][TILE_RAYS], uint64_t *asked)
+{
+    LightTile *tile = &scratch->tile;
+    uint64_t dark = 0;
+    for (uint64_t rest = *asked; rest; rest &= rest - 1) {
+        int i = __builtin_ctzll(rest);
+        Vec3 light = end ? lane_get(end, (unsigned)i) : rays->end;
+        if (!shade_is_far(p, tile_surface_point(&tile->surfaces, i), light, rays->distance[i])) {
+            continue;
+        }
+        ShadingPoint at = shade_tile_lit_point(features, scratch, i);
+        Rgb share = shade_far_light(p, &at, light, lane_get(rays->towards, (unsigned)i), rays->distance[i]);
+        shade_tile_set_share(tile, i, share);
+        dark |= (uint64_t)rgb_is_black(share) << i;
+        *asked &= ~(UINT64_C(1) << i);
+    }
+    return dark;
+}
+
+// The surfaces of `asked` that nothing of a light reaches; what reaches the others is noted where it may not be all.
+RT_ALWAYS_INLINE uint64_t shade_tile_shadows(const Prepared *p, unsigned features, TileScratch *scratch,
+                                             const PreparedLight *light, uint64_t asked, SampleStream *streams,
+                                             RenderStatistics *statistics)
+{
+    LightTile *tile = &scratch->tile;
+    bool is_area = (features & RENDER_LIGHTS) && light->area.size1 > 0;
+    const SurfaceRays *rays = &tile->rays;
+    SurfaceRays places;
+    double end[3][TILE_RAYS];
+    uint64_t dark = 0;
+    if (is_area && !streams) {
+        return shade_tile_grid(p, features, scratch, light, asked, statistics);
+    }
+    if (is_area) {
+        shade_tile_places(p, tile, light, asked, streams, &places, end);
+        rays = &places;
+    }
+    statistics->shadow_rays += (uint64_t)__builtin_popcountll(asked);
+    bool together = is_area || !light->parallel;
+    if (RT_UNLIKELY(rays->farthest > p->near_light) && together) {
+        dark = shade_tile_far(p, features, scratch, rays, is_area ? end : NULL, &asked);
+    }
+    return dark | (shade_tile_is_clear(p, features)
+                       ? shade_tile_through(p, features, scratch, rays, together, asked)
+                       : geometry_occluded_surfaces(p->geometry, features, &tile->surfaces, rays, together, asked));
+}
+
+// What the sky adds that is asked for beside the scene.
+RT_SELDOM void shade_tile_dome(const Prepared *p, unsigned features, TileScratch *scratch, SampleStream *streams,
+                               RenderStatistics *statistics)
+{
+    LightTile *tile = &scratch->tile;
+    for (uint64_t rest = tile->takes_light; rest; rest &= rest - 1) {
+        int i = __builtin_ctzll(rest);
+        ShadingPoint at = shade_tile_lit_point(features, scratch, i);
+        at.stream = streams ? &streams[tile->surfaces.ray[i]] : NULL;
+        ShadeMaterial material = {rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]),
+                                  rgb(tile->diffuse[0][i], tile->diffuse[1][i], tile->diffuse[2][i]), tile->finish[i]};
+        Rgb own = dome_light(p, &material, &at, statistics);
+        tile->light[0][i] += own.red;
+        tile->light[1][i] += own.green;
+        tile->light[2][i] += own.blue;
+    }
+}
+
+// What all lights add.
+RT_ALWAYS_INLINE void shade_tile_lights(const Prepared *p, unsigned features, TileScratch *scratch,
+                                        SampleStream *streams, RenderStatistics *statistics)
+{
+    LightTile *tile = &scratch->tile;
+    for (size_t i = 0; i < p->light_count; i++) {
+        const PreparedLight *light = &p->lights[i];
+        uint64_t lit = p->tile_lights->aim(tile, light) & tile->takes_light;
+        if ((features & RENDER_LIGHTS) && !light->is_plain) {
+            lit = shade_tile_strengths(tile, light, lit);
+        }
+        uint64_t asked = (features & RENDER_SHADOWS) && !light->shadowless ? lit & tile->before : 0;
+        tile->is_shared = asked && (shade_tile_is_clear(p, features) ||
+                                    ((features & RENDER_LIGHTS) && light->area.size1 > 0 && !streams));
+        for (uint64_t whole = tile->is_shared ? lit & ~asked : 0; whole; whole &= whole - 1) {
+            shade_tile_set_share(tile, __builtin_ctzll(whole), rgb_grey(1.0));
+        }
+        if (asked) {
+            lit &= ~shade_tile_shadows(p, features, scratch, light, asked, streams, statistics);
+        }
+        p->tile_lights->add(tile, light, lit);
+    }
+    if (RT_UNLIKELY(p->has_dome)) {
+        shade_tile_dome(p, features, scratch, streams, statistics);
+    }
+}
+
+// Adds what the surfaces shine; the first ones, which the camera sees, have all of it.
+RT_ALWAYS_INLINE void shade_tile_gather(const LightTile *tile, const TilePaths *paths, bool is_first, Rgb *light)
+{
+    for (int i = 0; i < tile->surfaces.count; i++) {
+        unsigned ray = tile->surfaces.ray[i];
+        Rgb own = rgb(tile->light[0][i], tile->light[1][i], tile->light[2][i]);
+        light[ray] = is_first ? rgb_add(rgb_grey(0.0), own) : rgb_add(light[ray], rgb_mul(paths->share[ray], own));
+    }
+}
+
+// Whether a surface mirrors its ray, at a level, and that is followed: then its share is what continues.
+RT_ALWAYS_INLINE bool shade_tile_mirrors(const Prepared *p, unsigned features, const LightTile *tile, int i, int level,
+                                         TilePaths *paths, RenderStatistics *statistics)
+{
+    unsigned ray = tile->surfaces.ray[i];
+    Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
+    ShadeMaterial material = {pigment, pigment, tile->finish[i]};
+    ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
+    ScatterRecord scatter = {.reflection_weight = 0.0};
+    if (!tile->finish[i]->reflects) {
+        return false;
+    }
+    shade_set_mirror(features, &material, &at, &scatter);
+    paths->share[ray] = rgb_mul(level == 1 ? rgb_grey(1.0) : paths->share[ray], scatter.reflectance);
+    paths->weight[ray] = (level == 1 ? 1.0 : paths->weight[ray]) * scatter.reflection_weight;
+    if (!shade_is_followed(p, level, paths->weight[ray])) {
+        shade_note_cut(p, level, paths->share[ray], statistics);
+        return false;
+    }
+    statistics->reflected_rays++;
+    return true;
+}
+
+// Takes what the mirrored rays meet for the tile's surfaces. Adds the light of those that meet nothing.
+RT_ALWAYS_INLINE void shade_tile_bounce(const Prepared *p, unsigned features, LightTile *tile,
+                                        MaterialIndex material[TILE_RAYS], TilePaths *paths, int level, Rgb *light,
+                                        RenderStatistics *statistics)
+{
+    TileSurfaces *surfaces = &tile->surfaces;
+    _Alignas(64) double mirrored[3][TILE_RAYS];
+    uint8_t own[TILE_RAYS]; // of the rays that continue, which of the tile's they are
+    SecondaryRays rays;
+    TileHits hits;
+    rays.count = 0;
+    rays.inward = 0;
+    for (int i = 0; i < surfaces->count; i++) {
+        if (shade_tile_mirrors(p, features, tile, i, level, paths, statistics)) {
+            if (rays.count == 0) {
+                p->tile_lights->mirror(tile, mirrored);
+            }
+            own[rays.count] = surfaces->ray[i];
+            secondary_ray_add(&rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
+                              surfaces->shape[i], surfaces->inside >> i & 1);
+        }
+    }
+    surfaces->count = 0;
+    if (rays.count == 0) {
+        return;
+    }
+    geometry_closest_secondary(p->geometry, features, HIDDEN_MIRROR, &rays, &hits);
+    for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
+        unsigned ray = own[__builtin_ctzll(missed)];
+        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
+    }
+    if (hits.met) {
+        geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+    }
+    for (int i = 0; i < surfaces->count; i++) {
+        surfaces->ray[i] = own[surfaces->ray[i]];
+    }
+}
+
+// Adds what the surfaces shine.
+RT_ALWAYS_INLINE void shade_tile_gather_clear(const LightTile *tile, const TilePaths *paths, Rgb *light)
+{
+    for (int i = 0; i < tile->surfaces.count; i++) {
+        unsigned ray = tile->surfaces.ray[i];
+        Rgb own = rgb(tile->light[0][i], tile->light[1][i], tile->light[2][i]);
+        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], own));
+    }
+}
+
+// What a surface sends on: shade_plain says the same of single rays.
+RT_ALWAYS_INLINE ScatterRecord shade_tile_secondary(unsigned features, const LightTile *tile, const TileClear *clear,
+                                                    int i)
+{
+    ScatterRecord scatter = {.through = clear->through[i],
+                             .reflectance = rgb_grey(0.0),
+                             .reflection_exponent = 1.0,
+                             .part = 1.0,
+                             .refraction = tile->finish[i]->refraction,
+                             .conserves_energy = tile->finish[i]->conserves_energy};
+    if ((features & RENDER_REFLECTION) && tile->finish[i]->reflects) {
+        Rgb pigment = rgb(tile->pigment[0][i], tile->pigment[1][i], tile->pigment[2][i]);
+        ShadeMaterial material = {pigment, pigment, tile->finish[i]};
+        ShadingPoint at = shade_tile_point(tile, i, 0, NULL);
+        shade_set_mirror(features, &material, &at, &scatter);
+    }
+    return scatter;
+}
+
+// Whether light continues through a surface: then as what waits.
+RT_ALWAYS_INLINE bool shade_tile_passes(const Prepared *p, const LightTile *tile, const TilePaths *paths,
+                                        const TileClear *clear, int i, const ScatterRecord *scatter,
+                                        TileWaiting *through, RenderStatistics *statistics)
+{
+    const TileSurfaces *surfaces = &tile->surfaces;
+    unsigned ray = surfaces->ray[i];
+    Rgb share;
+    if (rgb_is_black(shade_sent_through(scatter))) {
+        return false;
+    }
+    if (!shade_goes_on(p, scatter, paths->weight[ray], clear->level[ray], clear->passed[ray], &share,
+                       &through->weight)) {
+        shade_note_cut(p, clear->level[ray], rgb_mul(paths->share[ray], shade_sent_through(scatter)), statistics);
+        return false;
+    }
+    through->ray = (Ray){tile_surface_point(surfaces, i), lane_get(surfaces->direction, (unsigned)i)};
+    through->start = surfaces->shape[i];
+    through->inward = !(surfaces->inside >> i & 1);
+    through->share = rgb_mul(paths->share[ray], share);
+    through->level = clear->level[ray];
+    through->passed = clear->passed[ray] + 1;
+    statistics->transmitted_rays++;
+    return true;
+}
+
+// Whether a surface mirrors its ray and that is followed: then its share and weight are those of what continues.
+RT_ALWAYS_INLINE bool shade_tile_reflects(const Prepared *p, unsigned ray, const ScatterRecord *scatter,
+                                          TilePaths *paths, TileClear *clear, RenderStatistics *statistics)
+{
+    if (scatter->reflection_weight == 0.0) {
+        return false;
+    }
+    Rgb share = rgb_mul(paths->share[ray], scatter->reflectance);
+    double weight = paths->weight[ray] * scatter->reflection_weight;
+    if (!shade_is_followed(p, clear->level[ray], weight)) {
+        shade_note_cut(p, clear->level[ray], share, statistics);
+        return false;
+    }
+    paths->share[ray] = share;
+    paths->weight[ray] = weight;
+    clear->level[ray]++;
+    clear->passed[ray] = 0;
+    statistics->reflected_rays++;
+    return true;
+}
+
+// A ray that goes through a surface now.
+RT_ALWAYS_INLINE void shade_tile_resume(const TileWaiting *through, unsigned ray, TilePaths *paths, TileClear *clear,
+                                        SecondaryRays *rays)
+{
+    paths->share[ray] = through->share;
+    paths->weight[ray] = through->weight;
+    clear->level[ray] = through->level;
+    clear->passed[ray] = through->passed;
+    secondary_ray_add(rays, through->ray.origin, through->ray.direction, through->start, through->inward);
+}
+
+// The rays that continue from the tile's surfaces, and of those that meet nothing more, what waited last; `own` says
+// which of the tile's they are.
+RT_ALWAYS_INLINE void shade_tile_send(const Prepared *p, unsigned features, const LightTile *tile, TilePaths *paths,
+                                      TileClear *clear, SecondaryRays *rays, uint8_t own[TILE_RAYS],
+                                      RenderStatistics *statistics)
+{
+    const TileSurfaces *surfaces = &tile->surfaces;
+    _Alignas(64) double mirrored[3][TILE_RAYS];
+    bool has_mirrored = false;
+    for (int i = 0; i < surfaces->count; i++) {
+        unsigned ray = surfaces->ray[i];
+        TileWaiting through;
+        ScatterRecord scatter = shade_tile_secondary(features, tile, clear, i);
+        bool passes = shade_tile_passes(p, tile, paths, clear, i, &scatter, &through, statistics);
+        own[rays->count] = (uint8_t)ray;
+        if ((features & RENDER_REFLECTION) && shade_tile_reflects(p, ray, &scatter, paths, clear, statistics)) {
+            if (!has_mirrored) {
+                p->tile_lights->mirror(tile, mirrored);
+                has_mirrored = true;
+            }
+            if (passes) {
+                clear->waiting[clear->count[ray]++][ray] = through;
+            }
+            secondary_ray_add(rays, tile_surface_point(surfaces, i), lane_get(mirrored, (unsigned)i),
+                              surfaces->shape[i], surfaces->inside >> i & 1);
+        } else if (passes) {
+            shade_tile_resume(&through, ray, paths, clear, rays);
+        } else {
+            clear->resting |= UINT64_C(1) << ray;
+        }
+    }
+    for (; (features & RENDER_REFLECTION) && clear->resting; clear->resting &= clear->resting - 1) {
+        unsigned ray = (unsigned)__builtin_ctzll(clear->resting);
+        if (clear->count[ray] > 0) {
+            own[rays->count] = (uint8_t)ray;
+            shade_tile_resume(&clear->waiting[--clear->count[ray]][ray], ray, paths, clear, rays);
+        }
+    }
+}
+
+// Takes what the rays that continue meet for the tile's surfaces. Adds the light of those that meet nothing. False when
+// none continues.
+RT_ALWAYS_INLINE bool shade_tile_next(const Prepared *p, unsigned features, LightTile *tile,
+                                      MaterialIndex material[TILE_RAYS], TilePaths *paths, TileClear *clear, Rgb *light,
+                                      RenderStatistics *statistics)
+{
+    TileSurfaces *surfaces = &tile->surfaces;
+    uint8_t own[TILE_RAYS];
+    SecondaryRays rays;
+    TileHits hits;
+    rays.count = 0;
+    rays.inward = 0;
+    shade_tile_send(p, features, tile, paths, clear, &rays, own, statistics);
+    surfaces->count = 0;
+    if (rays.count == 0) {
+        return false;
+    }
+    geometry_closest_secondary(p->geometry, features, HIDDEN_MIRROR, &rays, &hits);
+    clear->resting = 0;
+    for (uint64_t missed = ~hits.met & ~UINT64_C(0) >> (TILE_RAYS - rays.count); missed; missed &= missed - 1) {
+        unsigned ray = own[__builtin_ctzll(missed)];
+        light[ray] = rgb_add(light[ray], rgb_mul(paths->share[ray], p->background));
+        clear->resting |= UINT64_C(1) << ray;
+    }
+    if (hits.met) {
+        geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+    }
+    for (int i = 0; i < surfaces->count; i++) {
+        surfaces->ray[i] = own[surfaces->ray[i]];
+    }
+    return true;
+}
+
+// The light of what the rays have met where surfaces let light through, and of all that continues from there.
+RT_ALWAYS_INLINE void shade_tile_clear(const Prepared *p, unsigned features, TileScratch *scratch,
+                                       MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
+                                       RenderStatistics *statistics)
+{
+    LightTile *tile = &scratch->tile;
+    TilePaths *paths = &scratch->paths;
+    TileClear *clear = &scratch->clear;
+    clear->resting = 0;
+    for (int i = 0; i < tile->surfaces.count; i++) {
+        unsigned ray = tile->surfaces.ray[i];
+        light[ray] = rgb_grey(0.0);
+        paths->share[ray] = rgb_grey(1.0);
+        paths->weight[ray] = 1.0;
+        clear->level[ray] = 1;
+        clear->passed[ray] = 0;
+        clear->count[ray] = 0;
+    }
+    do {
+        if (tile->surfaces.count > 0) {
+            shade_tile_begin(p, features, tile, material, clear->through);
+            shade_tile_lights(p, features, scratch, streams, statistics);
+            shade_tile_gather_clear(tile, paths, light);
+        }
+    } while (shade_tile_next(p, features, tile, material, paths, clear, light, statistics));
+}
+
+// The light of what the rays have met, and of what mirrors show.
+RT_ALWAYS_INLINE void shade_tile_paths(const Prepared *p, unsigned features, TileScratch *scratch,
+                                       MaterialIndex material[TILE_RAYS], SampleStream *streams, Rgb *light,
+                                       RenderStatistics *statistics)
+{
+    LightTile *tile = &scratch->tile;
+    TilePaths *paths = &scratch->paths;
+    for (int level = 1; tile->surfaces.count > 0; level++) {
+        shade_tile_begin(p, features, tile, material, NULL);
+        shade_tile_lights(p, features, scratch, streams, statistics);
+        shade_tile_gather(tile, paths, level == 1, light);
+        if (!(features & RENDER_REFLECTION)) {
+            return;
+        }
+        shade_tile_bounce(p, features, tile, material, paths, level, light, statistics);
+    }
+}
+
+// What rays of a view meet; false when nothing.
+RT_ALWAYS_INLINE bool shade_tile_view(const Prepared *p, unsigned features, const TileView *view,
+                                      const KernelPlaces *places, uint64_t wanted, Rgb *light, TileScratch *scratch,
+                                      MaterialIndex material[TILE_RAYS])
+{
+    SphereTile *rays = &scratch->rays;
+    TileHits hits;
+    Rgb background = rgb_add(rgb_grey(0.0), p->background);
+    for (int i = 0; i < TILE_RAYS; i++) {
+        light[i] = background;
+    }
+    if (geometry_view_passes(p->geometry, features, view, places->u, places->v)) {
+        return false;
+    }
+    geometry_closest_view(p->geometry, features, view, places->u, places->v, rays, &hits);
+    uint64_t met = hits.met & wanted;
+    if (!met) {
+        return false;
+    }
+    geometry_tile_surfaces(p->geometry, features, rays, &hits, met, &scratch->tile.surfaces, material);
+    return true;
+}
+
+// What rays of other cameras meet, each of which starts at a place of its own; false when nothing.
+RT_ALWAYS_INLINE bool shade_tile_apart(const Prepared *p, unsigned features, const KernelPlaces *places,
+                                       uint64_t wanted, Rgb *light, TileScratch *scratch,
+                                       MaterialIndex material[TILE_RAYS])
+{
+    TileSurfaces *surfaces = &scratch->tile.surfaces;
+    uint8_t own[TILE_RAYS];
+    SecondaryRays rays;
+    TileHits hits;
+    rays.count = 0;
+    rays.inward = 0;
+    for (; wanted; wanted &= wanted - 1) {
+        int i = __builtin_ctzll(wanted);
+        Ray ray;
+        bool is_seen = camera_place_ray(&p->camera, places, i, &ray);
+        light[i] = is_seen ? rgb_add(rgb_grey(0.0), p->background) : rgb_grey(0.0);
+        if (is_seen) {
+            own[rays.count] = (uint8_t)i;
+            secondary_ray_add(&rays, ray.origin, ray.direction, SHAPE_NONE, false);
+        }
+    }
+    if (rays.count == 0) {
+        return false;
+    }
+    geometry_closest_secondary(p->geometry, features, HIDDEN_CAMERA, &rays, &hits);
+    if (!hits.met) {
+        return false;
+    }
+    geometry_secondary_surfaces(p->geometry, features, &rays, &hits, surfaces, material);
+    for (int i = 0; i < surfaces->count; i++) {
+        surfaces->ray[i] = own[surfaces->ray[i]];
+    }
+    return true;
+}
+
+// The light of camera rays. `view`: of a perspective camera without a lens; NULL: of another one.
+RT_ALWAYS_INLINE void shade_tile(const Prepared *p, unsigned features, const TileView *view, const KernelPlaces *places,
+                                 SampleStream *streams, uint64_t wanted, Rgb *light, TileScratch *scratch,
+                                 RenderStatistics *statistics)
+{
+    MaterialIndex material[TILE_RAYS];
+    if (view ? !shade_tile_view(p, features, view, places, wanted, light, scratch, material)
+             : !shade_tile_apart(p, features, places, wanted, light, scratch, material)) {
+        return;
+    }
+    if (features & RENDER_TRANSPARENCY) {
+        shade_tile_clear(p, features, scratch, material, streams, light, statistics);
+    } else {
+        shade_tile_paths(p, features, scratch, material, streams, light, statistics);
+    }
+}
+
+#endif

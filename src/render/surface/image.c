@@ -1,0 +1,293 @@
+// Pictures at a point: from space to the plane of the picture, from there to pixels, and between them.
+//
+// Owns the palettes that differ from the pictures' own. Colours of pictures that are multiplied with alpha stay so
+// until they are mixed.
+//
+// SPDX-License-Identifier: MIT
+#include "render/surface/image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+// ---- preparing
+
+static void shade_palette(PreparedImage *image, const PictureShade *shade)
+{
+    uint32_t first = shade->place == SHADE_ALL ? 0 : shade->place;
+    uint32_t end = shade->place == SHADE_ALL ? PICTURE_PALETTE : shade->place + 1;
+    for (uint32_t i = first; i < end; i++) {
+        *(shade->is_filter ? &image->palette[i].filter : &image->palette[i].transmit) = (float)shade->amount;
+    }
+}
+
+static bool prepare(PreparedImage *image, const Scene *scene, const ImageMap *map)
+{
+    *image = (PreparedImage){.picture = &scene->pictures.items[map->picture], .map = *map};
+    if (image->picture->palette) {
+        image->palette = malloc(PICTURE_PALETTE * sizeof *image->palette);
+        if (!image->palette) {
+            return false;
+        }
+        memcpy(image->palette, image->picture->palette, PICTURE_PALETTE * sizeof *image->palette);
+    }
+    for (uint32_t i = map->shades; i != RECORD_NONE; i = scene->picture_shades.items[i].next) {
+        const PictureShade *shade = &scene->picture_shades.items[i];
+        if (image->palette) {
+            shade_palette(image, shade);
+        } else {
+            *(shade->is_filter ? &image->filter : &image->transmit) = shade->amount;
+        }
+    }
+    return true;
+}
+
+PreparedImage *images_new(const Scene *scene)
+{
+    size_t count = scene->image_maps.count;
+    PreparedImage *images = calloc(count + 1, sizeof *images);
+    for (size_t i = 0; images && i < count; i++) {
+        if (!prepare(&images[i], scene, &scene->image_maps.items[i])) {
+            images_free(images, count);
+            return NULL;
+        }
+    }
+    return images;
+}
+
+void images_free(PreparedImage *images, size_t count)
+{
+    for (size_t i = 0; images && i < count; i++) {
+        free(images[i].palette);
+    }
+    free(images);
+}
+
+bool image_is_transparent(const PreparedImage *image)
+{
+    if (image->map.is_once || image->filter != 0.0 || image->transmit != 0.0 || image->picture->channels % 2 == 0) {
+        return true;
+    }
+    for (int i = 0; image->palette && i < PICTURE_PALETTE; i++) {
+        if (image->palette[i].filter != 0.0F || image->palette[i].transmit != 0.0F) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// ---- from space to the picture
+
+// Where in the picture a point is: from the left and from below, the whole picture being 1.
+typedef struct Spot {
+    double across, up;
+} Spot;
+
+static double whole_away(double x)
+{
+    double rest = fmod(x, 1.0);
+    return rest < 0.0 ? rest + 1.0 : rest;
+}
+
+static bool is_beyond(double x)
+{
+    return !(x >= 0.0 && x <= 1.0);
+}
+
+// Around the y axis, from +x by +z. By the cosine, so that points just before a whole turn, which rounding brings there
+// and back, are at its end.
+static double around(double x, double z)
+{
+    double distance = sqrt(x * x + z * z);
+    double turn = distance > 0.0 ? acos(fmax(fmin(x / distance, 1.0), -1.0)) : 0.0;
+    return (z < 0.0 ? 2.0 * pi - turn : turn) / (2.0 * pi);
+}
+
+// False: there is no picture at the point.
+static bool project(const ImageMap *map, Vec3 p, Spot *spot)
+{
+    double length, distance;
+    switch ((Projection)map->projection) {
+    case PROJECTION_PLANAR:
+        *spot = (Spot){whole_away(p.x), whole_away(p.y)};
+        return !map->is_once || !(is_beyond(p.x) || is_beyond(p.y));
+    case PROJECTION_SPHERICAL:
+        length = vec3_length(p);
+        *spot = (Spot){around(p.x, p.z), 0.5 + asin(fmax(fmin(p.y / length, 1.0), -1.0)) / pi};
+        return length > 0.0;
+    case PROJECTION_CYLINDRICAL:
+        *spot = (Spot){around(p.x, p.z), whole_away(p.y)};
+        return (p.x != 0.0 || p.z != 0.0) && !(map->is_once && is_beyond(p.y));
+    case PROJECTION_TORUS:
+        distance = sqrt(p.x * p.x + p.z * p.z);
+        *spot = (Spot){around(p.x, p.z), 0.5 + atan2(p.y, distance - 1.0) / (2.0 * pi)};
+        return distance > 0.0;
+    }
+    return false;
+}
+
+// ---- pixels
+
+enum { PARTS = 5 }; // red, green, blue, filter, transmit
+
+static int wrapped(int place, int count)
+{
+    int rest = place % count;
+    return rest < 0 ? rest + count : rest;
+}
+
+static int pressed(int place, int count)
+{
+    return place < 0 ? 0 : place >= count ? count - 1 : place;
+}
+
+// The code or value of a sample as a colour, and as alpha.
+static double sample_colour(const Picture *picture, size_t i)
+{
+    switch (picture->depth) {
+    case PICTURE_DEPTH_8: return picture->decoded[((const uint8_t *)picture->samples)[i]];
+    case PICTURE_DEPTH_16: return picture->decoded[((const uint16_t *)picture->samples)[i]];
+    case PICTURE_DEPTH_FLOAT: break;
+    }
+    return ((const float *)picture->samples)[i];
+}
+
+static double sample_alpha(const Picture *picture, size_t i)
+{
+    switch (picture->depth) {
+    case PICTURE_DEPTH_8: return ((const uint8_t *)picture->samples)[i] / 255.0;
+    case PICTURE_DEPTH_16: return ((const uint16_t *)picture->samples)[i] / 65535.0;
+    case PICTURE_DEPTH_FLOAT: break;
+    }
+    return ((const float *)picture->samples)[i];
+}
+
+// Column and row, from above, may be beyond the edges: a picture that is seen once continues as it ends, another begins
+// anew.
+static void pixel_get(const PreparedImage *image, int column, int row, double parts[static PARTS])
+{
+    const Picture *picture = image->picture;
+    bool is_once = image->map.is_once;
+    column = is_once ? pressed(column, picture->width) : wrapped(column, picture->width);
+    row = is_once ? pressed(row, picture->height) : wrapped(row, picture->height);
+    size_t pixel = (size_t)row * (size_t)picture->width + (size_t)column;
+    if (image->palette) {
+        const PictureColour *colour = &image->palette[((const uint8_t *)picture->samples)[pixel]];
+        parts[0] = colour->red;
+        parts[1] = colour->green;
+        parts[2] = colour->blue;
+        parts[3] = colour->filter;
+        parts[4] = colour->transmit;
+        return;
+    }
+    size_t channels = (size_t)picture->channels, first = pixel * channels;
+    bool is_grey = channels < 3;
+    for (size_t c = 0; c < 3; c++) {
+        parts[c] = sample_colour(picture, first + (is_grey ? 0 : c));
+    }
+    parts[3] = 0.0;
+    parts[4] = channels % 2 == 0 ? 1.0 - sample_alpha(picture, first + channels - 1) : 0.0;
+}
+
+// The sum of pixels from (column, row) to the right and upward, as many as there are weights.
+static void mix(const PreparedImage *image, int column, int row, const double *across, const double *up, int count,
+                double sum[static PARTS])
+{
+    for (int j = 0; j < count; j++) {
+        for (int i = 0; i < count; i++) {
+            double parts[PARTS];
+            pixel_get(image, column + i, row - j, parts);
+            for (int c = 0; c < PARTS; c++) {
+                sum[c] += across[i] * up[j] * parts[c];
+            }
+        }
+    }
+}
+
+// Each of the four pixels weighs as much as its distance's square is small.
+static void mix_by_distance(const PreparedImage *image, int column, int row, double x, double y,
+                            double sum[static PARTS])
+{
+    double weights = 0.0;
+    for (int j = 0; j < 2; j++) {
+        for (int i = 0; i < 2; i++) {
+            double dx = x - i, dy = y - j, square = dx * dx + dy * dy, parts[PARTS];
+            pixel_get(image, column + i, row - j, parts);
+            if (square == 0.0) {
+                memcpy(sum, parts, sizeof parts);
+                return;
+            }
+            for (int c = 0; c < PARTS; c++) {
+                sum[c] += parts[c] / square;
+            }
+            weights += 1.0 / square;
+        }
+    }
+    for (int c = 0; c < PARTS; c++) {
+        sum[c] /= weights;
+    }
+}
+
+// Weights of the pixels at -1, 0, 1 and 2 for a place x from 0 to 1: E. Catmull, R. Rom, "A class of local
+// interpolating splines", 1974.
+static void spline_weights(double x, double weights[static 4])
+{
+    double x2 = x * x, x3 = x2 * x;
+    weights[0] = -0.5 * x3 + x2 - 0.5 * x;
+    weights[1] = 1.5 * x3 - 2.5 * x2 + 1.0;
+    weights[2] = -1.5 * x3 + 2.0 * x2 + 0.5 * x;
+    weights[3] = 0.5 * x3 - 0.5 * x2;
+}
+
+// A place between the middles of pixels, from the left and from below.
+static void interpolate(const PreparedImage *image, double left, double below, double sum[static PARTS])
+{
+    double x_whole = floor(left), y_whole = floor(below), x = left - x_whole, y = below - y_whole;
+    int column = (int)x_whole, row = image->picture->height - 1 - (int)y_whole;
+    double across[4] = {1.0 - x, x}, up[4] = {1.0 - y, y};
+    memset(sum, 0, PARTS * sizeof *sum);
+    switch ((Interpolation)image->map.interpolation) {
+    case INTERPOLATION_NONE: break;
+    case INTERPOLATION_BILINEAR: mix(image, column, row, across, up, 2, sum); break;
+    case INTERPOLATION_BICUBIC:
+        spline_weights(x, across);
+        spline_weights(y, up);
+        mix(image, column - 1, row + 1, across, up, 4, sum);
+        break;
+    case INTERPOLATION_DISTANCE: mix_by_distance(image, column, row, x, y, sum); break;
+    }
+}
+
+static Rgbft colour_of(const PreparedImage *image, const double parts[static PARTS])
+{
+    double alpha = 1.0 - parts[4];
+    double share = !image->picture->is_associated ? 1.0 : alpha != 0.0 ? 1.0 / alpha : 0.0;
+    return (Rgbft){share * parts[0], share * parts[1], share * parts[2], parts[3] + image->filter,
+                   parts[4] + image->transmit};
+}
+
+// Pixels reach this much further right and up, in parts of one, so that rounding does not show at their edges.
+static const double reach = 1e-10;
+
+Rgbft image_colour(const PreparedImage *image, Vec3 point)
+{
+    static const Rgbft nothing = {1.0, 1.0, 1.0, 0.0, 1.0};
+    const Picture *picture = image->picture;
+    Spot spot;
+    double parts[PARTS];
+    if (!project(&image->map, point, &spot)) {
+        return nothing;
+    }
+    double left = spot.across * picture->width + reach, below = spot.up * picture->height + reach;
+    if (image->map.is_once && (left >= picture->width || below >= picture->height)) {
+        return nothing;
+    }
+    if (image->map.interpolation == INTERPOLATION_NONE) {
+        pixel_get(image, (int)left, picture->height - 1 - (int)below, parts);
+    } else {
+        interpolate(image, left - 0.5, below - 0.5, parts);
+    }
+    return colour_of(image, parts);
+}

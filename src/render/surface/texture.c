@@ -1,0 +1,334 @@
+// Textures at a point, computed by walking the scene's records.
+//
+// A pattern along another one lies in that one's space, so a point is moved step by step on the way in. Owns the
+// inverse transforms. The records nest no deeper than the language lets them, so recursion is bounded.
+//
+// SPDX-License-Identifier: MIT
+#include "render/surface/texture.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "math/extreme.h"
+
+static Transform way_back(const Transform *to_world)
+{
+    Transform back = transform_identity();
+    return transform_invert(to_world, &back) ? back : transform_identity(); // the evaluator saw that there is one
+}
+
+static bool any_pattern(const Scene *scene, bool (*holds)(const Pattern *pattern))
+{
+    for (size_t i = 0; i < scene->patterns.count; i++) {
+        if (holds(&scene->patterns.items[i].pattern)) {
+            return true;
+        }
+    }
+    for (size_t i = 0; i < scene->textures.count; i++) {
+        if (holds(&scene->textures.items[i].pattern)) {
+            return true;
+        }
+    }
+    for (size_t i = 0; i < scene->normals.count; i++) {
+        if (holds(&scene->normals.items[i].pattern)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool find_waves(TextureTable *table, const Scene *scene)
+{
+    unsigned count = (unsigned)scene->settings.number_of_waves;
+    if (!any_pattern(scene, pattern_needs_waves)) {
+        return true;
+    }
+    table->waves = malloc(count * sizeof *table->waves);
+    if (!table->waves) {
+        return false;
+    }
+    noise_wave_sources(table->source.noise, count, table->waves);
+    table->source.waves = table->waves;
+    table->source.wave_count = count;
+    return true;
+}
+
+static bool find_noise(TextureTable *table, const Scene *scene, const Noise *noise, const char *isa)
+{
+    if (!any_pattern(scene, pattern_needs_noise)) {
+        return true;
+    }
+    NoiseGenerator usual = scene->settings.version < 3.5 ? NOISE_ORIGINAL : NOISE_CORRECTED;
+    int said = scene->settings.noise_generator;
+    if (!noise) {
+        table->noise = malloc(sizeof *table->noise);
+        if (!table->noise) {
+            return false;
+        }
+        noise_init(table->noise, isa);
+        noise = table->noise;
+    }
+    table->source = (NoiseSource){.noise = noise, .generator = said != 0 ? noise_generator(said) : usual};
+    return find_waves(table, scene);
+}
+
+enum { OPACITY_UNKNOWN, OPACITY_NONE, OPACITY_WHOLE };
+
+bool texture_is_opaque(const TextureTable *table, const Pigment *pigment)
+{
+    return pigment->pattern == RECORD_NONE ? pigment->filter == 0.0F && pigment->transmit == 0.0F
+                                           : table->opaque[pigment->pattern] == OPACITY_WHOLE;
+}
+
+static bool find_opaque(TextureTable *table, const Pigment *pigment)
+{
+    uint32_t index = pigment->pattern;
+    if (index == RECORD_NONE || table->opaque[index] != OPACITY_UNKNOWN) {
+        return texture_is_opaque(table, pigment);
+    }
+    const PatternedPigment *record = &table->scene->patterns.items[index];
+    const PigmentEntry *entries = table->scene->pigment_entries.items;
+    bool is_image = pattern_info((PatternType)record->pattern.type)->form == PATTERN_OF_COLOURS;
+    bool is_opaque = !is_image || !image_is_transparent(&table->images[record->pattern.image]);
+    for (uint32_t at = is_image ? RECORD_NONE : record->entries; at != RECORD_NONE; at = entries[at].next) {
+        is_opaque = find_opaque(table, &entries[at].pigment) && is_opaque;
+    }
+    table->opaque[index] = is_opaque ? OPACITY_WHOLE : OPACITY_NONE;
+    return is_opaque;
+}
+
+#define ALONG_RECORDS(list, type, member)                                                                              \
+    (&(AlongRecords){(list).items, (list).count, sizeof(type), offsetof(type, member)})
+
+static bool find_lists(TextureTable *table, const Scene *scene)
+{
+    arena_init(&table->along, SIZE_MAX);
+    table->pattern_lists = along_lists(&table->along, ALONG_RECORDS(scene->patterns, PatternedPigment, entries),
+                                       ALONG_RECORDS(scene->pigment_entries, PigmentEntry, next));
+    table->texture_lists = along_lists(&table->along, ALONG_RECORDS(scene->textures, Texture, entries),
+                                       ALONG_RECORDS(scene->texture_entries, TextureEntry, next));
+    table->normal_lists = along_lists(&table->along, ALONG_RECORDS(scene->normals, Normal, entries),
+                                      ALONG_RECORDS(scene->normal_entries, NormalEntry, next));
+    table->slope_lists = along_lists(&table->along, ALONG_RECORDS(scene->normals, Normal, slopes),
+                                     ALONG_RECORDS(scene->slope_entries, SlopeEntry, next));
+    return table->pattern_lists && table->texture_lists && table->normal_lists && table->slope_lists;
+}
+
+bool texture_table_init(TextureTable *table, const Scene *scene, const Noise *noise, int exponent, const char *isa)
+{
+    *table = (TextureTable){.scene = scene, .scale = ldexp(1.0, exponent)};
+    table->to_pattern = malloc((scene->patterns.count + 1) * sizeof *table->to_pattern);
+    table->opaque = calloc(scene->patterns.count + 1, sizeof *table->opaque);
+    table->texture_to_pattern = malloc((scene->textures.count + 1) * sizeof *table->texture_to_pattern);
+    table->normal_to_pattern = malloc((scene->normals.count + 1) * sizeof *table->normal_to_pattern);
+    table->images = images_new(scene);
+    if (!find_lists(table, scene) || !table->to_pattern || !table->opaque || !table->texture_to_pattern ||
+        !table->normal_to_pattern || !table->images || !find_noise(table, scene, noise, isa)) {
+        texture_table_fini(table);
+        return false;
+    }
+    table->source.escape = escape_kernel_choose(isa);
+    table->goes_abreast = any_pattern(scene, pattern_goes_abreast);
+    for (size_t i = 0; i < scene->patterns.count; i++) {
+        table->to_pattern[i] = way_back(&scene->patterns.items[i].to_world);
+        find_opaque(table, &(Pigment){.pattern = (uint32_t)i});
+    }
+    for (size_t i = 0; i < scene->textures.count; i++) {
+        table->texture_to_pattern[i] = way_back(&scene->textures.items[i].to_world);
+    }
+    for (size_t i = 0; i < scene->normals.count; i++) {
+        table->normal_to_pattern[i] = way_back(&scene->normals.items[i].to_world);
+    }
+    return true;
+}
+
+void texture_table_fini(TextureTable *table)
+{
+    free(table->noise);
+    free(table->waves);
+    free(table->to_pattern);
+    free(table->opaque);
+    free(table->texture_to_pattern);
+    free(table->normal_to_pattern);
+    arena_fini(&table->along);
+    images_free(table->images, table->scene ? table->scene->image_maps.count : 0);
+    *table = (TextureTable){0};
+}
+
+bool texture_table_has_transparent_image(const TextureTable *table)
+{
+    for (size_t i = 0; i < table->scene->image_maps.count; i++) {
+        if (image_is_transparent(&table->images[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// ---- pigments
+
+// Colours of pigments are mixed in single precision, operation by operation as POV-Ray does it, so that a function of a
+// pigment has the same digits.
+static double blend_one(double a, double share, double b)
+{
+    float way = (float)(share * (double)((float)b - (float)a));
+    return (double)((float)a + way);
+}
+
+static Rgbft blend(Rgbft a, double share, Rgbft b)
+{
+    return (Rgbft){blend_one(a.red, share, b.red), blend_one(a.green, share, b.green), blend_one(a.blue, share, b.blue),
+                   blend_one(a.filter, share, b.filter), blend_one(a.transmit, share, b.transmit)};
+}
+
+// All entries at once; their values are weights. In single precision, too.
+static Rgbft average(const TextureTable *table, uint32_t first, Vec3 point)
+{
+    const PigmentEntry *entries = table->scene->pigment_entries.items;
+    float sum[5] = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F}, weights = 0.0F;
+    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
+        Rgbft colour = texture_pigment(table, &entries[at].pigment, point);
+        float weight = (float)entries[at].at;
+        weights += weight;
+        sum[0] += weight * (float)colour.red;
+        sum[1] += weight * (float)colour.green;
+        sum[2] += weight * (float)colour.blue;
+        sum[3] += weight * (float)colour.filter;
+        sum[4] += weight * (float)colour.transmit;
+    }
+    return (Rgbft){(double)(sum[0] / weights), (double)(sum[1] / weights), (double)(sum[2] / weights),
+                   (double)(sum[3] / weights), (double)(sum[4] / weights)};
+}
+
+// What a pattern's map has for a value, at a point in its space.
+static Rgbft mapped(const TextureTable *table, uint32_t index, Vec3 point, double value)
+{
+    const PigmentEntry *entries = table->scene->pigment_entries.items;
+    AlongPlace place = along_find(&table->pattern_lists[index], value);
+    Rgbft low = texture_pigment(table, &entries[place.low].pigment, point);
+    return place.share > 0.0 ? blend(low, place.share, texture_pigment(table, &entries[place.high].pigment, point))
+                             : low;
+}
+
+static Rgbft patterned(const TextureTable *table, uint32_t index, Vec3 outer)
+{
+    const PatternedPigment *record = &table->scene->patterns.items[index];
+    // Where turbulence moves a point, the entries of the map see it moved, too.
+    Vec3 point = pattern_moved(&record->pattern, &table->source, transform_point(&table->to_pattern[index], outer));
+    PatternForm form = pattern_info((PatternType)record->pattern.type)->form;
+    if (form == PATTERN_OF_COLOURS) {
+        return image_colour(&table->images[record->pattern.image], point);
+    }
+    if (form == PATTERN_OF_ALL) {
+        return average(table, record->entries, point);
+    }
+    return mapped(table, index, point, pattern_value_moved(&record->pattern, &table->source, point));
+}
+
+Rgbft texture_pigment(const TextureTable *table, const Pigment *pigment, Vec3 point)
+{
+    return pigment->pattern == RECORD_NONE ? pigment_colour(pigment) : patterned(table, pigment->pattern, point);
+}
+
+bool texture_goes_abreast(const TextureTable *table, const Pigment *pigment)
+{
+    return pigment->pattern != RECORD_NONE &&
+           pattern_goes_abreast(&table->scene->patterns.items[pigment->pattern].pattern);
+}
+
+void texture_pigments(const TextureTable *table, const Pigment *pigment, unsigned count, const Vec3 *points,
+                      Rgbft *colours)
+{
+    const Pattern *pattern = &table->scene->patterns.items[pigment->pattern].pattern;
+    const Transform *to_pattern = &table->to_pattern[pigment->pattern];
+    Vec3 moved[TEXTURE_ABREAST] = {{0.0, 0.0, 0.0}};
+    double values[TEXTURE_ABREAST];
+    for (unsigned i = 0; i < count; i++) {
+        moved[i] = pattern_moved(pattern, &table->source, transform_point(to_pattern, points[i]));
+    }
+    pattern_values_moved(pattern, &table->source, count, moved, values);
+    for (unsigned i = 0; i < count; i++) {
+        colours[i] = mapped(table, pigment->pattern, moved[i], values[i]);
+    }
+}
+
+double texture_pattern_value(const TextureTable *table, uint32_t pattern, Vec3 point)
+{
+    return pattern_value(&table->scene->patterns.items[pattern].pattern, &table->source,
+                         transform_point(&table->to_pattern[pattern], point));
+}
+
+// ---- textures
+
+typedef struct Walk {
+    const TextureTable *table;
+    double cut;
+    TextureVisit visit;
+    void *client;
+    TextureThrough through;
+} Walk;
+
+static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above);
+
+static void walk_average(Walk *walk, uint32_t first, const TexturePlace *place, double part, Rgb above)
+{
+    const TextureEntry *entries = walk->table->scene->texture_entries.items;
+    double weights = 0.0;
+    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
+        weights += entries[at].at;
+    }
+    for (uint32_t at = first; at != RECORD_NONE; at = entries[at].next) {
+        if (entries[at].at != 0.0) {
+            walk_layers(walk, entries[at].texture, place, part * entries[at].at / weights, above);
+        }
+    }
+}
+
+static void walk_pattern(Walk *walk, uint32_t index, const TexturePlace *outer, double part, Rgb above)
+{
+    const Texture *texture = &walk->table->scene->textures.items[index];
+    const TextureEntry *entries = walk->table->scene->texture_entries.items;
+    Vec3 point = transform_point(&walk->table->texture_to_pattern[index], outer->point);
+    TexturePlace here = {pattern_moved(&texture->pattern, &walk->table->source, point), index, outer};
+    if (texture->pattern.type == PATTERN_AVERAGE) {
+        walk_average(walk, texture->entries, &here, part, above);
+        return;
+    }
+    AlongPlace place = along_find(&walk->table->texture_lists[index],
+                                  pattern_value_moved(&texture->pattern, &walk->table->source, here.point));
+    walk_layers(walk, entries[place.low].texture, &here, (1.0 - place.share) * part, above);
+    if (place.share > 0.0) {
+        walk_layers(walk, entries[place.high].texture, &here, place.share * part, above);
+    }
+}
+
+static void walk_layers(Walk *walk, uint32_t index, const TexturePlace *place, double part, Rgb above)
+{
+    for (uint32_t top = index; index != RECORD_NONE; index = walk->table->scene->textures.items[index].below) {
+        const Texture *texture = &walk->table->scene->textures.items[index];
+        if (texture->pattern.type != PATTERN_NONE) {
+            walk_pattern(walk, index, place, part, above); // the lowest one, by the evaluator's rule
+            return;
+        }
+        Rgbft pigment = texture_pigment(walk->table, &texture->pigment, place->point);
+        TextureLayer layer = {pigment, texture->finish, texture->normal, index == top, place, part, above};
+        Rgb left = walk->visit ? walk->visit(walk->client, &layer) : rgb_grey(1.0);
+        above = rgb_mul(rgb_mul(above, left), texture_pigment_through(pigment));
+        if (rgb_is_black(above) || fabs(rgb_luminance(above)) < walk->cut) {
+            return;
+        }
+    }
+    walk->through.light = rgb_add_scaled(walk->through.light, part, above);
+    walk->through.part += part;
+    walk->through.weight = greater_of(walk->through.weight, rgb_max_abs(above));
+}
+
+TextureThrough texture_walk(const TextureTable *table, uint32_t texture, Vec3 point, double cut, TextureVisit visit,
+                            void *client)
+{
+    Walk walk = {table, cut, visit, client, {rgb_grey(0.0), 0.0, 0.0}};
+    TexturePlace place = {vec3_scale(table->scale, point), RECORD_NONE, NULL};
+    walk_layers(&walk, texture, &place, 1.0, rgb_grey(1.0));
+    return walk.through;
+}
