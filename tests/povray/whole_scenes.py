@@ -266,8 +266,9 @@ class Writer:
             return [known] + [self.pattern_transform() for _ in self.some(2)]
         amount = self.dice.choice(["", " " + self.number(0.1, 0.7)])
         choice = self.dice.random()
+        # In POV-Ray it changes the maps of declared normals wherever they stand: see docs/language.md.
         more = self.modifiers(0.1) + [f"bump_size {self.number(0.1, 0.7)}"] * self.chance(0.2) + \
-            [f"accuracy {self.number(0.01, 0.1)}"] * self.chance(0.1) + ["no_bump_scale"] * self.chance(0.1)
+            [f"accuracy {self.number(0.01, 0.1)}"] * self.chance(0.1) + ["no_bump_scale"] * (self.chance(0.1) and not self.names["normal"])
         if choice < 0.2:
             word = self.dice.choice(["quilted"] * (not self.names["texture"]) + ["bumps", "dents", "wrinkles",
                                                                                  "ripples", "waves"])
