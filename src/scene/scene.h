@@ -19,6 +19,7 @@
 #include "math/colour.h"
 #include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/numbers.h"
 #include "scene/pattern.h"
 #include "scene/picture.h"
 #include "scene/unique.h"
@@ -277,7 +278,13 @@ typedef struct Part {
     uint32_t body;          // of a leaf: 0 that of the composite, else the number of one within it
     uint64_t source;
     Transform to_world, to_object; // inverse of each other
-    Vec3 data[3];
+    union {
+        Vec3 data[3];
+        struct { // of a kind that has a list of numbers (scene/primitive.h): its bounds or more of them, and the list
+            Vec3 fixed[2];
+            Numbers list; // the scene's, once the part is added: equal lists are at one place
+        };
+    };
 } Part;
 
 typedef enum NodeOp {
@@ -416,6 +423,7 @@ typedef struct Scene {
     ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
+    NumberPool numbers; // the lists of parts
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     ARRAY(StartShape) start_shapes; // in the order of shapes
@@ -520,7 +528,7 @@ bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first) R
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material,
                      uint64_t source) RT_MUST_CHECK;
 
-// Adds a part that stands alone.
+// Adds a part that stands alone; its list of numbers, if it has one, is copied.
 bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
 
 // A composite begins, then come its nodes and leaves in their order, each with its parent; scene_end_composite sets

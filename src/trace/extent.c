@@ -69,11 +69,11 @@ bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
     }
     const Solid *solid = &g->shapes.solids[part_index(shape)];
     Ray object = solid_ray(solid, &ray);
-    RayInterval intervals[INTERVALS_MOST];
     double t;
     if (solid_is_flat(solid)) {
         return solid_flat_root(solid, &object, &t) && t > 0.0;
     }
+    RayInterval intervals[solid->interval_most];
     unsigned count = solid_intervals(solid, &object, LEFT_NONE, intervals);
     return count > 0 && intervals[count - 1].leave > 0.0;
 }

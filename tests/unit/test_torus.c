@@ -266,8 +266,8 @@ static bool is_decided(const Polynomial *p, double bound, double scale)
 
 static void check(const Case *asked, Outcome *outcome)
 {
-    RayInterval intervals[INTERVALS_MOST];
-    double own[2 * INTERVALS_MOST], length = vec3_length(asked->ray.direction);
+    RayInterval intervals[TORUS_INTERVALS];
+    double own[2 * TORUS_INTERVALS], length = vec3_length(asked->ray.direction);
     unsigned count = torus_intervals(asked->major, asked->minor, &asked->ray, LEFT_NONE, intervals);
     for (unsigned i = 0; i < count; i++) {
         own[2 * i] = intervals[i].enter;
@@ -331,7 +331,7 @@ static void test_from_surface(double major, double minor)
         }
         double rise = vec3_dot(d, n);
         bool inward = rise < 0.0;
-        RayInterval intervals[INTERVALS_MOST];
+        RayInterval intervals[TORUS_INTERVALS];
         unsigned count = torus_intervals(major, minor, &(Ray){on, d}, (SideLeft){TORUS_OUTER, inward}, intervals);
         bool begins_inside = count > 0 && intervals[0].enter_side == TORUS_OUTER &&
                              intervals[0].enter == -(double)INFINITY && intervals[0].leave > 0.0;
