@@ -184,6 +184,16 @@ typedef struct TorusDesc {
     double major, minor;
 } TorusDesc;
 
+// quadric, cubic, quartic and poly.
+typedef struct PolynomialDesc {
+    ObjectPart part;
+    int order;
+    Vec3 squares, products, linear; // of a quadric
+    double constant;
+    Numbers coefficients; // of the others
+    Numbers list;         // all that a part wants of it (scene/polynomial.h)
+} PolynomialDesc;
+
 typedef struct TriangleDesc {
     ObjectPart part;
     Vec3 corners[3];
@@ -291,6 +301,7 @@ typedef union Desc {
     ConeDesc cone;
     DiscDesc disc;
     TorusDesc torus;
+    PolynomialDesc polynomial;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     UnionDesc group;

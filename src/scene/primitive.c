@@ -6,6 +6,8 @@
 #include <math.h>
 
 #include "scene/dump.h"
+#include "scene/part.h"
+#include "scene/polynomial.h"
 
 static bool is_between(double low, double value, double high)
 {
@@ -262,6 +264,41 @@ static void torus_measure(const Part *part, Vec3 *half, Vec3 *middle)
     *middle = vec3(part->data[0].x, 0.0, 0.0);
 }
 
+// ---- polynomial
+
+static double polynomial_support(const Part *part, Vec3 n)
+{
+    return part_is_endless(part) ? (double)INFINITY : box_support(part, n);
+}
+
+static bool polynomial_holds(const Part *part, Vec3 p)
+{
+    return polynomial_value(part->list.items, p) < 0.0;
+}
+
+static void polynomial_dump(const Part *part, TextBuffer *out)
+{
+    unsigned order = polynomial_order(part->list.items);
+    text_printf(out, "%u, ", order);
+    dump_numbers(out, polynomial_terms(part->list.items), polynomial_count(order));
+}
+
+static uint32_t polynomial_interval_most(const Part *part)
+{
+    return polynomial_order(part->list.items) / 2 + 1;
+}
+
+// Of one that is endless nothing is known but the map.
+static void polynomial_measure(const Part *part, Vec3 *half, Vec3 *middle)
+{
+    if (part_is_endless(part)) {
+        *half = vec3(1.0, 1.0, 1.0);
+        *middle = vec3(0.0, 0.0, 0.0);
+    } else {
+        box_measure(part, half, middle);
+    }
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -352,6 +389,19 @@ static const PrimitiveClass classes[] = {
                     .holds = torus_holds,
                     .dump = torus_dump,
                     .measure = torus_measure},
+    [PART_POLYNOMIAL] = {.word = "polynomial",
+                         .head = "poly { ",
+                         .family = FAMILY_POLYNOMIAL,
+                         .surface = PART_POLYNOMIAL,
+                         .key_count = 3,
+                         .interval_count = 2,
+                         .has_list = true,
+                         .is_sized = true,
+                         .interval_most = polynomial_interval_most,
+                         .support = polynomial_support,
+                         .holds = polynomial_holds,
+                         .dump = polynomial_dump,
+                         .measure = polynomial_measure},
 };
 
 const PrimitiveClass *primitive_class(PartKind kind)

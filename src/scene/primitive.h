@@ -9,8 +9,8 @@
 #include "base/text.h"
 #include "scene/scene.h"
 
-// Surfaces of different families coincide nowhere but along lines.
-typedef enum SurfaceFamily { FAMILY_ROUND, FAMILY_STRAIGHT, FAMILY_TUBE } SurfaceFamily;
+// Surfaces of different families coincide nowhere but along lines; polynomials are looked at among themselves only.
+typedef enum SurfaceFamily { FAMILY_ROUND, FAMILY_STRAIGHT, FAMILY_TUBE, FAMILY_POLYNOMIAL } SurfaceFamily;
 
 enum { FACE_CORNERS_MOST = 16 }; // of a flat face; a round one is the polygon in it
 

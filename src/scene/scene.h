@@ -240,6 +240,8 @@ typedef struct Plane {
 //   smooth triangle the same, with normals data[0..2] at the corners that are of length 1 in the scene itself
 //   torus           all points at distance data[0].y from the circle of radius data[0].x in y = 0; both are > 0, and their
 //                   sum is at least 1/2 and at most 1
+//   polynomial      where that of the list is 0 (scene/polynomial.h), within the box from fixed[0] to fixed[1] if that
+//                   bounds it
 typedef enum PartKind {
     PART_SPHERE,
     PART_PLANE,
@@ -249,6 +251,7 @@ typedef enum PartKind {
     PART_TRIANGLE,
     PART_SMOOTH_TRIANGLE,
     PART_TORUS,
+    PART_POLYNOMIAL,
     PART_KINDS
 } PartKind;
 

@@ -267,6 +267,32 @@ static const SchemaProperty torus_properties[] = {
 
 static const TorusDesc torus_defaults = {.part = OBJECT_PART, .major = 1.0};
 
+// ---- polynomials
+
+static const SchemaProperty quadric_arguments[] = {
+    {"squares", TYPE_VECTOR, AT(PolynomialDesc, squares), .doc = "A, B, C of A x² + B y² + C z²"},
+    {"products", TYPE_VECTOR, AT(PolynomialDesc, products), .doc = "D, E, F of D xy + E xz + F yz"},
+    {"linear terms", TYPE_VECTOR, AT(PolynomialDesc, linear), .doc = "G, H, I of G x + H y + I z"},
+    {"constant", TYPE_NUMBER, AT(PolynomialDesc, constant), .doc = "J; the sum of all is 0 on the surface"},
+};
+
+#define COEFFICIENTS "by falling powers of x, then of y, then of z: x³, x²y, x²z, x², xy², …, 1 for order 3"
+
+static const SchemaProperty cubic_arguments[] = {
+    {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
+};
+
+static const SchemaProperty poly_arguments[] = {
+    {"order", TYPE_INTEGER, AT(PolynomialDesc, order), .range = {RANGE_FAULT, false, 2.0, 35.0},
+     .doc = "the greatest sum of powers"},
+    {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
+};
+
+static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2};
+static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
+static const PolynomialDesc quartic_defaults = {.part = OBJECT_PART, .order = 4};
+static const PolynomialDesc poly_defaults = {.part = OBJECT_PART};
+
 static const SchemaProperty triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(TriangleDesc, corners[0]), .doc = "in any order"},
     {"second corner", TYPE_VECTOR, AT(TriangleDesc, corners[1]), .doc = "likewise"},
@@ -606,6 +632,42 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .arguments = LIST(torus_arguments),
                     .groups = {LIST(torus_properties), OBJECT_GROUPS},
                     .doc = "A ring with a round tube, about y."},
+    [KIND_QUADRIC] = {.word = "quadric",
+                      .what = "a quadric",
+                      .size = sizeof(PolynomialDesc),
+                      .defaults = &quadric_defaults,
+                      .is_object = true,
+                      .is_declarable = true,
+                      .arguments = LIST(quadric_arguments),
+                      .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                      .doc = "Where a polynomial of order 2 is 0: ellipsoids, cones, paraboloids; inside where it is less."},
+    [KIND_CUBIC] = {.word = "cubic",
+                    .what = "a cubic",
+                    .size = sizeof(PolynomialDesc),
+                    .defaults = &cubic_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .arguments = LIST(cubic_arguments),
+                    .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                    .doc = "The same of order 3, which has 20 coefficients."},
+    [KIND_QUARTIC] = {.word = "quartic",
+                      .what = "a quartic",
+                      .size = sizeof(PolynomialDesc),
+                      .defaults = &quartic_defaults,
+                      .is_object = true,
+                      .is_declarable = true,
+                      .arguments = LIST(cubic_arguments),
+                      .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                      .doc = "The same of order 4, which has 35 coefficients."},
+    [KIND_POLY] = {.word = "poly",
+                   .what = "a poly",
+                   .size = sizeof(PolynomialDesc),
+                   .defaults = &poly_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .arguments = LIST(poly_arguments),
+                   .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                   .doc = "The same of order n, which has (n + 1)(n + 2)(n + 3) / 6 coefficients."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .what = "a triangle",
                        .size = sizeof(TriangleDesc),
@@ -833,11 +895,9 @@ static const SchemaUnsupported unsupported[] = {
     {"mesh2", true, NULL, NULL},
     {"ovus", true, "use a sphere with `scale`", NULL},
     {"parametric", true, NULL, NULL},
-    {"poly", true, NULL, NULL},
     {"polygon", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
     {"prism", true, NULL, NULL},
-    {"quadric", true, "use a sphere with `scale`", NULL},
     {"quartic", true, NULL, NULL},
     {"rainbow", true, NULL, "the rainbow"},
     {"sor", true, NULL, NULL},
@@ -895,6 +955,7 @@ const char *schema_type_need(SchemaType type)
         [TYPE_SHARE_PAIR] = "a number",
         [TYPE_INTEGER] = "a number",
         [TYPE_VECTOR] = "a vector",
+        [TYPE_NUMBERS] = "numbers in <>",
         [TYPE_COLOUR] = "a colour",
         [TYPE_RGB] = "a colour",
         [TYPE_BLOCK] = "braces",

@@ -25,6 +25,10 @@ typedef enum SchemaKind {
     KIND_CONE,
     KIND_DISC,
     KIND_TORUS,
+    KIND_QUADRIC,
+    KIND_CUBIC,
+    KIND_QUARTIC,
+    KIND_POLY,
     KIND_TRIANGLE,
     KIND_SMOOTH_TRIANGLE,
     KIND_UNION,
@@ -67,6 +71,7 @@ typedef enum SchemaType {
     TYPE_SHARE_PAIR,      // two doubles in a row, the second optional; else like TYPE_SHARE
     TYPE_INTEGER,         // int: a number, cut towards zero
     TYPE_VECTOR,          // Vec3
+    TYPE_NUMBERS,         // Numbers: `<…>` of any length
     TYPE_COLOUR,          // Rgbft
     TYPE_RGB,             // Rgb: a colour whose filter and transmit do not count
     TYPE_BLOCK,           // braces; `action` says what they are for

@@ -17,7 +17,7 @@ uint32_t extent_count(const Geometry *g)
 static bool solid_extent_of(const Solid *solid, Extent *extent)
 {
     Vec3 axes[3], middle = {0.0, 0.0, 0.0};
-    if (solid->kind == PART_PLANE || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
+    if (solid_is_endless(solid) || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
         (solid->hidden & HIDDEN_CAMERA)) {
         return false;
     }

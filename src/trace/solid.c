@@ -11,6 +11,7 @@
 #include "trace/cone.h"
 #include "trace/flat.h"
 #include "trace/plane.h"
+#include "trace/polynomial.h"
 #include "trace/sphere.h"
 #include "trace/torus.h"
 
@@ -250,6 +251,19 @@ static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
     axes[2] = vec3(0.0, 0.0, width);
 }
 
+// ---- polynomial
+
+static unsigned polynomial_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return polynomial_intervals(solid->list.items, object, left, intervals);
+}
+
+static Vec3 polynomial_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return polynomial_normal(solid->list.items, point);
+}
+
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
@@ -298,6 +312,11 @@ const SolidClass solid_classes[PART_KINDS] = {
                     .point = torus_side_point,
                     .axes = torus_axes,
                     .films = 1 << TORUS_INNER},
+    [PART_POLYNOMIAL] = {.intervals = polynomial_side_intervals,
+                         .normal = polynomial_side_normal,
+                         .gradient = polynomial_side_normal,
+                         .point = same_point,
+                         .axes = box_axes},
 };
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)

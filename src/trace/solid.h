@@ -10,6 +10,7 @@
 
 #include "math/ray.h"
 #include "math/transform.h"
+#include "scene/polynomial.h"
 #include "scene/primitive.h"
 #include "scene/scene.h"
 #include "trace/ray_interval.h"
@@ -53,6 +54,11 @@ typedef struct Solid {
 RT_ALWAYS_INLINE bool solid_is_flat(const Solid *solid)
 {
     return solid->traits & SOLID_FLAT;
+}
+
+static inline bool solid_is_endless(const Solid *solid)
+{
+    return solid->kind == PART_PLANE || (solid->kind == PART_POLYNOMIAL && !polynomial_is_bounded(solid->list.items));
 }
 
 // How rays meet a kind of part; its numbers are those of the solid, its points in the solid's own space.

@@ -302,10 +302,11 @@ typedef struct ShapeClass {
     bool (*settle)(Desc *record);
     DiagCode code;
     const char *fault;
+    bool (*close)(Block *block); // at the closing brace; false after a fault; NULL: `settle` is enough
     // Kind, numbers and map, before all transforms. Why there is nothing to draw, or NULL. Of a plane NULL.
     const char *(*form)(const void *object, Part *part);
     bool (*holds)(const void *object, Vec3 point, bool is_turned); // inside of it, or of it turned; NULL: not to be asked
-    bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself
+    bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself; it may be infinite
 } ShapeClass;
 
 // Of a kind that is no shape a row of nothing.
