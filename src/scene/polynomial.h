@@ -1,8 +1,8 @@
 // Surfaces where a polynomial of x, y and z is 0; inside is where it is less.
 //
-// A part's list of numbers is: the order n, whether `fixed` bounds the surface, the sums of the sizes of all coefficients
-// of each degree from 0 to n, then the coefficients in POV-Ray's order: by falling powers of x, then of y, then of z, so
-// that Horner's scheme in z, y and x takes them one after the other. Knows nothing of rays.
+// A part's list of numbers is: the order n, whether `fixed` bounds the surface, the sums of the sizes of all
+// coefficients of each degree from 0 to n, then the coefficients in POV-Ray's order: by falling powers of x, then of y,
+// then of z, so that Horner's scheme in z, y and x takes them one after the other. Knows nothing of rays.
 //
 // SPDX-License-Identifier: MIT
 #ifndef SCENE_POLYNOMIAL_H

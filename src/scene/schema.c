@@ -884,7 +884,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 static const SchemaUnsupported unsupported[] = {
     {"bicubic_patch", true, NULL, NULL},
     {"blob", true, "use a `union` of spheres", NULL},
-    {"cubic", true, NULL, NULL},
     {"height_field", true, NULL, NULL},
     {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},
@@ -898,7 +897,6 @@ static const SchemaUnsupported unsupported[] = {
     {"polygon", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
     {"prism", true, NULL, NULL},
-    {"quartic", true, NULL, NULL},
     {"rainbow", true, NULL, "the rainbow"},
     {"sor", true, NULL, NULL},
     {"sphere_sweep", true, "use a `union` of spheres", NULL},

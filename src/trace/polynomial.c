@@ -119,7 +119,8 @@ static void exact_compose(const Line *line, DoubleWord *whole)
             for (int k = order - i - j; k >= 0; k--) {
                 DoubleWord term = {*c++, 0.0};
                 part_degree = exact_times_line(part, part_degree, z, line->along.z);
-                part_degree = term.hi != 0.0 || part_degree >= 0 ? exact_plus(part, part_degree, &term, 0) : part_degree;
+                part_degree =
+                    term.hi != 0.0 || part_degree >= 0 ? exact_plus(part, part_degree, &term, 0) : part_degree;
             }
             row_degree = exact_times_line(row, row_degree, y, line->along.y);
             row_degree = exact_plus(row, row_degree, part, part_degree);
@@ -195,28 +196,37 @@ static void line_set(Line *line, const double *list, const Ray *ray, bool is_sta
     line->along = vec3_scale(line->step, d);
 }
 
-// A root in t, good to some u of all that makes its place.
-static double root_t(const Line *line, Polynomial *p, double s)
+// Whether a root is good to some u of all that makes its place.
+static bool root_is_good(const Line *line, const Polynomial *p, double s)
 {
     double error = 0.0, slope = 0.0, size = fabs(s);
     for (unsigned i = p->degree + 1; i-- > 0;) {
         error = error * size + p->errors[i];
         slope = i > 0 ? slope * s + i * p->terms[i] : slope;
     }
-    double reach = vec3_max_abs(line->ray->origin) + size;
-    if (!(error <= GOOD_ROOT * reach * fabs(slope))) {
-        s = roots_refine(p, s);
-    }
-    return line->t_base + s * line->step;
+    return error <= GOOD_ROOT * (vec3_max_abs(line->ray->origin) + size) * fabs(slope);
 }
 
-static unsigned make_intervals(const Line *line, Polynomial *p, const double *roots, unsigned count, bool is_inside,
+static unsigned line_roots(const Line *line, Polynomial *p, double low, double *roots, int *sign)
+{
+    const double high = (double)INFINITY;
+    unsigned count = roots_find(p, low, high, roots, sign);
+    bool are_good = true, were_exact = p->is_exact; // their errors are those of then
+    for (unsigned i = 0; i < count && !were_exact; i++) {
+        if ((p->is_exact || !root_is_good(line, p, roots[i])) && !roots_refine(p, &roots[i])) {
+            are_good = false;
+        }
+    }
+    return are_good ? count : roots_find_exact(p, low, high, roots, sign);
+}
+
+static unsigned make_intervals(const Line *line, const double *roots, unsigned count, bool is_inside,
                                RayInterval *intervals)
 {
     RayInterval interval = INTERVAL_ALL;
     unsigned made = 0;
     for (unsigned i = 0; i < count; i++) {
-        double t = root_t(line, p, roots[i]);
+        double t = line->t_base + roots[i] * line->step;
         if (is_inside) {
             interval.leave = t;
             interval.leave_side = 0;
@@ -239,7 +249,7 @@ static unsigned make_intervals(const Line *line, Polynomial *p, const double *ro
 // bend decides.
 static bool starts_inside(const Polynomial *p, bool inward)
 {
-    bool falls = p->terms[0] < 0.0, bends = p->degree > 0 && p->terms[1] < 0.0;
+    bool falls = p->terms[0]<0.0, bends = p->degree> 0 && p->terms[1] < 0.0;
     return inward ? falls || bends : falls && bends;
 }
 
@@ -253,13 +263,13 @@ unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left,
     line_set(&line, list, ray, is_start);
     line_polynomial(&line, &p);
     if (!is_start) {
-        unsigned count = roots_find(&p, -(double)INFINITY, (double)INFINITY, roots, &sign);
-        return make_intervals(&line, &p, roots, count, sign < 0, intervals);
+        unsigned count = line_roots(&line, &p, -(double)INFINITY, roots, &sign);
+        return make_intervals(&line, roots, count, sign < 0, intervals);
     }
-    unsigned count = roots_find(&p, 0.0, (double)INFINITY, roots, &sign);
+    unsigned count = line_roots(&line, &p, 0.0, roots, &sign);
     bool is_inside = starts_inside(&p, left.inward);
     unsigned passed = count > 0 && is_inside != (sign < 0) ? 1 : 0; // the start's own, come twice
-    return make_intervals(&line, &p, roots + passed, count - passed, is_inside, intervals);
+    return make_intervals(&line, roots + passed, count - passed, is_inside, intervals);
 }
 
 // ---- surfaces

@@ -5,7 +5,7 @@
 
 #include "math/extreme.h"
 
-enum { STEPS_MOST = 200 };
+enum { STEPS_MOST = 200, REFINE_MOST = 8 };
 
 // Where the terms of a level begin.
 static unsigned level_at(const Polynomial *p, unsigned level)
@@ -129,7 +129,8 @@ void roots_start(Polynomial *p)
 // Fujiwara's bound of all roots, as a power of two; those of derivatives lie within it, too (Gauss, Lucas).
 static double outer_bound(const Polynomial *p)
 {
-    int lead = ilogb(p->terms[p->degree]), most = -1000;
+    const int none = -1000;
+    int lead = ilogb(p->terms[p->degree]), most = none;
     for (unsigned i = 0; i < p->degree; i++) {
         if (p->terms[i] != 0.0) {
             int below = (int)(p->degree - i), rise = ilogb(p->terms[i]) + 1 - lead;
@@ -137,21 +138,32 @@ static double outer_bound(const Polynomial *p)
             most = share > most ? share : most;
         }
     }
-    return ldexp(1.0, most + 2);
+    return most == none ? 1.0 : ldexp(1.0, most + 2);
+}
+
+// The value of a level and its slope; of double words, once there are some.
+static double value_and_slope(const Polynomial *p, unsigned level, double x, double *slope)
+{
+    if (p->is_exact) {
+        *slope = exact_at(p, level + 1, x).hi;
+        return exact_at(p, level, x).hi;
+    }
+    const double *terms = &p->terms[level_at(p, level)];
+    double value = terms[p->degree - level], rise = 0.0;
+    for (unsigned k = p->degree - level; k-- > 0;) {
+        rise = rise * x + value;
+        value = value * x + terms[k];
+    }
+    *slope = rise;
+    return value;
 }
 
 // The place of a sign change between two places, for a sign before it; Newton's steps as long as they stay between.
 static double root_between(const Polynomial *p, unsigned level, double low, double high, int sign)
 {
-    const double *terms = &p->terms[level_at(p, level)];
-    unsigned degree = p->degree - level;
     double x = 0.5 * (low + high), before = high - low;
     for (int i = 0; i < STEPS_MOST && low < x && x < high; i++) {
-        double value = terms[degree], slope = 0.0;
-        for (unsigned k = degree; k-- > 0;) {
-            slope = slope * x + value;
-            value = value * x + terms[k];
-        }
+        double slope, value = value_and_slope(p, level, x, &slope);
         if (value == 0.0) {
             return x;
         }
@@ -167,17 +179,31 @@ static double root_between(const Polynomial *p, unsigned level, double low, doub
     return x;
 }
 
+// Between which places roots are looked for; an end that stands for one that is infinite has the sign that it has
+// there.
+typedef struct Range {
+    double low, high;
+    bool is_low_infinite, is_high_infinite;
+} Range;
+
+static int sign_beyond(const Polynomial *p, unsigned level, bool is_low)
+{
+    bool turns = is_low && (p->degree - level) % 2 != 0;
+    return (p->terms[p->degree] > 0.0) != turns ? 1 : -1;
+}
+
 // The roots of a level, from places between which it has one at most.
-static unsigned level_roots(Polynomial *p, unsigned level, double low, double high, const double *places,
+static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, const double *places,
                             unsigned place_count, double *roots, int *first)
 {
     unsigned count = 0;
-    double from = low;
-    int sign = sign_at(p, level, low);
+    double from = range->low;
+    int sign = range->is_low_infinite ? sign_beyond(p, level, true) : sign_at(p, level, from);
     *first = sign;
     for (unsigned i = 0; i <= place_count; i++) {
-        double to = i < place_count ? places[i] : high;
-        int next = sign_at(p, level, to);
+        bool is_last = i == place_count;
+        double to = is_last ? range->high : places[i];
+        int next = is_last && range->is_high_infinite ? sign_beyond(p, level, false) : sign_at(p, level, to);
         if (next == 0) {
             continue;
         }
@@ -223,47 +249,67 @@ static unsigned lowest_roots(const Polynomial *p, unsigned level, double low, do
     return count;
 }
 
-unsigned roots_find(Polynomial *p, double low, double high, double *roots, int *sign)
+static unsigned find_between(Polynomial *p, const Range *range, double *roots, int *sign)
 {
     double places[2][ROOTS_DEGREE_MOST + 1];
     unsigned count = 0, level = p->degree > 2 ? p->degree - 2 : 1, now = 0;
+    if (p->degree > 1) {
+        count = lowest_roots(p, level, range->low, range->high, places[now]);
+        while (--level > 0) {
+            int first;
+            count = level_roots(p, level, range, places[now], count, places[!now], &first);
+            now = !now;
+        }
+    }
+    return level_roots(p, 0, range, places[now], count, roots, sign);
+}
+
+// What double words were wanted for is found once more from better terms.
+unsigned roots_find(Polynomial *p, double low, double high, double *roots, int *sign)
+{
+    Range range = {low, high, isinf(low), isinf(high)};
     if (p->degree == 0) {
         *sign = sign_at(p, 0, 0.0);
         return 0;
     }
-    if (isinf(low) || isinf(high)) {
+    if (range.is_low_infinite || range.is_high_infinite) {
         double bound = outer_bound(p);
-        low = isinf(low) ? (high < -bound ? 2.0 * high : -bound) : low;
-        high = isinf(high) ? (low > bound ? 2.0 * low : bound) : high;
+        range.low = !range.is_low_infinite ? low : high < -bound ? 2.0 * high : -bound;
+        range.high = !range.is_high_infinite ? high : low > bound ? 2.0 * low : bound;
     }
-    if (p->degree > 1) {
-        count = lowest_roots(p, level, low, high, places[now]);
-        while (--level > 0) {
-            int first;
-            count = level_roots(p, level, low, high, places[now], count, places[!now], &first);
-            now = !now;
-        }
-    }
-    return level_roots(p, 0, low, high, places[now], count, roots, sign);
+    bool was_exact = p->is_exact;
+    unsigned count = find_between(p, &range, roots, sign);
+    return was_exact == p->is_exact ? count : find_between(p, &range, roots, sign);
 }
 
-double roots_refine(Polynomial *p, double root)
+bool roots_refine(Polynomial *p, double *root)
 {
     make_exact(p);
-    DoubleWord x = {root, 0.0};
-    for (int i = 0; i < 3; i++) {
+    DoubleWord x = {*root, 0.0};
+    for (int i = 0; i < REFINE_MOST; i++) {
         DoubleWord value = p->exact[p->degree];
         for (unsigned k = p->degree; k-- > 0;) {
             value = double_word_add(double_word_mul(value, x), p->exact[k]);
         }
-        double change = value.hi / value_at(p, 1, x.hi);
-        if (!(fabs(change) <= 0x1p-20 * fabs(x.hi))) {
+        double slope = value_at(p, 1, x.hi), change = value.hi / slope;
+        double turn = p->degree > 1 ? change * value_at(p, 2, x.hi) : 0.0;
+        if (value.hi == 0.0) {
             break;
+        }
+        if (!(fabs(turn) <= 0.75 * fabs(slope))) {
+            return false;
         }
         x = double_word_add(x, (DoubleWord){-change, 0.0});
         if (fabs(change) <= 0x1p-70 * fabs(x.hi)) {
             break;
         }
     }
-    return x.hi;
+    *root = x.hi;
+    return true;
+}
+
+unsigned roots_find_exact(Polynomial *p, double low, double high, double *roots, int *sign)
+{
+    make_exact(p);
+    return roots_find(p, low, high, roots, sign);
 }

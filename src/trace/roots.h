@@ -45,7 +45,10 @@ int roots_sign(Polynomial *polynomial, double x);
 // the first.
 unsigned roots_find(Polynomial *polynomial, double low, double high, double *roots, int *sign);
 
-// A root to the last bit of the double words, where the polynomial is not too flat.
-double roots_refine(Polynomial *polynomial, double root);
+// The same by double words throughout, which costs some ten times as much.
+unsigned roots_find_exact(Polynomial *polynomial, double low, double high, double *roots, int *sign);
+
+// Puts a root right by double words. False: the polynomial is too flat there, and only roots_find_exact knows better.
+bool roots_refine(Polynomial *polynomial, double *root);
 
 #endif
