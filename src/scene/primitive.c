@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "scene/blob.h"
 #include "scene/dump.h"
 #include "scene/part.h"
 #include "scene/polynomial.h"
@@ -299,6 +300,36 @@ static void polynomial_measure(const Part *part, Vec3 *half, Vec3 *middle)
     }
 }
 
+// ---- blob
+
+static bool blob_holds(const Part *part, Vec3 p)
+{
+    return blob_field(part->list.items, p) > part->list.items[0];
+}
+
+static void blob_dump(const Part *part, TextBuffer *out)
+{
+    Blob blob = blob_of(part->list.items);
+    dump_number(out, "threshold ", blob.threshold);
+    for (uint32_t i = 0; i < blob.component_count; i++) {
+        const BlobComponent *component = &blob.components[i];
+        if (component->is_rod != 0.0) {
+            dump_number(out, " cylinder { 0, ", component->height);
+            dump_number(out, "*z, 1, ", component->strength);
+        } else {
+            dump_number(out, " sphere { 0, 1, ", component->strength);
+        }
+        text_append(out, " matrix ");
+        dump_numbers(out, &component->to_world[0][0], 12);
+        text_append(out, " }");
+    }
+}
+
+static uint32_t blob_part_intervals(const Part *part)
+{
+    return blob_interval_most(part->list.items);
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -402,6 +433,19 @@ static const PrimitiveClass classes[] = {
                          .holds = polynomial_holds,
                          .dump = polynomial_dump,
                          .measure = polynomial_measure},
+    [PART_BLOB] = {.word = "blob",
+                   .head = "blob { ",
+                   .family = FAMILY_BLOB,
+                   .surface = PART_BLOB,
+                   .key_count = 3,
+                   .interval_count = 2,
+                   .has_list = true,
+                   .is_sized = true,
+                   .interval_most = blob_part_intervals,
+                   .support = box_support,
+                   .holds = blob_holds,
+                   .dump = blob_dump,
+                   .measure = box_measure},
 };
 
 const PrimitiveClass *primitive_class(PartKind kind)

@@ -242,6 +242,8 @@ typedef struct Plane {
 //                   sum is at least 1/2 and at most 1
 //   polynomial      where that of the list is 0 (scene/polynomial.h), within the box from fixed[0] to fixed[1] if that
 //                   bounds it
+//   blob            where the fields of the list are at its threshold (scene/blob.h), within the box from fixed[0] to
+//                   fixed[1]
 typedef enum PartKind {
     PART_SPHERE,
     PART_PLANE,
@@ -252,6 +254,7 @@ typedef enum PartKind {
     PART_SMOOTH_TRIANGLE,
     PART_TORUS,
     PART_POLYNOMIAL,
+    PART_BLOB,
     PART_KINDS
 } PartKind;
 

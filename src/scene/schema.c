@@ -288,6 +288,36 @@ static const SchemaProperty poly_arguments[] = {
     {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
 };
 
+// ---- blob
+
+static const SchemaProperty blob_properties[] = {
+    {"threshold", TYPE_NUMBER, AT(BlobDesc, threshold), .range = POSITIVE,
+     .doc = "the surface is where the fields of all components together are so strong"},
+    {"sphere", TYPE_BLOCK, ACTION_BLOB_PART,
+     .doc = "`{ centre, radius, strength transforms }`: a field of strength × (1 - (distance / radius)²)²"},
+    {"cylinder", TYPE_BLOCK, ACTION_BLOB_PART,
+     .doc = "`{ base, cap, radius, strength transforms }`: the same around a stretch, with round ends"},
+    {"component", TYPE_ACTION, ACTION_BLOB_PART, .doc = "strength, radius, centre: an older form of `sphere`"},
+    {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is a tree of many components"},
+    {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
+};
+
+static const SchemaProperty blob_ball_arguments[] = {
+    {"centre", TYPE_VECTOR, AT(BlobPartDesc, base), .doc = "its middle"},
+    {"radius", TYPE_NUMBER, AT(BlobPartDesc, radius), .range = POSITIVE, .doc = "where its field ends"},
+    {"strength", TYPE_NUMBER, AT(BlobPartDesc, strength), .doc = "of the field in its middle; it may be negative"},
+};
+
+static const SchemaProperty blob_rod_arguments[] = {
+    {"base", TYPE_VECTOR, AT(BlobPartDesc, base), .doc = "one end"},
+    {"cap", TYPE_VECTOR, AT(BlobPartDesc, cap), .doc = "the other"},
+    {"radius", TYPE_NUMBER, AT(BlobPartDesc, radius), .range = POSITIVE, .doc = "where its field ends"},
+    {"strength", TYPE_NUMBER, AT(BlobPartDesc, strength), .doc = "of the field in its middle; it may be negative"},
+};
+
+static const BlobDesc blob_defaults = {.part = OBJECT_PART, .threshold = 1.0};
+static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .strength = 1.0};
+
 static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2};
 static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
 static const PolynomialDesc quartic_defaults = {.part = OBJECT_PART, .order = 4};
@@ -668,6 +698,27 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                    .arguments = LIST(poly_arguments),
                    .groups = {LIST(torus_properties), OBJECT_GROUPS},
                    .doc = "The same of order n, which has (n + 1)(n + 2)(n + 3) / 6 coefficients."},
+    [KIND_BLOB] = {.word = "blob",
+                   .what = "a blob",
+                   .size = sizeof(BlobDesc),
+                   .defaults = &blob_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .groups = {LIST(blob_properties), OBJECT_GROUPS},
+                   .doc = "Where the fields of balls and rods together are as strong as a threshold; inside where they are "
+                          "stronger."},
+    [KIND_BLOB_BALL] = {.word = "sphere",
+                        .size = sizeof(BlobPartDesc),
+                        .defaults = &blob_part_defaults,
+                        .arguments = LIST(blob_ball_arguments),
+                        .groups = {LIST(transforms)},
+                        .doc = "A component of a blob."},
+    [KIND_BLOB_ROD] = {.word = "cylinder",
+                       .size = sizeof(BlobPartDesc),
+                       .defaults = &blob_part_defaults,
+                       .arguments = LIST(blob_rod_arguments),
+                       .groups = {LIST(transforms)},
+                       .doc = "A component of a blob."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .what = "a triangle",
                        .size = sizeof(TriangleDesc),
@@ -883,7 +934,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 
 static const SchemaUnsupported unsupported[] = {
     {"bicubic_patch", true, NULL, NULL},
-    {"blob", true, "use a `union` of spheres", NULL},
     {"height_field", true, NULL, NULL},
     {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},

@@ -29,6 +29,7 @@ typedef enum SchemaKind {
     KIND_CUBIC,
     KIND_QUARTIC,
     KIND_POLY,
+    KIND_BLOB,
     KIND_TRIANGLE,
     KIND_SMOOTH_TRIANGLE,
     KIND_UNION,
@@ -55,6 +56,8 @@ typedef enum SchemaKind {
     KIND_CLIPPED_BY, // braces of an object's properties; read as objects
     KIND_BOUNDED_BY,
     KIND_LOOKS_LIKE,
+    KIND_BLOB_BALL,  // the braces of a blob's `sphere` and `cylinder`
+    KIND_BLOB_ROD,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_PATTERN, // of a function
@@ -98,6 +101,7 @@ typedef enum SchemaAction {
     ACTION_INTERIOR,
     ACTION_MATERIAL,
     ACTION_REFLECTION,
+    ACTION_BLOB_PART,
     ACTION_CLIP,
     ACTION_INVERSE,
     ACTION_ANGLE,

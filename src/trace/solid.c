@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "math/extreme.h"
+#include "trace/blob.h"
 #include "trace/box.h"
 #include "trace/cone.h"
 #include "trace/flat.h"
@@ -264,6 +265,19 @@ static Vec3 polynomial_side_normal(const Solid *solid, Vec3 point, uint8_t side)
     return polynomial_normal(solid->list.items, point);
 }
 
+// ---- blob
+
+static unsigned blob_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return blob_intervals(solid->list.items, solid->node == NODE_NONE, object, left, intervals);
+}
+
+static Vec3 blob_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return blob_normal(solid->list.items, point);
+}
+
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
@@ -317,6 +331,11 @@ const SolidClass solid_classes[PART_KINDS] = {
                          .gradient = polynomial_side_normal,
                          .point = same_point,
                          .axes = box_axes},
+    [PART_BLOB] = {.intervals = blob_side_intervals,
+                   .normal = blob_side_normal,
+                   .gradient = blob_side_normal,
+                   .point = same_point,
+                   .axes = box_axes},
 };
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)

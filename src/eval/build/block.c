@@ -30,7 +30,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_LOOK_AT] = camera_look_at_action,
     [ACTION_BLUR_SAMPLES] = camera_blur_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
-    [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
+    [ACTION_CLIP] = clip_action, [ACTION_BLOB_PART] = blob_part_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
     [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
     [ACTION_CHARSET] = settings_charset_action,
@@ -410,6 +410,10 @@ static void read_name(Block *block)
 static bool read_argument(Block *block, const SchemaProperty *argument)
 {
     bool takes_colour = argument->type == TYPE_COLOUR || argument->type == TYPE_RGB;
+    bool is_component = block->kind == KIND_BLOB_BALL || block->kind == KIND_BLOB_ROD;
+    if (is_component && block->arguments > 1 && cursor_at_word(&block->cursor, W_strength)) {
+        cursor_skip(&block->cursor);
+    }
     if (!(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
         return argument->is_optional ||
                block_fault(block, DIAG_E0253, block_here(block), "`%s` needs %s here: its %s", block_word(block),

@@ -295,6 +295,8 @@ typedef struct OwnBox {
     Transform frame;
 } OwnBox;
 
+bool blob_box(const void *object, OwnBox *own);
+
 typedef struct ShapeClass {
     bool is_flat;     // has no inside: clips and cuts nothing
     uint16_t corners_at; // three in the description, which bound it instead of `box`; 0: none
@@ -311,6 +313,12 @@ typedef struct ShapeClass {
 
 // Of a kind that is no shape a row of nothing.
 const ShapeClass *shape_class(SchemaKind kind);
+
+// blob.c
+bool blob_part_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool blob_close(Block *block) RT_MUST_CHECK;
+const char *blob_form(const void *object, Part *part);
+bool blob_holds(const void *object, Vec3 point, bool is_turned);
 
 // shape.c
 // At the closing brace of any shape.

@@ -332,6 +332,7 @@ static const ShapeClass classes[KIND_COUNT] = {
                    .box = cone_box},
     [KIND_DISC] = {.is_flat = true, .settle = disc_settle, .form = disc_form, .holds = disc_holds, .box = disc_box},
     [KIND_TORUS] = {.form = torus_form, .holds = torus_holds, .box = torus_box},
+    [KIND_BLOB] = {.close = blob_close, .form = blob_form, .holds = blob_holds, .box = blob_box},
     [KIND_QUADRIC] = {.close = polynomial_close, .form = polynomial_form, .holds = quadric_holds, .box = quadric_box},
     [KIND_CUBIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
     [KIND_QUARTIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
