@@ -56,6 +56,7 @@ unit_programs = \
   tests/unit/test_trace_csg \
   tests/unit/test_trace_shapes \
   tests/unit/test_torus \
+  tests/unit/test_polynomial \
   tests/unit/test_scene \
   tests/unit/test_schema \
   tests/unit/test_ast \
@@ -122,9 +123,12 @@ tests_unit_test_trace_parts_SOURCES = %D%/unit/test_trace_parts.c $(trace_header
 tests_unit_test_trace_parts_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_shapes_SOURCES = %D%/unit/test_trace_shapes.c $(trace_headers)
 tests_unit_test_trace_shapes_LDADD = $(UNIT_TRACE)
-tests_unit_test_torus_SOURCES = %D%/unit/test_torus.c $(unit_headers)
+tests_unit_test_torus_SOURCES = %D%/unit/test_torus.c %D%/unit/roots_oracle.h $(unit_headers)
 tests_unit_test_torus_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
 tests/unit/test_torus.$(OBJEXT): src/study/optional.h
+tests_unit_test_polynomial_SOURCES = %D%/unit/test_polynomial.c %D%/unit/roots_oracle.h $(unit_headers)
+tests_unit_test_polynomial_LDADD = $(UNIT_TRACE) $(MPFR_LIBS)
+tests/unit/test_polynomial.$(OBJEXT): src/study/optional.h
 tests_unit_test_trace_tree_SOURCES = %D%/unit/test_trace_tree.c $(trace_headers)
 tests_unit_test_trace_tree_LDADD = $(UNIT_TRACE)
 tests_unit_test_trace_secondary_SOURCES = %D%/unit/test_trace_secondary.c $(trace_headers)

@@ -15,6 +15,7 @@
 #include "math/colour.h"
 #include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/blob.h"
 #include "scene/scene.h"
 #include "scene/schema.h"
 
@@ -184,6 +185,38 @@ typedef struct TorusDesc {
     double major, minor;
 } TorusDesc;
 
+// quadric, cubic, quartic and poly.
+typedef struct PolynomialDesc {
+    ObjectPart part;
+    int order;
+    Vec3 squares, products, linear; // of a quadric
+    double constant;
+    Numbers coefficients; // of the others
+    Numbers list;         // all that a part wants of it (scene/polynomial.h)
+} PolynomialDesc;
+
+// One component, the last one first.
+typedef struct BlobMember BlobMember;
+struct BlobMember {
+    const BlobMember *earlier;
+    BlobComponent component;
+};
+
+typedef struct BlobDesc {
+    ObjectPart part;
+    double threshold;
+    const BlobMember *members;
+    uint32_t count;
+    Numbers list; // all that a part wants of it (scene/blob.h)
+} BlobDesc;
+
+// A component while it is read.
+typedef struct BlobPartDesc {
+    Transform transform;
+    Vec3 base, cap;
+    double radius, strength;
+} BlobPartDesc;
+
 typedef struct TriangleDesc {
     ObjectPart part;
     Vec3 corners[3];
@@ -291,6 +324,9 @@ typedef union Desc {
     ConeDesc cone;
     DiscDesc disc;
     TorusDesc torus;
+    PolynomialDesc polynomial;
+    BlobDesc blob;
+    BlobPartDesc blob_part;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     UnionDesc group;

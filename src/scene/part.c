@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "scene/polynomial.h"
 #include "scene/primitive.h"
 
 bool part_map_is_diagonal(const double (*r)[3])
@@ -22,6 +23,11 @@ const char *part_name(const Part *part)
 {
     bool is_stretched = part->kind == PART_SPHERE && !part_map_is_round(part->to_world.m);
     return is_stretched ? "stretched sphere" : primitive_class(part->kind)->word;
+}
+
+bool part_is_endless(const Part *part)
+{
+    return part->kind == PART_PLANE || (part->kind == PART_POLYNOMIAL && !polynomial_is_bounded(part->list.items));
 }
 
 // The direction as the fixed shape sees it: p·n with p = q M + o is q·(M n) + o·n.
@@ -92,7 +98,7 @@ static bool is_below(const Part *inner, Vec3 n, double limit, double limit_error
 
 bool part_contains(const Part *outer, const Part *inner)
 {
-    if ((outer->flags & PART_INVERSE) || inner->kind == PART_PLANE) {
+    if ((outer->flags & PART_INVERSE) || part_is_endless(inner)) {
         return false;
     }
     if (outer->kind == PART_PLANE) {

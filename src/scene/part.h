@@ -17,7 +17,11 @@ bool part_map_is_diagonal(const double (*rows)[3]);
 // Whether a ball under the map of these rows is a sphere, with its axes where they were.
 bool part_map_is_round(const double (*rows)[3]);
 
-// The greatest p·direction over the part's points, inverse or not; INFINITY for a plane, save against its own normal.
+// Whether it has no end: a plane, or a polynomial that nothing bounds.
+bool part_is_endless(const Part *part);
+
+// The greatest p·direction over the part's points, inverse or not; INFINITY for what is endless, save for
+// a plane against its own normal.
 double part_support(const Part *part, Vec3 direction);
 
 // Between what the part's p·direction lies: -part_support of the opposite direction, and part_support, bit for bit.

@@ -5,7 +5,10 @@
 
 #include <math.h>
 
+#include "scene/blob.h"
 #include "scene/dump.h"
+#include "scene/part.h"
+#include "scene/polynomial.h"
 
 static bool is_between(double low, double value, double high)
 {
@@ -262,6 +265,71 @@ static void torus_measure(const Part *part, Vec3 *half, Vec3 *middle)
     *middle = vec3(part->data[0].x, 0.0, 0.0);
 }
 
+// ---- polynomial
+
+static double polynomial_support(const Part *part, Vec3 n)
+{
+    return part_is_endless(part) ? (double)INFINITY : box_support(part, n);
+}
+
+static bool polynomial_holds(const Part *part, Vec3 p)
+{
+    return polynomial_value(part->list.items, p) < 0.0;
+}
+
+static void polynomial_dump(const Part *part, TextBuffer *out)
+{
+    unsigned order = polynomial_order(part->list.items);
+    text_printf(out, "%u, ", order);
+    dump_numbers(out, polynomial_terms(part->list.items), polynomial_count(order));
+}
+
+static uint32_t polynomial_interval_most(const Part *part)
+{
+    return polynomial_order(part->list.items) / 2 + 1;
+}
+
+// Of one that is endless nothing is known but the map.
+static void polynomial_measure(const Part *part, Vec3 *half, Vec3 *middle)
+{
+    if (part_is_endless(part)) {
+        *half = vec3(1.0, 1.0, 1.0);
+        *middle = vec3(0.0, 0.0, 0.0);
+    } else {
+        box_measure(part, half, middle);
+    }
+}
+
+// ---- blob
+
+static bool blob_holds(const Part *part, Vec3 p)
+{
+    return blob_field(part->list.items, p) > part->list.items[0];
+}
+
+static void blob_dump(const Part *part, TextBuffer *out)
+{
+    Blob blob = blob_of(part->list.items);
+    dump_number(out, "threshold ", blob.threshold);
+    for (uint32_t i = 0; i < blob.component_count; i++) {
+        const BlobComponent *component = &blob.components[i];
+        if (component->is_rod != 0.0) {
+            dump_number(out, " cylinder { 0, ", component->height);
+            dump_number(out, "*z, 1, ", component->strength);
+        } else {
+            dump_number(out, " sphere { 0, 1, ", component->strength);
+        }
+        text_append(out, " matrix ");
+        dump_numbers(out, &component->to_world[0][0], 12);
+        text_append(out, " }");
+    }
+}
+
+static uint32_t blob_part_intervals(const Part *part)
+{
+    return blob_interval_most(part->list.items);
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -352,6 +420,32 @@ static const PrimitiveClass classes[] = {
                     .holds = torus_holds,
                     .dump = torus_dump,
                     .measure = torus_measure},
+    [PART_POLYNOMIAL] = {.word = "polynomial",
+                         .head = "poly { ",
+                         .family = FAMILY_POLYNOMIAL,
+                         .surface = PART_POLYNOMIAL,
+                         .key_count = 3,
+                         .interval_count = 2,
+                         .has_list = true,
+                         .is_sized = true,
+                         .interval_most = polynomial_interval_most,
+                         .support = polynomial_support,
+                         .holds = polynomial_holds,
+                         .dump = polynomial_dump,
+                         .measure = polynomial_measure},
+    [PART_BLOB] = {.word = "blob",
+                   .head = "blob { ",
+                   .family = FAMILY_BLOB,
+                   .surface = PART_BLOB,
+                   .key_count = 3,
+                   .interval_count = 2,
+                   .has_list = true,
+                   .is_sized = true,
+                   .interval_most = blob_part_intervals,
+                   .support = box_support,
+                   .holds = blob_holds,
+                   .dump = blob_dump,
+                   .measure = box_measure},
 };
 
 const PrimitiveClass *primitive_class(PartKind kind)

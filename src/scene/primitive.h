@@ -9,8 +9,8 @@
 #include "base/text.h"
 #include "scene/scene.h"
 
-// Surfaces of different families coincide nowhere but along lines.
-typedef enum SurfaceFamily { FAMILY_ROUND, FAMILY_STRAIGHT, FAMILY_TUBE } SurfaceFamily;
+// Surfaces of different families coincide nowhere but along lines; polynomials are looked at among themselves only.
+typedef enum SurfaceFamily { FAMILY_ROUND, FAMILY_STRAIGHT, FAMILY_TUBE, FAMILY_POLYNOMIAL, FAMILY_BLOB } SurfaceFamily;
 
 enum { FACE_CORNERS_MOST = 16 }; // of a flat face; a round one is the polygon in it
 
@@ -21,7 +21,9 @@ typedef struct PrimitiveClass {
     PartKind surface;     // the first kind of those whose surfaces are the same when map and numbers are
     uint8_t key_count;    // of data[] that make one surface another
     uint8_t interval_count; // that a line has in it, at most; 0: it is flat and has no inside, but a line meets it once
+    bool has_list;        // data[2] is a list of numbers
     bool is_sized;        // data[0] and data[1] are its bounds; else those are -1 and 1 in each coordinate
+    uint32_t (*interval_most)(const Part *part); // where that depends on its list; NULL: interval_count
     // The greatest p·n over the points of the fixed shape.
     double (*support)(const Part *part, Vec3 n);
     // Whether a point of the fixed shape's space (of a plane: of the scene) is inside. A disc has all below it inside.
@@ -42,6 +44,13 @@ const PrimitiveClass *primitive_class(PartKind kind);
 static inline bool primitive_is_flat(PartKind kind)
 {
     return primitive_class(kind)->interval_count == 0;
+}
+
+// How many intervals a line has in the part, at most; 0: it is flat.
+static inline uint32_t primitive_intervals(const Part *part)
+{
+    const PrimitiveClass *primitive = primitive_class(part->kind);
+    return primitive->interval_most ? primitive->interval_most(part) : primitive->interval_count;
 }
 
 #endif

@@ -8,6 +8,8 @@
 
 #include <string.h>
 
+#include "scene/primitive.h"
+
 _Static_assert(sizeof(Material) == 5 * sizeof(float) + sizeof(FinishIndex), "no padding in a material");
 _Static_assert(sizeof(Pattern) == 8 * sizeof(uint32_t) + 18 * sizeof(double), "no padding in a pattern");
 _Static_assert(sizeof(PigmentEntry) == sizeof(double) + sizeof(Pigment) + 2 * sizeof(uint32_t), "no padding");
@@ -74,6 +76,7 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->sphere_runs);
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
+    numbers_fini(&scene->numbers);
     ARRAY_FREE(&scene->nodes);
     ARRAY_FREE(&scene->composites);
     ARRAY_FREE(&scene->start_shapes);
@@ -235,7 +238,8 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
            LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
-           LIST_BYTES(scene->pictures) + scene_picture_bytes(scene);
+           LIST_BYTES(scene->pictures) + LIST_BYTES(scene->numbers.lists) + LIST_BYTES(scene->numbers.slots) +
+           scene->numbers.bytes + scene_picture_bytes(scene);
 #undef LIST_BYTES
 }
 
@@ -378,9 +382,23 @@ bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIn
     return true;
 }
 
+// Its list of numbers becomes the scene's.
+static bool add_part(Scene *scene, const Part *part)
+{
+    if (!ARRAY_PUSH(&scene->parts, *part)) {
+        return false;
+    }
+    if (primitive_class(part->kind)->has_list &&
+        !numbers_keep(&scene->numbers, &scene->parts.items[scene->parts.count - 1].list)) {
+        scene->parts.count--;
+        return false;
+    }
+    return true;
+}
+
 bool scene_add_part(Scene *scene, const Part *part)
 {
-    if (scene->shape_count == UINT32_MAX || !ARRAY_PUSH(&scene->parts, *part)) {
+    if (scene->shape_count == UINT32_MAX || !add_part(scene, part)) {
         return false;
     }
     Part *added = &scene->parts.items[scene->parts.count - 1];
@@ -427,7 +445,7 @@ bool scene_add_node(Scene *scene, NodeOp op, bool is_inverse, uint32_t parent, u
 
 bool scene_add_leaf(Scene *scene, const Part *part)
 {
-    if (!ARRAY_PUSH(&scene->parts, *part)) {
+    if (!add_part(scene, part)) {
         return false;
     }
     scene->parts.items[scene->parts.count - 1].order = scene->shape_count - 1;
@@ -435,16 +453,25 @@ bool scene_add_leaf(Scene *scene, const Part *part)
     return true;
 }
 
-// More that a ray keeps of a part which it may cross more than twice, as it may any that is not convex.
-enum { SEVERAL_CROSSINGS_STACK = 120 };
+// What a ray keeps of each interval of its line in a part: as an interval, and in a composite as two crossings.
+enum { INTERVAL_STACK = 64, CROSSINGS_STACK = 2 * 40 };
 
 size_t scene_composite_stack(const Scene *scene)
 {
     size_t most = 0;
+    for (size_t i = 0; i < scene->parts.count; i++) { // one at a time
+        size_t bytes = (size_t)primitive_intervals(&scene->parts.items[i]) * INTERVAL_STACK;
+        most = bytes > most ? bytes : most;
+    }
+    size_t alone = most;
     for (size_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
-        size_t bytes = (size_t)composite->part_count * (COMPOSITE_PART_STACK + SEVERAL_CROSSINGS_STACK) +
+        size_t bytes = alone + (size_t)composite->part_count * COMPOSITE_PART_STACK +
                        (size_t)composite->node_count * COMPOSITE_NODE_STACK;
+        for (uint32_t k = 0; k < composite->part_count; k++) {
+            unsigned intervals = primitive_intervals(&scene->parts.items[composite->first_part + k]);
+            bytes += intervals > 1 ? (size_t)intervals * CROSSINGS_STACK : 0;
+        }
         most = bytes > most ? bytes : most;
     }
     return most;

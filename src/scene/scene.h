@@ -19,6 +19,7 @@
 #include "math/colour.h"
 #include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/numbers.h"
 #include "scene/pattern.h"
 #include "scene/picture.h"
 #include "scene/unique.h"
@@ -239,6 +240,10 @@ typedef struct Plane {
 //   smooth triangle the same, with normals data[0..2] at the corners that are of length 1 in the scene itself
 //   torus           all points at distance data[0].y from the circle of radius data[0].x in y = 0; both are > 0, and their
 //                   sum is at least 1/2 and at most 1
+//   polynomial      where that of the list is 0 (scene/polynomial.h), within the box from fixed[0] to fixed[1] if that
+//                   bounds it
+//   blob            where the fields of the list are at its threshold (scene/blob.h), within the box from fixed[0] to
+//                   fixed[1]
 typedef enum PartKind {
     PART_SPHERE,
     PART_PLANE,
@@ -248,6 +253,8 @@ typedef enum PartKind {
     PART_TRIANGLE,
     PART_SMOOTH_TRIANGLE,
     PART_TORUS,
+    PART_POLYNOMIAL,
+    PART_BLOB,
     PART_KINDS
 } PartKind;
 
@@ -277,7 +284,13 @@ typedef struct Part {
     uint32_t body;          // of a leaf: 0 that of the composite, else the number of one within it
     uint64_t source;
     Transform to_world, to_object; // inverse of each other
-    Vec3 data[3];
+    union {
+        Vec3 data[3];
+        struct { // of a kind that has a list of numbers (scene/primitive.h): its bounds or more of them, and the list
+            Vec3 fixed[2];
+            Numbers list; // the scene's, once the part is added: equal lists are at one place
+        };
+    };
 } Part;
 
 typedef enum NodeOp {
@@ -416,6 +429,7 @@ typedef struct Scene {
     ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
+    NumberPool numbers; // the lists of parts
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     ARRAY(StartShape) start_shapes; // in the order of shapes
@@ -520,7 +534,7 @@ bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first) R
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material,
                      uint64_t source) RT_MUST_CHECK;
 
-// Adds a part that stands alone.
+// Adds a part that stands alone; its list of numbers, if it has one, is copied.
 bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;
 
 // A composite begins, then come its nodes and leaves in their order, each with its parent; scene_end_composite sets

@@ -23,13 +23,13 @@ static void reach_add(SceneExtent *reach, Vec3 eye, Vec3 centre, double radius)
     reach->nearest_far = fmax(reach->nearest_far, distance - radius);
 }
 
-// The ball around the box around a part; planes have none.
+// The ball around the box around a part; what is endless has none.
 static void reach_add_part(SceneExtent *reach, Vec3 eye, const Part *part)
 {
     static const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double middle[3], half[3];
 
-    if (part->kind == PART_PLANE) {
+    if (part_is_endless(part)) {
         return;
     }
     for (int i = 0; i < 3; i++) {
@@ -67,7 +67,7 @@ bool scene_span(const Scene *scene, Vec3 direction, double *low, double *high)
     }
     for (size_t i = 0; i < scene->parts.count; i++) {
         const Part *part = &scene->parts.items[i];
-        if (part->kind != PART_PLANE) {
+        if (!part_is_endless(part)) {
             double least, most;
             part_span(part, direction, &least, &most);
             *low = fmin(*low, least);

@@ -267,6 +267,62 @@ static const SchemaProperty torus_properties[] = {
 
 static const TorusDesc torus_defaults = {.part = OBJECT_PART, .major = 1.0};
 
+// ---- polynomials
+
+static const SchemaProperty quadric_arguments[] = {
+    {"squares", TYPE_VECTOR, AT(PolynomialDesc, squares), .doc = "A, B, C of A x² + B y² + C z²"},
+    {"products", TYPE_VECTOR, AT(PolynomialDesc, products), .doc = "D, E, F of D xy + E xz + F yz"},
+    {"linear terms", TYPE_VECTOR, AT(PolynomialDesc, linear), .doc = "G, H, I of G x + H y + I z"},
+    {"constant", TYPE_NUMBER, AT(PolynomialDesc, constant), .doc = "J; the sum of all is 0 on the surface"},
+};
+
+#define COEFFICIENTS "by falling powers of x, then of y, then of z: x³, x²y, x²z, x², xy², …, 1 for order 3"
+
+static const SchemaProperty cubic_arguments[] = {
+    {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
+};
+
+static const SchemaProperty poly_arguments[] = {
+    {"order", TYPE_INTEGER, AT(PolynomialDesc, order), .range = {RANGE_FAULT, false, 2.0, 35.0},
+     .doc = "the greatest sum of powers"},
+    {"coefficients", TYPE_NUMBERS, AT(PolynomialDesc, coefficients), .doc = COEFFICIENTS},
+};
+
+// ---- blob
+
+static const SchemaProperty blob_properties[] = {
+    {"threshold", TYPE_NUMBER, AT(BlobDesc, threshold), .range = POSITIVE,
+     .doc = "the surface is where the fields of all components together are so strong"},
+    {"sphere", TYPE_BLOCK, ACTION_BLOB_PART,
+     .doc = "`{ centre, radius, strength transforms }`: a field of strength × (1 - (distance / radius)²)²"},
+    {"cylinder", TYPE_BLOCK, ACTION_BLOB_PART,
+     .doc = "`{ base, cap, radius, strength transforms }`: the same around a stretch, with round ends"},
+    {"component", TYPE_ACTION, ACTION_BLOB_PART, .doc = "strength, radius, centre: an older form of `sphere`"},
+    {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is a tree of many components"},
+    {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
+};
+
+static const SchemaProperty blob_ball_arguments[] = {
+    {"centre", TYPE_VECTOR, AT(BlobPartDesc, base), .doc = "its middle"},
+    {"radius", TYPE_NUMBER, AT(BlobPartDesc, radius), .range = POSITIVE, .doc = "where its field ends"},
+    {"strength", TYPE_NUMBER, AT(BlobPartDesc, strength), .doc = "of the field in its middle; it may be negative"},
+};
+
+static const SchemaProperty blob_rod_arguments[] = {
+    {"base", TYPE_VECTOR, AT(BlobPartDesc, base), .doc = "one end"},
+    {"cap", TYPE_VECTOR, AT(BlobPartDesc, cap), .doc = "the other"},
+    {"radius", TYPE_NUMBER, AT(BlobPartDesc, radius), .range = POSITIVE, .doc = "where its field ends"},
+    {"strength", TYPE_NUMBER, AT(BlobPartDesc, strength), .doc = "of the field in its middle; it may be negative"},
+};
+
+static const BlobDesc blob_defaults = {.part = OBJECT_PART, .threshold = 1.0};
+static const BlobPartDesc blob_part_defaults = {.transform = IDENTITY, .strength = 1.0};
+
+static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2};
+static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
+static const PolynomialDesc quartic_defaults = {.part = OBJECT_PART, .order = 4};
+static const PolynomialDesc poly_defaults = {.part = OBJECT_PART};
+
 static const SchemaProperty triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(TriangleDesc, corners[0]), .doc = "in any order"},
     {"second corner", TYPE_VECTOR, AT(TriangleDesc, corners[1]), .doc = "likewise"},
@@ -606,6 +662,63 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                     .arguments = LIST(torus_arguments),
                     .groups = {LIST(torus_properties), OBJECT_GROUPS},
                     .doc = "A ring with a round tube, about y."},
+    [KIND_QUADRIC] = {.word = "quadric",
+                      .what = "a quadric",
+                      .size = sizeof(PolynomialDesc),
+                      .defaults = &quadric_defaults,
+                      .is_object = true,
+                      .is_declarable = true,
+                      .arguments = LIST(quadric_arguments),
+                      .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                      .doc = "Where a polynomial of order 2 is 0: ellipsoids, cones, paraboloids; inside where it is less."},
+    [KIND_CUBIC] = {.word = "cubic",
+                    .what = "a cubic",
+                    .size = sizeof(PolynomialDesc),
+                    .defaults = &cubic_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .arguments = LIST(cubic_arguments),
+                    .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                    .doc = "The same of order 3, which has 20 coefficients."},
+    [KIND_QUARTIC] = {.word = "quartic",
+                      .what = "a quartic",
+                      .size = sizeof(PolynomialDesc),
+                      .defaults = &quartic_defaults,
+                      .is_object = true,
+                      .is_declarable = true,
+                      .arguments = LIST(cubic_arguments),
+                      .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                      .doc = "The same of order 4, which has 35 coefficients."},
+    [KIND_POLY] = {.word = "poly",
+                   .what = "a poly",
+                   .size = sizeof(PolynomialDesc),
+                   .defaults = &poly_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .arguments = LIST(poly_arguments),
+                   .groups = {LIST(torus_properties), OBJECT_GROUPS},
+                   .doc = "The same of order n, which has (n + 1)(n + 2)(n + 3) / 6 coefficients."},
+    [KIND_BLOB] = {.word = "blob",
+                   .what = "a blob",
+                   .size = sizeof(BlobDesc),
+                   .defaults = &blob_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .groups = {LIST(blob_properties), OBJECT_GROUPS},
+                   .doc = "Where the fields of balls and rods together are as strong as a threshold; inside where they are "
+                          "stronger."},
+    [KIND_BLOB_BALL] = {.word = "sphere",
+                        .size = sizeof(BlobPartDesc),
+                        .defaults = &blob_part_defaults,
+                        .arguments = LIST(blob_ball_arguments),
+                        .groups = {LIST(transforms)},
+                        .doc = "A component of a blob."},
+    [KIND_BLOB_ROD] = {.word = "cylinder",
+                       .size = sizeof(BlobPartDesc),
+                       .defaults = &blob_part_defaults,
+                       .arguments = LIST(blob_rod_arguments),
+                       .groups = {LIST(transforms)},
+                       .doc = "A component of a blob."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .what = "a triangle",
                        .size = sizeof(TriangleDesc),
@@ -821,8 +934,6 @@ static const SchemaBlock kinds[KIND_COUNT] = {
 
 static const SchemaUnsupported unsupported[] = {
     {"bicubic_patch", true, NULL, NULL},
-    {"blob", true, "use a `union` of spheres", NULL},
-    {"cubic", true, NULL, NULL},
     {"height_field", true, NULL, NULL},
     {"isosurface", true, NULL, NULL},
     {"julia_fractal", true, NULL, NULL},
@@ -833,12 +944,9 @@ static const SchemaUnsupported unsupported[] = {
     {"mesh2", true, NULL, NULL},
     {"ovus", true, "use a sphere with `scale`", NULL},
     {"parametric", true, NULL, NULL},
-    {"poly", true, NULL, NULL},
     {"polygon", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
     {"prism", true, NULL, NULL},
-    {"quadric", true, "use a sphere with `scale`", NULL},
-    {"quartic", true, NULL, NULL},
     {"rainbow", true, NULL, "the rainbow"},
     {"sor", true, NULL, NULL},
     {"sphere_sweep", true, "use a `union` of spheres", NULL},
@@ -895,6 +1003,7 @@ const char *schema_type_need(SchemaType type)
         [TYPE_SHARE_PAIR] = "a number",
         [TYPE_INTEGER] = "a number",
         [TYPE_VECTOR] = "a vector",
+        [TYPE_NUMBERS] = "numbers in <>",
         [TYPE_COLOUR] = "a colour",
         [TYPE_RGB] = "a colour",
         [TYPE_BLOCK] = "braces",

@@ -25,6 +25,11 @@ typedef enum SchemaKind {
     KIND_CONE,
     KIND_DISC,
     KIND_TORUS,
+    KIND_QUADRIC,
+    KIND_CUBIC,
+    KIND_QUARTIC,
+    KIND_POLY,
+    KIND_BLOB,
     KIND_TRIANGLE,
     KIND_SMOOTH_TRIANGLE,
     KIND_UNION,
@@ -51,6 +56,8 @@ typedef enum SchemaKind {
     KIND_CLIPPED_BY, // braces of an object's properties; read as objects
     KIND_BOUNDED_BY,
     KIND_LOOKS_LIKE,
+    KIND_BLOB_BALL,  // the braces of a blob's `sphere` and `cylinder`
+    KIND_BLOB_ROD,
     KIND_REFLECTION, // the braces of `reflection`; written into a finish
     KIND_TRANSFORM,
     KIND_PATTERN, // of a function
@@ -67,6 +74,7 @@ typedef enum SchemaType {
     TYPE_SHARE_PAIR,      // two doubles in a row, the second optional; else like TYPE_SHARE
     TYPE_INTEGER,         // int: a number, cut towards zero
     TYPE_VECTOR,          // Vec3
+    TYPE_NUMBERS,         // Numbers: `<…>` of any length
     TYPE_COLOUR,          // Rgbft
     TYPE_RGB,             // Rgb: a colour whose filter and transmit do not count
     TYPE_BLOCK,           // braces; `action` says what they are for
@@ -93,6 +101,7 @@ typedef enum SchemaAction {
     ACTION_INTERIOR,
     ACTION_MATERIAL,
     ACTION_REFLECTION,
+    ACTION_BLOB_PART,
     ACTION_CLIP,
     ACTION_INVERSE,
     ACTION_ANGLE,

@@ -18,6 +18,7 @@ static const char *const type_names[] = {
     [TYPE_SHARE_PAIR] = "[`albedo`] number [, number]",
     [TYPE_INTEGER] = "whole number",
     [TYPE_VECTOR] = "vector",
+    [TYPE_NUMBERS] = "`<…>`",
     [TYPE_COLOUR] = "colour",
     [TYPE_RGB] = "colour, rgb",
     [TYPE_BLOCK] = "`{ … }`",
@@ -74,6 +75,7 @@ static void write_default(TextBuffer *out, const SchemaBlock *kind, const Schema
         memcpy(numbers, at, 5 * sizeof *numbers);
         write_numbers(out, numbers, 5, true);
         break;
+    case TYPE_NUMBERS:
     case TYPE_BLOCK:
     case TYPE_ACTION: break;
     }

@@ -226,7 +226,7 @@ static void traversal_solid_begin(CsgTraversal *p, uint32_t index, RayStart star
     bool is_start = is_own && part_index(start.shape) == p->csg->first_solid + index;
     bool is_beside = !is_start && (is_own || starts_beside(p->table, start, solid));
     bool inward = start.inward != solid->flips;
-    RayInterval intervals[INTERVALS_MOST];
+    RayInterval intervals[solid->interval_most];
     unsigned count = 0;
     const Ray *object = p->ray;
     if (solid->kind != PART_PLANE) {

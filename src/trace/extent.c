@@ -17,7 +17,7 @@ uint32_t extent_count(const Geometry *g)
 static bool solid_extent_of(const Solid *solid, Extent *extent)
 {
     Vec3 axes[3], middle = {0.0, 0.0, 0.0};
-    if (solid->kind == PART_PLANE || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
+    if (solid_is_endless(solid) || solid->composite != NODE_NONE || (solid->flags & PART_INVERSE) ||
         (solid->hidden & HIDDEN_CAMERA)) {
         return false;
     }
@@ -69,11 +69,11 @@ bool extent_is_crossed(const Geometry *g, ShapeId shape, Ray ray)
     }
     const Solid *solid = &g->shapes.solids[part_index(shape)];
     Ray object = solid_ray(solid, &ray);
-    RayInterval intervals[INTERVALS_MOST];
     double t;
     if (solid_is_flat(solid)) {
         return solid_flat_root(solid, &object, &t) && t > 0.0;
     }
+    RayInterval intervals[solid->interval_most];
     unsigned count = solid_intervals(solid, &object, LEFT_NONE, intervals);
     return count > 0 && intervals[count - 1].leave > 0.0;
 }

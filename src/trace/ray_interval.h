@@ -17,9 +17,6 @@
 
 enum { SIDE_NONE = 255, SIDES_MOST = 8 };
 
-// Of one shape. A shape that may have more makes this greater; all who ask for intervals have room for as many.
-enum { INTERVALS_MOST = 2 };
-
 // The side of a shape that a ray starts on, and whether it goes into the shape there.
 typedef struct SideLeft {
     uint8_t side; // SIDE_NONE: it does not start on the shape

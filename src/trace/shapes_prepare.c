@@ -38,8 +38,9 @@ static Solid solid_of(const Part *part, int exponent, double down, double up)
         .material = part->material,
         .order = part->order,
         .body = part->body,
-        .data = {part->data[0], part->data[1], part->data[2]},
+        .interval_most = primitive_intervals(part),
     };
+    memcpy(solid.data, part->data, sizeof solid.data);
     solid.films = solid_classes[solid.kind].films;
     if (part->kind == PART_PLANE) {
         solid.data[1].x = ldexp(part->data[1].x, -exponent);
@@ -157,7 +158,7 @@ static void csg_init(ShapeTable *table, const Composite *composite, uint32_t ind
         csg->seen_count = solid->flags & PART_UNSEEN ? csg->seen_count : i + 1 - composite->first_part;
         solid->composite = index;
         csg->is_plain = csg->is_plain && solid_is_convex(solid) && !solid_is_flat(solid);
-        csg->crossing_count += solid_is_convex(solid) ? 2 : 2 * INTERVALS_MOST;
+        csg->crossing_count += solid_is_flat(solid) ? 2 : 2 * solid->interval_most;
         solid->decides = !(solid->flags & PART_INVERSE) && !solid_is_flat(solid) && solid_is_convex(solid);
         for (uint32_t at = solid->node; at != NODE_NONE; at = table->nodes[at].parent) {
             const TreeNode *node = &table->nodes[at];

@@ -275,26 +275,34 @@ RT_ALWAYS_INLINE void interval_offer(ShapeQuery *q, uint32_t index, const Ray *o
     (void)end_offer(q, index, object, interval->leave, interval->leave_side, !is_film, room, passed, first);
 }
 
-static void interval_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left, Foremost *first)
+// A solid that is not convex.
+static __attribute__((noinline)) void several_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left,
+                                                      Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
-    RayInterval intervals[INTERVALS_MOST];
+    RayInterval intervals[solid->interval_most];
     unsigned count = solid_intervals(solid, object, left, intervals);
     if (count == 0) {
         return;
     }
-    bool is_start = left.side != SIDE_NONE;
-    double passed = is_start ? -1.0 : passed_error(q, solid);
-    if (RT_LIKELY(solid_is_convex(solid))) {
-        interval_offer(q, index, object, &intervals[0], intervals[0].leave - intervals[0].enter, false, is_start,
-                       passed, first);
-        return;
-    }
+    double passed = left.side != SIDE_NONE ? -1.0 : passed_error(q, solid);
     for (unsigned i = 0; i < count; i++) {
         bool is_film = solid_is_film(solid, intervals[i].leave_side);
         interval_offer(q, index, object, &intervals[i], interval_room(intervals, count, i), is_film, false, passed,
                        first);
     }
+}
+
+static void convex_closest(ShapeQuery *q, uint32_t index, const Ray *object, SideLeft left, Foremost *first)
+{
+    const Solid *solid = &q->table->solids[index];
+    RayInterval interval;
+    if (solid_intervals(solid, object, left, &interval) == 0) {
+        return;
+    }
+    bool is_start = left.side != SIDE_NONE;
+    double passed = is_start ? -1.0 : passed_error(q, solid);
+    interval_offer(q, index, object, &interval, interval.leave - interval.enter, false, is_start, passed, first);
 }
 
 // A solid alone. Outward from itself, one that is convex or flat is not met again.
@@ -319,7 +327,7 @@ static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
         flat_closest(q, index, &object, first);
     } else {
         SideLeft left = {is_start ? part_side(q->start.shape) : SIDE_NONE, inward};
-        interval_closest(q, index, &object, left, first);
+        (RT_LIKELY(solid_is_convex(solid)) ? convex_closest : several_closest)(q, index, &object, left, first);
     }
 }
 

@@ -7,10 +7,12 @@
 #include <string.h>
 
 #include "math/extreme.h"
+#include "trace/blob.h"
 #include "trace/box.h"
 #include "trace/cone.h"
 #include "trace/flat.h"
 #include "trace/plane.h"
+#include "trace/polynomial.h"
 #include "trace/sphere.h"
 #include "trace/torus.h"
 
@@ -250,6 +252,32 @@ static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
     axes[2] = vec3(0.0, 0.0, width);
 }
 
+// ---- polynomial
+
+static unsigned polynomial_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return polynomial_intervals(solid->list.items, object, left, intervals);
+}
+
+static Vec3 polynomial_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return polynomial_normal(solid->list.items, point);
+}
+
+// ---- blob
+
+static unsigned blob_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return blob_intervals(solid->list.items, solid->node == NODE_NONE, object, left, intervals);
+}
+
+static Vec3 blob_side_normal(const Solid *solid, Vec3 point, uint8_t side)
+{
+    (void)side;
+    return blob_normal(solid->list.items, point);
+}
+
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
@@ -298,6 +326,16 @@ const SolidClass solid_classes[PART_KINDS] = {
                     .point = torus_side_point,
                     .axes = torus_axes,
                     .films = 1 << TORUS_INNER},
+    [PART_POLYNOMIAL] = {.intervals = polynomial_side_intervals,
+                         .normal = polynomial_side_normal,
+                         .gradient = polynomial_side_normal,
+                         .point = same_point,
+                         .axes = box_axes},
+    [PART_BLOB] = {.intervals = blob_side_intervals,
+                   .normal = blob_side_normal,
+                   .gradient = blob_side_normal,
+                   .point = same_point,
+                   .axes = box_axes},
 };
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)

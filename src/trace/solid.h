@@ -10,6 +10,7 @@
 
 #include "math/ray.h"
 #include "math/transform.h"
+#include "scene/polynomial.h"
 #include "scene/primitive.h"
 #include "scene/scene.h"
 #include "trace/ray_interval.h"
@@ -39,13 +40,25 @@ typedef struct Solid {
     double extent, spread; // solid_measure; extent: 0 where no column has more than one entry
     Vec3 columns;          // lengths of the columns of to_object
     uint8_t entries[3];    // of each column: a bit for each that is not 0
+    uint32_t interval_most; // of a line, at most; 0: it is flat
     Linear to_object, to_world; // what tests need stands before what surfaces need
-    Vec3 data[3];
+    union {
+        Vec3 data[3];
+        struct { // as of a part; the list is the scene's
+            Vec3 fixed[2];
+            Numbers list;
+        };
+    };
 } Solid;
 
 RT_ALWAYS_INLINE bool solid_is_flat(const Solid *solid)
 {
     return solid->traits & SOLID_FLAT;
+}
+
+static inline bool solid_is_endless(const Solid *solid)
+{
+    return solid->kind == PART_PLANE || (solid->kind == PART_POLYNOMIAL && !polynomial_is_bounded(solid->list.items));
 }
 
 // How rays meet a kind of part; its numbers are those of the solid, its points in the solid's own space.
@@ -88,7 +101,7 @@ RT_ALWAYS_INLINE Ray solid_ray(const Solid *solid, const Ray *ray)
 }
 
 // What of the line is inside of a solid that is not flat, or within its films; `object` is the ray in its space. How many
-// intervals, INTERVALS_MOST at most.
+// intervals, at most as many as the solid says.
 static inline unsigned solid_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
 {
     return solid_classes[solid->kind].intervals(solid, object, left, intervals);

@@ -334,7 +334,7 @@ static unsigned side_intervals(TorusLine *line, double minor, uint8_t side, Side
     find_roots(line, low, high, has_start, starts_inside, &roots);
     bool is_inside = has_start && starts_inside;
     RayInterval interval = {-(double)INFINITY, 0.0, side, side};
-    for (unsigned i = 0; i < roots.count && count < INTERVALS_MOST; i++) {
+    for (unsigned i = 0; i < roots.count && count < TORUS_INTERVALS; i++) {
         double t = root_refine(line, roots.s[i]);
         *(is_inside ? &interval.leave : &interval.enter) = t;
         if (is_inside) {
@@ -345,7 +345,7 @@ static unsigned side_intervals(TorusLine *line, double minor, uint8_t side, Side
     return count;
 }
 
-unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft left, RayInterval intervals[INTERVALS_MOST])
+unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft left, RayInterval intervals[TORUS_INTERVALS])
 {
     TorusLine line;
     line_set(&line, ray);
@@ -355,7 +355,7 @@ unsigned torus_intervals(double major, double minor, const Ray *ray, SideLeft le
     }
     line_place(&line);
     unsigned count = side_intervals(&line, minor, TORUS_OUTER, left, intervals);
-    if (minor > major && count < INTERVALS_MOST) { // a line that crosses side 0 four times does not cross side 1
+    if (minor > major && count < TORUS_INTERVALS) { // a line that crosses side 0 four times does not cross side 1
         line.major = -major;
         count += side_intervals(&line, minor, TORUS_INNER, left, intervals + count);
     }

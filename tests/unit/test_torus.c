@@ -13,114 +13,10 @@
 #include "unit/tap.h"
 
 #ifdef WITH_MPFR
-#include <mpfr.h>
-
-enum { BITS = 500, DEGREE = 4, STEPS = 420 };
-
-typedef struct Polynomial {
-    mpfr_t c[DEGREE + 1]; // of t^0, t^1, …
-    int degree;
-} Polynomial;
-
-typedef struct Roots {
-    mpfr_t at[DEGREE];
-    int count;
-} Roots;
-
-static void polynomial_init(Polynomial *p, int degree)
-{
-    p->degree = degree;
-    for (int i = 0; i <= DEGREE; i++) {
-        mpfr_init2(p->c[i], BITS);
-        mpfr_set_ui(p->c[i], 0, MPFR_RNDN);
-    }
-}
-
-static void polynomial_fini(Polynomial *p)
-{
-    for (int i = 0; i <= DEGREE; i++) {
-        mpfr_clear(p->c[i]);
-    }
-}
-
-static void roots_init(Roots *roots)
-{
-    roots->count = 0;
-    for (int i = 0; i < DEGREE; i++) {
-        mpfr_init2(roots->at[i], BITS);
-    }
-}
-
-static void roots_fini(Roots *roots)
-{
-    for (int i = 0; i < DEGREE; i++) {
-        mpfr_clear(roots->at[i]);
-    }
-}
-
-static void polynomial_at(const Polynomial *p, mpfr_t x, mpfr_t value)
-{
-    mpfr_set(value, p->c[p->degree], MPFR_RNDN);
-    for (int i = p->degree; i-- > 0;) {
-        mpfr_mul(value, value, x, MPFR_RNDN);
-        mpfr_add(value, value, p->c[i], MPFR_RNDN);
-    }
-}
-
-static void bisect(const Polynomial *p, mpfr_t low, mpfr_t high, Roots *roots)
-{
-    mpfr_t a, b, middle, value;
-    mpfr_inits2(BITS, a, b, middle, value, (mpfr_ptr)NULL);
-    mpfr_set(a, low, MPFR_RNDN);
-    mpfr_set(b, high, MPFR_RNDN);
-    polynomial_at(p, a, value);
-    int sign = mpfr_sgn(value);
-    polynomial_at(p, b, value);
-    if (sign * mpfr_sgn(value) < 0) {
-        for (int i = 0; i < STEPS; i++) {
-            mpfr_add(middle, a, b, MPFR_RNDN);
-            mpfr_div_2ui(middle, middle, 1, MPFR_RNDN);
-            polynomial_at(p, middle, value);
-            mpfr_set(mpfr_sgn(value) == sign ? a : b, middle, MPFR_RNDN);
-        }
-        mpfr_set(roots->at[roots->count++], a, MPFR_RNDN);
-    }
-    mpfr_clears(a, b, middle, value, (mpfr_ptr)NULL);
-}
-
-// Roots where the sign changes, from -bound to bound.
-static void find_roots(const Polynomial *p, double bound, Roots *roots)
-{
-    Polynomial slope;
-    Roots turns;
-    mpfr_t low, high;
-    roots_init(roots);
-    if (p->degree == 0) {
-        return;
-    }
-    polynomial_init(&slope, p->degree - 1);
-    for (int i = 1; i <= p->degree; i++) {
-        mpfr_mul_ui(slope.c[i - 1], p->c[i], (unsigned long)i, MPFR_RNDN);
-    }
-    find_roots(&slope, bound, &turns);
-    mpfr_inits2(BITS, low, high, (mpfr_ptr)NULL);
-    mpfr_set_d(low, -bound, MPFR_RNDN);
-    for (int i = 0; i <= turns.count; i++) {
-        if (i < turns.count) {
-            mpfr_set(high, turns.at[i], MPFR_RNDN);
-        } else {
-            mpfr_set_d(high, bound, MPFR_RNDN);
-        }
-        bisect(p, low, high, roots);
-        mpfr_set(low, high, MPFR_RNDN);
-    }
-    mpfr_clears(low, high, (mpfr_ptr)NULL);
-    polynomial_fini(&slope);
-    roots_fini(&turns);
-}
+#include "unit/roots_oracle.h"
 
 // out = a b, of degree 2 each.
-static void square_product(const Polynomial *a, const Polynomial *b, Polynomial *out)
+static void square_product(const OraclePolynomial *a, const OraclePolynomial *b, OraclePolynomial *out)
 {
     mpfr_t term;
     mpfr_init2(term, BITS);
@@ -134,7 +30,7 @@ static void square_product(const Polynomial *a, const Polynomial *b, Polynomial 
 }
 
 // sum += factor (o + d t)²
-static void add_square(Polynomial *sum, double o, double d)
+static void add_square(OraclePolynomial *sum, double o, double d)
 {
     mpfr_t term;
     mpfr_init2(term, BITS);
@@ -148,9 +44,9 @@ static void add_square(Polynomial *sum, double o, double d)
 }
 
 // (|p|² + R² - r²)² - 4 R² (x² + z²)
-static void torus_polynomial(double major, double minor, const Ray *ray, Polynomial *p)
+static void torus_polynomial(double major, double minor, const Ray *ray, OraclePolynomial *p)
 {
-    Polynomial q, round, four;
+    OraclePolynomial q, round, four;
     mpfr_t term;
     Vec3 o = ray->origin, d = ray->direction;
     polynomial_init(p, 4);
@@ -241,33 +137,10 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Whether no two roots, and no extremum and 0, are nearer than 28 digits: then any class is as good.
-static bool is_decided(const Polynomial *p, double bound, double scale)
-{
-    Polynomial slope;
-    Roots turns;
-    mpfr_t value;
-    bool decided = true;
-    mpfr_init2(value, BITS);
-    polynomial_init(&slope, 3);
-    for (int i = 1; i <= 4; i++) {
-        mpfr_mul_ui(slope.c[i - 1], p->c[i], (unsigned long)i, MPFR_RNDN);
-    }
-    find_roots(&slope, bound, &turns);
-    for (int i = 0; i < turns.count; i++) {
-        polynomial_at(p, turns.at[i], value);
-        decided = decided && !(fabs(mpfr_get_d(value, MPFR_RNDN)) < 1e-26 * scale);
-    }
-    polynomial_fini(&slope);
-    roots_fini(&turns);
-    mpfr_clear(value);
-    return decided;
-}
-
 static void check(const Case *asked, Outcome *outcome)
 {
-    RayInterval intervals[INTERVALS_MOST];
-    double own[2 * INTERVALS_MOST], length = vec3_length(asked->ray.direction);
+    RayInterval intervals[TORUS_INTERVALS];
+    double own[2 * TORUS_INTERVALS], length = vec3_length(asked->ray.direction);
     unsigned count = torus_intervals(asked->major, asked->minor, &asked->ray, LEFT_NONE, intervals);
     for (unsigned i = 0; i < count; i++) {
         own[2 * i] = intervals[i].enter;
@@ -275,7 +148,7 @@ static void check(const Case *asked, Outcome *outcome)
     }
     qsort(own, 2 * (size_t)count, sizeof own[0], compare);
     double bound = 2.0 * (vec3_length(asked->ray.origin) + 2.0) / length;
-    Polynomial p;
+    OraclePolynomial p;
     Roots roots;
     torus_polynomial(asked->major, asked->minor, &asked->ray, &p);
     find_roots(&p, bound, &roots);
@@ -331,7 +204,7 @@ static void test_from_surface(double major, double minor)
         }
         double rise = vec3_dot(d, n);
         bool inward = rise < 0.0;
-        RayInterval intervals[INTERVALS_MOST];
+        RayInterval intervals[TORUS_INTERVALS];
         unsigned count = torus_intervals(major, minor, &(Ray){on, d}, (SideLeft){TORUS_OUTER, inward}, intervals);
         bool begins_inside = count > 0 && intervals[0].enter_side == TORUS_OUTER &&
                              intervals[0].enter == -(double)INFINITY && intervals[0].leave > 0.0;

@@ -376,7 +376,7 @@ static void test_bounds(void)
         const Solid *solid = &geometry->shapes.solids[0];
         for (int k = 0; k < 20; k++) {
             Ray ray = random_ray(&random, size), object = solid_ray(solid, &ray);
-            RayInterval intervals[INTERVALS_MOST] = {INTERVAL_ALL}, interval;
+            RayInterval intervals[2] = {INTERVAL_ALL}, interval;
             double t = 0.0;
             if (solid_is_flat(solid) ? !solid_flat_root(solid, &object, &t)
                                      : solid_intervals(solid, &object, LEFT_NONE, intervals) == 0) {

@@ -30,7 +30,7 @@ static const BlockAction actions[ACTION_COUNT] = {
     [ACTION_LOOK_AT] = camera_look_at_action,
     [ACTION_BLUR_SAMPLES] = camera_blur_action,
     [ACTION_POINT_AT] = light_point_at_action, [ACTION_ASSUMED_GAMMA] = settings_gamma_action,
-    [ACTION_CLIP] = clip_action,              [ACTION_INVERSE] = inverse_action,
+    [ACTION_CLIP] = clip_action, [ACTION_BLOB_PART] = blob_part_action,              [ACTION_INVERSE] = inverse_action,
     [ACTION_LIGHT_TYPE] = light_type_action,   [ACTION_CONE] = light_cone_action,
     [ACTION_SKY_LAYER] = sky_layer_action,       [ACTION_TURBULENCE] = fog_turbulence_action,
     [ACTION_CHARSET] = settings_charset_action,
@@ -147,6 +147,37 @@ static bool read_vector(Block *block, const SchemaProperty *property, Vec3 *vect
            block_fault(block, DIAG_E0340, span, "`%s` has a coordinate that is not finite", property->word);
 }
 
+// Numbers are read one by one: no value holds them all.
+static bool read_numbers(Block *block, const SchemaProperty *property, Numbers *numbers)
+{
+    const AstNode *item = cursor_peek(&block->cursor);
+    if (item->kind != AST_VECTOR) {
+        return block_fault(block, DIAG_E0253, item->span, "`%s` needs %s here: its %s", block_word(block),
+                           schema_type_need(TYPE_NUMBERS), property->word);
+    }
+    double *to = arena_alloc_array(block->arena, item->count, sizeof *to);
+    if (!to) {
+        return eval_no_memory(block->ev, item->span);
+    }
+    *numbers = (Numbers){to, item->count};
+    for (const AstNode *component = item->a; component; component = component->next) {
+        Value value;
+        if (!eval_expression(block->ev, component, &value) || !value_number(block->ev, &value, component->span, to)) {
+            block->has_fault = true;
+            return false;
+        }
+        if (!block_finite(block, *to++, component->span, property->word)) {
+            return false;
+        }
+        if (!component->next && (component->flags & AST_BEFORE_COMMA)) {
+            return block_fault(block, DIAG_E0259, component->span, "no comma may follow the last of the %s",
+                               property->word);
+        }
+    }
+    cursor_skip(&block->cursor);
+    return true;
+}
+
 static bool read_colour(Block *block, const SchemaProperty *property, Rgbft *colour)
 {
     Span span = block_here(block);
@@ -244,6 +275,7 @@ static bool read_typed(Block *block, const SchemaProperty *property, void *at)
     case TYPE_SHARE_PAIR: return read_share(block, property, at);
     case TYPE_INTEGER: return read_integer(block, property, at);
     case TYPE_VECTOR: return read_vector(block, property, at);
+    case TYPE_NUMBERS: return read_numbers(block, property, at);
     case TYPE_COLOUR: return read_colour(block, property, at);
     case TYPE_RGB: return read_rgb(block, property, at);
     case TYPE_BLOCK:
@@ -378,6 +410,10 @@ static void read_name(Block *block)
 static bool read_argument(Block *block, const SchemaProperty *argument)
 {
     bool takes_colour = argument->type == TYPE_COLOUR || argument->type == TYPE_RGB;
+    bool is_component = block->kind == KIND_BLOB_BALL || block->kind == KIND_BLOB_ROD;
+    if (is_component && block->arguments > 1 && cursor_at_word(&block->cursor, W_strength)) {
+        cursor_skip(&block->cursor);
+    }
     if (!(takes_colour ? cursor_at_value(&block->cursor) : at_expression(block))) {
         return argument->is_optional ||
                block_fault(block, DIAG_E0253, block_here(block), "`%s` needs %s here: its %s", block_word(block),
@@ -619,7 +655,7 @@ bool block_read_items(Block *block, SchemaKind *is)
     }
     read_properties(block);
     cursor_close(&block->cursor);
-    BlockHook closing = shape_class(kind)->settle ? shape_close : closings[kind];
+    BlockHook closing = shape_class(kind)->settle || shape_class(kind)->close ? shape_close : closings[kind];
     if (block->ev->stop || block->has_fault || (closing && !closing(block))) {
         return false;
     }

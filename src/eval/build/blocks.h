@@ -295,6 +295,8 @@ typedef struct OwnBox {
     Transform frame;
 } OwnBox;
 
+bool blob_box(const void *object, OwnBox *own);
+
 typedef struct ShapeClass {
     bool is_flat;     // has no inside: clips and cuts nothing
     uint16_t corners_at; // three in the description, which bound it instead of `box`; 0: none
@@ -302,14 +304,21 @@ typedef struct ShapeClass {
     bool (*settle)(Desc *record);
     DiagCode code;
     const char *fault;
+    bool (*close)(Block *block); // at the closing brace; false after a fault; NULL: `settle` is enough
     // Kind, numbers and map, before all transforms. Why there is nothing to draw, or NULL. Of a plane NULL.
     const char *(*form)(const void *object, Part *part);
     bool (*holds)(const void *object, Vec3 point, bool is_turned); // inside of it, or of it turned; NULL: not to be asked
-    bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself
+    bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself; it may be infinite
 } ShapeClass;
 
 // Of a kind that is no shape a row of nothing.
 const ShapeClass *shape_class(SchemaKind kind);
+
+// blob.c
+bool blob_part_action(Block *block, const SchemaProperty *property, const AstNode *item) RT_MUST_CHECK;
+bool blob_close(Block *block) RT_MUST_CHECK;
+const char *blob_form(const void *object, Part *part);
+bool blob_holds(const void *object, Vec3 point, bool is_turned);
 
 // shape.c
 // At the closing brace of any shape.

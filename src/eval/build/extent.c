@@ -137,6 +137,9 @@ static Extent shape_extent(SchemaKind kind, const void *object, const Transform 
     }
     OwnBox box;
     bool has_frame = shape->box(object, &box);
+    if (isinf(box.high.x)) {
+        return extent_boundless();
+    }
     Extent own = extent_of((double[]){box.low.x, box.low.y, box.low.z}, (double[]){box.high.x, box.high.y, box.high.z});
     return has_frame ? turned_from(&own, box.frame, transform) : turned(&own, transform);
 }
@@ -283,6 +286,16 @@ static Extent object_extent(SchemaKind kind, const void *object)
     return extent;
 }
 
+static bool is_endless(SchemaKind kind, const void *object)
+{
+    OwnBox box = {.high = {0.0, 0.0, 0.0}};
+    bool has_box = shape_class(kind)->box != NULL;
+    if (has_box) {
+        (void)shape_class(kind)->box(object, &box);
+    }
+    return kind == KIND_PLANE || isinf(box.high.x);
+}
+
 bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member)
 {
     const ObjectPart *part = object;
@@ -291,8 +304,8 @@ bool extent_reaches_out(SchemaKind kind, const void *object, bool is_member)
     }
     // A member that has no end may leave the whole without one.
     // What cuts a union leaves the surfaces that its members have in one another, but one surface of the cut for all.
-    bool does =
-        kind == KIND_DISC || kind == KIND_UNION || part->clips || part->is_inverse || (kind == KIND_PLANE && is_member);
+    bool does = kind == KIND_DISC || kind == KIND_UNION || part->clips || part->is_inverse ||
+                (is_member && is_endless(kind, object));
     const UnionMember *member = object_is_group(kind) ? ((const UnionDesc *)object)->members : NULL;
     for (; member && !does; member = member->next) {
         does = extent_reaches_out(member->kind, member->object, true);

@@ -19,6 +19,9 @@ bool shape_settle(SchemaKind kind, Desc *record)
 bool shape_close(Block *block)
 {
     const ShapeClass *shape = shape_class(block->is);
+    if (shape->close && block->is == block->kind) {
+        return block->has_fault || shape->close(block);
+    }
     return block->is != block->kind || shape_settle(block->is, block->record) ||
            block_fault(block, shape->code, block->node->span, "%s", shape->fault);
 }

@@ -5,8 +5,10 @@
 //
 // SPDX-License-Identifier: MIT
 #include <math.h>
+#include <string.h>
 
 #include "eval/build/blocks.h"
+#include "scene/polynomial.h"
 
 // Half of what a disc is thick.
 static const double disc_thickness = 0.001;
@@ -210,6 +212,89 @@ static bool torus_box(const void *object, OwnBox *own)
     return false;
 }
 
+// ---- polynomials
+
+// Those of a quadric, in the order of a poly's.
+static void quadric_coefficients(const PolynomialDesc *quadric, double *to)
+{
+    const Vec3 *squares = &quadric->squares, *products = &quadric->products, *linear = &quadric->linear;
+    const double all[] = {squares->x,  products->x, products->y, linear->x,  squares->y,
+                          products->z, linear->y,   squares->z,  linear->z, quadric->constant};
+    memcpy(to, all, sizeof all);
+}
+
+static bool endless_box(const void *object, OwnBox *own)
+{
+    (void)object;
+    own->high = vec3(INFINITY, INFINITY, INFINITY);
+    own->low = vec3_neg(own->high);
+    return false;
+}
+
+static bool polynomial_close(Block *block)
+{
+    PolynomialDesc *polynomial = &block->record->polynomial;
+    unsigned order = (unsigned)polynomial->order, needed = polynomial_count(order);
+    bool is_quadric = block->is == KIND_QUADRIC;
+    if (!is_quadric && polynomial->coefficients.count != needed) {
+        return block_fault(block, DIAG_E0480, block->node->span,
+                           "a polynomial of order %u has %u coefficients, not %u", order, needed,
+                           (unsigned)polynomial->coefficients.count);
+    }
+    double *list = arena_alloc_array(block->arena, polynomial_list_count(order), sizeof *list);
+    if (!list) {
+        return eval_no_memory(block->ev, block->node->span);
+    }
+    list[0] = order;
+    double *to = list + (polynomial_list_count(order) - needed);
+    if (is_quadric) {
+        quadric_coefficients(polynomial, to);
+    } else {
+        memcpy(to, polynomial->coefficients.items, needed * sizeof *to);
+    }
+    polynomial->list = (Numbers){list, polynomial_list_count(order)};
+    polynomial_complete(list);
+    return true;
+}
+
+static const char *polynomial_form(const void *object, Part *part)
+{
+    const PolynomialDesc *polynomial = object;
+    polynomial_part(&polynomial->list, part);
+    return polynomial_is_constant(polynomial->list.items) ? "a polynomial that is the same everywhere is not drawn" : NULL;
+}
+
+// Where the squares have one sign and there are no products; a quadric that is turned has no end. Measured.
+static bool quadric_box(const void *object, OwnBox *own)
+{
+    const PolynomialDesc *q = object;
+    Vec3 a = q->squares, b = vec3_scale(-0.5, q->linear);
+    double sign = copysign(1.0, a.x);
+    Vec3 middle = vec3(b.x / a.x, b.y / a.y, b.z / a.z);
+    double depth = sign * (vec3_dot(b, middle) - q->constant);
+    Vec3 half = vec3(sqrt(depth / fabs(a.x)), sqrt(depth / fabs(a.y)), sqrt(depth / fabs(a.z)));
+    bool is_alike = sign * a.x > 0.0 && sign * a.y > 0.0 && sign * a.z > 0.0;
+    if (!is_alike || !vec3_equal(q->products, vec3(0.0, 0.0, 0.0)) || !(depth > 0.0) || !vec3_is_finite(half)) {
+        return endless_box(object, own);
+    }
+    own->low = vec3_sub(middle, half);
+    own->high = vec3_add(middle, half);
+    return false;
+}
+
+// POV-Ray's tolerance of all but quadrics. Measured.
+static bool polynomial_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const PolynomialDesc *polynomial = object;
+    return (polynomial_value(polynomial->list.items, p) < 1e-4) != is_turned;
+}
+
+static bool quadric_holds(const void *object, Vec3 p, bool is_turned)
+{
+    const PolynomialDesc *polynomial = object;
+    return (polynomial_value(polynomial->list.items, p) <= 0.0) != is_turned;
+}
+
 // ---- triangles: their boxes are those of their corners in the scene
 
 static const char *triangle_form(const void *object, Part *part)
@@ -247,6 +332,11 @@ static const ShapeClass classes[KIND_COUNT] = {
                    .box = cone_box},
     [KIND_DISC] = {.is_flat = true, .settle = disc_settle, .form = disc_form, .holds = disc_holds, .box = disc_box},
     [KIND_TORUS] = {.form = torus_form, .holds = torus_holds, .box = torus_box},
+    [KIND_BLOB] = {.close = blob_close, .form = blob_form, .holds = blob_holds, .box = blob_box},
+    [KIND_QUADRIC] = {.close = polynomial_close, .form = polynomial_form, .holds = quadric_holds, .box = quadric_box},
+    [KIND_CUBIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
+    [KIND_QUARTIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
+    [KIND_POLY] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
     [KIND_TRIANGLE] = {.is_flat = true,
                        .form = triangle_form,
                        .corners_at = offsetof(TriangleDesc, corners)},

@@ -1,0 +1,74 @@
+// Blobs: surfaces where a sum of fields is a threshold; inside is where it is more.
+//
+// The field of a ball is strength (1 - d²)² within distance 1 of its middle, that of a rod the same around a stretch of
+// the z axis from 0 to its height; each under an affine map. A part's list of numbers is: the threshold, how many
+// components there are and how many nodes, the nodes of a tree over them, and the components in the tree's order.
+//
+// SPDX-License-Identifier: MIT
+#ifndef SCENE_BLOB_H
+#define SCENE_BLOB_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "math/transform.h"
+#include "scene/numbers.h"
+
+// In the list as doubles. `to_world` leads from the component's space to the blob's; to_own back.
+typedef struct BlobComponent {
+    double is_rod, strength, height, unused;
+    double to_world[4][3], to_own[4][3];
+} BlobComponent;
+
+// Some components that follow each other, and the box of where they have a field. The children of a node of more than
+// BLOB_LEAF of them are the next one, of the first half, and the one numbered `second`.
+enum { BLOB_LEAF = 4 };
+typedef struct BlobNode {
+    double low[3], high[3];
+    double begin, end, second, unused;
+} BlobNode;
+
+typedef struct Blob {
+    double threshold, greatest; // of all fields together, at most
+    uint32_t component_count, node_count;
+    const BlobNode *nodes;
+    const BlobComponent *components;
+} Blob;
+
+enum {
+    BLOB_HEAD = 4,
+    BLOB_NODE = sizeof(BlobNode) / sizeof(double),
+    BLOB_COMPONENT = sizeof(BlobComponent) / sizeof(double)
+};
+
+static inline Blob blob_of(const double *list)
+{
+    uint32_t count = (uint32_t)list[1], nodes = (uint32_t)list[2];
+    return (Blob){list[0],
+                  list[3],
+                  count,
+                  nodes,
+                  (const BlobNode *)(const void *)(list + BLOB_HEAD),
+                  (const BlobComponent *)(const void *)(list + BLOB_HEAD + (size_t)BLOB_NODE * nodes)};
+}
+
+// How long a list is, at most.
+size_t blob_list_most(uint32_t component_count);
+
+// Sets a component by its numbers; `cap` - `base` is its stretch, and 0 for a ball. False: it is flat or infinite.
+bool blob_component(BlobComponent *component, bool is_rod, Vec3 base, Vec3 cap, double radius, double strength,
+                    const Transform *transform);
+
+// The list of some components, which are put into another order; at least one.
+Numbers blob_make(double threshold, BlobComponent *components, uint32_t count, double *list);
+
+// How far a point is from what the component is around, squared and in its own space, and where in that space.
+double blob_distance2(const BlobComponent *component, Vec3 point, Vec3 *own);
+
+// The field at a point of the blob's space.
+double blob_field(const double *list, Vec3 point);
+
+// How many intervals a line has in it, at most.
+uint32_t blob_interval_most(const double *list);
+
+#endif

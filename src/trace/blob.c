@@ -1,0 +1,490 @@
+// The fields of a blob along a line, and what of their sum is above the threshold.
+//
+// A component has a field on a stretch of the line, on which its distance squared is a quadratic, seen from where that
+// is least; a rod has up to three of them. Between two ends of stretches the sum is of degree 4, and its roots are
+// those of trace/roots.h. At the ends themselves a field and its slope are 0, so that it does not matter that they are
+// rounded. A ray that starts on the surface has the threshold made such that its start is on it, and leaves that root
+// out.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/blob.h"
+
+#include <stdlib.h>
+
+#include "math/extreme.h"
+#include "scene/blob.h"
+#include "trace/roots.h"
+
+enum { FIRST_FEW = 4, NODES_DEEP = 64, DEGREE = 4 };
+
+// A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
+static const double GOOD_ROOT = 0x1p-49;
+
+typedef enum Section { SECTION_BALL, SECTION_ROD, SECTION_TOP } Section;
+
+// Of the line, in which a component has a field: 1 - d² = depth - square (t - middle)².
+typedef struct Stretch {
+    double from, to;
+    double square, middle, depth, strength;
+    double size; // |o| + |t d| in the component's space: what rounds its numbers
+    const BlobComponent *component;
+    Section section;
+} Stretch;
+
+typedef struct Line {
+    const Ray *ray;
+    Stretch *stretches; // room for three of each component
+    unsigned count;
+    bool is_start;
+    double threshold;
+    DoubleWord exact_threshold;
+    // Of the part of the line that is looked at: its middle or, where the ray starts in it on the surface, its start.
+    double base;
+    bool is_reduced; // its polynomial is divided by t
+    const Stretch **active;
+    unsigned active_count;
+} Line;
+
+// ---- stretches
+
+static void add_stretch(Line *line, const BlobComponent *component, Section section, Vec3 o, Vec3 d, double low,
+                        double high)
+{
+    if (section == SECTION_ROD) {
+        o.z = d.z = 0.0;
+    } else if (section == SECTION_TOP) {
+        o.z -= component->height;
+    }
+    double square = vec3_length_squared(d), middle = square > 0.0 ? -vec3_dot(o, d) / square : 0.0;
+    Vec3 least = vec3_add_scaled(o, middle, d);
+    double depth = 1.0 - vec3_length_squared(least), size = vec3_max_abs(o) + fabs(middle) * vec3_max_abs(d);
+    if (!(depth > -0x1p-40 * (1.0 + size))) {
+        return;
+    }
+    double half = square > 0.0 ? sqrt(greater_of(depth, 0.0) / square) : (double)INFINITY;
+    low = greater_of(low, middle - half);
+    high = less_of(high, middle + half);
+    if (low < high && high > 0.0) {
+        line->stretches[line->count++] =
+            (Stretch){low, high, square, middle, depth, component->strength, 1.0 + size, component, section};
+    }
+}
+
+static void add_component(Line *line, const BlobComponent *component)
+{
+    const double(*m)[3] = component->to_own;
+    Vec3 p = line->ray->origin, v = line->ray->direction;
+    Vec3 o = {p.x * m[0][0] + p.y * m[1][0] + p.z * m[2][0] + m[3][0],
+              p.x * m[0][1] + p.y * m[1][1] + p.z * m[2][1] + m[3][1],
+              p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]};
+    Vec3 d = {v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0], v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
+              v.x * m[0][2] + v.y * m[1][2] + v.z * m[2][2]};
+    const double far = (double)INFINITY;
+    if (component->is_rod == 0.0) {
+        add_stretch(line, component, SECTION_BALL, o, d, -far, far);
+        return;
+    }
+    double bottom = -o.z / d.z, top = (component->height - o.z) / d.z;
+    if (d.z == 0.0) {
+        Section section = o.z <= 0.0 ? SECTION_BALL : o.z < component->height ? SECTION_ROD : SECTION_TOP;
+        add_stretch(line, component, section, o, d, -far, far);
+    } else if (d.z > 0.0) {
+        add_stretch(line, component, SECTION_BALL, o, d, -far, bottom);
+        add_stretch(line, component, SECTION_ROD, o, d, bottom, top);
+        add_stretch(line, component, SECTION_TOP, o, d, top, far);
+    } else {
+        add_stretch(line, component, SECTION_TOP, o, d, -far, top);
+        add_stretch(line, component, SECTION_ROD, o, d, top, bottom);
+        add_stretch(line, component, SECTION_BALL, o, d, bottom, far);
+    }
+}
+
+// Boxes are a little wider than all that rounds here, but for what is far away: the margin is for that.
+static bool node_is_near(const BlobNode *node, const Ray *ray, const double inverse[3], double margin)
+{
+    const double o[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
+    double in = 0.0, out = (double)INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double first = (node->low[axis] - margin - o[axis]) * inverse[axis];
+        double second = (node->high[axis] + margin - o[axis]) * inverse[axis];
+        in = greater_of(in, less_of(first, second));
+        out = less_of(out, greater_of(first, second));
+    }
+    return in <= out * (1.0 + 0x1p-48);
+}
+
+static int stretch_order(const void *a, const void *b)
+{
+    const Stretch *x = a, *y = b;
+    int by_place = (x->from > y->from) - (x->from < y->from);
+    return by_place != 0 ? by_place : (x->component > y->component) - (x->component < y->component);
+}
+
+static void sort_stretches(Line *line)
+{
+    if (line->count > 24) {
+        qsort(line->stretches, line->count, sizeof *line->stretches, stretch_order);
+        return;
+    }
+    for (unsigned i = 1; i < line->count; i++) {
+        Stretch own = line->stretches[i];
+        unsigned at = i;
+        for (; at > 0 && stretch_order(&own, &line->stretches[at - 1]) < 0; at--) {
+            line->stretches[at] = line->stretches[at - 1];
+        }
+        line->stretches[at] = own;
+    }
+}
+
+static void find_stretches(Line *line, const Blob *blob)
+{
+    uint32_t waiting[NODES_DEEP], count = 1;
+    const Ray *ray = line->ray;
+    double inverse[3] = {1.0 / copysign(greater_of(fabs(ray->direction.x), 0x1p-900), ray->direction.x),
+                         1.0 / copysign(greater_of(fabs(ray->direction.y), 0x1p-900), ray->direction.y),
+                         1.0 / copysign(greater_of(fabs(ray->direction.z), 0x1p-900), ray->direction.z)};
+    double margin = 0x1p-44 * vec3_max_abs(ray->origin);
+    line->count = 0;
+    waiting[0] = 0;
+    while (count > 0) {
+        uint32_t at = waiting[--count];
+        const BlobNode *node = &blob->nodes[at];
+        if (!node_is_near(node, ray, inverse, margin)) {
+            continue;
+        }
+        if (node->end - node->begin > BLOB_LEAF) {
+            waiting[count++] = (uint32_t)node->second;
+            waiting[count++] = at + 1;
+            continue;
+        }
+        for (uint32_t i = (uint32_t)node->begin; i < (uint32_t)node->end; i++) {
+            add_component(line, &blob->components[i]);
+        }
+    }
+    sort_stretches(line);
+}
+
+// ---- the polynomial between two ends of stretches
+
+static DoubleWord exact_dot(const double (*m)[3], int axis, Vec3 v, double plus)
+{
+    DoubleWord sum = double_word_add(two_product(v.x, m[0][axis]), two_product(v.y, m[1][axis]));
+    return double_word_add(double_word_add(sum, two_product(v.z, m[2][axis])), (DoubleWord){plus, 0.0});
+}
+
+// 1 - d² of a stretch by t - base.
+static void exact_depth(const Stretch *stretch, const Ray *ray, double base, DoubleWord inner[3])
+{
+    const BlobComponent *component = stretch->component;
+    const double(*m)[3] = component->to_own;
+    inner[0] = (DoubleWord){-1.0, 0.0};
+    inner[1] = inner[2] = (DoubleWord){0.0, 0.0};
+    for (int axis = 0; axis < (stretch->section == SECTION_ROD ? 2 : 3); axis++) {
+        DoubleWord o = exact_dot(m, axis, ray->origin, m[3][axis]), d = exact_dot(m, axis, ray->direction, 0.0);
+        if (axis == 2 && stretch->section == SECTION_TOP) {
+            o = double_word_add(o, (DoubleWord){-component->height, 0.0});
+        }
+        o = double_word_add(o, double_word_scale(d, base));
+        inner[0] = double_word_add(inner[0], double_word_mul(o, o));
+        inner[1] = double_word_add(inner[1], double_word_scale(double_word_mul(o, d), 2.0));
+        inner[2] = double_word_add(inner[2], double_word_mul(d, d));
+    }
+    for (int i = 0; i < 3; i++) {
+        inner[i] = double_word_neg(inner[i]);
+    }
+}
+
+static void exact_sum(const Line *line, double base, DoubleWord sum[DEGREE + 1])
+{
+    for (int i = 0; i <= DEGREE; i++) {
+        sum[i] = (DoubleWord){0.0, 0.0};
+    }
+    for (unsigned k = 0; k < line->active_count; k++) {
+        DoubleWord inner[3];
+        exact_depth(line->active[k], line->ray, base, inner);
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                DoubleWord term = double_word_scale(double_word_mul(inner[i], inner[j]), line->active[k]->strength);
+                sum[i + j] = double_word_add(sum[i + j], term);
+            }
+        }
+    }
+}
+
+// What the root finder asks for.
+static void refine(Polynomial *polynomial, const void *owner)
+{
+    const Line *line = owner;
+    DoubleWord sum[DEGREE + 1];
+    exact_sum(line, line->base, sum);
+    sum[0] = double_word_sub(sum[0], line->exact_threshold);
+    for (unsigned i = 0; i <= polynomial->degree; i++) {
+        polynomial->exact[i] = sum[i + line->is_reduced];
+    }
+}
+
+static void add_square(double inner0, double inner1, double inner2, double strength, double sum[DEGREE + 1])
+{
+    sum[0] += strength * (inner0 * inner0);
+    sum[1] += strength * (2.0 * inner0 * inner1);
+    sum[2] += strength * (inner1 * inner1 + 2.0 * inner0 * inner2);
+    sum[3] += strength * (2.0 * inner1 * inner2);
+    sum[4] += strength * (inner2 * inner2);
+}
+
+// The field less the threshold by t - base. A number of a stretch is off by some u of its size, twice where it is
+// squared; what a term is made of is summed without signs.
+static void line_polynomial(const Line *line, Polynomial *p)
+{
+    double terms[DEGREE + 1] = {-line->threshold}, sizes[DEGREE + 1] = {fabs(line->threshold)};
+    double greatest = 1.0;
+    for (unsigned k = 0; k < line->active_count; k++) {
+        const Stretch *s = line->active[k];
+        double from = line->base - s->middle, turn = -2.0 * s->square * from, fall = s->square * from * from;
+        add_square(s->depth - fall, turn, -s->square, s->strength, terms);
+        add_square(1.0 + fabs(s->depth) + fall, fabs(turn), s->square, fabs(s->strength), sizes);
+        greatest = greater_of(greatest, s->size);
+    }
+    double rounding = (0x1p-47 + line->active_count * 0x1p-53) * greatest;
+    unsigned first = line->is_reduced;
+    p->degree = DEGREE - first;
+    p->refine = refine;
+    p->owner = line;
+    for (unsigned i = 0; i <= p->degree; i++) {
+        p->terms[i] = terms[i + first];
+        p->sizes[i] = sizes[i + first] * (greatest * greatest);
+        p->errors[i] = rounding * sizes[i + first];
+    }
+    roots_start(p);
+}
+
+// ---- crossings in order
+
+// What has been found so far.
+typedef struct Found {
+    RayInterval *intervals, open;
+    unsigned count, most;
+    bool is_inside;
+} Found;
+
+static void cross(Found *found, double t)
+{
+    if (found->is_inside) {
+        found->open.leave = t;
+        found->open.leave_side = 0;
+        found->intervals[found->count++] = found->open;
+    } else {
+        found->open.enter = t;
+        found->open.enter_side = 0;
+    }
+    found->is_inside = !found->is_inside;
+}
+
+static bool root_is_good(const Line *line, const Polynomial *p, double s)
+{
+    double error = 0.0, slope = 0.0, size = fabs(s);
+    for (unsigned i = p->degree + 1; i-- > 0;) {
+        error = error * size + p->errors[i];
+        slope = i > 0 ? slope * s + i * p->terms[i] : slope;
+    }
+    double length = vec3_max_abs(line->ray->direction);
+    return error * length <=
+           GOOD_ROOT * (vec3_max_abs(line->ray->origin) + fabs(line->base + s) * length) * fabs(slope);
+}
+
+// No field of the active ones is greater than at its middle.
+static bool is_below(const Line *line, double low, double high)
+{
+    double sum = 0.0;
+    for (unsigned k = 0; k < line->active_count; k++) {
+        const Stretch *s = line->active[k];
+        double near = less_of(greater_of(s->middle, low), high) - s->middle;
+        double inner = s->depth - s->square * near * near + 0x1p-46 * s->size;
+        sum += s->strength > 0.0 && inner > 0.0 ? s->strength * inner * inner : 0.0;
+    }
+    return sum * (1.0 + 0x1p-40) < line->threshold;
+}
+
+// Whether the polynomial has one sign on the whole of [-half, half]: its constant is more than all else.
+static bool has_one_sign(const Polynomial *p, double half)
+{
+    double rest = 0.0, error = 0.0;
+    for (unsigned i = p->degree + 1; i-- > 0;) {
+        rest = i > 0 ? (rest + fabs(p->terms[i])) * half : rest;
+        error = error * half + p->errors[i];
+    }
+    return fabs(p->terms[0]) > (rest + error) * (1.0 + 0x1p-40);
+}
+
+static unsigned piece_roots(const Line *line, Polynomial *p, double low, double high, double roots[], int *sign)
+{
+    unsigned count = roots_find(p, low, high, roots, sign);
+    bool are_good = true, were_exact = p->is_exact;
+    for (unsigned i = 0; i < count && !were_exact; i++) {
+        if ((p->is_exact || !root_is_good(line, p, roots[i])) && !roots_refine(p, &roots[i])) {
+            are_good = false;
+        }
+    }
+    return are_good ? count : roots_find_exact(p, low, high, roots, sign);
+}
+
+// Where the ray starts on the surface: whether it is inside behind that, as it is said, but where the slope is against
+// that by rounding; then the bend decides.
+static bool starts_inside(const Polynomial *p, bool inward)
+{
+    bool rises = p->terms[0] > 0.0, bends = p->degree > 0 && p->terms[1] > 0.0;
+    return inward ? rises || bends : rises && bends;
+}
+
+// A part of the line from `low` to `high` in which the same stretches are.
+static void take_piece(Line *line, double low, double high, bool inward, Found *found)
+{
+    bool begins = line->is_start && low == 0.0;
+    if (!begins && is_below(line, low, high)) {
+        if (found->is_inside) {
+            cross(found, low);
+        }
+        return;
+    }
+    Polynomial p;
+    double roots[DEGREE];
+    int sign;
+    line->base = begins ? 0.0 : 0.5 * (low + high);
+    line->is_reduced = begins;
+    line_polynomial(line, &p);
+    unsigned count = 0, passed = 0;
+    if (!begins && has_one_sign(&p, 0.5 * (high - low))) {
+        sign = p.terms[0] > 0.0 ? 1 : -1;
+    } else {
+        count = piece_roots(line, &p, low - line->base, high - line->base, roots, &sign);
+    }
+    if (begins) {
+        found->is_inside = starts_inside(&p, inward);
+        passed = count > 0 && found->is_inside != (sign > 0) ? 1 : 0;
+    } else if (sign != 0 && (sign > 0) != found->is_inside) {
+        cross(found, low);
+    }
+    for (unsigned i = passed; i < count && found->count < found->most; i++) {
+        cross(found, line->base + roots[i]);
+    }
+}
+
+// The stretches that are there behind `from`, of those that begin no later; where the first of them ends, or the next
+// begins.
+static double set_active(Line *line, double from, unsigned *next)
+{
+    unsigned kept = 0;
+    double to = (double)INFINITY;
+    for (unsigned k = 0; k < line->active_count; k++) {
+        if (line->active[k]->to > from) {
+            line->active[kept++] = line->active[k];
+        }
+    }
+    for (; *next < line->count && line->stretches[*next].from <= from; ++*next) {
+        if (line->stretches[*next].to > from) {
+            line->active[kept++] = &line->stretches[*next];
+        }
+    }
+    line->active_count = kept;
+    for (unsigned k = 0; k < kept; k++) {
+        to = less_of(to, line->active[k]->to);
+    }
+    return *next < line->count ? less_of(to, line->stretches[*next].from) : to;
+}
+
+// The field at t = 0, or the threshold such that a start there is on the surface.
+static void set_start(Line *line, SideLeft left, Found *found)
+{
+    DoubleWord sum[DEGREE + 1];
+    if (left.side != SIDE_NONE) {
+        exact_sum(line, 0.0, sum);
+        line->exact_threshold = sum[0];
+        line->threshold = sum[0].hi;
+        return;
+    }
+    Polynomial p;
+    line->base = 0.0;
+    line->is_reduced = false;
+    line_polynomial(line, &p);
+    found->is_inside = line->active_count > 0 && roots_sign(&p, 0.0) > 0;
+}
+
+static void walk(Line *line, SideLeft left, Found *found)
+{
+    unsigned next = 0;
+    double at = 0.0, to = set_active(line, at, &next);
+    set_start(line, left, found);
+    if (line->is_start && line->active_count == 0) {
+        return;
+    }
+    while ((line->active_count > 0 || next < line->count) && found->count < found->most) {
+        if (line->active_count > 0) {
+            take_piece(line, at, to, left.inward, found);
+        } else if (found->is_inside) {
+            cross(found, at);
+        }
+        at = to;
+        to = set_active(line, at, &next);
+    }
+    if (found->is_inside && found->count < found->most) {
+        cross(found, at);
+    }
+}
+
+unsigned blob_intervals(const double *list, bool is_first, const Ray *ray, SideLeft left, RayInterval *intervals)
+{
+    Blob blob = blob_of(list);
+    unsigned most = blob_interval_most(list);
+    Stretch stretches[3 * blob.component_count];
+    Line line = {.ray = ray,
+                 .stretches = stretches,
+                 .is_start = left.side != SIDE_NONE,
+                 .threshold = blob.threshold,
+                 .exact_threshold = {blob.threshold, 0.0}};
+    find_stretches(&line, &blob);
+    if (line.count == 0) {
+        return 0;
+    }
+    const Stretch *active[line.count];
+    line.active = active;
+    Found found = {.intervals = intervals, .open = INTERVAL_ALL, .most = is_first ? FIRST_FEW : most};
+    walk(&line, left, &found);
+    return found.count;
+}
+
+// ---- surfaces
+
+Vec3 blob_normal(const double *list, Vec3 point)
+{
+    Blob blob = blob_of(list);
+    uint32_t waiting[NODES_DEEP], count = 1;
+    const double p[3] = {point.x, point.y, point.z};
+    double n[3] = {0.0, 0.0, 0.0};
+    waiting[0] = 0;
+    while (count > 0) {
+        uint32_t at = waiting[--count];
+        const BlobNode *node = &blob.nodes[at];
+        bool is_near = true;
+        for (int axis = 0; axis < 3; axis++) {
+            is_near = is_near && node->low[axis] <= p[axis] && p[axis] <= node->high[axis];
+        }
+        if (is_near && node->end - node->begin > BLOB_LEAF) {
+            waiting[count++] = (uint32_t)node->second;
+            waiting[count++] = at + 1;
+            continue;
+        }
+        for (uint32_t i = (uint32_t)node->begin; is_near && i < (uint32_t)node->end; i++) {
+            const BlobComponent *component = &blob.components[i];
+            Vec3 own;
+            double inner = 1.0 - blob_distance2(component, point, &own), share = component->strength * inner;
+            for (int axis = 0; inner > 0.0 && axis < 3; axis++) {
+                const double(*m)[3] = component->to_own;
+                n[axis] += share * (m[axis][0] * own.x + m[axis][1] * own.y + m[axis][2] * own.z);
+            }
+        }
+    }
+    Vec3 normal = {n[0], n[1], n[2]};
+    double size = vec3_max_abs(normal);
+    return size > 0.0 && size <= 0x1p1000 ? vec3_normalize(vec3_scale(ldexp(1.0, -ilogb(size)), normal))
+                                          : vec3(1.0, 0.0, 0.0);
+}

@@ -1,0 +1,285 @@
+// The polynomial along a line, and what of it is less than 0.
+//
+// The line is seen from its point b nearest to 0, in steps that are a power of two of its direction, so that no step is
+// rounded; b is, in doubles, and is not in double words. Each coefficient along the line is a sum of terms that each
+// come through at most 3 n + 6 operations, and Horner's scheme adds 2 n. A ray that starts on the surface has its
+// polynomial made such that it is 0 there: that root is left out by leaving out the last coefficient.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/polynomial.h"
+
+#include "math/extreme.h"
+#include "scene/polynomial.h"
+#include "trace/roots.h"
+
+enum { TERMS_MOST = POLYNOMIAL_ORDER_MOST + 1 };
+_Static_assert((int)POLYNOMIAL_ORDER_MOST <= (int)ROOTS_DEGREE_MOST, "the root finder has room");
+
+// A root is as good as the rest of a crossing if it is off by so many u of all that makes its place.
+static const double GOOD_ROOT = 0x1p-49;
+
+typedef struct Line {
+    const double *list;
+    const Ray *ray;
+    double t_base, step; // t = t_base + s step
+    Vec3 base, along;    // by s; `along` is exact
+    bool is_start;       // s = 0 is a root, and left out
+} Line;
+
+// ---- the coefficients along a line
+
+// A polynomial of a degree, times b + d s, plus a number; a degree less than 0: it is 0.
+static int times_line(double *p, int degree, double b, double d)
+{
+    if (degree < 0) {
+        return degree;
+    }
+    p[degree + 1] = p[degree] * d;
+    for (int i = degree; i > 0; i--) {
+        p[i] = p[i] * b + p[i - 1] * d;
+    }
+    p[0] *= b;
+    return degree + 1;
+}
+
+static int plus(double *p, int degree, const double *q, int q_degree)
+{
+    for (int i = 0; i <= q_degree; i++) {
+        p[i] = i <= degree ? p[i] + q[i] : q[i];
+    }
+    return q_degree > degree ? q_degree : degree;
+}
+
+// Trailing coefficients of the surface that are 0 cost a comparison. `whole` has room for order + 1; the rest is 0.
+static void compose(const Line *line, double *whole)
+{
+    double row[TERMS_MOST], part[TERMS_MOST];
+    int order = (int)polynomial_order(line->list), whole_degree = -1;
+    const double *c = polynomial_terms(line->list);
+    for (int i = order; i >= 0; i--) {
+        int row_degree = -1;
+        for (int j = order - i; j >= 0; j--) {
+            int part_degree = -1;
+            for (int k = order - i - j; k >= 0; k--) {
+                double term = *c++;
+                part_degree = times_line(part, part_degree, line->base.z, line->along.z);
+                part_degree = term != 0.0 || part_degree >= 0 ? plus(part, part_degree, &term, 0) : part_degree;
+            }
+            row_degree = times_line(row, row_degree, line->base.y, line->along.y);
+            row_degree = plus(row, row_degree, part, part_degree);
+        }
+        whole_degree = times_line(whole, whole_degree, line->base.x, line->along.x);
+        whole_degree = plus(whole, whole_degree, row, row_degree);
+    }
+    for (int i = whole_degree + 1; i <= order; i++) {
+        whole[i] = 0.0;
+    }
+}
+
+static int exact_times_line(DoubleWord *p, int degree, DoubleWord b, double d)
+{
+    if (degree < 0) {
+        return degree;
+    }
+    p[degree + 1] = double_word_scale(p[degree], d);
+    for (int i = degree; i > 0; i--) {
+        p[i] = double_word_add(double_word_mul(p[i], b), double_word_scale(p[i - 1], d));
+    }
+    p[0] = double_word_mul(p[0], b);
+    return degree + 1;
+}
+
+static int exact_plus(DoubleWord *p, int degree, const DoubleWord *q, int q_degree)
+{
+    for (int i = 0; i <= q_degree; i++) {
+        p[i] = i <= degree ? double_word_add(p[i], q[i]) : q[i];
+    }
+    return q_degree > degree ? q_degree : degree;
+}
+
+static DoubleWord exact_base(double origin, double direction, double t)
+{
+    DoubleWord product = two_product(direction, t);
+    return double_word_add(product, (DoubleWord){origin, 0.0});
+}
+
+static void exact_compose(const Line *line, DoubleWord *whole)
+{
+    const Ray *ray = line->ray;
+    DoubleWord x = exact_base(ray->origin.x, ray->direction.x, line->t_base);
+    DoubleWord y = exact_base(ray->origin.y, ray->direction.y, line->t_base);
+    DoubleWord z = exact_base(ray->origin.z, ray->direction.z, line->t_base);
+    DoubleWord row[TERMS_MOST], part[TERMS_MOST];
+    int order = (int)polynomial_order(line->list), whole_degree = -1;
+    const double *c = polynomial_terms(line->list);
+    for (int i = order; i >= 0; i--) {
+        int row_degree = -1;
+        for (int j = order - i; j >= 0; j--) {
+            int part_degree = -1;
+            for (int k = order - i - j; k >= 0; k--) {
+                DoubleWord term = {*c++, 0.0};
+                part_degree = exact_times_line(part, part_degree, z, line->along.z);
+                part_degree =
+                    term.hi != 0.0 || part_degree >= 0 ? exact_plus(part, part_degree, &term, 0) : part_degree;
+            }
+            row_degree = exact_times_line(row, row_degree, y, line->along.y);
+            row_degree = exact_plus(row, row_degree, part, part_degree);
+        }
+        whole_degree = exact_times_line(whole, whole_degree, x, line->along.x);
+        whole_degree = exact_plus(whole, whole_degree, row, row_degree);
+    }
+    for (int i = whole_degree + 1; i <= order; i++) {
+        whole[i] = (DoubleWord){0.0, 0.0};
+    }
+}
+
+// What the root finder asks for.
+static void refine(Polynomial *polynomial, const void *owner)
+{
+    const Line *line = owner;
+    DoubleWord exact[TERMS_MOST];
+    exact_compose(line, exact);
+    for (unsigned i = 0; i <= polynomial->degree; i++) {
+        polynomial->exact[i] = exact[i + line->is_start];
+    }
+}
+
+// The sizes of the terms of each coefficient: of all of one degree together, with the greatest coordinate in the place
+// of each.
+static void set_errors(const Line *line, Polynomial *p)
+{
+    unsigned order = polynomial_order(line->list), first = line->is_start;
+    const double *sums = polynomial_sizes(line->list);
+    double sizes[TERMS_MOST], origin = vec3_max_abs(line->ray->origin);
+    double moved = line->t_base == 0.0 ? 0.0 : 0x1p-52 * (origin + vec3_max_abs(line->base)); // by rounding b
+    double base = vec3_max_abs(line->base) + moved, along = vec3_max_abs(line->along);
+    int degree = -1;
+    for (unsigned i = order + 1; i-- > 0;) {
+        degree = times_line(sizes, degree, base, along);
+        degree = plus(sizes, degree, &sums[i], 0);
+    }
+    double rounding = (6.0 * order + 16.0) * 0x1p-53, by_move = moved / along;
+    for (unsigned i = 0; i <= p->degree; i++) {
+        unsigned at = i + first;
+        p->sizes[i] = sizes[at];
+        p->errors[i] = rounding * sizes[at] + (at < order ? by_move * (at + 1) * sizes[at + 1] : 0.0);
+    }
+}
+
+static void line_polynomial(const Line *line, Polynomial *p)
+{
+    double whole[TERMS_MOST + 1];
+    unsigned order = polynomial_order(line->list), first = line->is_start;
+    compose(line, whole);
+    p->degree = order - first;
+    p->refine = refine;
+    p->owner = line;
+    for (unsigned i = 0; i <= p->degree; i++) {
+        p->terms[i] = whole[i + first];
+    }
+    set_errors(line, p);
+    roots_start(p);
+}
+
+// ---- roots
+
+static void line_set(Line *line, const double *list, const Ray *ray, bool is_start)
+{
+    Vec3 o = ray->origin, d = ray->direction;
+    double length2 = vec3_length_squared(d);
+    line->list = list;
+    line->ray = ray;
+    line->is_start = is_start;
+    line->t_base = is_start ? 0.0 : -vec3_dot(o, d) / length2;
+    line->step = ldexp(1.0, -ilogb(vec3_max_abs(d)));
+    line->base = vec3_add_scaled(o, line->t_base, d);
+    line->along = vec3_scale(line->step, d);
+}
+
+// Whether a root is good to some u of all that makes its place.
+static bool root_is_good(const Line *line, const Polynomial *p, double s)
+{
+    double error = 0.0, slope = 0.0, size = fabs(s);
+    for (unsigned i = p->degree + 1; i-- > 0;) {
+        error = error * size + p->errors[i];
+        slope = i > 0 ? slope * s + i * p->terms[i] : slope;
+    }
+    return error <= GOOD_ROOT * (vec3_max_abs(line->ray->origin) + size) * fabs(slope);
+}
+
+static unsigned line_roots(const Line *line, Polynomial *p, double low, double *roots, int *sign)
+{
+    const double high = (double)INFINITY;
+    unsigned count = roots_find(p, low, high, roots, sign);
+    bool are_good = true, were_exact = p->is_exact; // their errors are those of then
+    for (unsigned i = 0; i < count && !were_exact; i++) {
+        if ((p->is_exact || !root_is_good(line, p, roots[i])) && !roots_refine(p, &roots[i])) {
+            are_good = false;
+        }
+    }
+    return are_good ? count : roots_find_exact(p, low, high, roots, sign);
+}
+
+static unsigned make_intervals(const Line *line, const double *roots, unsigned count, bool is_inside,
+                               RayInterval *intervals)
+{
+    RayInterval interval = INTERVAL_ALL;
+    unsigned made = 0;
+    for (unsigned i = 0; i < count; i++) {
+        double t = line->t_base + roots[i] * line->step;
+        if (is_inside) {
+            interval.leave = t;
+            interval.leave_side = 0;
+            intervals[made++] = interval;
+        } else {
+            interval.enter = t;
+            interval.enter_side = 0;
+        }
+        is_inside = !is_inside;
+    }
+    if (is_inside) {
+        interval.leave = (double)INFINITY;
+        interval.leave_side = SIDE_NONE;
+        intervals[made++] = interval;
+    }
+    return made;
+}
+
+// Whether the ray is inside behind its start: as it is said, but where the slope is against that by rounding; then the
+// bend decides.
+static bool starts_inside(const Polynomial *p, bool inward)
+{
+    bool falls = p->terms[0]<0.0, bends = p->degree> 0 && p->terms[1] < 0.0;
+    return inward ? falls || bends : falls && bends;
+}
+
+unsigned polynomial_intervals(const double *list, const Ray *ray, SideLeft left, RayInterval *intervals)
+{
+    Line line;
+    Polynomial p;
+    double roots[TERMS_MOST];
+    int sign;
+    bool is_start = left.side != SIDE_NONE;
+    line_set(&line, list, ray, is_start);
+    line_polynomial(&line, &p);
+    if (!is_start) {
+        unsigned count = line_roots(&line, &p, -(double)INFINITY, roots, &sign);
+        return make_intervals(&line, roots, count, sign < 0, intervals);
+    }
+    unsigned count = line_roots(&line, &p, 0.0, roots, &sign);
+    bool is_inside = starts_inside(&p, left.inward);
+    unsigned passed = count > 0 && is_inside != (sign < 0) ? 1 : 0; // the start's own, come twice
+    return make_intervals(&line, roots + passed, count - passed, is_inside, intervals);
+}
+
+// ---- surfaces
+
+Vec3 polynomial_normal(const double *list, Vec3 point)
+{
+    Vec3 n = polynomial_gradient(list, point);
+    double size = vec3_max_abs(n);
+    if (!(size > 0.0 && size <= 0x1p1000)) {
+        return vec3(1.0, 0.0, 0.0);
+    }
+    return vec3_normalize(vec3_scale(ldexp(1.0, -ilogb(size)), n));
+}

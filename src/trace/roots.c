@@ -1,0 +1,315 @@
+// Levels of derivatives: level k is the k-th derivative. Where a sign is 0 the place divides nothing.
+//
+// SPDX-License-Identifier: MIT
+#include "trace/roots.h"
+
+#include "math/extreme.h"
+
+enum { STEPS_MOST = 200, REFINE_MOST = 8 };
+
+// Where the terms of a level begin.
+static unsigned level_at(const Polynomial *p, unsigned level)
+{
+    return level * (p->degree + 1) - level * (level - 1) / 2;
+}
+
+static void set_levels(Polynomial *p, unsigned levels)
+{
+    for (unsigned level = 1; level <= levels; level++) {
+        const double *of = &p->terms[level_at(p, level - 1)];
+        double *to = &p->terms[level_at(p, level)];
+        for (unsigned i = 0; i + level <= p->degree; i++) {
+            to[i] = (double)(i + 1) * of[i + 1];
+        }
+    }
+}
+
+static double horner(const double *terms, unsigned degree, double x)
+{
+    double value = terms[degree];
+    for (unsigned i = degree; i-- > 0;) {
+        value = value * x + terms[i];
+    }
+    return value;
+}
+
+static double value_at(const Polynomial *p, unsigned level, double x)
+{
+    return horner(&p->terms[level_at(p, level)], p->degree - level, x);
+}
+
+// i (i - 1) … for `level` factors.
+static double falling(unsigned i, unsigned level)
+{
+    double product = 1.0;
+    for (unsigned k = 0; k < level; k++) {
+        product *= (double)(i - k);
+    }
+    return product;
+}
+
+// The sum of terms[i] |x|^i, or of its derivative at a level.
+static double bound_at(const double *terms, unsigned degree, unsigned level, double x)
+{
+    double value = 0.0, size = fabs(x);
+    for (unsigned i = degree + 1; i-- > level;) {
+        value = value * size + terms[i] * falling(i, level);
+    }
+    return value;
+}
+
+static DoubleWord exact_at(const Polynomial *p, unsigned level, double x)
+{
+    DoubleWord value = double_word_scale(p->exact[p->degree], falling(p->degree, level));
+    for (unsigned i = p->degree; i-- > level;) {
+        value = double_word_scale(value, x);
+        value = double_word_add(value, double_word_scale(p->exact[i], falling(i, level)));
+    }
+    return value;
+}
+
+static void make_exact(Polynomial *p)
+{
+    if (p->is_exact) {
+        return;
+    }
+    p->refine(p, p->owner);
+    p->is_exact = true;
+    double rounding = (2.0 * p->degree + 4.0) * 0x1p-53;
+    for (unsigned i = 0; i <= p->degree; i++) {
+        p->terms[i] = p->exact[i].hi;
+        p->errors[i] = rounding * fabs(p->terms[i]) + ROOTS_EXACT_ERROR * p->sizes[i];
+    }
+    set_levels(p, p->degree);
+}
+
+static int sign_of(double value)
+{
+    return (value > 0.0) - (value < 0.0);
+}
+
+static int sign_exact(Polynomial *p, unsigned level, double x)
+{
+    make_exact(p);
+    double value = value_at(p, level, x), error = bound_at(p->errors, p->degree, level, x);
+    if (fabs(value) > error) {
+        return sign_of(value);
+    }
+    value = exact_at(p, level, x).hi;
+    return fabs(value) > ROOTS_EXACT_ERROR * bound_at(p->sizes, p->degree, level, x) ? sign_of(value) : 0;
+}
+
+static int sign_at(Polynomial *p, unsigned level, double x)
+{
+    double value = value_at(p, level, x), error = bound_at(p->errors, p->degree, level, x);
+    return fabs(value) > error ? sign_of(value) : sign_exact(p, level, x);
+}
+
+int roots_sign(Polynomial *p, double x)
+{
+    return sign_at(p, 0, x);
+}
+
+void roots_start(Polynomial *p)
+{
+    p->is_exact = false;
+    while (p->degree > 0 && p->sizes[p->degree] == 0.0) {
+        p->degree--;
+    }
+    while (p->degree > 0 && !(fabs(p->terms[p->degree]) > p->errors[p->degree])) {
+        make_exact(p);
+        if (fabs(p->terms[p->degree]) > ROOTS_EXACT_ERROR * p->sizes[p->degree]) {
+            break;
+        }
+        p->degree--;
+    }
+    set_levels(p, p->degree);
+}
+
+// Fujiwara's bound of all roots, as a power of two; those of derivatives lie within it, too (Gauss, Lucas).
+static double outer_bound(const Polynomial *p)
+{
+    const int none = -1000;
+    int lead = ilogb(p->terms[p->degree]), most = none;
+    for (unsigned i = 0; i < p->degree; i++) {
+        if (p->terms[i] != 0.0) {
+            int below = (int)(p->degree - i), rise = ilogb(p->terms[i]) + 1 - lead;
+            int share = rise > 0 ? (rise + below - 1) / below : rise / below;
+            most = share > most ? share : most;
+        }
+    }
+    return most == none ? 1.0 : ldexp(1.0, most + 2);
+}
+
+// The value of a level and its slope; of double words, once there are some.
+static double value_and_slope(const Polynomial *p, unsigned level, double x, double *slope)
+{
+    if (p->is_exact) {
+        *slope = exact_at(p, level + 1, x).hi;
+        return exact_at(p, level, x).hi;
+    }
+    const double *terms = &p->terms[level_at(p, level)];
+    double value = terms[p->degree - level], rise = 0.0;
+    for (unsigned k = p->degree - level; k-- > 0;) {
+        rise = rise * x + value;
+        value = value * x + terms[k];
+    }
+    *slope = rise;
+    return value;
+}
+
+// The place of a sign change between two places, for a sign before it; Newton's steps as long as they stay between.
+static double root_between(const Polynomial *p, unsigned level, double low, double high, int sign)
+{
+    double x = 0.5 * (low + high), before = high - low;
+    for (int i = 0; i < STEPS_MOST && low < x && x < high; i++) {
+        double slope, value = value_and_slope(p, level, x, &slope);
+        if (value == 0.0) {
+            return x;
+        }
+        *((value > 0.0) == (sign > 0) ? &low : &high) = x;
+        double next = x - value / slope, change = fabs(next - x);
+        if (change <= 0x1p-52 * fabs(x)) {
+            return next > low && next < high ? next : x;
+        }
+        bool is_slow = !(next > low && next < high) || !(2.0 * change < before);
+        before = is_slow ? high - low : change;
+        x = is_slow ? 0.5 * (low + high) : next;
+    }
+    return x;
+}
+
+// Between which places roots are looked for; an end that stands for one that is infinite has the sign that it has
+// there.
+typedef struct Range {
+    double low, high;
+    bool is_low_infinite, is_high_infinite;
+} Range;
+
+static int sign_beyond(const Polynomial *p, unsigned level, bool is_low)
+{
+    bool turns = is_low && (p->degree - level) % 2 != 0;
+    return (p->terms[p->degree] > 0.0) != turns ? 1 : -1;
+}
+
+// The roots of a level, from places between which it has one at most.
+static unsigned level_roots(Polynomial *p, unsigned level, const Range *range, const double *places,
+                            unsigned place_count, double *roots, int *first)
+{
+    unsigned count = 0;
+    double from = range->low;
+    int sign = range->is_low_infinite ? sign_beyond(p, level, true) : sign_at(p, level, from);
+    *first = sign;
+    for (unsigned i = 0; i <= place_count; i++) {
+        bool is_last = i == place_count;
+        double to = is_last ? range->high : places[i];
+        int next = is_last && range->is_high_infinite ? sign_beyond(p, level, false) : sign_at(p, level, to);
+        if (next == 0) {
+            continue;
+        }
+        if (sign == 0) {
+            *first = next;
+        } else if (sign != next) {
+            roots[count++] = root_between(p, level, from, to, sign);
+        }
+        sign = next;
+        from = to;
+    }
+    return count;
+}
+
+// Of the level that is a quadratic or a line.
+static unsigned lowest_roots(const Polynomial *p, unsigned level, double low, double high, double *roots)
+{
+    const double *terms = &p->terms[level_at(p, level)];
+    unsigned count = 0;
+    double first, second;
+    if (p->degree - level == 1) {
+        first = second = -terms[0] / terms[1];
+    } else {
+        double half = -0.5 * terms[1], square = half * half - terms[0] * terms[2];
+        if (!(square > 0.0)) {
+            return 0;
+        }
+        double sum = half + copysign(sqrt(square), half);
+        first = sum / terms[2];
+        second = terms[0] / sum;
+    }
+    if (first > second) {
+        double other = first;
+        first = second;
+        second = other;
+    }
+    if (first > low && first < high) {
+        roots[count++] = first;
+    }
+    if (second > first && second > low && second < high) {
+        roots[count++] = second;
+    }
+    return count;
+}
+
+static unsigned find_between(Polynomial *p, const Range *range, double *roots, int *sign)
+{
+    double places[2][ROOTS_DEGREE_MOST + 1];
+    unsigned count = 0, level = p->degree > 2 ? p->degree - 2 : 1, now = 0;
+    if (p->degree > 1) {
+        count = lowest_roots(p, level, range->low, range->high, places[now]);
+        while (--level > 0) {
+            int first;
+            count = level_roots(p, level, range, places[now], count, places[!now], &first);
+            now = !now;
+        }
+    }
+    return level_roots(p, 0, range, places[now], count, roots, sign);
+}
+
+// What double words were wanted for is found once more from better terms.
+unsigned roots_find(Polynomial *p, double low, double high, double *roots, int *sign)
+{
+    Range range = {low, high, isinf(low), isinf(high)};
+    if (p->degree == 0) {
+        *sign = sign_at(p, 0, 0.0);
+        return 0;
+    }
+    if (range.is_low_infinite || range.is_high_infinite) {
+        double bound = outer_bound(p);
+        range.low = !range.is_low_infinite ? low : high < -bound ? 2.0 * high : -bound;
+        range.high = !range.is_high_infinite ? high : low > bound ? 2.0 * low : bound;
+    }
+    bool was_exact = p->is_exact;
+    unsigned count = find_between(p, &range, roots, sign);
+    return was_exact == p->is_exact ? count : find_between(p, &range, roots, sign);
+}
+
+bool roots_refine(Polynomial *p, double *root)
+{
+    make_exact(p);
+    DoubleWord x = {*root, 0.0};
+    for (int i = 0; i < REFINE_MOST; i++) {
+        DoubleWord value = p->exact[p->degree];
+        for (unsigned k = p->degree; k-- > 0;) {
+            value = double_word_add(double_word_mul(value, x), p->exact[k]);
+        }
+        double slope = value_at(p, 1, x.hi), change = value.hi / slope;
+        double turn = p->degree > 1 ? change * value_at(p, 2, x.hi) : 0.0;
+        if (value.hi == 0.0) {
+            break;
+        }
+        if (!(fabs(turn) <= 0.75 * fabs(slope))) {
+            return false;
+        }
+        x = double_word_add(x, (DoubleWord){-change, 0.0});
+        if (fabs(change) <= 0x1p-70 * fabs(x.hi)) {
+            break;
+        }
+    }
+    *root = x.hi;
+    return true;
+}
+
+unsigned roots_find_exact(Polynomial *p, double low, double high, double *roots, int *sign)
+{
+    make_exact(p);
+    return roots_find(p, low, high, roots, sign);
+}
