@@ -184,6 +184,20 @@ typedef struct TorusDesc {
     double major, minor;
 } TorusDesc;
 
+typedef struct PrismDesc {
+    ObjectPart part;
+    Numbers outline; // scene/outline.h
+    double heights[2]; // in order
+    bool is_open;
+    bool is_control_bound; // POV-Ray's box is that of all control points
+} PrismDesc;
+
+typedef struct PolygonDesc {
+    ObjectPart part;
+    Numbers outline; // within the frame
+    Transform frame;
+} PolygonDesc;
+
 typedef struct TriangleDesc {
     ObjectPart part;
     Vec3 corners[3];
@@ -291,6 +305,8 @@ typedef union Desc {
     ConeDesc cone;
     DiscDesc disc;
     TorusDesc torus;
+    PrismDesc prism;
+    PolygonDesc polygon;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     UnionDesc group;

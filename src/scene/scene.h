@@ -240,6 +240,9 @@ typedef struct Plane {
 //   smooth triangle the same, with normals data[0..2] at the corners that are of length 1 in the scene itself
 //   torus           all points at distance data[0].y from the circle of radius data[0].x in y = 0; both are > 0, and their
 //                   sum is at least 1/2 and at most 1
+//   prism           an outline in x and z, from y = fixed[0].y to fixed[1].y, one that is conic y times as large; fixed[]
+//                   are its bounds, the list is the outline
+//   polygon         an outline of straight pieces in x and y, at z = 0
 typedef enum PartKind {
     PART_SPHERE,
     PART_PLANE,
@@ -249,6 +252,8 @@ typedef enum PartKind {
     PART_TRIANGLE,
     PART_SMOOTH_TRIANGLE,
     PART_TORUS,
+    PART_PRISM,
+    PART_POLYGON,
     PART_KINDS
 } PartKind;
 

@@ -11,6 +11,7 @@
 #include "trace/cone.h"
 #include "trace/flat.h"
 #include "trace/plane.h"
+#include "trace/prism.h"
 #include "trace/sphere.h"
 #include "trace/torus.h"
 
@@ -250,6 +251,30 @@ static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
     axes[2] = vec3(0.0, 0.0, width);
 }
 
+// ---- prism and polygon
+
+static unsigned prism_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return prism_intervals(&solid->list, solid->fixed[0].y, solid->fixed[1].y, object, left, intervals);
+}
+
+static Vec3 prism_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return prism_gradient(&solid->list, point, side);
+}
+
+static Vec3 prism_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return prism_point(&solid->list, solid->fixed[0].y, solid->fixed[1].y, point, side);
+}
+
+static bool polygon_root(const Solid *solid, const Ray *object, double *t)
+{
+    double x, y;
+    return flat_root(object->origin, object->direction, t, &x, &y) &&
+           outline_holds(&solid->list, (OutlinePoint){x, y});
+}
+
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
@@ -298,6 +323,19 @@ const SolidClass solid_classes[PART_KINDS] = {
                     .point = torus_side_point,
                     .axes = torus_axes,
                     .films = 1 << TORUS_INNER},
+    [PART_PRISM] = {.intervals = prism_side_intervals,
+                    .normal = prism_side_gradient,
+                    .gradient = prism_side_gradient,
+                    .point = prism_side_point,
+                    .axes = box_axes,
+                    .across = {0, 2, 2},
+                    .turns = true},
+    [PART_POLYGON] = {.root = polygon_root,
+                      .normal = flat_normal,
+                      .gradient = flat_normal,
+                      .point = flat_point,
+                      .axes = box_axes,
+                      .across = {3}},
 };
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)

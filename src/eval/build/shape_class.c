@@ -247,6 +247,8 @@ static const ShapeClass classes[KIND_COUNT] = {
                    .box = cone_box},
     [KIND_DISC] = {.is_flat = true, .settle = disc_settle, .form = disc_form, .holds = disc_holds, .box = disc_box},
     [KIND_TORUS] = {.form = torus_form, .holds = torus_holds, .box = torus_box},
+    [KIND_PRISM] = {.form = prism_form, .holds = prism_holds, .box = prism_box},
+    [KIND_POLYGON] = {.is_flat = true, .form = polygon_form, .box = polygon_box},
     [KIND_TRIANGLE] = {.is_flat = true,
                        .form = triangle_form,
                        .corners_at = offsetof(TriangleDesc, corners)},
