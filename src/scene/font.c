@@ -49,7 +49,7 @@ double font_kerning(Font *font, uint32_t left, uint32_t right)
 typedef struct Pen {
     double *items;
     size_t pieces;
-    double unit, left;
+    double unit;
 } Pen;
 
 static bool pen_draw(void *client, const double points[8])
@@ -58,7 +58,7 @@ static bool pen_draw(void *client, const double points[8])
     if (pen->items) {
         double *piece = pen->items + OUTLINE_HEAD + 8 * pen->pieces;
         for (int i = 0; i < 8; i += 2) {
-            piece[i] = pen->unit * (points[i] - pen->left);
+            piece[i] = pen->unit * points[i];
             piece[i + 1] = pen->unit * points[i + 1];
         }
     }
@@ -71,9 +71,9 @@ FontResult font_letter(Font *font, uint32_t character, Arena *arena, FontLetter 
     Pen pen = {.unit = font->unit};
     *letter = (FontLetter){.index = 0};
     bool has_outline = font->module->glyph(font->face, character, &glyph);
-    pen.left = glyph.bearing;
     letter->index = glyph.index;
-    letter->advance = font->unit * (glyph.advance - glyph.bearing);
+    letter->advance = font->unit * glyph.advance;
+    letter->bearing = font->unit * glyph.bearing;
     bool is_drawn = !has_outline || font->module->draw(font->face, pen_draw, &pen);
     letter->is_cut = !is_drawn;
     if (!is_drawn || pen.pieces == 0) {

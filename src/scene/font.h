@@ -23,10 +23,10 @@ typedef struct Font {
     double unit; // of the font's lengths
 } Font;
 
-// A letter, its left edge at 0, on the line v = 0.
+// A letter at its origin, on the line v = 0.
 typedef struct FontLetter {
     uint32_t index;
-    double advance; // from its left edge to where the next letter begins
+    double advance, bearing; // from its origin to the next letter's, and to its own left edge
     Numbers outline; // with no piece: it is not seen
     bool is_cut;     // it has more pieces than an outline may have
 } FontLetter;

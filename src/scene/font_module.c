@@ -11,6 +11,8 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 #include FT_FONT_FORMATS_H
+#include FT_TRUETYPE_TABLES_H
+#include FT_TRUETYPE_TAGS_H
 
 struct FontFace {
     FT_Library library;
@@ -70,6 +72,19 @@ static FontFace *font_open(const char *path, double *units, char *why, size_t si
     return font;
 }
 
+// The left side bearing as the table has it, which may differ from where the outline begins.
+static double table_bearing(FT_Face face, uint32_t index)
+{
+    const TT_HoriHeader *header = FT_Get_Sfnt_Table(face, FT_SFNT_HHEA);
+    FT_Byte bytes[2];
+    FT_ULong size = sizeof bytes, count = header ? header->number_Of_HMetrics : 0;
+    FT_ULong offset = index < count ? 4 * (FT_ULong)index + 2 : 4 * count + 2 * (index - count);
+    if (count == 0 || FT_Load_Sfnt_Table(face, TTAG_hmtx, (FT_Long)offset, bytes, &size)) {
+        return (double)face->glyph->metrics.horiBearingX;
+    }
+    return (double)(int16_t)(uint16_t)(bytes[0] << 8 | bytes[1]);
+}
+
 static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
 {
     FT_Face face = font->face;
@@ -78,7 +93,7 @@ static bool font_glyph(FontFace *font, uint32_t character, FontGlyph *glyph)
         return false;
     }
     glyph->advance = (double)face->glyph->advance.x;
-    glyph->bearing = (double)face->glyph->metrics.horiBearingX;
+    glyph->bearing = table_bearing(face, glyph->index);
     return face->glyph->format == FT_GLYPH_FORMAT_OUTLINE;
 }
 

@@ -1,7 +1,7 @@
 // Text: a font, a string, a thickness and an offset become a union of prisms, a letter each.
 //
 // As in POV-Ray letters stand side by side along x from 0 on, their outlines in x and y, and reach as far along z as the
-// text is thick; a letter's own left edge counts, not its origin; and all is turned by a thousandth of a degree about x, y
+// text is thick; the first one's left edge is at 0; and all is turned by a thousandth of a degree about x, y
 // and z. Knows nothing of how fonts are read.
 //
 // SPDX-License-Identifier: MIT
@@ -76,6 +76,9 @@ static bool read_head(Block *block, TextHead *head)
         !block_finite(block, head->thickness, span, "thickness")) {
         return false;
     }
+    if (!(head->thickness > 0.0)) { // POV-Ray draws something else than what its boxes say. Measured.
+        return block_fault(block, DIAG_E0341, span, "a text must be thicker than 0, not %g", head->thickness);
+    }
     cursor_take_comma(&block->cursor);
     item = cursor_peek(&block->cursor);
     if (!item || !cursor_at_value(&block->cursor)) {
@@ -109,8 +112,7 @@ static bool add_letter(Block *block, const TextHead *head, const Numbers *outlin
     block_defaults(block->ev, KIND_PRISM, &record);
     *prism = record.prism;
     prism->outline = *outline;
-    prism->heights[0] = fmin(0.0, head->thickness);
-    prism->heights[1] = fmax(0.0, head->thickness);
+    prism->heights[1] = head->thickness;
     prism->part.transform = letter_place(x, y);
     prism->part.span = block->node->span;
     *member = (UnionMember){.object = prism, .kind = KIND_PRISM};
@@ -139,7 +141,7 @@ static bool add_letters(Block *block, const TextHead *head, Font *font, UnionMem
             return block_fault(block, DIAG_E0494, head->span, "a letter of this text has more than %d pieces",
                                OUTLINE_PIECES_MOST);
         }
-        pen.x += is_first ? 0.0 : font_kerning(font, before, letter.index) + head->offset.x;
+        pen.x += is_first ? -letter.bearing : font_kerning(font, before, letter.index) + head->offset.x;
         pen.y += is_first ? 0.0 : head->offset.y;
         if (letter.outline.count > 0) {
             if (!add_letter(block, head, &letter.outline, pen.x, pen.y, end)) {
