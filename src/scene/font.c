@@ -48,19 +48,22 @@ double font_kerning(Font *font, uint32_t left, uint32_t right)
 // An outline while it is drawn; without items pieces are counted.
 typedef struct Pen {
     double *items;
-    size_t pieces;
+    size_t pieces, count;
     double unit;
 } Pen;
 
 static bool pen_draw(void *client, const double points[8])
 {
     Pen *pen = client;
+    double own[8];
+    for (int i = 0; i < 8; i++) {
+        own[i] = pen->unit * points[i];
+    }
+    if (outline_is_straight(points)) {
+        outline_straighten(own);
+    }
     if (pen->items) {
-        double *piece = pen->items + OUTLINE_HEAD + 8 * pen->pieces;
-        for (int i = 0; i < 8; i += 2) {
-            piece[i] = pen->unit * points[i];
-            piece[i + 1] = pen->unit * points[i + 1];
-        }
+        outline_add(pen->items, &pen->count, own);
     }
     return ++pen->pieces <= OUTLINE_PIECES_MOST;
 }
@@ -79,14 +82,13 @@ FontResult font_letter(Font *font, uint32_t character, Arena *arena, FontLetter 
     if (!is_drawn || pen.pieces == 0) {
         return FONT_OK;
     }
-    pen.items = arena_alloc_array(arena, OUTLINE_HEAD + 8 * pen.pieces, sizeof *pen.items);
+    pen.items = arena_alloc_array(arena, OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * pen.pieces, sizeof *pen.items);
     if (!pen.items) {
         return FONT_NO_MEMORY;
     }
-    pen.items[OUTLINE_DEGREE] = 3.0;
-    pen.items[OUTLINE_CONIC] = 0.0;
+    outline_begin(pen.items, &pen.count, 3, false);
     pen.pieces = 0;
     letter->is_cut = !font->module->draw(font->face, pen_draw, &pen);
-    letter->outline = (Numbers){pen.items, OUTLINE_HEAD + 8 * pen.pieces};
+    letter->outline = (Numbers){pen.items, pen.count};
     return FONT_OK;
 }

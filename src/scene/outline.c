@@ -87,60 +87,168 @@ static unsigned cubic_roots(const double f[4], double roots[ROOTS_MOST])
 
 // ---- pieces
 
-static OutlinePoint piece_at(const double *piece, unsigned degree, double s)
+// As the list has it.
+typedef struct Piece {
+    const double *box, *points, *end;
+    bool is_straight;
+} Piece;
+
+static inline Piece piece_of(const Numbers *list, uint32_t stride, uint32_t i)
 {
-    if (degree == 1) {
-        return (OutlinePoint){piece[0] + s * (piece[2] - piece[0]), piece[1] + s * (piece[3] - piece[1])};
+    const double *at = outline_place(list, stride, i);
+    return (Piece){at, at + PIECE_POINTS, at + stride - 2, at[PIECE_DEGREE] == 1.0};
+}
+
+// Whether piece i is the first of a group that, by its box, is passed over with all that follow in it.
+typedef bool (*BoxTest)(const double *box, const void *asked);
+static inline bool skips_group(const Numbers *list, uint32_t stride, uint32_t *i, BoxTest is_out, const void *asked)
+{
+    if (*i % OUTLINE_GROUP != 0 || !is_out(outline_place(list, stride, *i) - OUTLINE_BOX, asked)) {
+        return false;
     }
-    const double u[4] = {piece[0], piece[2], piece[4], piece[6]}, v[4] = {piece[1], piece[3], piece[5], piece[7]};
+    *i += OUTLINE_GROUP - 1;
+    return true;
+}
+
+static OutlinePoint piece_at(const Piece *piece, double s)
+{
+    const double *p = piece->points, *end = piece->end;
+    if (piece->is_straight) {
+        return (OutlinePoint){p[0] + s * (end[0] - p[0]), p[1] + s * (end[1] - p[1])};
+    }
+    const double u[4] = {p[0], p[2], p[4], p[6]}, v[4] = {p[1], p[3], p[5], p[7]};
     return (OutlinePoint){cubic_at(u, s), cubic_at(v, s)};
 }
 
-static unsigned piece_cross(const double *piece, unsigned degree, double a, double b, double c, double roots[ROOTS_MOST])
+static unsigned piece_cross(const Piece *piece, double a, double b, double c, double roots[ROOTS_MOST])
 {
-    double f[4];
-    for (unsigned i = 0; i <= degree; i++) {
-        f[i] = a * piece[2 * i] + c * piece[2 * i + 1] + b;
-    }
-    if (degree > 1) {
+    const double *p = piece->points, *end = piece->end;
+    double first = a * p[0] + c * p[1] + b, last = a * end[0] + c * end[1] + b;
+    if (!piece->is_straight) {
+        const double f[4] = {first, a * p[2] + c * p[3] + b, a * p[4] + c * p[5] + b, last};
         return cubic_roots(f, roots);
     }
-    if ((f[0] < 0.0) == (f[1] < 0.0)) {
+    if ((first < 0.0) == (last < 0.0)) {
         return 0;
     }
-    roots[0] = f[0] / (f[0] - f[1]);
+    roots[0] = first / (first - last);
     return 1;
 }
 
-uint32_t outline_cross(const Numbers *list, double a, double b, double c, OutlinePoint *points)
+static inline bool is_beside_line(const double *box, const void *asked)
 {
-    unsigned degree = outline_degree(list);
-    uint32_t pieces = outline_piece_count(list), count = 0;
+    const OutlineLine *line = asked;
+    const double *low = box + PIECE_LOW, *high = box + PIECE_HIGH;
+    return low[0] > line->high.u || high[0] < line->low.u || low[1] > line->high.v || high[1] < line->low.v;
+}
+
+uint32_t outline_cross(const Numbers *list, const OutlineLine *line, OutlinePoint *points, bool *is_asked)
+{
+    uint32_t stride = outline_stride(list), pieces = outline_piece_count(list), count = 0;
+    *is_asked = false;
     for (uint32_t i = 0; i < pieces; i++) {
-        const double *piece = outline_piece(list, i);
+        if (skips_group(list, stride, &i, is_beside_line, line)) {
+            continue;
+        }
+        Piece piece = piece_of(list, stride, i);
+        if (is_beside_line(piece.box, line)) {
+            continue;
+        }
         double roots[ROOTS_MOST];
-        unsigned found = piece_cross(piece, degree, a, b, c, roots);
+        *is_asked = true;
+        unsigned found = piece_cross(&piece, line->a, line->b, line->c, roots);
         for (unsigned k = 0; k < found; k++) {
-            points[count++] = piece_at(piece, degree, roots[k]);
+            points[count++] = piece_at(&piece, roots[k]);
         }
     }
     return count;
 }
 
+// Whether no sign changes in the box along the line, or nothing of it is to the right of the point.
+static inline bool is_beside_point(const double *box, const void *asked)
+{
+    const OutlinePoint *p = asked;
+    return p->v > box[PIECE_HIGH + 1] || p->v <= box[PIECE_LOW + 1] || p->u >= box[PIECE_HIGH];
+}
+
+// By the line along u, of which what is to the right of the point counts.
 bool outline_holds(const Numbers *list, OutlinePoint p)
 {
-    unsigned degree = outline_degree(list);
-    uint32_t pieces = outline_piece_count(list);
+    uint32_t stride = outline_stride(list), pieces = outline_piece_count(list);
     bool is_inside = false;
     for (uint32_t i = 0; i < pieces; i++) {
-        const double *piece = outline_piece(list, i);
+        if (skips_group(list, stride, &i, is_beside_point, &p)) {
+            continue;
+        }
+        Piece piece = piece_of(list, stride, i);
+        if (is_beside_point(piece.box, &p)) {
+            continue;
+        }
+        if (p.u < piece.box[PIECE_LOW]) {
+            is_inside = is_inside != ((piece.points[1] < p.v) != (piece.end[1] < p.v));
+            continue;
+        }
         double roots[ROOTS_MOST];
-        unsigned found = piece_cross(piece, degree, 0.0, -p.v, 1.0, roots);
+        unsigned found = piece_cross(&piece, 0.0, -p.v, 1.0, roots);
         for (unsigned k = 0; k < found; k++) {
-            is_inside = is_inside != (piece_at(piece, degree, roots[k]).u > p.u);
+            is_inside = is_inside != (piece_at(&piece, roots[k]).u > p.u);
         }
     }
     return is_inside;
+}
+
+// ---- making one
+
+void outline_begin(double *items, size_t *count, unsigned degree, bool is_conic)
+{
+    items[OUTLINE_DEGREE] = degree;
+    items[OUTLINE_CONIC] = is_conic ? 1.0 : 0.0;
+    *count = OUTLINE_HEAD;
+}
+
+static double third(double from, double to)
+{
+    return from + (to - from) / 3.0;
+}
+
+bool outline_is_straight(const double p[8])
+{
+    return p[2] == third(p[0], p[6]) && p[3] == third(p[1], p[7]) && p[4] == third(p[6], p[0]) &&
+           p[5] == third(p[7], p[1]);
+}
+
+void outline_straighten(double p[8])
+{
+    p[2] = third(p[0], p[6]);
+    p[3] = third(p[1], p[7]);
+    p[4] = third(p[6], p[0]);
+    p[5] = third(p[7], p[1]);
+}
+
+void outline_add(double *items, size_t *count, const double *points)
+{
+    unsigned degree = items[OUTLINE_DEGREE] > 1.0 ? 3 : 1;
+    size_t stride = PIECE_POINTS + 2 * (degree + 1), group = OUTLINE_BOX + OUTLINE_GROUP * stride;
+    size_t within = (*count - OUTLINE_HEAD) % group;
+    double *box = items + *count - within;
+    *count += within == 0 ? OUTLINE_BOX : 0;
+    double *piece = items + *count;
+    bool is_straight = degree == 1 || outline_is_straight(points);
+    piece[PIECE_DEGREE] = is_straight ? 1.0 : degree;
+    for (unsigned axis = 0; axis < 2; axis++) {
+        piece[PIECE_LOW + axis] = piece[PIECE_HIGH + axis] = points[axis];
+        box[PIECE_LOW + axis] = within == 0 ? points[axis] : box[PIECE_LOW + axis];
+        box[PIECE_HIGH + axis] = within == 0 ? points[axis] : box[PIECE_HIGH + axis];
+    }
+    for (unsigned i = 0; i < 2 * (degree + 1); i++) {
+        unsigned low = PIECE_LOW + (i & 1), high = PIECE_HIGH + (i & 1);
+        piece[PIECE_POINTS + i] = points[i];
+        piece[low] = fmin(piece[low], points[i]);
+        piece[high] = fmax(piece[high], points[i]);
+        box[low] = fmin(box[low], points[i]);
+        box[high] = fmax(box[high], points[i]);
+    }
+    *count += stride;
 }
 
 // ---- the nearest point
@@ -151,29 +259,29 @@ static double distance2(OutlinePoint a, OutlinePoint b)
     return u * u + v * v;
 }
 
-// No more than the distance from a piece, squared: that from the box of its control points.
-static double piece_distance2(const double *piece, unsigned degree, OutlinePoint p)
+// A point and what is about it.
+typedef struct Place {
+    OutlinePoint p;
+    double room;
+} Place;
+
+static inline bool is_beside_place(const double *box, const void *asked)
 {
-    double low[2] = {piece[0], piece[1]}, high[2] = {piece[0], piece[1]}, q[2] = {p.u, p.v}, sum = 0.0;
-    for (unsigned i = 2; i < 2 * (degree + 1); i++) {
-        low[i & 1] = piece[i] < low[i & 1] ? piece[i] : low[i & 1];
-        high[i & 1] = piece[i] > high[i & 1] ? piece[i] : high[i & 1];
-    }
-    for (unsigned axis = 0; axis < 2; axis++) {
-        double beyond = q[axis] < low[axis] ? low[axis] - q[axis] : q[axis] > high[axis] ? q[axis] - high[axis] : 0.0;
-        sum += beyond * beyond;
-    }
-    return sum;
+    const Place *place = asked;
+    OutlinePoint p = place->p;
+    double room = place->room;
+    const double *low = box + PIECE_LOW, *high = box + PIECE_HIGH;
+    return low[0] > p.u + room || high[0] < p.u - room || low[1] > p.v + room || high[1] < p.v - room;
 }
 
-static OutlinePoint piece_along(const double *piece, unsigned degree, double s)
+static OutlinePoint piece_along(const Piece *piece, double s)
 {
-    const unsigned end = 2 * degree;
-    OutlinePoint chord = {piece[end] - piece[0], piece[end + 1] - piece[1]};
-    if (degree == 1) {
+    const double *p = piece->points, *end = piece->end;
+    OutlinePoint chord = {end[0] - p[0], end[1] - p[1]};
+    if (piece->is_straight) {
         return chord;
     }
-    const double u[4] = {piece[0], piece[2], piece[4], piece[6]}, v[4] = {piece[1], piece[3], piece[5], piece[7]};
+    const double u[4] = {p[0], p[2], p[4], p[6]}, v[4] = {p[1], p[3], p[5], p[7]};
     OutlinePoint along = {cubic_slope(u, s), cubic_slope(v, s)};
     return along.u == 0.0 && along.v == 0.0 ? chord : along;
 }
@@ -183,32 +291,28 @@ static double clamped(double s)
     return s > 0.0 ? s < 1.0 ? s : 1.0 : 0.0; // NaN: 0
 }
 
-// The parameter of the piece's nearest point, where the point lies nearly on it: then a point of the piece that has one
-// coordinate with it is near.
-static double piece_nearest(const double *piece, unsigned degree, OutlinePoint p)
+// The parameter of the nearest point of a curved piece, where the point lies nearly on it: then a point of the piece that
+// has one coordinate with it is near.
+static double curve_nearest(const Piece *piece, OutlinePoint p)
 {
-    if (degree == 1) {
-        OutlinePoint along = piece_along(piece, degree, 0.0);
-        double square = along.u * along.u + along.v * along.v;
-        return clamped(((p.u - piece[0]) * along.u + (p.v - piece[1]) * along.v) / square);
-    }
-    const double u[4] = {piece[0] - p.u, piece[2] - p.u, piece[4] - p.u, piece[6] - p.u};
-    const double v[4] = {piece[1] - p.v, piece[3] - p.v, piece[5] - p.v, piece[7] - p.v};
+    const double *q = piece->points;
+    const double u[4] = {q[0] - p.u, q[2] - p.u, q[4] - p.u, q[6] - p.u};
+    const double v[4] = {q[1] - p.v, q[3] - p.v, q[5] - p.v, q[7] - p.v};
     double candidates[2 + 2 * ROOTS_MOST] = {0.0, 1.0};
     unsigned count = 2;
     count += cubic_roots(u, candidates + count);
     count += cubic_roots(v, candidates + count);
     double s = 0.0, least = (double)INFINITY;
     for (unsigned i = 0; i < count; i++) {
-        double from = distance2(piece_at(piece, degree, candidates[i]), p);
+        double from = distance2(piece_at(piece, candidates[i]), p);
         s = from < least ? candidates[i] : s;
         least = from < least ? from : least;
     }
     for (int i = 0; i < NEAREST_STEPS; i++) { // Gauss and Newton
-        OutlinePoint at = piece_at(piece, degree, s), along = piece_along(piece, degree, s);
+        OutlinePoint at = piece_at(piece, s), along = piece_along(piece, s);
         double square = 3.0 * (along.u * along.u + along.v * along.v);
         double next = clamped(s + ((p.u - at.u) * along.u + (p.v - at.v) * along.v) / square);
-        double from = distance2(piece_at(piece, degree, next), p);
+        double from = distance2(piece_at(piece, next), p);
         if (!(from < least)) {
             break;
         }
@@ -218,25 +322,40 @@ static double piece_nearest(const double *piece, unsigned degree, OutlinePoint p
     return s;
 }
 
+static double piece_nearest(const Piece *piece, OutlinePoint p)
+{
+    if (!piece->is_straight) {
+        return curve_nearest(piece, p);
+    }
+    OutlinePoint along = piece_along(piece, 0.0);
+    double square = along.u * along.u + along.v * along.v;
+    return clamped(((p.u - piece->points[0]) * along.u + (p.v - piece->points[1]) * along.v) / square);
+}
+
 OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *along)
 {
-    unsigned degree = outline_degree(list);
-    uint32_t pieces = outline_piece_count(list);
+    uint32_t stride = outline_stride(list), pieces = outline_piece_count(list);
     double least = (double)INFINITY;
     OutlinePoint nearest = p;
     *along = (OutlinePoint){1.0, 0.0};
-    for (uint32_t i = 0; i < pieces; i++) {
-        const double *piece = outline_piece(list, i);
-        if (!(piece_distance2(piece, degree, p) < least)) {
-            continue;
-        }
-        double s = piece_nearest(piece, degree, p);
-        OutlinePoint at = piece_at(piece, degree, s);
-        double from = distance2(at, p);
-        if (from < least) {
-            least = from;
-            nearest = at;
-            *along = piece_along(piece, degree, s);
+    for (int pass = 0; pass < 2; pass++) { // mostly what is near is in a piece's box, and no other box is as near
+        Place place = {p, pass == 0 ? 0.0 : sqrt(least)}, own = {p, 0.0};
+        for (uint32_t i = 0; i < pieces; i++) {
+            if (skips_group(list, stride, &i, is_beside_place, &place)) {
+                continue;
+            }
+            Piece piece = piece_of(list, stride, i);
+            if (is_beside_place(piece.box, &place) || (pass > 0 && !is_beside_place(piece.box, &own))) {
+                continue;
+            }
+            double s = piece_nearest(&piece, p);
+            OutlinePoint at = piece_at(&piece, s);
+            double from = distance2(at, p);
+            if (from < least) {
+                least = from;
+                nearest = at;
+                *along = piece_along(&piece, s);
+            }
         }
     }
     return nearest;
@@ -244,15 +363,10 @@ OutlinePoint outline_nearest(const Numbers *list, OutlinePoint p, OutlinePoint *
 
 // ---- extent
 
-void outline_bounds(const Numbers *list, OutlinePoint *low, OutlinePoint *high)
+static void extent_begin(OutlinePoint *low, OutlinePoint *high)
 {
     *low = (OutlinePoint){(double)INFINITY, (double)INFINITY};
     *high = (OutlinePoint){-(double)INFINITY, -(double)INFINITY};
-    for (size_t i = OUTLINE_HEAD; i + 1 < list->count; i += 2) {
-        double u = list->items[i], v = list->items[i + 1];
-        *low = (OutlinePoint){fmin(low->u, u), fmin(low->v, v)};
-        *high = (OutlinePoint){fmax(high->u, u), fmax(high->v, v)};
-    }
 }
 
 static void extent_take(OutlinePoint p, OutlinePoint *low, OutlinePoint *high)
@@ -261,21 +375,31 @@ static void extent_take(OutlinePoint p, OutlinePoint *low, OutlinePoint *high)
     *high = (OutlinePoint){fmax(high->u, p.u), fmax(high->v, p.v)};
 }
 
+void outline_bounds(const Numbers *list, OutlinePoint *low, OutlinePoint *high)
+{
+    uint32_t stride = outline_stride(list), pieces = outline_piece_count(list);
+    extent_begin(low, high);
+    for (uint32_t i = 0; i < pieces; i++) {
+        const double *box = piece_of(list, stride, i).box;
+        extent_take((OutlinePoint){box[PIECE_LOW], box[PIECE_LOW + 1]}, low, high);
+        extent_take((OutlinePoint){box[PIECE_HIGH], box[PIECE_HIGH + 1]}, low, high);
+    }
+}
+
 void outline_extent(const Numbers *list, OutlinePoint *low, OutlinePoint *high)
 {
-    unsigned degree = outline_degree(list);
-    *low = (OutlinePoint){(double)INFINITY, (double)INFINITY};
-    *high = (OutlinePoint){-(double)INFINITY, -(double)INFINITY};
-    for (uint32_t i = 0; i < outline_piece_count(list); i++) {
-        const double *piece = outline_piece(list, i);
-        extent_take(piece_at(piece, degree, 0.0), low, high);
-        extent_take((OutlinePoint){piece[2 * degree], piece[2 * degree + 1]}, low, high);
-        for (unsigned axis = 0; degree > 1 && axis < 2; axis++) {
-            const double f[4] = {piece[axis], piece[2 + axis], piece[4 + axis], piece[6 + axis]};
+    uint32_t stride = outline_stride(list), pieces = outline_piece_count(list);
+    extent_begin(low, high);
+    for (uint32_t i = 0; i < pieces; i++) {
+        Piece piece = piece_of(list, stride, i);
+        const double *p = piece.points;
+        extent_take((OutlinePoint){p[0], p[1]}, low, high);
+        for (unsigned axis = 0; !piece.is_straight && axis < 2; axis++) {
+            const double f[4] = {p[axis], p[2 + axis], p[4 + axis], p[6 + axis]};
             double at[2];
             unsigned count = cubic_extrema(f, at);
             for (unsigned k = 0; k < count; k++) {
-                extent_take(piece_at(piece, degree, at[k]), low, high);
+                extent_take(piece_at(&piece, at[k]), low, high);
             }
         }
     }
@@ -283,9 +407,14 @@ void outline_extent(const Numbers *list, OutlinePoint *low, OutlinePoint *high)
 
 double outline_support(const Numbers *list, OutlinePoint n)
 {
+    uint32_t pieces = outline_piece_count(list);
+    unsigned points = outline_degree(list) + 1;
     double most = -(double)INFINITY;
-    for (size_t i = OUTLINE_HEAD; i + 1 < list->count; i += 2) {
-        most = fmax(most, list->items[i] * n.u + list->items[i + 1] * n.v);
+    for (uint32_t i = 0; i < pieces; i++) {
+        const double *p = outline_piece(list, i);
+        for (unsigned k = 0; k < points; k++) {
+            most = fmax(most, p[2 * k] * n.u + p[2 * k + 1] * n.v);
+        }
     }
     return most;
 }

@@ -12,6 +12,8 @@
 
 #include <stdlib.h>
 
+#include "math/extreme.h"
+
 // The crossings of the wall in order, and whether the line is inside before the first and behind the last.
 typedef struct WallCrossings {
     double *t;
@@ -43,28 +45,61 @@ static void sort(double *t, uint32_t count)
     }
 }
 
-static void cross_straight(const Numbers *outline, const Ray *ray, OutlinePoint *points, WallCrossings *wall)
+static void wall_take(const Ray *ray, double square, const OutlinePoint *points, WallCrossings *wall)
 {
     Vec3 o = ray->origin, d = ray->direction;
-    double square = d.x * d.x + d.z * d.z;
-    if (square == 0.0) { // along the wall
-        wall->is_inside = outline_holds(outline, (OutlinePoint){o.x, o.z});
-        return;
-    }
-    wall->count = outline_cross(outline, -d.z, d.z * o.x - d.x * o.z, d.x, points);
     for (uint32_t i = 0; i < wall->count; i++) {
         wall->t[i] = ((points[i].u - o.x) * d.x + (points[i].v - o.z) * d.z) / square;
     }
 }
 
+static void cross_straight(const Numbers *outline, const Ray *ray, OutlinePoint *points, WallCrossings *wall)
+{
+    Vec3 o = ray->origin, d = ray->direction;
+    double square = d.x * d.x + d.z * d.z;
+    bool is_asked;
+    if (square == 0.0) { // along the wall
+        wall->is_inside = outline_holds(outline, (OutlinePoint){o.x, o.z});
+        return;
+    }
+    OutlineLine line = {-d.z, d.z * o.x - d.x * o.z, d.x, OUTLINE_ALL};
+    wall->count = outline_cross(outline, &line, points, &is_asked);
+    wall_take(ray, square, points, wall);
+}
+
+// The same of what lies between the ends alone: most of the outline is not asked then. False: the crossings there do not
+// fit to what is inside at both ends, as they may not where one of them is at an end but for rounding.
+static bool cross_between(const Numbers *outline, const Ray *ray, const RayInterval *slab, OutlinePoint *points,
+                          WallCrossings *wall)
+{
+    Vec3 o = ray->origin, d = ray->direction, first = ray_at(*ray, slab->enter), last = ray_at(*ray, slab->leave);
+    double square = d.x * d.x + d.z * d.z;
+    OutlineLine line = {-d.z, d.z * o.x - d.x * o.z, d.x,
+                        {less_of(first.x, last.x), less_of(first.z, last.z)},
+                        {greater_of(first.x, last.x), greater_of(first.z, last.z)}};
+    wall->is_inside = outline_holds(outline, (OutlinePoint){first.x, first.z});
+    wall->count = 0;
+    bool is_asked = false;
+    uint32_t found = square > 0.0 ? outline_cross(outline, &line, points, &is_asked) : 0;
+    for (uint32_t i = 0; i < found; i++) {
+        double t = ((points[i].u - o.x) * d.x + (points[i].v - o.z) * d.z) / square;
+        wall->t[wall->count] = t;
+        wall->count += t > slab->enter && t < slab->leave;
+    }
+    bool is_inside_end = wall->is_inside != (bool)(wall->count & 1);
+    return !is_asked || is_inside_end == outline_holds(outline, (OutlinePoint){last.x, last.z});
+}
+
 static void cross_conic(const Numbers *outline, const Ray *ray, OutlinePoint *points, WallCrossings *wall)
 {
     Vec3 o = ray->origin, d = ray->direction, n = vec3_cross(o, d);
+    bool is_asked;
     if (vec3_equal(n, vec3(0.0, 0.0, 0.0))) { // through the tip
         wall->is_inside = d.y != 0.0 && outline_holds(outline, (OutlinePoint){d.x / d.y, d.z / d.y});
         return;
     }
-    wall->count = outline_cross(outline, n.x, n.y, n.z, points);
+    OutlineLine line = {n.x, n.y, n.z, OUTLINE_ALL};
+    wall->count = outline_cross(outline, &line, points, &is_asked);
     double t_tip = -o.y / d.y;
     for (uint32_t i = 0; i < wall->count; i++) {
         double u = points[i].u, v = points[i].v;
@@ -95,24 +130,41 @@ static uint32_t crossings_after_start(const WallCrossings *wall, bool *inward)
     return first;
 }
 
-unsigned prism_intervals(const Numbers *outline, double low, double high, const Ray *ray, SideLeft left,
+// Whether all between the ends is beyond one side of the bounds.
+static bool passes(Vec3 low, Vec3 high, const Ray *ray, const RayInterval *slab)
+{
+    Vec3 first = ray_at(*ray, slab->enter), last = ray_at(*ray, slab->leave);
+    return greater_of(first.x, last.x) < low.x || less_of(first.x, last.x) > high.x ||
+           greater_of(first.z, last.z) < low.z || less_of(first.z, last.z) > high.z;
+}
+
+unsigned prism_intervals(const Numbers *outline, Vec3 low, Vec3 high, const Ray *ray, SideLeft left,
                          RayInterval *intervals)
 {
-    uint32_t most = outline_crossings_most(outline);
-    double t[most];
-    OutlinePoint points[most];
-    WallCrossings wall = {.t = t};
     RayInterval slab = INTERVAL_ALL;
     unsigned count = 0;
     bool is_gone = (left.side == PRISM_LOW || left.side == PRISM_HIGH) && !left.inward; // beyond its ends
-    if (is_gone || !interval_slab(ray->origin.y, ray->direction.y, low, high, PRISM_LOW, left.side, &slab)) {
+    if (is_gone || !interval_slab(ray->origin.y, ray->direction.y, low.y, high.y, PRISM_LOW, left.side, &slab)) {
         return 0;
     }
     if (left.side == PRISM_WALL) { // between its ends
         slab.enter = -(double)INFINITY;
         slab.enter_side = SIDE_NONE;
     }
-    (outline_is_conic(outline) ? cross_conic : cross_straight)(outline, ray, points, &wall);
+    bool is_conic = outline_is_conic(outline), has_ends = !isinf(slab.enter) && !isinf(slab.leave);
+    bool is_between = !is_conic && has_ends && left.side != PRISM_WALL;
+    if (has_ends && passes(low, high, ray, &slab)) {
+        return 0;
+    }
+    uint32_t most = outline_crossings_most(outline);
+    double t[most];
+    OutlinePoint points[most];
+    WallCrossings wall = {.t = t};
+    if (!is_between || !cross_between(outline, ray, &slab, points, &wall)) {
+        wall.is_inside = false;
+        wall.count = 0;
+        (is_conic ? cross_conic : cross_straight)(outline, ray, points, &wall);
+    }
     sort(t, wall.count);
     bool is_inside = wall.is_inside, is_start = left.side == PRISM_WALL && wall.count > 0;
     if (is_start) {

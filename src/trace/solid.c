@@ -255,7 +255,7 @@ static void torus_axes(const Solid *solid, Vec3 axes[3], Vec3 *middle)
 
 static unsigned prism_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
 {
-    return prism_intervals(&solid->list, solid->fixed[0].y, solid->fixed[1].y, object, left, intervals);
+    return prism_intervals(&solid->list, solid->fixed[0], solid->fixed[1], object, left, intervals);
 }
 
 static Vec3 prism_side_gradient(const Solid *solid, Vec3 point, uint8_t side)

@@ -18,7 +18,7 @@ enum { PIECES_MOST = 24, CROSSINGS_MOST = 3 * PIECES_MOST };
 typedef long double Real;
 
 typedef struct Outline {
-    double items[OUTLINE_HEAD + 8 * PIECES_MOST];
+    double items[OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * PIECES_MOST];
     Numbers list;
 } Outline;
 
@@ -36,24 +36,23 @@ static int whole(Random *random, int most)
 // One closed curve or two, of corners that are whole numbers times `unit`; few corners, so that many lie on lines.
 static void random_outline(Random *random, unsigned degree, bool is_conic, double unit, Outline *outline)
 {
-    size_t count = OUTLINE_HEAD;
+    size_t count;
     unsigned curves = 1 + (unsigned)(random_bits(random) % 2);
-    outline->items[OUTLINE_DEGREE] = degree;
-    outline->items[OUTLINE_CONIC] = is_conic;
+    outline_begin(outline->items, &count, degree, is_conic);
     for (unsigned curve = 0; curve < curves; curve++) {
         unsigned pieces = 2 + (unsigned)(random_bits(random) % 8);
-        double start[2] = {unit * whole(random, 9), unit * whole(random, 9)}, at[2] = {start[0], start[1]};
+        double start[2] = {unit * whole(random, 9), unit * whole(random, 9)}, piece[8] = {start[0], start[1]};
         for (unsigned i = 0; i < pieces; i++) {
-            for (unsigned k = 0; k <= degree; k++) {
-                for (int axis = 0; axis < 2; axis++) {
-                    double next = k == 0                               ? at[axis]
-                                  : k == degree && i + 1 == pieces ? start[axis]
-                                                                   : unit * whole(random, 9);
-                    outline->items[count++] = next;
-                }
+            for (unsigned k = 2; k < 2 * (degree + 1); k++) {
+                bool is_end = k >= 2 * degree && i + 1 == pieces;
+                piece[k] = is_end ? start[k & 1] : unit * whole(random, 9);
             }
-            at[0] = outline->items[count - 2];
-            at[1] = outline->items[count - 1];
+            if (degree == 3 && random_bits(random) % 4 == 0) {
+                outline_straighten(piece);
+            }
+            outline_add(outline->items, &count, piece);
+            piece[0] = piece[2 * degree];
+            piece[1] = piece[2 * degree + 1];
         }
     }
     outline->list = (Numbers){outline->items, count};
@@ -67,6 +66,19 @@ static Ray random_ray(Random *random, double unit)
         ray.direction = vec3(whole(random, 6), whole(random, 6), whole(random, 6));
     } while (ray.direction.x == 0.0 && ray.direction.z == 0.0);
     return ray;
+}
+
+// As a part has it: its bounds are those of the outline at both heights.
+static unsigned intervals_of(const Numbers *list, double low, double high, const Ray *ray, SideLeft left,
+                             RayInterval *intervals)
+{
+    OutlinePoint least, most;
+    outline_bounds(list, &least, &most);
+    double first = outline_is_conic(list) ? low : 1.0, second = outline_is_conic(list) ? high : 1.0;
+    Vec3 a = vec3(first * least.u, low, first * least.v), b = vec3(first * most.u, low, first * most.v);
+    Vec3 c = vec3(second * least.u, high, second * least.v), d = vec3(second * most.u, high, second * most.v);
+    return prism_intervals(list, vec3_least(vec3_least(a, b), vec3_least(c, d)),
+                           vec3_greatest(vec3_greatest(a, b), vec3_greatest(c, d)), ray, left, intervals);
 }
 
 // ---- the oracle
@@ -129,7 +141,7 @@ static Real crossing_t(const Ray *ray, bool is_conic, Real u, Real v)
 static void oracle(const Outline *outline, const Ray *ray, Crossings *out)
 {
     bool is_conic = outline_is_conic(&outline->list);
-    unsigned degree = outline_degree(&outline->list);
+    unsigned stored = outline_degree(&outline->list);
     Real ox = ray->origin.x, oy = ray->origin.y, oz = ray->origin.z;
     Real dx = ray->direction.x, dy = ray->direction.y, dz = ray->direction.z;
     const Real straight[3] = {-dz, dz * ox - dx * oz, dx};
@@ -140,10 +152,11 @@ static void oracle(const Outline *outline, const Ray *ray, Crossings *out)
         const double *piece = outline_piece(&outline->list, i);
         Real f[4], u[4], v[4], roots[3 * 64];
         int count = 0;
+        unsigned degree = stored == 3 && outline_is_straight(piece) ? 1 : stored, step = 2 * stored / degree;
         for (unsigned k = 0; k <= degree; k++) {
-            f[k] = form(is_conic ? conic : straight, piece + 2 * k);
-            u[k] = piece[2 * k];
-            v[k] = piece[2 * k + 1];
+            f[k] = form(is_conic ? conic : straight, piece + step * k);
+            u[k] = piece[step * k];
+            v[k] = piece[step * k + 1];
         }
         cut(f, degree, 0, 1, 58, roots, &count);
         for (int k = 0; k < count; k++) {
@@ -239,7 +252,7 @@ static void test_lines(const char *name, unsigned degree, bool is_conic, double 
         double low = scale * -3.25, high = scale * (i % 3 ? 4.25 : -1.25);
         uint32_t most = outline_crossings_most(&outline.list);
         RayInterval intervals[CROSSINGS_MOST];
-        unsigned count = prism_intervals(&outline.list, low, high, &ray, LEFT_NONE, intervals);
+        unsigned count = intervals_of(&outline.list, low, high, &ray, LEFT_NONE, intervals);
         oracle(&outline, &ray, &exact);
         Ray unscaled = {vec3_scale(1.0 / scale, ray.origin), ray.direction};
         for (int k = 0; k < exact.count; k++) {
@@ -283,7 +296,7 @@ static void test_starts(const char *name, unsigned degree, bool is_conic)
         RayInterval intervals[CROSSINGS_MOST];
         random_outline(&random, degree, is_conic, 1.0, &outline);
         Ray ray = random_ray(&random, 1.0);
-        unsigned count = prism_intervals(&outline.list, low, high, &ray, LEFT_NONE, intervals);
+        unsigned count = intervals_of(&outline.list, low, high, &ray, LEFT_NONE, intervals);
         if (count == 0 || intervals[0].enter_side != PRISM_WALL || isinf(intervals[0].enter)) {
             continue;
         }
@@ -295,7 +308,7 @@ static void test_starts(const char *name, unsigned degree, bool is_conic)
         if (fabs(rise) < 1e-3 || fabs(on.y) < 1e-2) {
             continue;
         }
-        count = prism_intervals(&outline.list, low, high, &next, (SideLeft){PRISM_WALL, rise < 0.0}, intervals);
+        count = intervals_of(&outline.list, low, high, &next, (SideLeft){PRISM_WALL, rise < 0.0}, intervals);
         oracle(&outline, &next, &exact);
         if (!is_known(&outline, &next, &exact) || !is_apart(&exact) || is_at_corner(&outline, on)) {
             continue;
@@ -318,7 +331,7 @@ static void test_points(void)
         random_outline(&random, i % 2 ? 3 : 1, false, 1.0, &outline);
         OutlinePoint p = {random_between(&random, -10.0, 10.0), random_between(&random, -10.0, 10.0)};
         Ray along = {vec3(p.u, 0.5, p.v), vec3(0.0, 0.0, 1.0)};
-        unsigned count = prism_intervals(&outline.list, 0.0, 1.0, &along, LEFT_NONE, intervals);
+        unsigned count = intervals_of(&outline.list, 0.0, 1.0, &along, LEFT_NONE, intervals);
         differ += outline_holds(&outline.list, p) != says_inside(intervals, count, 0.0);
     }
     tap_ok(differ == 0, "a point is inside where a line through it is (%d are not)", differ);

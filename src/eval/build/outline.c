@@ -37,12 +37,6 @@ typedef struct Pen {
     size_t count;
 } Pen;
 
-static void pen_point(Pen *pen, OutlinePoint p)
-{
-    pen->items[pen->count++] = p.u;
-    pen->items[pen->count++] = p.v;
-}
-
 static bool is_same(OutlinePoint a, OutlinePoint b)
 {
     return fabs(a.u - b.u) < CLOSED && fabs(a.v - b.v) < CLOSED;
@@ -54,31 +48,31 @@ static OutlinePoint moved(OutlinePoint a, double s, OutlinePoint b, OutlinePoint
     return (OutlinePoint){a.u + s * (b.u - c.u), a.v + s * (b.v - c.v)};
 }
 
-// From p[1] to p[2], or from p[0]; `end` is p[2], or the start of the curve that it closes.
+// From p[1] to `end`, or from p[0]; `end` is p[2], or the start of the curve that it closes.
 static void pen_piece(Pen *pen, Curve curve, const OutlinePoint *p, OutlinePoint end)
 {
+    OutlinePoint piece[4] = {p[0], end}, bend;
     switch (curve) {
-    case CURVE_LINEAR:
-        pen_point(pen, p[0]);
-        break;
+    case CURVE_LINEAR: break;
     case CURVE_QUADRATIC: // (p2 - p0)/2 is its derivative at p1; as a cubic
-        pen_point(pen, p[1]);
-        pen_point(pen, moved(p[1], 1.0 / 6.0, p[2], p[0]));
-        OutlinePoint bend = moved(p[1], 0.25, p[2], p[0]);
-        pen_point(pen, moved(end, 2.0 / 3.0, bend, end));
+        bend = moved(p[1], 0.25, p[2], p[0]);
+        piece[0] = p[1];
+        piece[1] = moved(p[1], 1.0 / 6.0, p[2], p[0]);
+        piece[2] = moved(end, 2.0 / 3.0, bend, end);
+        piece[3] = end;
         break;
     case CURVE_CUBIC: // (p2 - p0)/2 and (p3 - p1)/2 are those at its ends
-        pen_point(pen, p[1]);
-        pen_point(pen, moved(p[1], 1.0 / 6.0, p[2], p[0]));
-        pen_point(pen, moved(end, -1.0 / 6.0, p[3], p[1]));
+        piece[0] = p[1];
+        piece[1] = moved(p[1], 1.0 / 6.0, p[2], p[0]);
+        piece[2] = moved(end, -1.0 / 6.0, p[3], p[1]);
+        piece[3] = end;
         break;
     case CURVE_BEZIER:
-        pen_point(pen, p[0]);
-        pen_point(pen, p[1]);
-        pen_point(pen, p[2]);
+        memcpy(piece, p, 3 * sizeof piece[0]);
+        piece[3] = end;
         break;
     }
-    pen_point(pen, end);
+    outline_add(pen->items, &pen->count, &piece[0].u);
 }
 
 static bool not_closed(Block *block, Curve curve, Span span)
@@ -149,13 +143,13 @@ static bool draw_spline(Block *block, Pen *pen, Curve curve, const OutlinePoint 
 static bool make_outline(Block *block, Curve curve, bool is_conic, const OutlinePoint *points, size_t count, Span span,
                          Numbers *outline)
 {
-    double *items = arena_alloc_array(block->arena, OUTLINE_HEAD + 8 * (count + 1), sizeof *items);
-    Pen pen = {items, OUTLINE_HEAD};
+    double *items =
+        arena_alloc_array(block->arena, OUTLINE_HEAD + OUTLINE_PIECE_NUMBERS * (count + 1), sizeof *items);
+    Pen pen = {items, 0};
     if (!items) {
         return eval_no_memory(block->ev, span);
     }
-    items[OUTLINE_DEGREE] = curve == CURVE_LINEAR ? 1.0 : 3.0;
-    items[OUTLINE_CONIC] = is_conic ? 1.0 : 0.0;
+    outline_begin(items, &pen.count, curve == CURVE_LINEAR ? 1 : 3, is_conic);
     bool is_drawn = curve == CURVE_LINEAR   ? draw_linear(block, &pen, points, count, span)
                     : curve == CURVE_BEZIER ? draw_bezier(block, &pen, points, count, span)
                                             : draw_spline(block, &pen, curve, points, count, span);
@@ -324,7 +318,7 @@ static bool polygon_frame(Block *block, const Vec3 *p, size_t count, Span span, 
             return block_fault(block, DIAG_E0495, span, "the points of a polygon must lie in one plane");
         }
     }
-    if (!is_level) {
+    if (!is_level || vec3_equal(z, vec3(0.0, 0.0, 0.0))) {
         const Vec3 rows[4] = {x, y, z, p[0]};
         for (int row = 0; row < 4; row++) {
             memcpy(frame->m[row], &rows[row], sizeof frame->m[row]);
