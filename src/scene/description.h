@@ -216,6 +216,19 @@ typedef struct BlobPartDesc {
     Vec3 base, cap;
     double radius, strength;
 } BlobPartDesc;
+typedef struct PrismDesc {
+    ObjectPart part;
+    Numbers outline; // scene/outline.h
+    double heights[2]; // in order
+    bool is_open;
+    bool is_control_bound; // POV-Ray's box is that of all control points
+} PrismDesc;
+
+typedef struct PolygonDesc {
+    ObjectPart part;
+    Numbers outline; // within the frame
+    Transform frame;
+} PolygonDesc;
 
 typedef struct TriangleDesc {
     ObjectPart part;
@@ -327,6 +340,8 @@ typedef union Desc {
     PolynomialDesc polynomial;
     BlobDesc blob;
     BlobPartDesc blob_part;
+    PrismDesc prism;
+    PolygonDesc polygon;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
     UnionDesc group;

@@ -9,6 +9,7 @@
 #include "scene/dump.h"
 #include "scene/part.h"
 #include "scene/polynomial.h"
+#include "scene/outline.h"
 
 static bool is_between(double low, double value, double high)
 {
@@ -330,6 +331,73 @@ static uint32_t blob_part_intervals(const Part *part)
     return blob_interval_most(part->list.items);
 }
 
+// ---- prism and polygon
+
+static double prism_support(const Part *part, Vec3 n)
+{
+    double low = part->fixed[0].y, high = part->fixed[1].y;
+    OutlinePoint across = {n.x, n.z};
+    if (!outline_is_conic(&part->list)) {
+        return outline_support(&part->list, across) + fmax(low * n.y, high * n.y);
+    }
+    OutlinePoint at_low = {low * n.x, low * n.z}, at_high = {high * n.x, high * n.z};
+    return fmax(outline_support(&part->list, at_low) + low * n.y, outline_support(&part->list, at_high) + high * n.y);
+}
+
+static bool prism_holds(const Part *part, Vec3 p)
+{
+    bool is_conic = outline_is_conic(&part->list);
+    OutlinePoint seen = is_conic ? (OutlinePoint){p.x / p.y, p.z / p.y} : (OutlinePoint){p.x, p.z};
+    return is_between(part->fixed[0].y, p.y, part->fixed[1].y) && outline_holds(&part->list, seen);
+}
+
+static uint32_t outline_intervals(const Part *part)
+{
+    return outline_crossings_most(&part->list) / 2 + 2;
+}
+
+// Of straight pieces the first point of each curve, which then ends with it; of others all control points.
+static void outline_dump(const Part *part, TextBuffer *out)
+{
+    unsigned degree = outline_degree(&part->list), first = 0;
+    uint32_t pieces = outline_piece_count(&part->list), count = 4 * pieces;
+    for (int pass = degree == 1 ? 0 : 1; pass < 2; pass++) {
+        bool begins = true;
+        count = pass ? count : 0;
+        if (pass) {
+            text_printf(out, "%u", count);
+        }
+        for (uint32_t i = 0; i < pieces; i++) {
+            const double *piece = outline_piece(&part->list, i), *end = piece + 2 * degree;
+            first = begins ? i : first;
+            const double *start = outline_piece(&part->list, first);
+            for (unsigned k = degree == 1 && !begins ? 1 : 0; k <= degree; k++) {
+                count += pass ? 0 : 1;
+                if (pass) {
+                    text_append(out, ", ");
+                    dump_numbers(out, piece + 2 * k, 2);
+                }
+            }
+            begins = end[0] == start[0] && end[1] == start[1];
+        }
+    }
+}
+
+static void prism_dump(const Part *part, TextBuffer *out)
+{
+    text_append(out, outline_degree(&part->list) == 1 ? "linear_spline " : "bezier_spline ");
+    text_append(out, outline_is_conic(&part->list) ? "conic_sweep " : "");
+    dump_number(out, "", part->fixed[0].y);
+    dump_number(out, ", ", part->fixed[1].y);
+    text_append(out, ", ");
+    outline_dump(part, out);
+}
+
+static double polygon_support(const Part *part, Vec3 n)
+{
+    return outline_support(&part->list, (OutlinePoint){n.x, n.y});
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -446,6 +514,29 @@ static const PrimitiveClass classes[] = {
                    .holds = blob_holds,
                    .dump = blob_dump,
                    .measure = box_measure},
+    [PART_PRISM] = {.word = "prism",
+                    .head = "prism { ",
+                    .family = FAMILY_STRAIGHT,
+                    .surface = PART_PRISM,
+                    .key_count = 3,
+                    .interval_count = 2,
+                    .interval_most = outline_intervals,
+                    .has_list = true,
+                    .is_sized = true,
+                    .support = prism_support,
+                    .holds = prism_holds,
+                    .dump = prism_dump,
+                    .measure = box_measure},
+    [PART_POLYGON] = {.word = "polygon",
+                      .head = "polygon { ",
+                      .family = FAMILY_STRAIGHT,
+                      .surface = PART_POLYGON,
+                      .key_count = 3,
+                      .has_list = true,
+                      .is_sized = true,
+                      .support = polygon_support,
+                      .dump = outline_dump,
+                      .measure = box_measure},
 };
 
 const PrimitiveClass *primitive_class(PartKind kind)

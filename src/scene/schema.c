@@ -322,6 +322,14 @@ static const PolynomialDesc quadric_defaults = {.part = OBJECT_PART, .order = 2}
 static const PolynomialDesc cubic_defaults = {.part = OBJECT_PART, .order = 3};
 static const PolynomialDesc quartic_defaults = {.part = OBJECT_PART, .order = 4};
 static const PolynomialDesc poly_defaults = {.part = OBJECT_PART};
+static const SchemaProperty prism_properties[] = {
+    {"open", TYPE_FLAG, AT(PrismDesc, is_open), .is_first = true, .doc = "without the faces at its ends"},
+    {"sturm", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: roots are always as good"},
+};
+
+static const PrismDesc prism_defaults = {.part = OBJECT_PART};
+
+static const PolygonDesc polygon_defaults = {.part = OBJECT_PART, .frame = IDENTITY};
 
 static const SchemaProperty triangle_arguments[] = {
     {"first corner", TYPE_VECTOR, AT(TriangleDesc, corners[0]), .doc = "in any order"},
@@ -719,6 +727,32 @@ static const SchemaBlock kinds[KIND_COUNT] = {
                        .arguments = LIST(blob_rod_arguments),
                        .groups = {LIST(transforms)},
                        .doc = "A component of a blob."},
+    [KIND_PRISM] = {.word = "prism",
+                    .what = "a prism",
+                    .size = sizeof(PrismDesc),
+                    .defaults = &prism_defaults,
+                    .is_object = true,
+                    .is_declarable = true,
+                    .groups = {LIST(prism_properties), OBJECT_GROUPS},
+                    .doc = "Words for curve and sweep, two heights, the number of points, the points: outlines in x "
+                           "and z."},
+    [KIND_POLYGON] = {.word = "polygon",
+                      .what = "a polygon",
+                      .size = sizeof(PolygonDesc),
+                      .defaults = &polygon_defaults,
+                      .is_object = true,
+                      .is_declarable = true,
+                      .groups = {OBJECT_GROUPS},
+                      .doc = "The number of points, the points: outlines in one plane."},
+    [KIND_TEXT] = {.word = "text",
+                   .what = "a text",
+                   .size = sizeof(UnionDesc),
+                   .defaults = &union_defaults,
+                   .is_object = true,
+                   .is_declarable = true,
+                   .groups = {OBJECT_GROUPS},
+                   .doc = "`ttf`, the name of a TrueType font, the string, how thick it is, and a vector that letters are "
+                          "moved apart by: a union of prisms."},
     [KIND_TRIANGLE] = {.word = "triangle",
                        .what = "a triangle",
                        .size = sizeof(TriangleDesc),
@@ -944,14 +978,11 @@ static const SchemaUnsupported unsupported[] = {
     {"mesh2", true, NULL, NULL},
     {"ovus", true, "use a sphere with `scale`", NULL},
     {"parametric", true, NULL, NULL},
-    {"polygon", true, NULL, NULL},
     {"polynomial", true, NULL, NULL},
-    {"prism", true, NULL, NULL},
     {"rainbow", true, NULL, "the rainbow"},
     {"sor", true, NULL, NULL},
     {"sphere_sweep", true, "use a `union` of spheres", NULL},
     {"superellipsoid", true, "use a sphere with `scale`", NULL},
-    {"text", true, NULL, NULL},
     {"cylinder", false, "a `panoramic` camera is near", NULL},
     {"normal", false, NULL, NULL},
     {"gif", false, "save the picture as PNG", NULL},

@@ -13,6 +13,7 @@
 #include "trace/flat.h"
 #include "trace/plane.h"
 #include "trace/polynomial.h"
+#include "trace/prism.h"
 #include "trace/sphere.h"
 #include "trace/torus.h"
 
@@ -278,6 +279,30 @@ static Vec3 blob_side_normal(const Solid *solid, Vec3 point, uint8_t side)
     return blob_normal(solid->list.items, point);
 }
 
+// ---- prism and polygon
+
+static unsigned prism_side_intervals(const Solid *solid, const Ray *object, SideLeft left, RayInterval *intervals)
+{
+    return prism_intervals(&solid->list, solid->fixed[0], solid->fixed[1], object, left, intervals);
+}
+
+static Vec3 prism_side_gradient(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return prism_gradient(&solid->list, point, side);
+}
+
+static Vec3 prism_side_point(const Solid *solid, Vec3 point, uint8_t side)
+{
+    return prism_point(&solid->list, solid->fixed[0].y, solid->fixed[1].y, point, side);
+}
+
+static bool polygon_root(const Solid *solid, const Ray *object, double *t)
+{
+    double x, y;
+    return flat_root(object->origin, object->direction, t, &x, &y) &&
+           outline_holds(&solid->list, (OutlinePoint){x, y});
+}
+
 // ---- the table
 
 const SolidClass solid_classes[PART_KINDS] = {
@@ -336,6 +361,19 @@ const SolidClass solid_classes[PART_KINDS] = {
                    .gradient = blob_side_normal,
                    .point = same_point,
                    .axes = box_axes},
+    [PART_PRISM] = {.intervals = prism_side_intervals,
+                    .normal = prism_side_gradient,
+                    .gradient = prism_side_gradient,
+                    .point = prism_side_point,
+                    .axes = box_axes,
+                    .across = {0, 2, 2},
+                    .turns = true},
+    [PART_POLYGON] = {.root = polygon_root,
+                      .normal = flat_normal,
+                      .gradient = flat_normal,
+                      .point = flat_point,
+                      .axes = box_axes,
+                      .across = {3}},
 };
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)

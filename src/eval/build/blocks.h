@@ -319,6 +319,17 @@ bool blob_part_action(Block *block, const SchemaProperty *property, const AstNod
 bool blob_close(Block *block) RT_MUST_CHECK;
 const char *blob_form(const void *object, Part *part);
 bool blob_holds(const void *object, Vec3 point, bool is_turned);
+// outline.c: prisms and polygons
+bool prism_body(Block *block) RT_MUST_CHECK;
+bool polygon_body(Block *block) RT_MUST_CHECK;
+const char *prism_form(const void *object, Part *part) RT_MUST_CHECK; // these as in ShapeClass
+bool prism_holds(const void *object, Vec3 point, bool is_turned) RT_MUST_CHECK;
+bool prism_box(const void *object, OwnBox *own) RT_MUST_CHECK;
+const char *polygon_form(const void *object, Part *part) RT_MUST_CHECK;
+bool polygon_box(const void *object, OwnBox *own) RT_MUST_CHECK;
+
+// text.c: letters, as a union of prisms
+bool text_body(Block *block) RT_MUST_CHECK;
 
 // shape.c
 // At the closing brace of any shape.

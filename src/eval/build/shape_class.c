@@ -337,6 +337,8 @@ static const ShapeClass classes[KIND_COUNT] = {
     [KIND_CUBIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
     [KIND_QUARTIC] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
     [KIND_POLY] = {.close = polynomial_close, .form = polynomial_form, .holds = polynomial_holds, .box = endless_box},
+    [KIND_PRISM] = {.form = prism_form, .holds = prism_holds, .box = prism_box},
+    [KIND_POLYGON] = {.is_flat = true, .form = polygon_form, .box = polygon_box},
     [KIND_TRIANGLE] = {.is_flat = true,
                        .form = triangle_form,
                        .corners_at = offsetof(TriangleDesc, corners)},

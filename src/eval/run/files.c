@@ -33,6 +33,7 @@ static const struct {
     [FILE_INCLUDE] = {"include file", ".inc"},
     [FILE_DATA] = {"data file", NULL},
     [FILE_IMAGE] = {"image file", NULL},
+    [FILE_FONT] = {"font", NULL},
 };
 
 typedef struct Search {
@@ -199,6 +200,19 @@ static void folder_to_allow(const char *path, const char *real, char *folder, si
     free(place);
 }
 
+// Whether a file is one that a standard folder names, whatever that leads to: the packages that install POV-Ray's files
+// put its fonts elsewhere, and links to them there. Such a folder is no stranger's.
+static bool is_standard(const Eval *ev, const char *path)
+{
+    const char *folder, *slash = strrchr(path, '/');
+    for (size_t i = ev->options.include_path_count; slash && (folder = file_folder(ev, i)) != NULL; i++) {
+        if ((size_t)(slash - path) == strlen(folder) && strncmp(path, folder, strlen(folder)) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool is_allowed(const Eval *ev, const char *real)
 {
     const char *folder;
@@ -254,7 +268,7 @@ static bool may_read(Eval *ev, const char *path, Span span)
         return errno == ENOMEM ? eval_no_memory(ev, span)
                                : eval_fault(ev, DIAG_E0502, span, "cannot read `%s`: %s", path, strerror(errno));
     }
-    bool is_below = is_allowed(ev, real) || fault_outside(ev, path, real, span);
+    bool is_below = is_allowed(ev, real) || is_standard(ev, path) || fault_outside(ev, path, real, span);
     text_clear(&files->checked);
     text_clear(&files->real);
     if (is_below) {
@@ -492,7 +506,7 @@ bool file_open(Eval *ev, const AstNode *name_node, FileUse use, Source **source)
     return is_found && !ev->stop;
 }
 
-const char *file_find(Eval *ev, const AstNode *name_node, const char *text, const char *const *endings)
+const char *file_find(Eval *ev, const AstNode *name_node, const char *text, FileUse use, const char *const *endings)
 {
     if (!eval_work(ev, WORK_OF_A_FILE, name_node->span)) {
         return NULL;
@@ -507,7 +521,7 @@ const char *file_find(Eval *ev, const AstNode *name_node, const char *text, cons
     if (search_failed(ev, &search)) {
         eval_no_memory(ev, name_node->span);
     } else if (!is_found) {
-        report_missing(ev, &search, FILE_IMAGE, name_node);
+        report_missing(ev, &search, use, name_node);
     } else if (may_read(ev, text_get(&search.path), name_node->span)) {
         Symbol symbol = intern_text(ev->options.names, text_get(&search.path), search.path.length);
         path = symbol != SYMBOL_NONE ? eval_text(ev, symbol) : NULL;

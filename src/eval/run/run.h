@@ -285,7 +285,7 @@ void control_break(Cursor *cursor, Span span, bool is_from_file);
 
 // ---- files
 
-typedef enum FileUse { FILE_INCLUDE, FILE_DATA, FILE_IMAGE } FileUse;
+typedef enum FileUse { FILE_INCLUDE, FILE_DATA, FILE_IMAGE, FILE_FONT } FileUse;
 
 bool files_init(Eval *ev, const Source *scene) RT_MUST_CHECK;
 void files_fini(Eval *ev);
@@ -299,7 +299,8 @@ bool file_is_there(Eval *ev, const Value *name, Span span, bool *is_there) RT_MU
 
 // The path of an image file, kept as long as the names are; NULL after a fault. To a name without an ending each of a
 // list that NULL ends is added in turn. `node` is the expression that gave the name.
-const char *file_find(Eval *ev, const AstNode *node, const char *name, const char *const *endings) RT_MUST_CHECK;
+const char *file_find(Eval *ev, const AstNode *node, const char *name, FileUse use,
+                      const char *const *endings) RT_MUST_CHECK;
 
 // #fopen, #fclose, #read and #write
 void data_file_run(Cursor *cursor, const AstNode *node);
