@@ -58,6 +58,22 @@ static void print_array(Printer *printer, const AstNode *node, int indent)
     }
 }
 
+// As the items that it stands for.
+static void print_packed(Printer *printer, const AstNode *node)
+{
+    const double *numbers = node->pack->numbers;
+    for (uint32_t item = 0; item < node->count; item++) {
+        unsigned width = node->pack->widths[item];
+        printer_put(printer, item ? ", " : "");
+        printer_put(printer, width > 1 ? "<" : "");
+        for (unsigned i = 0; i < width; i++) {
+            printer_put(printer, i ? ", " : "");
+            text_append_double(printer->out, *numbers++);
+        }
+        printer_put(printer, width > 1 ? ">" : "");
+    }
+}
+
 void printer_value(Printer *printer, const AstNode *node, int indent)
 {
     switch (node->kind) {
@@ -68,6 +84,9 @@ void printer_value(Printer *printer, const AstNode *node, int indent)
         printer_put_symbol(printer, node->symbol);
         printer_put(printer, " {");
         print_block(printer, node->a, indent, "}");
+        break;
+    case AST_PACKED:
+        print_packed(printer, node);
         break;
     case AST_ENTRY:
         printer_put(printer, "[");

@@ -194,6 +194,13 @@ typedef struct SmoothTriangleDesc {
     Vec3 corners[3], normals[3];
 } SmoothTriangleDesc;
 
+typedef struct MeshDesc {
+    ObjectPart part;
+    Mesh *mesh; // of the scene; not changed any more when the description is complete
+    const TextureDesc **textures; // of its faces, in its own space
+    Vec3 inside_vector;
+} MeshDesc;
+
 struct UnionMember {
     UnionMember *next;
     const void *object; // the description of its kind
@@ -293,6 +300,7 @@ typedef union Desc {
     TorusDesc torus;
     TriangleDesc triangle;
     SmoothTriangleDesc smooth_triangle;
+    MeshDesc mesh;
     UnionDesc group;
     BackgroundDesc background;
     SkySphereDesc sky;

@@ -262,6 +262,13 @@ static void torus_measure(const Part *part, Vec3 *half, Vec3 *middle)
     *middle = vec3(part->data[0].x, 0.0, 0.0);
 }
 
+// ---- meshes: they reach as far as their boxes
+
+static bool solid_mesh_holds(const Part *part, Vec3 p)
+{
+    return mesh_holds(part->mesh.mesh, p);
+}
+
 // ---- the table
 
 static const PrimitiveClass classes[] = {
@@ -352,6 +359,26 @@ static const PrimitiveClass classes[] = {
                     .holds = torus_holds,
                     .dump = torus_dump,
                     .measure = torus_measure},
+    [PART_MESH] = {.word = "mesh",
+                   .head = "",
+                   .family = FAMILY_STRAIGHT,
+                   .surface = PART_MESH,
+                   .key_count = 1,
+                   .is_mesh = true,
+                   .is_sized = true,
+                   .support = box_support,
+                   .measure = box_measure},
+    [PART_MESH_SOLID] = {.word = "mesh",
+                         .head = "",
+                         .family = FAMILY_STRAIGHT,
+                         .surface = PART_MESH,
+                         .key_count = 1,
+                         .interval_count = 2,
+                         .is_mesh = true,
+                         .is_sized = true,
+                         .support = box_support,
+                         .holds = solid_mesh_holds,
+                               .measure = box_measure},
 };
 
 const PrimitiveClass *primitive_class(PartKind kind)

@@ -21,6 +21,7 @@ typedef struct PrimitiveClass {
     PartKind surface;     // the first kind of those whose surfaces are the same when map and numbers are
     uint8_t key_count;    // of data[] that make one surface another
     uint8_t interval_count; // that a line has in it, at most; 0: it is flat and has no inside, but a line meets it once
+    bool is_mesh;         // it is made of faces: a line meets it any number of times
     bool is_sized;        // data[0] and data[1] are its bounds; else those are -1 and 1 in each coordinate
     // The greatest p·n over the points of the fixed shape.
     double (*support)(const Part *part, Vec3 n);

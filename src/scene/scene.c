@@ -74,6 +74,11 @@ void scene_fini(Scene *scene)
     ARRAY_FREE(&scene->sphere_runs);
     ARRAY_FREE(&scene->planes);
     ARRAY_FREE(&scene->parts);
+    for (size_t i = 0; i < scene->meshes.count; i++) {
+        mesh_free(scene->meshes.items[i]);
+    }
+    ARRAY_FREE(&scene->meshes);
+    ARRAY_FREE(&scene->face_materials);
     ARRAY_FREE(&scene->nodes);
     ARRAY_FREE(&scene->composites);
     ARRAY_FREE(&scene->start_shapes);
@@ -232,11 +237,22 @@ size_t scene_bytes(const Scene *scene)
            LIST_BYTES(scene->normal_entries) + LIST_BYTES(scene->normals) + LIST_BYTES(scene->texture_entries) +
            LIST_BYTES(scene->textures) + LIST_BYTES(scene->interiors) + LIST_BYTES(scene->compounds) +
            LIST_BYTES(scene->spheres) + LIST_BYTES(scene->sphere_runs) + LIST_BYTES(scene->planes) +
-           LIST_BYTES(scene->parts) + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
+           LIST_BYTES(scene->parts) + LIST_BYTES(scene->meshes) + LIST_BYTES(scene->face_materials) + scene->mesh_bytes + LIST_BYTES(scene->nodes) + LIST_BYTES(scene->composites) +
            LIST_BYTES(scene->bodies) + LIST_BYTES(scene->start_shapes) +
            LIST_BYTES(scene->picture_sources) + LIST_BYTES(scene->picture_shades) + LIST_BYTES(scene->image_maps) +
            LIST_BYTES(scene->pictures) + scene_picture_bytes(scene);
 #undef LIST_BYTES
+}
+
+bool scene_add_mesh(Scene *scene, Mesh *mesh)
+{
+    if (!ARRAY_PUSH(&scene->meshes, mesh)) {
+        return false;
+    }
+    mesh->number = scene->plain_mesh_count;
+    scene->plain_mesh_count += !mesh->face_textures;
+    scene->mesh_bytes += mesh_bytes(mesh);
+    return true;
 }
 
 bool scene_add_sky_layer(Scene *scene, const Pigment *layer)
@@ -437,6 +453,18 @@ bool scene_add_leaf(Scene *scene, const Part *part)
 
 // More that a ray keeps of a part which it may cross more than twice, as it may any that is not convex.
 enum { SEVERAL_CROSSINGS_STACK = 120 };
+// And of a mesh, which it looks for along its line.
+enum { MESH_CURSOR_STACK = 900 };
+
+static size_t meshes_stack(const Scene *scene, const Composite *composite)
+{
+    size_t bytes = 0;
+    for (uint32_t i = 0; scene->meshes.count > 0 && i < composite->part_count; i++) {
+        PartKind kind = scene->parts.items[composite->first_part + i].kind;
+        bytes += kind == PART_MESH || kind == PART_MESH_SOLID ? MESH_CURSOR_STACK : 0;
+    }
+    return bytes;
+}
 
 size_t scene_composite_stack(const Scene *scene)
 {
@@ -444,7 +472,7 @@ size_t scene_composite_stack(const Scene *scene)
     for (size_t i = 0; i < scene->composites.count; i++) {
         const Composite *composite = &scene->composites.items[i];
         size_t bytes = (size_t)composite->part_count * (COMPOSITE_PART_STACK + SEVERAL_CROSSINGS_STACK) +
-                       (size_t)composite->node_count * COMPOSITE_NODE_STACK;
+                       (size_t)composite->node_count * COMPOSITE_NODE_STACK + meshes_stack(scene, composite);
         most = bytes > most ? bytes : most;
     }
     return most;

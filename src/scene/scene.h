@@ -19,6 +19,7 @@
 #include "math/colour.h"
 #include "math/transform.h"
 #include "math/vec3.h"
+#include "scene/mesh.h"
 #include "scene/pattern.h"
 #include "scene/picture.h"
 #include "scene/unique.h"
@@ -239,6 +240,7 @@ typedef struct Plane {
 //   smooth triangle the same, with normals data[0..2] at the corners that are of length 1 in the scene itself
 //   torus           all points at distance data[0].y from the circle of radius data[0].x in y = 0; both are > 0, and their
 //                   sum is at least 1/2 and at most 1
+//   mesh            the triangles of a Mesh within mesh.low and mesh.high; a solid mesh has an inside
 typedef enum PartKind {
     PART_SPHERE,
     PART_PLANE,
@@ -248,6 +250,8 @@ typedef enum PartKind {
     PART_TRIANGLE,
     PART_SMOOTH_TRIANGLE,
     PART_TORUS,
+    PART_MESH,
+    PART_MESH_SOLID,
     PART_KINDS
 } PartKind;
 
@@ -268,6 +272,14 @@ static inline bool hidden_meet(uint8_t a, uint8_t b)
 
 #define NODE_NONE UINT32_MAX
 
+// What a mesh has in the place of numbers. Each of its faces has one of Scene.face_materials from `materials` on, or,
+// where it has no texture of its own, the part's material.
+typedef struct PartMesh {
+    Vec3 low, high;
+    const Mesh *mesh; // of Scene.meshes, or of whoever made the part
+    uint64_t materials;
+} PartMesh;
+
 typedef struct Part {
     PartKind kind;
     uint8_t flags, hidden;  // PartFlag, HiddenFrom bits; hidden counts only outside of composites
@@ -277,7 +289,10 @@ typedef struct Part {
     uint32_t body;          // of a leaf: 0 that of the composite, else the number of one within it
     uint64_t source;
     Transform to_world, to_object; // inverse of each other
-    Vec3 data[3];
+    union {
+        Vec3 data[3];
+        PartMesh mesh; // of a mesh
+    };
 } Part;
 
 typedef enum NodeOp {
@@ -416,6 +431,10 @@ typedef struct Scene {
     ARRAY(SphereRun) sphere_runs; // in their order; the first begins with the first sphere
     ARRAY(Plane) planes;
     ARRAY(Part) parts;
+    ARRAY(Mesh *) meshes; // owned; parts may share one
+    size_t mesh_bytes;    // of all of them
+    uint32_t plain_mesh_count; // of them, without textures of their own
+    ARRAY(MaterialIndex) face_materials;
     ARRAY(Node) nodes;
     ARRAY(Composite) composites;
     ARRAY(StartShape) start_shapes; // in the order of shapes
@@ -519,6 +538,9 @@ bool scene_add_own_materials(Scene *scene, size_t count, MaterialIndex *first) R
 
 bool scene_add_plane(Scene *scene, Vec3 unit_normal, double distance, MaterialIndex material,
                      uint64_t source) RT_MUST_CHECK;
+
+// Takes over a mesh, whose number is set.
+bool scene_add_mesh(Scene *scene, Mesh *mesh) RT_MUST_CHECK;
 
 // Adds a part that stands alone.
 bool scene_add_part(Scene *scene, const Part *part) RT_MUST_CHECK;

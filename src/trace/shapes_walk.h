@@ -297,11 +297,17 @@ static void interval_closest(ShapeQuery *q, uint32_t index, const Ray *object, S
     }
 }
 
+#include "trace/mesh_walk.h"
+
 // A solid alone. Outward from itself, one that is convex or flat is not met again.
 static void solid_closest(ShapeQuery *q, uint32_t index, Foremost *first)
 {
     const Solid *solid = &q->table->solids[index];
     if (solid->hidden & q->start.use) {
+        return;
+    }
+    if (RT_UNLIKELY(solid_is_mesh(solid))) {
+        mesh_closest(q, index, first);
         return;
     }
     bool is_start = q->left && solid_equal(q->left, solid);
@@ -390,7 +396,7 @@ static void query_start(ShapeQuery *q, const ShapeTable *table, const Ray *ray, 
     q->ray = ray;
     q->start = start;
     q->start_error = start_error;
-    q->left = starts_on_part(start) ? &table->solids[part_index(start.shape)] : NULL;
+    q->left = starts_on_part(start) ? table_solid(table, start.shape) : NULL;
     q->is_any = is_any;
     q->bounded = NULL;
     q->box = NULL;

@@ -298,6 +298,8 @@ const SolidClass solid_classes[PART_KINDS] = {
                     .point = torus_side_point,
                     .axes = torus_axes,
                     .films = 1 << TORUS_INNER},
+    [PART_MESH] = {.axes = box_axes}, // all else is in trace/mesh.h
+    [PART_MESH_SOLID] = {.axes = box_axes},
 };
 
 double interval_room(const RayInterval *intervals, unsigned count, unsigned i)
@@ -389,7 +391,11 @@ double solid_crossing_error(const Solid *solid, const Ray *ray, const Ray *objec
         PlaneShape plane = {solid->data[0], solid->data[1].x};
         return plane_crossing_error(&plane, *ray, t);
     }
-    Vec3 n = solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side);
+    return solid_plane_error(solid, ray, object, t, solid_classes[solid->kind].gradient(solid, ray_at(*object, t), side));
+}
+
+double solid_plane_error(const Solid *solid, const Ray *ray, const Ray *object, double t, Vec3 n)
+{
     double reach = normal_reach(solid, n, ray, t);
     return TRANSFORM_ROUNDING * reach / fabs(vec3_dot(n, object->direction));
 }

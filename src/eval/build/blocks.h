@@ -271,6 +271,11 @@ bool extent_is_stretched(SchemaKind kind, const void *object);
 // Tells of a transform that is about to be applied; `keeps_spheres`: it moves, turns or scales evenly.
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span) RT_MUST_CHECK;
 
+// mesh.c
+bool mesh_body(Block *block) RT_MUST_CHECK;
+bool mesh2_body(Block *block) RT_MUST_CHECK;
+bool mesh_close(Block *block) RT_MUST_CHECK;
+
 // object.c
 bool object_members(Block *block) RT_MUST_CHECK; // of a union
 bool object_body(Block *block) RT_MUST_CHECK;    // of an object
@@ -304,12 +309,15 @@ typedef struct ShapeClass {
     const char *fault;
     // Kind, numbers and map, before all transforms. Why there is nothing to draw, or NULL. Of a plane NULL.
     const char *(*form)(const void *object, Part *part);
+    bool (*has_inside)(const void *object); // NULL: as `is_flat` says
     bool (*holds)(const void *object, Vec3 point, bool is_turned); // inside of it, or of it turned; NULL: not to be asked
     bool (*box)(const void *object, OwnBox *own); // false: in the space of the shape itself
 } ShapeClass;
 
 // Of a kind that is no shape a row of nothing.
 const ShapeClass *shape_class(SchemaKind kind);
+// Whether a shape has no inside.
+bool shape_is_flat(SchemaKind kind, const void *object);
 
 // shape.c
 // At the closing brace of any shape.
