@@ -135,9 +135,7 @@ RT_ALWAYS_INLINE bool list_next(ListReader *list, uint32_t number, unsigned leas
 
 static bool list_next_item(ListReader *list, uint32_t number, unsigned least, double v[3])
 {
-    if (list->packed) {
-        list->packed = NULL;
-    }
+    list->packed = NULL;
     cursor_take_comma(&list->cursor);
     const AstNode *item = cursor_peek(&list->cursor);
     if (item && item->kind == AST_PACKED) {
@@ -587,6 +585,26 @@ static bool settle_normals(MeshReader *reader)
     return true;
 }
 
+// After a fault nothing is said of the lists and triangles that are left.
+static bool pass_over(Block *block)
+{
+    static const Word words[] = {W_vertex_vectors, W_normal_vectors, W_uv_vectors, W_texture_list,   W_face_indices,
+                                 W_uv_indices,     W_normal_indices, W_triangle,   W_smooth_triangle};
+    const AstNode *item;
+    while ((item = cursor_peek(&block->cursor)) && item->kind == AST_BLOCK) {
+        bool is_passed = false;
+        for (size_t i = 0; i < RT_COUNT_OF(words); i++) {
+            is_passed = is_passed || item->symbol == (Symbol)words[i];
+        }
+        if (!is_passed) {
+            break;
+        }
+        block->cursor.has_comma = false;
+        cursor_skip(&block->cursor);
+    }
+    return false;
+}
+
 // The record of what was read. It belongs to the scene from then on.
 static bool keep_mesh(MeshReader *reader, bool is_fine)
 {
@@ -622,7 +640,7 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
     }
     if (!is_fine) {
         mesh_free(mesh);
-        return false;
+        return pass_over(block);
     }
     MeshDesc *desc = &block->record->mesh;
     desc->mesh = mesh;
