@@ -357,6 +357,7 @@ lang_cases = \
   %D%/lang/limits.test \
   %D%/lang/loops.test \
   %D%/lang/macros.test \
+  %D%/lang/mesh.test \
   %D%/lang/normal.test \
   %D%/lang/pattern.test \
   %D%/lang/pigment.test \

@@ -175,14 +175,9 @@ RT_ALWAYS_INLINE bool list_next(ListReader *list, uint32_t number, unsigned leas
         return list_next_item(list, number, least, v);
     }
     unsigned width = list->packed->pack->widths[list->at];
-    if (RT_UNLIKELY(width != least && !(width == 1 || (least == 2 && width > 2)))) {
-        list->span = list->packed->span;
-        return eval_fault(list->ev, DIAG_E0204, pack_item_span(list->ev, list->packed, list->at),
-                          "expected a vector of %u numbers, found one of %u", least, width);
-    }
     v[0] = list->numbers[0];
     v[1] = width > 1 ? list->numbers[1] : v[0];
-    v[2] = width > 2 ? list->numbers[2] : v[0];
+    v[2] = width > 2 ? list->numbers[2] : width > 1 ? 0.0 : v[0];
     list->numbers += width;
     list->at++;
     return true;
