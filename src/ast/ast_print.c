@@ -294,7 +294,7 @@ void printer_directive(Printer *printer, const AstNode *node, int indent)
 
 static bool is_operand_of_line(const AstNode *node)
 {
-    return printer_is_expression(node) || node->kind == AST_WORD;
+    return printer_is_expression(node) || node->kind == AST_WORD || node->kind == AST_PACKED;
 }
 
 static void print_item(Printer *printer, const AstNode *node, Neighbours *neighbours, int indent)
@@ -320,7 +320,8 @@ static void print_items(Printer *printer, const AstNode *items, int indent)
     printer->indent = indent;
     for (const AstNode *node = items; node; node = node->next) {
         const AstNode *previous = neighbours.previous;
-        bool same_line = previous && printer_is_expression(node) && is_operand_of_line(previous);
+        bool is_value = printer_is_expression(node) || node->kind == AST_PACKED;
+        bool same_line = previous && is_value && is_operand_of_line(previous);
         bool comma = node->flags & AST_AFTER_COMMA;
         if (same_line) {
             printer_put(printer, comma ? ", " : " ");

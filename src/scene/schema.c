@@ -277,7 +277,7 @@ static const TriangleDesc triangle_defaults = {.part = OBJECT_PART};
 
 static const SchemaProperty mesh_properties[] = {
     {"inside_vector", TYPE_VECTOR, AT(MeshDesc, inside_vector), .is_first = true,
-     .doc = "a point is inside where an odd number of faces lies along it; 0: the mesh has no inside"},
+     .doc = "inside is what an odd number of faces lies along; 0: none"},
     {"hierarchy", TYPE_SWITCH, AT(ObjectPart, ignored), .doc = "changes nothing: there is always a tree"},
 };
 

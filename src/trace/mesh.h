@@ -1,7 +1,7 @@
 // Meshes made ready for rays: a tree over the faces of each, which all parts that have it share.
 //
 // A ray is taken into the mesh's own space, where faces are asked by scene/mesh_ray.h. The walk of the tree for pictures
-// is in mesh_walk.h; composites ask for one crossing after the other. A ray that starts on a face leaves that face out, by
+// is in shapes_walk.h; composites ask for one crossing after the other. A ray that starts on a face leaves that face out, by
 // its number. Knows nothing of materials but where they stand.
 //
 // SPDX-License-Identifier: MIT
