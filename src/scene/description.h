@@ -194,10 +194,17 @@ typedef struct SmoothTriangleDesc {
     Vec3 corners[3], normals[3];
 } SmoothTriangleDesc;
 
+// A face that has another texture at each corner.
+typedef struct MeshCorners {
+    uint32_t face, textures[3];
+} MeshCorners;
+
 typedef struct MeshDesc {
     ObjectPart part;
     Mesh *mesh; // of the scene; not changed any more when the description is complete
-    const TextureDesc **textures; // of its faces, in its own space
+    const TextureDesc **textures; // of its faces, in its own space; the mesh counts those of `corners` behind them
+    uint32_t texture_count, corner_count;
+    const MeshCorners *corners;
     Vec3 inside_vector;
 } MeshDesc;
 

@@ -271,6 +271,19 @@ bool extent_is_stretched(SchemaKind kind, const void *object);
 // Tells of a transform that is about to be applied; `keeps_spheres`: it moves, turns or scales evenly.
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span) RT_MUST_CHECK;
 
+// mesh_corners.c
+// What a face is drawn with that has a plain colour at each corner: a texture whose pigment is that of the corners there.
+typedef struct CornerBlend {
+    TextureDesc texture;
+    PigmentDesc along[2];
+    PatternMap sum, colours[2];
+    PatternEntry sum_entries[2], colour_entries[2][2];
+} CornerBlend;
+bool mesh_textures_are_same(const TextureDesc *one, const TextureDesc *other);
+// Whether three textures are plain ones that differ in their colours only.
+bool mesh_textures_blend(const TextureDesc *const corners[3]);
+void mesh_blend(const MeshDesc *mesh, const MeshCorners *corners, CornerBlend *blend);
+
 // mesh.c
 bool mesh_body(Block *block) RT_MUST_CHECK;
 bool mesh2_body(Block *block) RT_MUST_CHECK;

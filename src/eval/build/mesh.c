@@ -27,8 +27,11 @@ typedef struct MeshReader {
     bool has_uvs;
     const TextureDesc **textures;
     uint32_t texture_count, texture_room;
-    Word last; // the list before
+    MeshCorners *corners;
+    uint32_t corner_count, corner_room;
 } MeshReader;
+
+#define FACE_OF_CORNERS (UINT32_C(1) << 31) // until all textures are known, with its place among the corners
 
 // One list in braces while it is read: numbers and vectors, some of them packed.
 typedef struct ListReader {
@@ -325,6 +328,41 @@ static bool to_indices(ListReader *list, const double v[3], size_t count, const 
     return true;
 }
 
+// The texture of a face with these at its corners: one of them, or what lies between them.
+static bool join_corners(MeshReader *reader, const uint32_t indices[3], uint32_t face, Span span, uint32_t *texture)
+{
+    Block *block = reader->block;
+    const TextureDesc *corners[3];
+    bool is_same = true;
+    for (int i = 0; i < 3; i++) {
+        corners[i] = reader->textures[indices[i]];
+        is_same = is_same && (indices[i] == indices[0] || mesh_textures_are_same(corners[0], corners[i]));
+    }
+    *texture = indices[0] + 1;
+    if (is_same) {
+        return true;
+    }
+    if (!mesh_textures_blend(corners)) {
+        return block_fault(block, DIAG_E0251, span,
+                           "a face whose corners differ in more than one plain colour is not supported by rtlang");
+    }
+    if (reader->corner_count == reader->corner_room) {
+        uint32_t room = reader->corner_room ? 2 * reader->corner_room : 8;
+        MeshCorners *all = arena_alloc(block->arena, room * sizeof *all);
+        if (!all) {
+            return eval_no_memory(block->ev, span);
+        }
+        if (reader->corner_count > 0) {
+            memcpy(all, reader->corners, reader->corner_count * sizeof *all);
+        }
+        reader->corners = all;
+        reader->corner_room = room;
+    }
+    *texture = FACE_OF_CORNERS | reader->corner_count;
+    reader->corners[reader->corner_count++] = (MeshCorners){face, {indices[0], indices[1], indices[2]}};
+    return true;
+}
+
 // The textures of a face: none, one, or one for each corner.
 static bool read_face_textures(MeshReader *reader, ListReader *list, uint32_t face)
 {
@@ -349,9 +387,9 @@ static bool read_face_textures(MeshReader *reader, ListReader *list, uint32_t fa
     if (!to_indices(list, numbers, reader->texture_count, "textures", indices)) {
         return false;
     }
-    if (indices[0] != indices[1] || indices[0] != indices[2]) {
-        return eval_fault(list->ev, DIAG_E0251, list_span(list),
-                          "a face with other textures at its corners is not supported by rtlang");
+    uint32_t texture;
+    if (!join_corners(reader, indices, face, list_span(list), &texture)) {
+        return false;
     }
     while (reader->face_textures.count <= face) {
         if (!grows(reader, &reader->face_textures, list->wanted)) {
@@ -359,7 +397,7 @@ static bool read_face_textures(MeshReader *reader, ListReader *list, uint32_t fa
         }
         ((uint32_t *)reader->face_textures.items)[reader->face_textures.count++] = 0;
     }
-    ((uint32_t *)reader->face_textures.items)[face] = indices[0] + 1;
+    ((uint32_t *)reader->face_textures.items)[face] = texture;
     return true;
 }
 
@@ -612,7 +650,7 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
     mesh->vertex_count = (uint32_t)reader->vertices.count;
     mesh->normal_count = (uint32_t)reader->normals.count;
     mesh->face_count = (uint32_t)reader->faces.count;
-    mesh->texture_count = reader->texture_count;
+    mesh->texture_count = reader->texture_count + reader->corner_count;
     mesh->source = block->node->span.begin;
     mesh->face_normals = reader->face_normals.items;
     is_fine = is_fine && settle_normals(reader);
@@ -629,6 +667,9 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
             }
         }
     }
+    for (uint32_t i = 0; is_fine && i < reader->corner_count; i++) {
+        mesh->face_textures[reader->corners[i].face] = reader->texture_count + i + 1;
+    }
     if (is_fine) {
         mesh_measure(mesh);
         is_fine = scene_add_mesh(block->ev->scene, mesh) || eval_no_memory(block->ev, block->node->span);
@@ -640,6 +681,9 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
     MeshDesc *desc = &block->record->mesh;
     desc->mesh = mesh;
     desc->textures = reader->textures;
+    desc->texture_count = reader->texture_count;
+    desc->corners = reader->corners;
+    desc->corner_count = reader->corner_count;
     return true;
 }
 
@@ -726,16 +770,15 @@ static bool read_triangle_texture(MeshReader *reader, const AstNode *item, uint3
         cursor_take_comma(&cursor);
         is_fine = read_named_texture(reader, &cursor, item->span, &indices[i]);
     }
-    if (is_fine && is_list && (indices[0] != indices[1] || indices[0] != indices[2])) {
-        is_fine = block_fault(reader->block, DIAG_E0251, item->span,
-                              "a face with other textures at its corners is not supported by rtlang");
+    *index = is_fine ? indices[0] + 1 : 0;
+    if (is_fine && is_list) {
+        is_fine = join_corners(reader, indices, (uint32_t)reader->faces.count, item->span, index);
     }
     if (is_fine && cursor_peek(&cursor)) {
         is_fine = block_fault(reader->block, DIAG_E0254, cursor_peek(&cursor)->span, "one value too many in %s",
                               eval_text(reader->block->ev, item->symbol));
     }
     cursor_close(&cursor);
-    *index = is_fine ? indices[0] + 1 : 0;
     return is_fine;
 }
 

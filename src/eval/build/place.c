@@ -173,10 +173,15 @@ static bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement
     part->mesh.materials = scene->face_materials.count;
     for (uint32_t i = 0; i < mesh->mesh->texture_count; i++) {
         MaterialIndex material;
-        if (!material_place(ev, mesh->textures[i], &at->outer, at->interior, at->is_hollow, span, &material)) {
+        CornerBlend blend;
+        const TextureDesc *texture = i < mesh->texture_count ? mesh->textures[i] : &blend.texture;
+        if (i >= mesh->texture_count) {
+            mesh_blend(mesh, &mesh->corners[i - mesh->texture_count], &blend);
+        }
+        if (!material_place(ev, texture, &at->outer, at->interior, at->is_hollow, span, &material)) {
             return false;
         }
-        ev->clear_count += !texture_hides_all(mesh->textures[i]);
+        ev->clear_count += !texture_hides_all(texture);
         if (!ARRAY_PUSH(&scene->face_materials, material)) {
             return eval_no_memory(ev, span);
         }
