@@ -202,9 +202,10 @@ typedef struct MeshCorners {
 typedef struct MeshDesc {
     ObjectPart part;
     Mesh *mesh; // of the scene; not changed any more when the description is complete
-    const TextureDesc **textures; // of its faces, in its own space; the mesh counts those of `corners` behind them
-    uint32_t texture_count, corner_count;
+    const TextureDesc **textures; // all of them, in its own space
+    const TextureDesc **singles;  // those that some face has alone; the mesh counts these, and behind them `corners`
     const MeshCorners *corners;
+    uint32_t single_count, corner_count;
     Vec3 inside_vector;
 } MeshDesc;
 

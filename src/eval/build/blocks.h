@@ -272,15 +272,13 @@ bool extent_is_stretched(SchemaKind kind, const void *object);
 bool extent_note(Block *block, const Transform *transform, bool keeps_spheres, Span span) RT_MUST_CHECK;
 
 // mesh_corners.c
-// What a face is drawn with that has a plain colour at each corner: a texture whose pigment is that of the corners there.
+// What a face is drawn with that has other textures at its corners, and what it refers to.
 typedef struct CornerBlend {
     TextureDesc texture;
-    PigmentDesc along[2];
-    PatternMap sum, colours[2];
-    PatternEntry sum_entries[2], colour_entries[2][2];
+    PatternMap map;
+    PatternEntry entries[3];
 } CornerBlend;
-bool mesh_textures_are_same(const TextureDesc *one, const TextureDesc *other);
-// Whether three textures are plain ones that differ in their colours only.
+// Whether three textures may be those of a face's corners.
 bool mesh_textures_blend(const TextureDesc *const corners[3]);
 void mesh_blend(const MeshDesc *mesh, const MeshCorners *corners, CornerBlend *blend);
 

@@ -328,23 +328,34 @@ static bool to_indices(ListReader *list, const double v[3], size_t count, const 
     return true;
 }
 
-// The texture of a face with these at its corners: one of them, or what lies between them.
+// Of a mesh2: whether the face that is being read has its corners on one line.
+static bool face_is_line(const MeshReader *reader, uint32_t face)
+{
+    if (face >= reader->faces.room || reader->face_normals.room > 0) {
+        return false; // of a `mesh`, which leaves such triangles out
+    }
+    const uint32_t *corners = ((uint32_t(*)[3])reader->faces.items)[face];
+    const float(*vertices)[3] = reader->vertices.items;
+    Vec3 a = mesh_vector(vertices[corners[0]]);
+    Vec3 first = vec3_sub(mesh_vector(vertices[corners[1]]), a), second = vec3_sub(mesh_vector(vertices[corners[2]]), a);
+    return vec3_equal(vec3_cross(first, second), vec3(0.0, 0.0, 0.0));
+}
+
+// The texture of a face with these at its corners: what lies between them. Where all are the same one, too: near the
+// corners and edges POV-Ray draws less of it, see walk_corners of render/texture.c.
 static bool join_corners(MeshReader *reader, const uint32_t indices[3], uint32_t face, Span span, uint32_t *texture)
 {
     Block *block = reader->block;
-    const TextureDesc *corners[3];
-    bool is_same = true;
-    for (int i = 0; i < 3; i++) {
-        corners[i] = reader->textures[indices[i]];
-        is_same = is_same && (indices[i] == indices[0] || mesh_textures_are_same(corners[0], corners[i]));
-    }
+    const TextureDesc *const corners[3] = {reader->textures[indices[0]], reader->textures[indices[1]],
+                                           reader->textures[indices[2]]};
+    bool is_same = indices[0] == indices[1] && indices[0] == indices[2], may_blend = mesh_textures_blend(corners);
     *texture = indices[0] + 1;
-    if (is_same) {
+    if (face_is_line(reader, face) || (is_same && !may_blend)) {
         return true;
     }
-    if (!mesh_textures_blend(corners)) {
+    if (!may_blend) {
         return block_fault(block, DIAG_E0251, span,
-                           "a face whose corners differ in more than one plain colour is not supported by rtlang");
+                           "a face with patterns, layers or bumps at its corners is not supported by rtlang");
     }
     if (reader->corner_count == reader->corner_room) {
         uint32_t room = reader->corner_room ? 2 * reader->corner_room : 8;
@@ -387,8 +398,8 @@ static bool read_face_textures(MeshReader *reader, ListReader *list, uint32_t fa
     if (!to_indices(list, numbers, reader->texture_count, "textures", indices)) {
         return false;
     }
-    uint32_t texture;
-    if (!join_corners(reader, indices, face, list_span(list), &texture)) {
+    uint32_t texture = indices[0] + 1;
+    if (count > 1 && !join_corners(reader, indices, face, list_span(list), &texture)) {
         return false;
     }
     while (reader->face_textures.count <= face) {
@@ -638,6 +649,38 @@ static bool pass_over(Block *block)
     return false;
 }
 
+// Numbers the textures anew: those that some face has alone, then those of corners.
+static bool settle_textures(MeshReader *reader, MeshDesc *desc)
+{
+    Block *block = reader->block;
+    Mesh *mesh = reader->mesh;
+    uint32_t *places = arena_alloc(block->arena, (reader->texture_count + 1) * sizeof *places);
+    desc->singles = arena_alloc(block->arena, (reader->texture_count + 1) * sizeof *desc->singles);
+    if (!places || !desc->singles) {
+        return eval_no_memory(block->ev, block->node->span);
+    }
+    memset(places, 0, (reader->texture_count + 1) * sizeof *places);
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        uint32_t texture = mesh->face_textures[face];
+        places[texture & FACE_OF_CORNERS ? 0 : texture] = 1;
+    }
+    desc->single_count = 0;
+    for (uint32_t i = 1; i <= reader->texture_count; i++) {
+        if (places[i]) {
+            desc->singles[desc->single_count++] = reader->textures[i - 1];
+            places[i] = desc->single_count;
+        }
+    }
+    places[0] = 0;
+    for (uint32_t face = 0; face < mesh->face_count; face++) {
+        uint32_t texture = mesh->face_textures[face];
+        mesh->face_textures[face] = texture & FACE_OF_CORNERS ? desc->single_count + (texture & ~FACE_OF_CORNERS) + 1
+                                                              : places[texture];
+    }
+    mesh->texture_count = desc->single_count + reader->corner_count;
+    return true;
+}
+
 // The record of what was read. It belongs to the scene from then on.
 static bool keep_mesh(MeshReader *reader, bool is_fine)
 {
@@ -650,7 +693,6 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
     mesh->vertex_count = (uint32_t)reader->vertices.count;
     mesh->normal_count = (uint32_t)reader->normals.count;
     mesh->face_count = (uint32_t)reader->faces.count;
-    mesh->texture_count = reader->texture_count + reader->corner_count;
     mesh->source = block->node->span.begin;
     mesh->face_normals = reader->face_normals.items;
     is_fine = is_fine && settle_normals(reader);
@@ -667,9 +709,8 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
             }
         }
     }
-    for (uint32_t i = 0; is_fine && i < reader->corner_count; i++) {
-        mesh->face_textures[reader->corners[i].face] = reader->texture_count + i + 1;
-    }
+    MeshDesc *desc = &block->record->mesh;
+    is_fine = is_fine && (!mesh->face_textures || settle_textures(reader, desc));
     if (is_fine) {
         mesh_measure(mesh);
         is_fine = scene_add_mesh(block->ev->scene, mesh) || eval_no_memory(block->ev, block->node->span);
@@ -678,10 +719,8 @@ static bool keep_mesh(MeshReader *reader, bool is_fine)
         mesh_free(mesh);
         return pass_over(block);
     }
-    MeshDesc *desc = &block->record->mesh;
     desc->mesh = mesh;
     desc->textures = reader->textures;
-    desc->texture_count = reader->texture_count;
     desc->corners = reader->corners;
     desc->corner_count = reader->corner_count;
     return true;
@@ -821,6 +860,7 @@ static bool add_triangle(MeshReader *reader, const AstNode *item, double corners
 {
     if (is_degenerate((const double(*)[3])corners)) {
         eval_warn(reader->block->ev, DIAG_W0348, item->span, "a triangle with its corners on one line is not drawn");
+        reader->corner_count -= (texture & FACE_OF_CORNERS) != 0;
         return true;
     }
     if (!grows(reader, &reader->faces, 0) || !grows(reader, &reader->face_normals, 0) ||

@@ -174,9 +174,9 @@ static bool place_face_materials(Eval *ev, const MeshDesc *mesh, const Placement
     for (uint32_t i = 0; i < mesh->mesh->texture_count; i++) {
         MaterialIndex material;
         CornerBlend blend;
-        const TextureDesc *texture = i < mesh->texture_count ? mesh->textures[i] : &blend.texture;
-        if (i >= mesh->texture_count) {
-            mesh_blend(mesh, &mesh->corners[i - mesh->texture_count], &blend);
+        const TextureDesc *texture = i < mesh->single_count ? mesh->singles[i] : &blend.texture;
+        if (i >= mesh->single_count) {
+            mesh_blend(mesh, &mesh->corners[i - mesh->single_count], &blend);
         }
         if (!material_place(ev, texture, &at->outer, at->interior, at->is_hollow, span, &material)) {
             return false;
